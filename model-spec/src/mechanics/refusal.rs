@@ -8,12 +8,12 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::model::Model;
 use crate::syntax::SectionKind;
 
-/// Refuses what is understood but not derived yet: one message for each section. True if anything is refused.
+/// Refuses what is understood but not derived yet: one message for each section. True if anything is refused. Circles are
+/// geometry: on their own they add nothing to the equations, and reports draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
     let sections = [
         (SectionKind::Constraints, model.constraints.is_empty()),
         (SectionKind::Sliding, model.sliding.is_empty()),
-        (SectionKind::Circles, model.circles.is_empty()),
         (SectionKind::Rolling, model.rolling.is_empty()),
         (SectionKind::Contacts, model.contacts.is_empty()),
     ];
