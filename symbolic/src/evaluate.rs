@@ -1,6 +1,6 @@
 //! Expressions as numbers.
 
-use lagrangian_scalar::Scalar;
+use lagrangian_scalar::{DoubleDouble, Scalar};
 
 use crate::dag::{Dag, Function, Id, Node, Symbol};
 use crate::expr::Expr;
@@ -80,6 +80,30 @@ pub fn evaluate<S: Scalar>(
         .iter()
         .map(|root| values[place[root.id().index()] as usize])
         .collect()
+}
+
+/// The `f64` nearest to a constant, computed with twice its digits: `50*pi`, `1 - cos(0.01)`. Not a number where a symbol
+/// occurs or the constant has no value.
+///
+/// ```
+/// use lagrangian_symbolic::{Dag, nearest};
+///
+/// let dag = Dag::new();
+/// let cube = dag.pi() * dag.pi() * dag.pi();
+/// assert_eq!(nearest(cube), 31.00627668029982); // 31.006276680299820175…; in f64 alone it ends in 16
+/// ```
+pub fn nearest(constant: Expr<'_>) -> f64 {
+    if let Some(rational) = constant.as_constant() {
+        return rational.to_f64();
+    }
+    let value = evaluate(constant.dag(), &[constant], |_| {
+        DoubleDouble::from(f64::NAN)
+    })[0];
+    if value.is_finite() {
+        return value.to_f64();
+    }
+    // Beyond 2⁹⁹⁶ products of double-doubles overflow before those of f64 do.
+    evaluate(constant.dag(), &[constant], |_| f64::NAN)[0]
 }
 
 /// x to a positive power.

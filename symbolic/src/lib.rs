@@ -37,7 +37,7 @@ mod rational;
 
 pub use calculus::{Tangent, reverse, substitute};
 pub use dag::{Dag, Function, Id, Node, Stage, Symbol, reachable};
-pub use evaluate::evaluate;
+pub use evaluate::{evaluate, nearest};
 pub use expr::Expr;
 pub use print::{Names, latex, latex_as_built, latex_name, text};
 pub use rational::{MAX_BITS, Rational};

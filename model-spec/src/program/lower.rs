@@ -1,6 +1,6 @@
 //! From expressions to programs.
 
-use lagrangian_symbolic::{self as symbolic, Expr, Symbol, evaluate, reachable};
+use lagrangian_symbolic::{self as symbolic, Expr, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
 
 use super::articulated;
@@ -515,10 +515,7 @@ fn slot(name: &Name, docs: &str, unit: Unit, unit_text: &str, default: Option<De
 
 /// A constant, as a number and as text.
 fn default<'d>(lowering: &mut Lowering<'_, 'd>, constant: Expr<'d>) -> Default {
-    let value = match constant.as_constant() {
-        Some(rational) => rational.to_f64(),
-        None => evaluate(constant.dag(), &[constant], |_| f64::NAN)[0],
-    };
+    let value = nearest(constant);
     lowering.lower(&[constant]);
     let text = formula(
         &mut lowering.graph,

@@ -1,6 +1,6 @@
 //! Items: what a machine is made of, each field in its unit and of its kind.
 
-use lagrangian_symbolic::{Expr, Rational, evaluate};
+use lagrangian_symbolic::{Expr, evaluate, nearest};
 use rustc_hash::FxHashMap;
 
 use super::Resolver;
@@ -1193,7 +1193,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) {
         let mut values = FxHashMap::default();
         for (_, parameter) in parameters {
-            let number = parameter.default.map(|default| self.number_of(default));
+            let number = parameter.default.map(|default| nearest(default));
             if let (Some(symbol), Some(number)) = (parameter.symbol.as_symbol(), number) {
                 values.insert(symbol, number);
             }
@@ -1269,16 +1269,5 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }));
         }
         found
-    }
-
-    /// About how much a constant is.
-    pub fn number_of(&self, constant: Expr<'d>) -> f64 {
-        match constant.as_constant() {
-            Some(value) => Rational::to_f64(&value),
-            None => evaluate(self.dag, &[constant], |_| f64::NAN)
-                .first()
-                .copied()
-                .unwrap_or(f64::NAN),
-        }
     }
 }

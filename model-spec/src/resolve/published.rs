@@ -1,6 +1,6 @@
 //! Assumptions, and equations that somebody printed.
 
-use lagrangian_symbolic::Expr;
+use lagrangian_symbolic::{Expr, nearest};
 
 use super::Resolver;
 use super::expression::unit_text;
@@ -56,7 +56,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         };
         let excess = if greater { difference } else { -difference };
         if excess.stage() == stage::CONSTANT && self.needs.is_empty() {
-            let number = self.number_of(excess);
+            let number = nearest(excess);
             if number < 0.0 || (strict && number == 0.0) {
                 let message = "this never holds";
                 self.error(Code::FalseAssumption, relation.span, message);
