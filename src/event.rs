@@ -10,7 +10,7 @@ use crate::stepper::{InputLaw, Stepper};
 use crate::{Alongside, Coordinates, Error, Machine, State, System};
 
 /// Where in a step the sign is looked at: events that come and go between two of these are missed.
-const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,10 +170,10 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     Ok(false)
 }
 
-type Triple<V> = (f64, V, V);
+pub(crate) type Triple<V> = (f64, V, V);
 
 /// Time and state at a fraction of the last step, good enough to see an event.
-fn glance_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
+pub(crate) fn glance_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
     stepper: &Stepper<'_, S, L, A>,
     theta: f64,
 ) -> Triple<S::Vector> {
@@ -185,7 +185,7 @@ fn glance_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
 }
 
 /// Time and state at a fraction of the last step.
-fn state_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
+pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
     stepper: &Stepper<'_, S, L, A>,
     piece: &Piece<S::Vector>,
     theta: f64,

@@ -5,7 +5,7 @@ use std::time::Instant;
 use std::vec::Vec;
 
 use crate::balance::{Alongside, Energies, EnergyBalance};
-use crate::event::{self, Event, state};
+use crate::event::{self, Event, Triple, state};
 use crate::piece::Piece;
 use crate::simulation::{Callbacks, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
@@ -41,9 +41,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         system: &system,
         law: &law,
     };
-    if let Some((_, assumption)) =
-        model.ended_assumption(start.t, &q, &v, &model.inputs(start.t, &q, &v))
-    {
+    if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
         return Err(Error::AssumptionEnded {
             assumption,
             t: start.t,
@@ -200,31 +198,32 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         ending
     }
 
-    /// When an assumption of the description ended in the last step, and which.
+    /// When an assumption of the description ended in the last step, and which. It may hold again at the end of the step:
+    /// like events, assumptions are looked at several times within each.
     fn assumption_ended(
         &mut self,
         piece: &mut LastPiece<M>,
     ) -> Result<Option<(f64, String)>, Error> {
         let Self { model, stepper, .. } = self;
-        let Some((index, text)) =
-            model.ended_assumption(stepper.t(), stepper.q(), stepper.v(), stepper.inputs())
-        else {
+        if !model.assumes_something(stepper) {
             return Ok(None);
-        };
-        let piece = made(piece, stepper, model.system)?;
-        let roundoff = event::theta_roundoff(stepper);
-        let theta = event::root([0.0, 1.0], roundoff, |theta| {
-            let (q, v) = piece.state_at(theta);
-            Ok(model.margin(index, piece.time_at(theta), &q, &v))
-        })?;
-        Ok(Some((
-            if theta == 1.0 {
-                stepper.t()
-            } else {
-                piece.time_at(theta)
-            },
-            text,
-        )))
+        }
+        for theta in event::LOOKS {
+            let Some((index, text)) = model.ended_assumption(event::glance_at(stepper, theta))
+            else {
+                continue;
+            };
+            let piece = made(piece, stepper, model.system)?;
+            let margin = |theta| model.margin(index, event::state_at(stepper, piece, theta));
+            // It held at the beginning of the step; a glance may see it end where it does not.
+            if theta < 1.0 && margin(theta) > 0.0 {
+                continue;
+            }
+            let roundoff = event::theta_roundoff(stepper);
+            let theta = event::root([0.0, theta], roundoff, |theta| Ok(margin(theta)))?;
+            return Ok(Some((event::state_at(stepper, piece, theta).0, text)));
+        }
+        Ok(None)
     }
 
     /// Notes the events of the last step; returns time and name of one that ends the run.
@@ -363,28 +362,30 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         inputs
     }
 
+    /// Whether there are assumptions at all; a machine without any pays nothing for looking.
+    #[inline]
+    fn assumes_something<A: Alongside<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        let facts = self.system.assumptions(t, q, v, stepper.inputs());
+        facts.len() > 0
+    }
+
     /// The first assumption that does not hold: its number and text.
     #[inline]
-    fn ended_assumption(
-        &self,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
-        u: &S::Inputs,
-    ) -> Option<(usize, String)> {
+    fn ended_assumption(&self, state: Triple<S::Vector>) -> Option<(usize, String)> {
+        let (t, q, v) = &state;
         self.system
-            .assumptions(t, q, v, u)
+            .assumptions(*t, q, v, &self.inputs(*t, q, v))
             .enumerate()
             .find(|(_, assumption)| !assumption.holds())
             .map(|(index, assumption)| (index, assumption.text.into()))
     }
 
     /// By how much an assumption holds; not a number counts as against it.
-    fn margin(&self, index: usize, t: f64, q: &S::Vector, v: &S::Vector) -> f64 {
-        let margin = self
-            .system
-            .assumptions(t, q, v, &self.inputs(t, q, v))
-            .nth(index);
+    fn margin(&self, index: usize, state: Triple<S::Vector>) -> f64 {
+        let (t, q, v) = &state;
+        let inputs = self.inputs(*t, q, v);
+        let margin = self.system.assumptions(*t, q, v, &inputs).nth(index);
         margin.map_or(0.0, |assumption| assumption.margin.max(f64::NEG_INFINITY))
     }
 
