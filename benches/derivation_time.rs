@@ -1,4 +1,5 @@
-//! From the text of a machine to its Rust: processor time of each stage, and how it grows with the machine.
+//! From the text of a machine to its Rust: processor time of each stage, and how it grows with the
+//! machine.
 //!
 //! ```text
 //! cargo bench --bench derivation_time

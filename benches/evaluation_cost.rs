@@ -1,5 +1,5 @@
-//! What one evaluation of the accelerations costs: time and operations for every machine of the library, compiled and
-//! interpreted, and how exact it is.
+//! What one evaluation of the accelerations costs: time and operations for every machine of the
+//! library, compiled and interpreted, and how exact it is.
 //!
 //! ```text
 //! cargo bench --bench evaluation_cost
@@ -96,7 +96,8 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
         }
     });
 
-    // Adding a number far below their roundoff leaves the states as they are, and makes them wait for the last result.
+    // Adding a number far below their roundoff leaves the states as they are, and makes them wait
+    // for the last result.
     const NOTHING: f64 = 1e-200;
     let (mut q, mut v) = (S::Vector::zeros(n), S::Vector::zeros(n));
     let latency = per_call(|calls| {
@@ -118,7 +119,8 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
     }
 }
 
-/// The greatest error of an acceleration over the greatest acceleration, at each state, against 30 digits.
+/// The greatest error of an acceleration over the greatest acceleration, at each state, against 30
+/// digits.
 fn errors<M: Machine>(machine: &M, program: &Program, samples: &[Sample]) -> Vec<f64> {
     let parameters: Vec<f64> = machine.parameters().map(|(_, value)| value).collect();
     let mut judge = Judge::new(program, &parameters);

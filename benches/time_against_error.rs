@@ -1,4 +1,5 @@
-//! Time against true error: how long a run takes to be how exact, by every method, over all tolerances.
+//! Time against true error: how long a run takes to be how exact, by every method, over all
+//! tolerances.
 //!
 //! `cargo bench --bench time_against_error [-- FILE.svg]` prints a table and draws it.
 #![expect(
@@ -16,8 +17,8 @@ use lagrangian_machines::{Crusher9, DoublePendulum, crusher9, double_pendulum};
 /// Runs of one setting; the quickest counts, for everything else on the computer only adds.
 const REPEATS: usize = 7;
 
-/// A run whose end is known to more digits than `f64` has: by Gragg–Bulirsch–Stoer extrapolation in binary128, two
-/// resolutions of which agree to 4e-21.
+/// A run whose end is known to more digits than `f64` has: by Gragg–Bulirsch–Stoer extrapolation in
+/// binary128, two resolutions of which agree to 4e-21.
 struct Case<M: Machine> {
     name: &'static str,
     machine: M,
@@ -214,7 +215,8 @@ const PANEL: [f64; 2] = [360.0, 320.0];
 const MARGIN: [f64; 2] = [64.0, 48.0];
 const COLORS: [&str; 3] = ["#1b6ca8", "#c8553d", "#588157"];
 
-/// Error to the right, from 1 to 10⁻¹⁵; time upward, from 10 µs to 1 s; both logarithmic. Down and to the right is better.
+/// Error to the right, from 1 to 10⁻¹⁵; time upward, from 10 µs to 1 s; both logarithmic. Down and
+/// to the right is better.
 fn drawing(cases: &[(&str, Vec<Point>)]) -> String {
     let mut svg = String::new();
     let width = cases.len() as f64 * (PANEL[0] + MARGIN[0]) + 16.0;

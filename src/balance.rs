@@ -18,7 +18,8 @@ pub trait Alongside<S: System>: Clone {
         u: &S::Inputs,
     );
 
-    /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the next step's first.
+    /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the
+    /// next step's first.
     #[doc(hidden)]
     fn advance(&mut self, h: f64, b: &[f64]);
 
@@ -56,8 +57,8 @@ impl<S: System> Alongside<S> for NoBalance {
     }
 }
 
-/// The integrals over time of the powers of a machine, by the same method and steps as its motion. They have no part in
-/// the choice of steps.
+/// The integrals over time of the powers of a machine, by the same method and steps as its motion.
+/// They have no part in the choice of steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct EnergyIntegrals {
     /// Work rate, its absolute value, and dissipation rate at each stage.
@@ -72,7 +73,8 @@ impl EnergyIntegrals {
         self.sums[0].high
     }
 
-    /// The integral of the absolute value of the work rate, in J: work that went to and fro counts twice.
+    /// The integral of the absolute value of the work rate, in J: work that went to and fro counts
+    /// twice.
     pub fn work_turned_over(&self) -> f64 {
         self.sums[1].high
     }
@@ -126,8 +128,8 @@ impl<S: System> Alongside<S> for EnergyIntegrals {
 
 /// Where the energy of a run went.
 ///
-/// `residual = (T + V)(now) − (T + V)(then) − work + dissipated` is 0 for exact equations, solved exactly; a wrong term in
-/// the equations of motion or in an energy shows here.
+/// `residual = (T + V)(now) − (T + V)(then) − work + dissipated` is 0 for exact equations, solved
+/// exactly; a wrong term in the equations of motion or in an energy shows here.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start, in J.
@@ -138,8 +140,8 @@ pub struct EnergyBalance {
     pub work: f64,
     /// Energy lost in the dampers, in J.
     pub dissipated: f64,
-    /// What the run had to do with, the scale of [`relative`](Self::relative), in J: the greatest kinetic energy at the
-    /// end of any step, `∫ |work rate| dt` and the energy dissipated.
+    /// What the run had to do with, the scale of [`relative`](Self::relative), in J: the greatest
+    /// kinetic energy at the end of any step, `∫ |work rate| dt` and the energy dissipated.
     pub turned_over: f64,
 }
 

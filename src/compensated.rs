@@ -1,10 +1,10 @@
 //! Sums that remember what rounding took from them.
 
-/// A sum and what rounding took from it: `high + low` is the value, `|low|` at most half a unit in the last place of
-/// `high`.
+/// A sum and what rounding took from it: `high + low` is the value, `|low|` at most half a unit in
+/// the last place of `high`.
 ///
-/// A million steps of 10⁻⁶ s make 1 s to the last bit; plain addition is off by 10⁻¹¹ s. D. E. Knuth, *The Art of Computer
-/// Programming*, vol. 2, section 4.2.2, theorem B.
+/// A million steps of 10⁻⁶ s make 1 s to the last bit; plain addition is off by 10⁻¹¹ s. D. E.
+/// Knuth, *The Art of Computer Programming*, vol. 2, section 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Sum {
     pub high: f64,

@@ -53,7 +53,8 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
-    /// The acceleration of a coordinate is infinite or not a number, and shorter steps do not avoid it.
+    /// The acceleration of a coordinate is infinite or not a number, and shorter steps do not avoid
+    /// it.
     NotFinite {
         /// The coordinate.
         coordinate: String,
@@ -69,8 +70,8 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
-    /// The step has shrunk to the roundoff of time and its error is still too great: the motion has a jump, a kink or a
-    /// pole there, or the tolerance is too small.
+    /// The step has shrunk to the roundoff of time and its error is still too great: the motion has
+    /// a jump, a kink or a pole there, or the tolerance is too small.
     StepTooSmall {
         /// The coordinate whose error is the greatest.
         coordinate: String,
@@ -270,8 +271,8 @@ pub enum Warning {
         /// What was used.
         used: f64,
     },
-    /// The steps are held short by stability and not by accuracy: something in the machine is far stiffer, or far more
-    /// strongly damped, than its motion shows.
+    /// The steps are held short by stability and not by accuracy: something in the machine is far
+    /// stiffer, or far more strongly damped, than its motion shows.
     Stiff {
         /// When it was noticed, in s.
         t: f64,

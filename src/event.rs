@@ -73,7 +73,8 @@ impl<M: Machine> Watch<'_, M> {
         Ok(())
     }
 
-    /// Changes of sign between looks at the function, which `value_at` gives at fractions of the step.
+    /// Changes of sign between looks at the function, which `value_at` gives at fractions of the
+    /// step.
     fn changes(
         &mut self,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
@@ -95,8 +96,8 @@ impl<M: Machine> Watch<'_, M> {
     }
 }
 
-/// Adds the events of the last step to `events`, in the order in which they happened. If one of them ends the run, it is
-/// the last, and the answer is true.
+/// Adds the events of the last step to `events`, in the order in which they happened. If one of
+/// them ends the run, it is the last, and the answer is true.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     watches: &mut [Watch<'_, M>],
     system: &M::System,
@@ -215,9 +216,9 @@ pub(crate) fn theta_roundoff<S: System, L: InputLaw<S>, A: Alongside<S>>(
 
 /// A zero of a function that has opposite signs, or is zero, at both ends, to within `roundoff`.
 ///
-/// T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
-/// using derivatives*, Adv. Eng. Software 28 (1997) 145–149: inverse quadratic interpolation where that is safe, else
-/// bisection.
+/// T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm for finding the zero of a
+/// nonlinear function without using derivatives*, Adv. Eng. Software 28 (1997) 145–149: inverse
+/// quadratic interpolation where that is safe, else bisection.
 pub(crate) fn root(
     [mut a, mut b]: [f64; 2],
     roundoff: f64,

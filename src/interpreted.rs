@@ -1,6 +1,7 @@
 //! Machines read from a spec while the program runs, without a Rust compiler.
 //!
-//! Slower than emitted code by a factor of about ten, and otherwise the same: the same operations in the same order.
+//! Slower than emitted code by a factor of about ten, and otherwise the same: the same operations
+//! in the same order.
 
 use core::cell::RefCell;
 use core::fmt;
@@ -22,7 +23,8 @@ pub struct InterpretedMachine {
     inputs: Vec<f64>,
 }
 
-/// Numbers under the names of coordinates, inputs or outputs; a member of a family is called `q[3]`.
+/// Numbers under the names of coordinates, inputs or outputs; a member of a family is called
+/// `q[3]`.
 #[derive(Clone, PartialEq)]
 pub struct Named {
     labels: Arc<[Label]>,
@@ -72,8 +74,8 @@ pub struct MissingParameters {
 }
 
 impl InterpretedMachine {
-    /// The machine of a program, its parameters and inputs at their defaults. A parameter without a default is not a
-    /// number until [`set`](Self::set).
+    /// The machine of a program, its parameters and inputs at their defaults. A parameter without a
+    /// default is not a number until [`set`](Self::set).
     pub fn new(program: Program) -> InterpretedMachine {
         let default = |slot: &Slot, otherwise: f64| {
             slot.default
@@ -102,7 +104,8 @@ impl InterpretedMachine {
         }
     }
 
-    /// Sets a parameter, or the value that an input has while nobody sets it. The name of a family sets all its members.
+    /// Sets a parameter, or the value that an input has while nobody sets it. The name of a family
+    /// sets all its members.
     ///
     /// # Errors
     /// If there is no such name.

@@ -72,7 +72,8 @@ pub trait Matrices: System {
         DVector::from_iterator(2 * q.as_slice().len(), numbers)
     }
 
-    /// The state at time `t` with coordinates, then rates, in one vector; none if it has another length.
+    /// The state at time `t` with coordinates, then rates, in one vector; none if it has another
+    /// length.
     fn state_from_vector(&self, t: f64, vector: &DVector<f64>) -> Option<State<Self::Coordinates>> {
         let n = self.coordinates().len();
         if vector.len() != 2 * n {

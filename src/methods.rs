@@ -1,7 +1,8 @@
 //! Explicit Runge–Kutta methods: what is published of each, and the list of those to choose from.
 //!
-//! To add a method, write its [`Tableau`] and put one line into the list at the end of [`METHODS`]. The same tests then
-//! hold it to its orders, its dense output, its events and to allocating nothing.
+//! To add a method, write its [`Tableau`] and put one line into the list at the end of [`METHODS`].
+//! The same tests then hold it to its orders, its dense output, its events and to allocating
+//! nothing.
 
 mod bogacki_shampine;
 mod dormand_prince_5;
@@ -53,8 +54,9 @@ impl Default for &'static Method {
 /// kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ)
 /// ```
 ///
-/// `stages` of them make a step, the row of `a` after those holds the weights `b` of the new point, and its `k` is the
-/// first of the next step (first same as last). Rows after that are stages that only dense output needs.
+/// `stages` of them make a step, the row of `a` after those holds the weights `b` of the new point,
+/// and its `k` is the first of the next step (first same as last). Rows after that are stages that
+/// only dense output needs.
 #[derive(Debug)]
 pub struct Tableau {
     /// The short name by which it is chosen.
@@ -75,20 +77,20 @@ pub struct Tableau {
     pub a: &'static [&'static [f64]],
     /// Weights `e` of the error estimate `h Σ eⱼ kⱼ`.
     pub error: &'static [f64],
-    /// Weights of a second, coarser estimate, in methods that have one. The two make
-    /// `error² / √(error² + 0.01 coarse²)`: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
-    /// Equations I*, 2nd ed., 1993, section II.10, eq. (10.17).
+    /// Weights of a second, coarser estimate, in methods that have one. The two make `error² /
+    /// √(error² + 0.01 coarse²)`: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary
+    /// Differential Equations I*, 2nd ed., 1993, section II.10, eq. (10.17).
     pub coarse_error: Option<&'static [f64]>,
     /// Weights of the coefficients of dense output beyond those of the cubic through both ends (see
     /// [`Piece`](crate::Piece)).
     pub dense: &'static [&'static [f64]],
     /// The least and the greatest factor by which one step may follow another.
     pub step_change: (f64, f64),
-    /// Weight β of the step before in the choice of the next one, `h · 0.9 err^(3β/4 − 1/k) err_before^β` with
-    /// `k = error_power`; 0, or about 0.04 for a smoother sequence of steps (K. Gustafsson's controller, section IV.2 of
-    /// the second volume).
+    /// Weight β of the step before in the choice of the next one, `h · 0.9 err^(3β/4 − 1/k)
+    /// err_before^β` with `k = error_power`; 0, or about 0.04 for a smoother sequence of steps (K.
+    /// Gustafsson's controller, section IV.2 of the second volume).
     pub smoothing: f64,
-    /// Where the region of stability ends on the negative real axis. Not given in methods whose last stage is not at
-    /// the end of the step, since they have no cheap test of stiffness.
+    /// Where the region of stability ends on the negative real axis. Not given in methods whose
+    /// last stage is not at the end of the step, since they have no cheap test of stiffness.
     pub stability: Option<f64>,
 }

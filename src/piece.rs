@@ -16,8 +16,9 @@ const MAX_COEFFICIENTS: usize = 8;
 /// y(θ) = c₀ + θ (c₁ + ϑ (c₂ + θ (c₃ + ϑ (c₄ + θ (c₅ + …)))))
 /// ```
 ///
-/// where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ kⱼ` belong to the
-/// method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.6.
+/// where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ
+/// kⱼ` belong to the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
+/// Equations I*, 2nd ed., 1993, section II.6.
 #[derive(Clone, Debug)]
 pub struct Piece<V> {
     start: Sum,
@@ -36,8 +37,9 @@ pub(crate) struct Ends<'a, V> {
 }
 
 impl<V: Vector> Piece<V> {
-    /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v, a)` is called for the
-    /// stages beyond the step that they need, whose accelerations go into `k`.
+    /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v,
+    /// a)` is called for the stages beyond the step that they need, whose accelerations go into
+    /// `k`.
     pub(crate) fn new(
         method: &Method,
         ends: &Ends<'_, V>,
@@ -132,8 +134,9 @@ fn evaluate<V: Vector>(coefficients: &[V], theta: f64) -> V {
     y
 }
 
-/// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the quintic through
-/// positions, velocities and accelerations. Costs no evaluation and is of order 5; good enough to look for events with.
+/// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the
+/// quintic through positions, velocities and accelerations. Costs no evaluation and is of order 5;
+/// good enough to look for events with.
 pub(crate) fn glance<V: Vector>(
     h: f64,
     [q0, q1]: [&V; 2],

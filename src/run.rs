@@ -166,7 +166,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                 });
             }
             if let Err(error) = self.stepper.step() {
-                // Where an assumption ends there may be nothing to go on with: then that is the cause.
+                // Where an assumption ends there may be nothing to go on with: then that is the
+                // cause.
                 ending?;
                 return Err(self
                     .model
@@ -174,8 +175,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             }
 
             let mut piece = None;
-            // A run ends within a step by taking that step again, up to there: so the end is as exact as every other
-            // step's, and so is the balance of energy.
+            // A run ends within a step by taking that step again, up to there: so the end is as
+            // exact as every other step's, and so is the balance of energy.
             if ending.is_ok()
                 && looks_for_events
                 && let Some((t, assumption)) = self.assumption_ended(&mut piece)?
@@ -198,8 +199,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         ending
     }
 
-    /// When an assumption of the description ended in the last step, and which. It may hold again at the end of the step:
-    /// like events, assumptions are looked at several times within each.
+    /// When an assumption of the description ended in the last step, and which. It may hold again
+    /// at the end of the step: like events, assumptions are looked at several times within each.
     fn assumption_ended(
         &mut self,
         piece: &mut LastPiece<M>,

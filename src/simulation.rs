@@ -105,8 +105,8 @@ impl<'a, M: Machine> Simulation<'a, M> {
 
     /// Sets the inputs while the machine runs: `|t, q, v, u| u.torque = -5.0 * v.theta`.
     ///
-    /// The function must depend on its arguments alone, for it is called out of order in time and more than once. It
-    /// should be smooth; where it jumps, the steps get short.
+    /// The function must depend on its arguments alone, for it is called out of order in time and
+    /// more than once. It should be smooth; where it jumps, the steps get short.
     pub fn inputs<F>(self, function: F) -> Simulation<'a, M, InputFunction<F>>
     where
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
@@ -133,8 +133,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// How exact the run shall be, relative and absolute: each step keeps its error in a number `y` below
-    /// `tolerance · (1 + |y|)`.
+    /// How exact the run shall be, relative and absolute: each step keeps its error in a number `y`
+    /// below `tolerance · (1 + |y|)`.
     pub fn tolerance(self, tolerance: f64) -> Self {
         self.relative(tolerance).absolute(tolerance)
     }
@@ -184,14 +184,15 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     }
 
     /// Keeps the states at the start, every `interval` seconds after it, and at the end:
-    /// [`Solution::samples`]. With [`forget_steps`](Self::forget_steps) nothing else is kept of a long run.
+    /// [`Solution::samples`]. With [`forget_steps`](Self::forget_steps) nothing else is kept of a
+    /// long run.
     pub fn every(mut self, interval: f64) -> Self {
         self.settings.every = Some(interval);
         self
     }
 
-    /// Keeps only the end of the run, its samples and events, not what would make [`Solution::at`] possible (10 vectors
-    /// a step with the default method).
+    /// Keeps only the end of the run, its samples and events, not what would make [`Solution::at`]
+    /// possible (10 vectors a step with the default method).
     pub fn forget_steps(mut self) -> Self {
         self.settings.keep_steps = false;
         self
@@ -246,8 +247,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Ends the run after the first step at whose end `condition` holds. To end at the very instant, use
-    /// [`until_event`](Self::until_event).
+    /// Ends the run after the first step at whose end `condition` holds. To end at the very
+    /// instant, use [`until_event`](Self::until_event).
     pub fn stop_if(mut self, condition: impl FnMut(&State<Coordinates<M>>) -> bool + 'a) -> Self {
         self.callbacks.stop = Some(Box::new(condition));
         self
@@ -261,7 +262,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         }
     }
 
-    /// Runs the machine from `start`, and returns what there is of the run even if an error ends it early.
+    /// Runs the machine from `start`, and returns what there is of the run even if an error ends it
+    /// early.
     ///
     /// An error instead of a solution means that the run could not begin.
     pub fn run_as_far_as_possible(

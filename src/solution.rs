@@ -16,8 +16,9 @@ use crate::{
 
 /// A run: where the machine was at every instant of it, and what happened.
 ///
-/// Between the ends of its steps the motion is known as well as at them: [`at`](Self::at) evaluates the continuous
-/// extension of the method. What that needs is kept; [`forget_steps`](crate::Simulation::forget_steps) leaves it out.
+/// Between the ends of its steps the motion is known as well as at them: [`at`](Self::at) evaluates
+/// the continuous extension of the method. What that needs is kept;
+/// [`forget_steps`](crate::Simulation::forget_steps) leaves it out.
 #[derive(Clone)]
 pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) system: M::System,
@@ -127,7 +128,8 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         self.observe_state(&self.at(t)?)
     }
 
-    /// Accelerations, inputs, outputs and energies of the machine in a given state, with the inputs of this run.
+    /// Accelerations, inputs, outputs and energies of the machine in a given state, with the inputs
+    /// of this run.
     pub fn observe_state(&self, state: &State<Coordinates<M>>) -> Result<Observation<M>, Error> {
         let State { t, .. } = *state;
         let (q, v) = (
@@ -150,9 +152,11 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         })
     }
 
-    /// The energies at several times, if the simulation was told to keep their balance; cheapest if these are in order.
+    /// The energies at several times, if the simulation was told to keep their balance; cheapest if
+    /// these are in order.
     ///
-    /// Work and dissipation since the beginning of the step are integrated over its continuous extension.
+    /// Work and dissipation since the beginning of the step are integrated over its continuous
+    /// extension.
     pub fn energies_at_each(
         &self,
         times: impl IntoIterator<Item = f64>,
@@ -232,7 +236,8 @@ impl<M: Machine, L> Solution<M, L> {
         self.balance
     }
 
-    /// The energies at the beginning and after every step, if the simulation was told to keep their balance.
+    /// The energies at the beginning and after every step, if the simulation was told to keep their
+    /// balance.
     pub fn energies(&self) -> &[Energies] {
         &self.energies
     }
@@ -361,8 +366,8 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
-/// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where the motion within a
-/// step has degree 7.
+/// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where
+/// the motion within a step has degree 7.
 const GAUSS: [(f64, f64); 5] = [
     (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
     (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
@@ -376,8 +381,9 @@ const GAUSS: [(f64, f64); 5] = [
 pub(crate) struct Steps<V> {
     /// Beginning and length of each step.
     times: Vec<(Sum, f64)>,
-    /// For each step, `q` and `v` at its beginning, and the accelerations at those of its stages that dense output needs,
-    /// its beginning first; after the last step, the same three at its end.
+    /// For each step, `q` and `v` at its beginning, and the accelerations at those of its stages
+    /// that dense output needs, its beginning first; after the last step, the same three at its
+    /// end.
     vectors: Vec<V>,
     /// The stages whose accelerations are kept; the first is the beginning.
     kept: Vec<usize>,

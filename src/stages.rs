@@ -1,7 +1,8 @@
 //! The arithmetic of a step: weighted sums over its stages, for a few coordinates at a time.
 //!
-//! These loops are all that an integrator adds to the evaluations of a machine, so they are written for the processor:
-//! sums of 4, 2 or 1 coordinates stay in its registers, and the compiler makes vector instructions of them.
+//! These loops are all that an integrator adds to the evaluations of a machine, so they are written
+//! for the processor: sums of 4, 2 or 1 coordinates stay in its registers, and the compiler makes
+//! vector instructions of them.
 
 use crate::Vector;
 use crate::compensated::two_sum;
@@ -41,7 +42,8 @@ impl<V: Vector> Point<V> {
     }
 }
 
-/// Does something for blocks of `B` = 4, 2 and 1 coordinates from `start` that make up `$n` of them.
+/// Does something for blocks of `B` = 4, 2 and 1 coordinates from `start` that make up `$n` of
+/// them.
 macro_rules! in_blocks {
     ($n:expr, |$start:ident, $B:ident| $body:expr) => {{
         let n = $n;
@@ -64,7 +66,8 @@ macro_rules! in_blocks {
 }
 pub(crate) use in_blocks;
 
-/// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take from the stages.
+/// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take
+/// from the stages.
 #[inline(always)]
 pub(crate) fn weigh<const B: usize, V: Vector>(
     row: &Row,
@@ -143,7 +146,8 @@ pub(crate) fn advance_state<V: Vector>(
     });
 }
 
-/// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is tolerable.
+/// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
+/// tolerable.
 #[inline(always)]
 pub(crate) fn relative_errors<const B: usize, V: Vector>(
     (row, h): (&Row, f64),

@@ -1,4 +1,5 @@
-//! One step after another: the core that every run goes through. It allocates nothing, and needs no standard library.
+//! One step after another: the core that every run goes through. It allocates nothing, and needs no
+//! standard library.
 
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
@@ -23,7 +24,8 @@ const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 ///
 /// Must depend on its arguments alone: a step is tried more than once, and looks ahead.
 pub trait InputLaw<S: System> {
-    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set before.
+    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
+    /// before.
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
 }
 
@@ -64,8 +66,8 @@ where
     }
 }
 
-/// How exact a run shall be: the error of each step in a number `y` is kept below `absolute + relative · |y|`, in the mean
-/// over all coordinates and rates.
+/// How exact a run shall be: the error of each step in a number `y` is kept below `absolute +
+/// relative · |y|`, in the mean over all coordinates and rates.
 #[derive(Clone, Debug)]
 pub struct Tolerance<V> {
     /// Relative to the size of each number.
@@ -77,7 +79,8 @@ pub struct Tolerance<V> {
 /// Why a step could not be taken. Coordinates are given by their index.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
-    /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do not avoid it.
+    /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
+    /// not avoid it.
     NotFinite {
         /// The coordinate.
         coordinate: usize,
@@ -260,8 +263,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.last_step
     }
 
-    /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good enough to look for events
-    /// with. It costs no evaluation, where [`piece`](Self::piece) may.
+    /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good
+    /// enough to look for events with. It costs no evaluation, where [`piece`](Self::piece) may.
     pub fn glance(&self, theta: f64) -> (S::Vector, S::Vector) {
         glance(
             self.last_step,
@@ -307,8 +310,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.step
     }
 
-    /// When the motion was first seen to be stiff: when steps were held short by the stability of the method and not by
-    /// its accuracy.
+    /// When the motion was first seen to be stiff: when steps were held short by the stability of
+    /// the method and not by its accuracy.
     pub fn stiff_since(&self) -> Option<f64> {
         self.stiffness.since
     }
@@ -328,7 +331,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.longest = step;
     }
 
-    /// Takes the last step back, and makes `end` the end of the run: to end a run at an event within that step.
+    /// Takes the last step back, and makes `end` the end of the run: to end a run at an event
+    /// within that step.
     ///
     /// Only one step can be taken back.
     pub fn retreat(&mut self, end: f64) {
@@ -351,8 +355,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             self.step = self.first_step();
         }
         let (shrink, grow) = self.method.tableau.step_change;
-        // A few parts in 10¹⁵ of the time: shorter steps have no beginning and no end. Near t = 0 that is no limit;
-        // there the smallest numbers are.
+        // A few parts in 10¹⁵ of the time: shorter steps have no beginning and no end. Near t = 0
+        // that is no limit; there the smallest numbers are.
         let least = (10.0 * f64::EPSILON * self.now.t.abs()).max(1e-290);
         let left = (self.end - self.now.t) - self.now.t_low;
         if self.step.abs() <= least.min(0.9 * left.abs()) {
@@ -402,7 +406,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
 
     /// The continuous extension of the last step: the motion between its ends.
     ///
-    /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others.
+    /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the
+    /// others.
     pub fn piece(&mut self) -> Result<Piece<S::Vector>, StepError> {
         Piece::new(
             self.method,
@@ -427,7 +432,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.before.copy_from(&self.now);
     }
 
-    /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just tolerable.
+    /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just
+    /// tolerable.
     fn attempt(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         let Self {
             method,
@@ -473,7 +479,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             ..
         } = self;
         if !error.is_finite() {
-            // Either an error beyond all measure, or the state itself has left the range of numbers.
+            // Either an error beyond all measure, or the state itself has left the range of
+            // numbers.
             return match not_finite(&now.q, &now.v) {
                 Some(coordinate) => Err(StepError::NotFinite {
                     coordinate,
@@ -506,7 +513,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         }
     }
 
-    /// The error of the step just tried, in the root mean square over coordinates and rates, 1 being just tolerable.
+    /// The error of the step just tried, in the root mean square over coordinates and rates, 1
+    /// being just tolerable.
     ///
     /// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
     fn error(&self, h: f64) -> f64 {
@@ -528,14 +536,16 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         sqrt(fine * (fine / denominator) / numbers as f64)
     }
 
-    /// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is tolerable.
+    /// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
+    /// tolerable.
     #[inline(always)]
     fn relative_errors<const B: usize>(&self, row: &Row, h: f64, start: usize) -> [[f64; B]; 2] {
         let tolerance = (self.tolerance.relative, &self.tolerance.absolute);
         relative_errors::<B, _>((row, h), &self.before, &self.now, &self.k, tolerance, start)
     }
 
-    /// By how much the next step may be longer than this one, whose error is `error`; see [`Tableau::smoothing`].
+    /// By how much the next step may be longer than this one, whose error is `error`; see
+    /// [`Tableau::smoothing`].
     fn step_factor(&self, error: f64) -> f64 {
         let smoothing = self.method.tableau.smoothing;
         let exponent = 0.75 * smoothing - self.error_exponent();
@@ -547,8 +557,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         1.0 / f64::from(self.method.tableau.error_power)
     }
 
-    /// A length for the first step, from the size of the first two derivatives: *Solving Ordinary Differential Equations
-    /// I*, section II.4, "Starting Step Size".
+    /// A length for the first step, from the size of the first two derivatives: *Solving Ordinary
+    /// Differential Equations I*, section II.4, "Starting Step Size".
     fn first_step(&mut self) -> f64 {
         let order = f64::from(self.method.tableau.order);
         let left = self.end - self.now.t;
@@ -591,7 +601,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             q.as_mut_slice()[i] = now.q.as_slice()[i] + guess * now.v.as_slice()[i];
             v.as_mut_slice()[i] = now.v.as_slice()[i] + guess * a;
         }
-        // Where the machine has no acceleration that far off, the guess is tried and will be shortened.
+        // Where the machine has no acceleration that far off, the guess is tried and will be
+        // shortened.
         let (first, rest) = k.split_at_mut(1);
         let (a, ahead) = (first[0].as_slice(), &mut rest[0]);
         if model

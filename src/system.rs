@@ -1,8 +1,8 @@
-//! What a machine is to the programs that run it: [`Machine`], the parameters an engineer sets, and [`System`], the
-//! equations of motion that follow from them.
+//! What a machine is to the programs that run it: [`Machine`], the parameters an engineer sets, and
+//! [`System`], the equations of motion that follow from them.
 //!
-//! Both are implemented by the code that `machine!` emits and by the interpreter. Letters: `q` coordinates,
-//! `v = dq/dt`, `a = dv/dt`, `u` inputs, `t` time; SI units, angles in radians.
+//! Both are implemented by the code that `machine!` emits and by the interpreter. Letters: `q`
+//! coordinates, `v = dq/dt`, `a = dv/dt`, `u` inputs, `t` time; SI units, angles in radians.
 
 use core::fmt::{self, Debug, Display};
 
@@ -49,11 +49,11 @@ pub type Inputs<M> = <<M as Machine>::System as System>::Inputs;
 /// The named outputs of machine `M`.
 pub type Outputs<M> = <<M as Machine>::System as System>::Outputs;
 
-/// The equations of motion `M(q, t) a = f(q, v, t, u)` of a machine with given parameters, solved for the accelerations
-/// `a`, and what can be observed of the motion.
+/// The equations of motion `M(q, t) a = f(q, v, t, u)` of a machine with given parameters, solved
+/// for the accelerations `a`, and what can be observed of the motion.
 ///
-/// Integrators call [`accelerations`](Self::accelerations) and nothing else, unless asked for more: a quantity that
-/// nobody asks for costs nothing.
+/// Integrators call [`accelerations`](Self::accelerations) and nothing else, unless asked for more:
+/// a quantity that nobody asks for costs nothing.
 pub trait System {
     /// One number per coordinate, in the order of the description: `[f64; N]` or `Vec<f64>`.
     type Vector: Vector;
@@ -61,13 +61,16 @@ pub trait System {
     /// The square mass matrix, row after row: `[f64; N * N]` or `Vec<f64>`.
     type Matrix: Vector;
 
-    /// The coordinates by name: a struct with a field (a family: an array) for each. The rates use it too.
+    /// The coordinates by name: a struct with a field (a family: an array) for each. The rates use
+    /// it too.
     type Coordinates: Clone + Debug;
 
-    /// The inputs by name: what the user sets while the machine runs. A struct without fields if there are none.
+    /// The inputs by name: what the user sets while the machine runs. A struct without fields if
+    /// there are none.
     type Inputs: Clone + Debug;
 
-    /// The outputs by name: what the description asks to observe. A struct without fields if there are none.
+    /// The outputs by name: what the description asks to observe. A struct without fields if there
+    /// are none.
     type Outputs: Clone + Debug;
 
     /// Names and units of the coordinates, in order.
@@ -81,8 +84,8 @@ pub trait System {
 
     /// Accelerations `a = M⁻¹ f`, the equations of motion solved.
     ///
-    /// What is not finite in the arguments comes out as what is not finite; only a mass matrix that cannot be inverted
-    /// is an error.
+    /// What is not finite in the arguments comes out as what is not finite; only a mass matrix that
+    /// cannot be inverted is an error.
     fn accelerations(
         &self,
         t: f64,
@@ -127,8 +130,8 @@ pub trait System {
     /// Rayleigh's dissipation function `D`, in W.
     fn dissipation(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs) -> f64;
 
-    /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time), applied forces and
-    /// inputs. Along every motion `d(T + V)/dt = work_rate − dissipation_rate`.
+    /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time),
+    /// applied forces and inputs. Along every motion `d(T + V)/dt = work_rate − dissipation_rate`.
     fn work_rate(
         &self,
         t: f64,
@@ -167,7 +170,8 @@ pub trait System {
         outputs: &Self::Outputs,
     ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)>;
 
-    /// The facts that the description assumes, and by how much they hold here. Empty if it assumes nothing.
+    /// The facts that the description assumes, and by how much they hold here. Empty if it assumes
+    /// nothing.
     ///
     /// The equations may have been shortened by them, so a run ends where one of them ends.
     fn assumptions(
@@ -219,14 +223,14 @@ impl Assumption<'_> {
 
 /// The mass matrix cannot be inverted: some motion of the machine meets no inertia.
 ///
-/// Met at poses where coordinates lose their meaning (the angle of polar coordinates at radius 0), and in machines with
-/// a coordinate that moves no mass.
+/// Met at poses where coordinates lose their meaning (the angle of polar coordinates at radius 0),
+/// and in machines with a coordinate that moves no mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
     /// Index of the coordinate at which the elimination stopped.
     pub coordinate: usize,
-    /// What elimination left of its diagonal element, relative to that element; 0 when nothing is left or the element
-    /// itself is 0.
+    /// What elimination left of its diagonal element, relative to that element; 0 when nothing is
+    /// left or the element itself is 0.
     pub ratio: f64,
 }
 

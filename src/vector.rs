@@ -2,10 +2,11 @@
 
 use core::fmt::Debug;
 
-/// A row of numbers of a length fixed when the machine is prepared: `[f64; N]` in compiled machines, `Vec<f64>` in
-/// interpreted ones.
+/// A row of numbers of a length fixed when the machine is prepared: `[f64; N]` in compiled
+/// machines, `Vec<f64>` in interpreted ones.
 ///
-/// With `[f64; N]` the compiler knows every length, unrolls and vectorises; nothing is ever allocated.
+/// With `[f64; N]` the compiler knows every length, unrolls and vectorises; nothing is ever
+/// allocated.
 pub trait Vector: Clone + Debug + PartialEq {
     /// `length` zeros. An array has its own length and takes no notice of `length`.
     fn zeros(length: usize) -> Self;

@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// Each of the steps may err by `tolerance`, and roundoff by an ulp a step; what they sum up to at the end depends on how
-/// the motion amplifies a small change, by `growth` at most.
+/// Each of the steps may err by `tolerance`, and roundoff by an ulp a step; what they sum up to at
+/// the end depends on how the motion amplifies a small change, by `growth` at most.
 fn limit<M: Machine>(run: &Solution<M>, tolerance: f64, growth: f64) -> f64 {
     run.statistics().steps as f64 * (tolerance + f64::EPSILON) * growth
 }
@@ -43,7 +43,8 @@ fn an_oscillator_follows_its_cosine() {
                 .until(10.0)
                 .run(oscillator.start())
                 .unwrap();
-            // The rate is three times the position, and so is the error of one for that of the other.
+            // The rate is three times the position, and so is the error of one for that of the
+            // other.
             for i in 0..=100 {
                 let t = f64::from(i) / 10.0;
                 let state = run.at(t).unwrap();
@@ -136,8 +137,9 @@ fn a_pendulum_has_the_period_that_gauss_gave() {
             // At the end the rate is 0 again and its sign chance: nine turns, or ten.
             assert!([9, 10].contains(&turns.clone().count()));
             assert_eq!(bottoms.clone().count(), 20);
-            // An error of the state counts for the time by one over acceleration or rate; at 3 rad, near the upper
-            // position, the acceleration is a seventh of the greatest and the period depends on the energy as strongly.
+            // An error of the state counts for the time by one over acceleration or rate; at 3 rad,
+            // near the upper position, the acceleration is a seventh of the greatest and the period
+            // depends on the energy as strongly.
             let growth = if amplitude > 2.0 { 100.0 } else { 10.0 };
             let limit = limit(&run, tolerance, growth);
             for (i, turn) in turns.enumerate() {
@@ -160,8 +162,8 @@ fn a_pendulum_has_the_period_that_gauss_gave() {
 
 #[test]
 fn a_planet_moves_as_kepler_said() {
-    // Semi-major axis and gravitational parameter 1, eccentricity 0.6, from the perihelion. State at t = 1 from Kepler's
-    // equation in 40 digits.
+    // Semi-major axis and gravitational parameter 1, eccentricity 0.6, from the perihelion. State
+    // at t = 1 from Kepler's equation in 40 digits.
     let planet = Toy::new(([0.4, 0.0], [0.0, 2.0]), |_, q, _, _, _| {
         let r = q[0].hypot(q[1]);
         [-q[0] / r.powi(3), -q[1] / r.powi(3)]
@@ -217,7 +219,8 @@ fn double_pendulum(
     (run, [q.theta1, q.theta2, v.theta1, v.theta2])
 }
 
-// End states of double pendulums by Gragg–Bulirsch–Stoer extrapolation in binary128; two resolutions agree to 4e-21.
+// End states of double pendulums by Gragg–Bulirsch–Stoer extrapolation in binary128; two
+// resolutions agree to 4e-21.
 const REGULAR_AT_100: [f64; 4] = [
     0.1568362029256774608952189535,
     0.1549800061482846913584054161,
@@ -251,8 +254,8 @@ fn a_regular_double_pendulum_is_right_after_100_seconds() {
     ] {
         let (run, end) = double_pendulum([0.3, 0.5], 100.0, tolerance);
         let error = error(&end, &REGULAR_AT_100);
-        // Quasiperiodic: a change of the frequencies grows with time; over 100 s and 4.4 rad/s, by 440 at most, and that
-        // for the first steps only.
+        // Quasiperiodic: a change of the frequencies grows with time; over 100 s and 4.4 rad/s, by
+        // 440 at most, and that for the first steps only.
         assert!(
             error <= limit(&run, tolerance, 10.0),
             "{tolerance}: {error:e}"

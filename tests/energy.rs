@@ -34,7 +34,8 @@ fn energy_is_accounted_for_in_a_driven_damped_oscillator() {
                 .run(driven.start())
                 .unwrap();
             let balance = run.energy_balance().unwrap();
-            // At speeds up to 4 m/s, an error of the state is at most ten times that in energy; and each step adds one.
+            // At speeds up to 4 m/s, an error of the state is at most ten times that in energy; and
+            // each step adds one.
             let limit = 10.0 * run.statistics().steps as f64 * tolerance;
             assert!(
                 balance.residual().abs() <= limit,
@@ -76,7 +77,8 @@ fn the_balance_is_kept_up_to_an_event_within_a_step() {
 
 #[test]
 fn work_and_dissipation_are_those_of_the_closed_form() {
-    // Free motion against a damper, v = e^(−d t): dissipated ½ (1 − e^(−2 d t)); nothing works on it.
+    // Free motion against a damper, v = e^(−d t): dissipated ½ (1 − e^(−2 d t)); nothing works on
+    // it.
     let damped = Toy {
         p: 0.7,
         dissipation_rate: |v, p| p * v[0] * v[0],

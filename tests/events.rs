@@ -7,7 +7,8 @@ use by_hand::toy::{Toy, ball, oscillator};
 use lagrangian::{Crossing, Ending, Error, METHODS, Simulation, State};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// A ball that falls may go 490 m in one step of 10 s; its positions are known to the roundoff of that.
+/// A ball that falls may go 490 m in one step of 10 s; its positions are known to the roundoff of
+/// that.
 const ROUNDOFF_OF_FALL: f64 = 16.0 * f64::EPSILON * 490.0;
 
 #[test]

@@ -1,8 +1,8 @@
-//! The macro in a crate of its own, outside of the workspace, as a user has it: inline and from a file, with an edit of the
-//! file, and with mistakes.
+//! The macro in a crate of its own, outside of the workspace, as a user has it: inline and from a
+//! file, with an edit of the file, and with mistakes.
 //!
-//! `UPDATE_UI=1 cargo test --test fresh_crate` writes what the compiler says now beside the programs in `tests/ui/macro/`.
-//! Read the difference as its reader would.
+//! `UPDATE_UI=1 cargo test --test fresh_crate` writes what the compiler says now beside the
+//! programs in `tests/ui/macro/`. Read the difference as its reader would.
 
 use std::fs;
 use std::path::{Path, PathBuf};

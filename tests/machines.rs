@@ -21,8 +21,8 @@ fn run<M: Machine>(machine: &M, start: State<Coordinates<M>>, until: f64) -> Sol
     simulation.until(until).run(start).unwrap()
 }
 
-/// The crusher of the benchmarks after 5 s, by Gragg–Bulirsch–Stoer extrapolation in binary128; two resolutions agree to
-/// 8e-26.
+/// The crusher of the benchmarks after 5 s, by Gragg–Bulirsch–Stoer extrapolation in binary128; two
+/// resolutions agree to 8e-26.
 const CRUSHER_AT_5: [f64; 18] = [
     0.06145283273805227510136737529,
     0.4241214737780232413153200169,
@@ -44,7 +44,8 @@ const CRUSHER_AT_5: [f64; 18] = [
     -2.0,
 ];
 
-/// Half of the range that each of those numbers has, the rates after the coordinates: what its error is measured by.
+/// Half of the range that each of those numbers has, the rates after the coordinates: what its
+/// error is measured by.
 const RANGES: [f64; 18] = [
     0.02, 0.02, 0.1, 0.03, PI, PI, 0.02, PI, PI, 0.5, 0.5, 1.0, 0.3, 5.0, 10.0, 0.3, 5.0, 10.0,
 ];
@@ -138,8 +139,9 @@ fn top(precession: f64, spin: f64, until: f64, tolerance: f64) -> Solution<Heavy
 
 #[test]
 fn a_top_precesses_as_it_should() {
-    // The top of the literature on Lie-group integrators (M. Géradin, A. Cardona; O. Brüls). Position of its mass centre,
-    // by extrapolation in binary128. It goes past the pole of its angles at 7·10⁻⁷ rad, where they turn at 10⁶ rad/s.
+    // The top of the literature on Lie-group integrators (M. Géradin, A. Cardona; O. Brüls).
+    // Position of its mass centre, by extrapolation in binary128. It goes past the pole of its
+    // angles at 7·10⁻⁷ rad, where they turn at 10⁶ rad/s.
     let references = [
         (
             0.5,
@@ -213,8 +215,8 @@ fn mortar(state: &State<Coordinates<VibratingCrusher>>) -> [f64; 2] {
 
 #[test]
 fn a_free_mortar_flies_straight_past_the_pole_of_its_coordinates() {
-    // Nothing acts on the mortar: its centre stays where it was while the platform shakes about it. At a radius of 10⁻⁹ m
-    // the angle turns a million times as fast as anything else.
+    // Nothing acts on the mortar: its centre stays where it was while the platform shakes about it.
+    // At a radius of 10⁻⁹ m the angle turns a million times as fast as anything else.
     let crusher = VibratingCrusher::default();
     for radius in [0.02, 1e-3, 1e-6, 1e-9] {
         let mut start = crusher.start();
@@ -223,8 +225,8 @@ fn a_free_mortar_flies_straight_past_the_pole_of_its_coordinates() {
         let run = run(&crusher, start, 1.0);
         let ([x, y], [x0, y0]) = (mortar(run.end()), mortar(&start));
         let moved = (x - x0).hypot(y - y0);
-        // At rest at the start; an error of its speed, 10⁻¹⁰ a step, moves it for the rest of the run. Its angle's
-        // error counts by the radius, which is 10 mm and less.
+        // At rest at the start; an error of its speed, 10⁻¹⁰ a step, moves it for the rest of the
+        // run. Its angle's error counts by the radius, which is 10 mm and less.
         let limit = run.statistics().steps as f64 * 1e-10;
         assert!(moved <= limit, "{radius}: {moved:e}");
         // Turning it meets no force either.
@@ -271,13 +273,15 @@ fn the_pole_itself_is_named() {
     else {
         panic!("{error}")
     };
-    // A quarter turn from the horizontal, as a pendulum of length l + A/(m l): the time of 90°, in mid-fall.
+    // A quarter turn from the horizontal, as a pendulum of length l + A/(m l): the time of 90°, in
+    // mid-fall.
     assert!(t > 0.5 && t < 0.7, "{t}");
 }
 
 #[test]
 fn masses_may_differ_a_thousand_million_times() {
-    // A light lower bob leaves the upper one a pendulum by itself; a heavy upper bob does not feel the lower one.
+    // A light lower bob leaves the upper one a pendulum by itself; a heavy upper bob does not feel
+    // the lower one.
     let runs = [
         DoublePendulum {
             m2: 1e-9,
@@ -289,7 +293,8 @@ fn masses_may_differ_a_thousand_million_times() {
         },
     ]
     .map(|machine| run(&machine, machine.start(), 1.5));
-    // It is level with the hinge, 90°, when the speed is that of the height fallen: energy of a pendulum.
+    // It is level with the hinge, 90°, when the speed is that of the height fallen: energy of a
+    // pendulum.
     for run in &runs {
         let (q, v) = (run.end().q, run.end().v);
         let speed =
@@ -299,7 +304,8 @@ fn masses_may_differ_a_thousand_million_times() {
     let apart = (runs[0].end().q.theta2 - runs[1].end().q.theta2).abs();
     assert!(apart < 1e-6, "{apart:e}");
 
-    // A light bob between two rods that carry a heavy one: it vibrates at 10⁵ rad/s, and the energy is kept.
+    // A light bob between two rods that carry a heavy one: it vibrates at 10⁵ rad/s, and the energy
+    // is kept.
     for (m1, m2) in [(1e-9, 1.0), (1.0, 1e9)] {
         let machine = DoublePendulum {
             m1,

@@ -1,5 +1,5 @@
-//! Every method of the list is what is published: its coefficients obey the order conditions, and its steps and its dense
-//! output converge as fast as they should.
+//! Every method of the list is what is published: its coefficients obey the order conditions, and
+//! its steps and its dense output converge as fast as they should.
 #![cfg(feature = "std")]
 
 mod by_hand;
@@ -82,7 +82,8 @@ fn every_stage_is_where_it_says() {
 #[test]
 fn steps_and_dense_output_converge_at_their_order() {
     for method in &METHODS {
-        // Steps of equal length until t = 2, halved: errors at the end, and the greatest within a step.
+        // Steps of equal length until t = 2, halved: errors at the end, and the greatest within a
+        // step.
         let coarse = 2.0 / if method.tableau.order == 8 { 6.0 } else { 40.0 };
         let [end_1, within_1] = errors_of_equal_steps(method, coarse);
         let [end_2, within_2] = errors_of_equal_steps(method, coarse / 2.0);
@@ -110,7 +111,8 @@ fn steps_and_dense_output_converge_at_their_order() {
 
 #[test]
 fn motions_that_a_method_follows_exactly_are_followed_exactly() {
-    // x'' = (k)(k − 1) t^(k − 2): a method of order p integrates v = k t^(k−1) exactly for k ≤ p, and x = t^k with it.
+    // x'' = (k)(k − 1) t^(k − 2): a method of order p integrates v = k t^(k−1) exactly for k ≤ p,
+    // and x = t^k with it.
     for method in &METHODS {
         for power in 2..=i32::try_from(method.tableau.order).unwrap() {
             let toy = Toy {
@@ -186,7 +188,8 @@ fn stepper<'s, L: InputLaw<Toy<1>>>(
     stepper
 }
 
-/// Errors at the end, and the greatest that is made within a step, for `x'' = −x`, by steps of equal length.
+/// Errors at the end, and the greatest that is made within a step, for `x'' = −x`, by steps of
+/// equal length.
 fn errors_of_equal_steps(method: &'static Method, h: f64) -> [f64; 2] {
     let oscillator = oscillator();
     let mut stepper = stepper(&oscillator, DefaultInputs, method, h);
@@ -210,7 +213,8 @@ fn errors_of_equal_steps(method: &'static Method, h: f64) -> [f64; 2] {
 
 /// A rooted tree: what hangs from its root.
 ///
-/// E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.2.
+/// E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993,
+/// section II.2.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Tree(Vec<Tree>);
 

@@ -329,7 +329,8 @@ fn an_assumption_that_ends_and_holds_again_within_a_step_ends_the_run() {
         assumption: Some(("x < 3.8", |q| 3.8 - q[0])),
         ..Toy::new(([2.0], [6.0]), |_, _, _, _, _| [-9.81])
     };
-    // x = 2 + 6 t − ½ 9.81 t² is above 3.8 from 0.527 s to 0.696 s; a step that ends later sees it below at both ends.
+    // x = 2 + 6 t − ½ 9.81 t² is above 3.8 from 0.527 s to 0.696 s; a step that ends later sees it
+    // below at both ends.
     let exact = (6.0 - (36.0 - 2.0 * 9.81 * 1.8_f64).sqrt()) / 9.81;
     for method in &METHODS {
         let (run, error) = Simulation::new(&toy)
@@ -342,8 +343,8 @@ fn an_assumption_that_ends_and_holds_again_within_a_step_ends_the_run() {
             panic!("{error:?}")
         };
         assert_eq!(assumption, "x < 3.8");
-        // Roundoff of ½ 9.81 1.2², added up with the coefficients of the continuous extension, a thousand in all for
-        // DOP853, is 2e-12 m; the ball passes at 0.8 m/s.
+        // Roundoff of ½ 9.81 1.2², added up with the coefficients of the continuous extension, a
+        // thousand in all for DOP853, is 2e-12 m; the ball passes at 0.8 m/s.
         assert!((t - exact).abs() < 2e-12, "{t}");
         assert_eq!(run.end().t, t);
         assert!((run.end().q[0] - 3.8).abs() < 2e-12);

@@ -1,4 +1,5 @@
-//! Accelerations are as exact as the mass matrix allows, at random states of every machine of the library.
+//! Accelerations are as exact as the mass matrix allows, at random states of every machine of the
+//! library.
 
 mod support;
 

@@ -62,7 +62,8 @@ fn the_motion_is_continuous_from_step_to_step() {
         for state in run.steps() {
             for t in [state.t.next_down(), state.t.next_up()] {
                 let Ok(beside) = run.at(t) else { continue };
-                // A change of time by one unit in the last place moves less than that; and roundoff of polynomials.
+                // A change of time by one unit in the last place moves less than that; and roundoff
+                // of polynomials.
                 let moved = (beside.q.theta1 - state.q.theta1).abs();
                 let changed = (beside.v.theta2 - state.v.theta2).abs();
                 assert!(

@@ -1,4 +1,5 @@
-//! What goes to extremes ends right, or with an error that names the coordinate, the time and the cause.
+//! What goes to extremes ends right, or with an error that names the coordinate, the time and the
+//! cause.
 
 mod support;
 
@@ -136,8 +137,8 @@ fn pendulums_of_very_unequal_masses_keep_their_energy() {
     conserves(&string, start, (0.002, 1e-12), energy);
 }
 
-/// The mass matrix has a condition of 1e9 here, so accelerations have a relative noise of ε κ = 1e-7. Tolerances are above
-/// what that does in a step.
+/// The mass matrix has a condition of 1e9 here, so accelerations have a relative noise of ε κ =
+/// 1e-7. Tolerances are above what that does in a step.
 #[test]
 fn crushers_of_very_unequal_masses_keep_their_energy() {
     // Neither dampers nor debalance.
@@ -159,7 +160,8 @@ fn crushers_of_very_unequal_masses_keep_their_energy() {
         ..usual
     };
     conserves(&heavy, heavy.start(), (0.1, 1e-12), energy);
-    // The light mortar between platform and pestle rattles at 650 000 rad/s, the light pestle at 18 000 rad/s.
+    // The light mortar between platform and pestle rattles at 650 000 rad/s, the light pestle at 18
+    // 000 rad/s.
     let light = Crusher9 {
         m1: 1e-9 * usual.m1,
         ..usual
@@ -185,8 +187,9 @@ fn crushers_near_the_polar_singularity_accelerate_exactly() {
     }
 }
 
-/// Mortar and platform of a crusher that nothing shakes: the mortar runs straight past the platform's centre, with 1 m/s,
-/// at a distance ε: s = √(ε² + t²), φ = π/2 − atan(t/ε). In between φ turns by half a revolution, at 1/ε rad/s.
+/// Mortar and platform of a crusher that nothing shakes: the mortar runs straight past the
+/// platform's centre, with 1 m/s, at a distance ε: s = √(ε² + t²), φ = π/2 − atan(t/ε). In between
+/// φ turns by half a revolution, at 1/ε rad/s.
 #[test]
 fn a_mortar_that_grazes_the_centre_goes_on_straight() {
     let crusher = VibratingCrusher {
@@ -305,7 +308,8 @@ fn a_point_at_the_centre_is_a_singular_mass_matrix() {
     assert_eq!((t, ratio), (0.25, 0.0));
 }
 
-/// Through the centre and out on the other side, where s is negative: the same points, and the equations hold there too.
+/// Through the centre and out on the other side, where s is negative: the same points, and the
+/// equations hold there too.
 #[test]
 fn a_point_that_crosses_the_centre_straight_goes_on() {
     let point = machine(POINT);
@@ -317,9 +321,10 @@ fn a_point_that_crosses_the_centre_straight_goes_on() {
     );
 }
 
-/// The axis of the top of the literature falls through the vertical below but for δ = 7e-7 rad, where its angles lose their
-/// meaning. There sin θ has a rounding error of ε π/δ = 1e-9 of itself, and the rates of ψ and φ, which rise to 5e6 rad/s,
-/// cancel to a spin of 150 rad/s: 1e-9 · 5e6/150 = 3e-5 is what rounding may do.
+/// The axis of the top of the literature falls through the vertical below but for δ = 7e-7 rad,
+/// where its angles lose their meaning. There sin θ has a rounding error of ε π/δ = 1e-9 of itself,
+/// and the rates of ψ and φ, which rise to 5e6 rad/s, cancel to a spin of 150 rad/s: 1e-9 · 5e6/150
+/// = 3e-5 is what rounding may do.
 #[test]
 fn a_top_that_grazes_the_pole_of_its_angles_falls_on() {
     let top = HeavyTop::default();
@@ -487,7 +492,8 @@ fn forces_beyond_all_numbers_name_the_coordinate() {
 
 // Steps that collapse.
 
-/// A point that falls into the centre of an attraction 1/x² from rest at 1 arrives after π/(2√2) with infinite speed.
+/// A point that falls into the centre of an attraction 1/x² from rest at 1 arrives after π/(2√2)
+/// with infinite speed.
 #[test]
 fn a_fall_into_a_pole_ends_when_and_where_it_must() {
     let fall = machine(
@@ -516,7 +522,8 @@ fn a_fall_into_a_pole_ends_when_and_where_it_must() {
     }
 }
 
-/// Dry friction that is written as a sign has no motion to go on with once the block stands: the steps collapse.
+/// Dry friction that is written as a sign has no motion to go on with once the block stands: the
+/// steps collapse.
 #[test]
 fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
     let block = machine(
@@ -528,7 +535,8 @@ fn dry_friction_ends_the_run_when_the_block_comes_to_rest() {
             forces { friction { on: x, value: -friction*sign(der(x)) } }
         }",
     );
-    // Half a cycle lasts π/2 and takes 2 friction/k = 0.15 off; after seven the block stands inside of ±0.075.
+    // Half a cycle lasts π/2 and takes 2 friction/k = 0.15 off; after seven the block stands inside
+    // of ±0.075.
     let moving = Simulation::new(&block)
         .tolerance(1e-9)
         .until(7.0 * PI / 2.0 - 0.01)
@@ -561,14 +569,16 @@ fn an_angle_that_may_not_reach_zero_ends_the_run() {
     let Error::AssumptionEnded { t, .. } = ended else {
         panic!("{ended}")
     };
-    // By the energy of a physical pendulum: t = ∫ dθ / √(2 m g l (cos 1 − cos θ) / (A + m l²)) from 1 to π.
+    // By the energy of a physical pendulum: t = ∫ dθ / √(2 m g l (cos 1 − cos θ) / (A + m l²)) from
+    // 1 to π.
     let HeavyTop { m, l, g, A: a, .. } = top;
     let swing = pendulum_fall(1.0, m * g * l / (a + m * l * l));
     assert!((t - swing).abs() < 1e-7, "{t} against {swing}");
 }
 
-/// The time that a pendulum with θ'' = w² sin θ needs from rest at `angle` from the upward vertical to the lowest point: a
-/// quarter of its period, `π / (2 w M(1, cos(α/2)))` with the amplitude α and the arithmetic-geometric mean M.
+/// The time that a pendulum with θ'' = w² sin θ needs from rest at `angle` from the upward vertical
+/// to the lowest point: a quarter of its period, `π / (2 w M(1, cos(α/2)))` with the amplitude α
+/// and the arithmetic-geometric mean M.
 fn pendulum_fall(angle: f64, square: f64) -> f64 {
     let amplitude = PI - angle;
     let (mut a, mut b) = (1.0, (amplitude / 2.0).cos());
@@ -700,7 +710,8 @@ fn a_run_back_in_time_returns_to_its_start() {
         let pairs = numbers(&system, a).into_iter().zip(numbers(&system, b));
         pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
     };
-    // The way there and the way back are each 100 times as exact as the coarse one, which misses by this.
+    // The way there and the way back are each 100 times as exact as the coarse one, which misses by
+    // this.
     let limit = distance(there.end(), coarse.end());
     assert!(
         limit < 1e-7 && distance(back.end(), there.start()) <= limit,

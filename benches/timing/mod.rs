@@ -1,4 +1,5 @@
-//! Time that work takes: seconds of the thread's own on the processor, so that what else runs there does not count.
+//! Time that work takes: seconds of the thread's own on the processor, so that what else runs there
+//! does not count.
 #![allow(dead_code, reason = "each bench uses some of it")]
 
 use cpu_time::ThreadTime;
@@ -16,7 +17,8 @@ pub fn median(mut numbers: Vec<f64>) -> f64 {
     quantile(&numbers, 0.5)
 }
 
-/// The median time of several calls, in s: at least `least` of them, and more until half a second is spent.
+/// The median time of several calls, in s: at least `least` of them, and more until half a second
+/// is spent.
 pub fn median_of<R>(least: usize, mut work: impl FnMut() -> R) -> (f64, R) {
     let (first, mut result) = seconds(&mut work);
     let mut times = vec![first];
@@ -28,14 +30,15 @@ pub fn median_of<R>(least: usize, mut work: impl FnMut() -> R) -> (f64, R) {
     (median(times), result)
 }
 
-/// A sample takes about so long: long beside the clock's own time, short beside the time between two interruptions.
+/// A sample takes about so long: long beside the clock's own time, short beside the time between
+/// two interruptions.
 const SAMPLE: f64 = 200e-6;
 const SAMPLES: usize = 500;
 
 /// The time of one of many short calls, in s: `work(n)` makes n of them.
 ///
-/// The median over samples of about 200 µs; up to four series, while the median exceeds the first quartile by more than
-/// 5 %; of these the quietest.
+/// The median over samples of about 200 µs; up to four series, while the median exceeds the first
+/// quartile by more than 5 %; of these the quietest.
 pub fn per_call(mut work: impl FnMut(usize)) -> f64 {
     let mut calls = 16;
     while seconds(|| work(calls)).0 < SAMPLE {

@@ -4,7 +4,8 @@ use lagrangian_spec::diagnostic::{Diagnostic, Report};
 use lagrangian_spec::source::Sources;
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
-/// All of them at once. `place` says where a stretch of a source begins and ends for the Rust compiler.
+/// All of them at once. `place` says where a stretch of a source begins and ends for the Rust
+/// compiler.
 pub fn all(
     report: &Report,
     sources: &Sources,

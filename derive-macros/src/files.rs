@@ -1,4 +1,5 @@
-//! Files that the macro reads: the spec, and what it extends. Cargo must know them, or an edit would change nothing.
+//! Files that the macro reads: the spec, and what it extends. Cargo must know them, or an edit
+//! would change nothing.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -24,7 +25,8 @@ impl Files for Tracked {
     }
 }
 
-/// Where `machine!(file = "…")` looks: beside the package's manifest, then beside the file that invokes the macro.
+/// Where `machine!(file = "…")` looks: beside the package's manifest, then beside the file that
+/// invokes the macro.
 ///
 /// The first that exists; or a sentence that names both.
 pub fn find(file: &str, invoking: Option<&Path>) -> Result<PathBuf, String> {

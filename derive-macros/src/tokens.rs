@@ -1,4 +1,5 @@
-//! The tokens of the Rust compiler as the flat tokens of a spec, and back to the places in the user's source.
+//! The tokens of the Rust compiler as the flat tokens of a spec, and back to the places in the
+//! user's source.
 
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{SourceId, Span};
@@ -78,7 +79,8 @@ pub fn flatten(stream: TokenStream, source: SourceId, report: &mut Report) -> Fl
         };
         match tree {
             TokenTree::Group(group) => {
-                // Brackets that a `macro_rules!` made invisible hold an expression together all the same.
+                // Brackets that a `macro_rules!` made invisible hold an expression together all the
+                // same.
                 let delimiter = match group.delimiter() {
                     proc_macro2::Delimiter::Brace => Delimiter::Brace,
                     proc_macro2::Delimiter::Bracket => Delimiter::Bracket,
@@ -156,7 +158,8 @@ fn is_single(group: &Group) -> bool {
     tokens.next().is_some() && tokens.next().is_none()
 }
 
-/// The text of `#[doc = "…"]`, which is what `/// …` is to a macro; the `#` was read. Takes nothing if it is something else.
+/// The text of `#[doc = "…"]`, which is what `/// …` is to a macro; the `#` was read. Takes nothing
+/// if it is something else.
 fn documentation(
     tokens: &mut proc_macro2::token_stream::IntoIter,
 ) -> Option<(String, Option<proc_macro2::Span>)> {

@@ -53,8 +53,9 @@ fn cheapest<'d>(model: &Model<'d>, equations: Equations<'d>) -> (Equations<'d>, 
     }
 }
 
-/// About how many cycles the accelerations take where independent operations run side by side: 2.5 multiplications or
-/// additions in one cycle, 4.5 cycles for a division, 3 for an angle among others.
+/// About how many cycles the accelerations take where independent operations run side by side: 2.5
+/// multiplications or additions in one cycle, 4.5 cycles for a division, 3 for an angle among
+/// others.
 fn cycles(program: &Program) -> f64 {
     let accelerations = program
         .functions

@@ -285,8 +285,9 @@ impl Report {
 
 /// The candidate that `name` was most likely meant to be, if one is near enough.
 ///
-/// Near is: the same but for case, or at most one slip in three characters, where a slip is a letter
-/// too many, too few, wrong, or two neighbours exchanged. Of equally near ones the first wins.
+/// Near is: the same but for case, or at most one slip in three characters, where a slip is a
+/// letter too many, too few, wrong, or two neighbours exchanged. Of equally near ones the first
+/// wins.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     /// Longer names are not compared: the work is the product of the lengths.
     const LONGEST: usize = 64;

@@ -6,12 +6,13 @@
 //!                        Q(q, v, t, u)  applied generalized forces
 //! ```
 //!
-//! Two routes lead there. [`Oracle`] is Lagrange's equations of the second kind, term by term; [`Equations::derive`] takes
-//! the cheap route of [`projected`] wherever it holds, which is always but under approximations. Tests prove both equal, at
-//! random points of a prime field, for every machine. The numbers (E1), (E2), … are those of `docs/equations.md`.
+//! Two routes lead there. [`Oracle`] is Lagrange's equations of the second kind, term by term;
+//! [`Equations::derive`] takes the cheap route of [`projected`] wherever it holds, which is always
+//! but under approximations. Tests prove both equal, at random points of a prime field, for every
+//! machine. The numbers (E1), (E2), … are those of `docs/equations.md`.
 //!
-//! What holds here: every expression is defined; `M` has no `v`, `a` or inputs in it, `h` no `a` and no inputs; `Q` and `f`
-//! no `a`; nothing that explicit time contributes is dropped.
+//! What holds here: every expression is defined; `M` has no `v`, `a` or inputs in it, `h` no `a`
+//! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
 
 mod approximation;
 mod energy;
@@ -35,11 +36,12 @@ use approximation::Approximations;
 use kinematics::Variables;
 use projected::{Loads, Projection};
 
-/// The most terms of one entry of `M` or `h` that is multiplied out; longer ones have never been the shorter program.
+/// The most terms of one entry of `M` or `h` that is multiplied out; longer ones have never been
+/// the shorter program.
 const EXPANDED_TERMS: usize = 200;
 
-/// The most coordinates of equations that are multiplied out: from four links of a chain on they are not the shorter
-/// program, and their terms grow with the cube of the number of coordinates.
+/// The most coordinates of equations that are multiplied out: from four links of a chain on they
+/// are not the shorter program, and their terms grow with the cube of the number of coordinates.
 const EXPANDED_COORDINATES: usize = 6;
 
 /// The equations of motion of a machine, and what else is derived from its energies.
@@ -79,8 +81,9 @@ pub struct Equations<'d> {
 /// T = ½ Σ weight u w,    Σ (weight ẇ − load) ∂u/∂v = 0
 /// ```
 ///
-/// The velocities `u(q, v, t)` are nodes of one graph, in which the velocity of a body is built from that of what it hangs
-/// on. Solving on this graph instead of `M a = f` is what makes a chain's accelerations linear in its length.
+/// The velocities `u(q, v, t)` are nodes of one graph, in which the velocity of a body is built
+/// from that of what it hangs on. Solving on this graph instead of `M a = f` is what makes a
+/// chain's accelerations linear in its length.
 #[derive(Clone, Debug)]
 pub struct Unprojected<'d> {
     /// `u`, `w` and their weight, every pair once.
@@ -135,10 +138,11 @@ impl<'d> Equations<'d> {
 
     /// The same equations with `M` and `h` multiplied out; nothing if that takes too many terms.
     ///
-    /// Where few coordinates hang on each other that is shorter: what a projection computes along one axis and projects
-    /// back on it cancels. A double pendulum takes 29 multiplications and additions so, against 40; a chain of six links
-    /// 377 against 339. What is applied stays as it is: a spring's force must come from its stretch, or the differences
-    /// that make it are rounded.
+    /// Where few coordinates hang on each other that is shorter: what a projection computes along
+    /// one axis and projects back on it cancels. A double pendulum takes 29 multiplications and
+    /// additions so, against 40; a chain of six links 377 against 339. What is applied stays as it
+    /// is: a spring's force must come from its stretch, or the differences that make it are
+    /// rounded.
     pub fn expanded(&self) -> Option<Equations<'d>> {
         if self.bias.len() > EXPANDED_COORDINATES {
             return None;
@@ -170,7 +174,8 @@ impl<'d> Equations<'d> {
         Some(expanded)
     }
 
-    /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and (E22).
+    /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and
+    /// (E22).
     fn drop_what_cancels(&mut self, model: &Model<'d>) {
         let x = Variables::of(model);
         let candidates: Vec<Symbol> = x.q.iter().copied().chain([x.t]).collect();

@@ -1,24 +1,27 @@
 //! Straight-line arithmetic: what every way of running a machine starts from.
 //!
-//! A [`Program`] knows named values with shapes, not mechanics: it says which operations, in which order, turn the
-//! arguments of a function into its results. The emitters print it, the [interpreter](Interpreter) runs it over any number,
-//! the proof holds it against Lagrange's equations.
+//! A [`Program`] knows named values with shapes, not mechanics: it says which operations, in which
+//! order, turn the arguments of a function into its results. The emitters print it, the
+//! [interpreter](Interpreter) runs it over any number, the proof holds it against Lagrange's
+//! equations.
 //!
 //! ```text
 //! parameters ─▶ prepare ─▶ prepared values ─┐
 //!                          t, q, v, u, a ───┴▶ function ─▶ results
 //! ```
 //!
-//! What holds of every program, and what [`Program::verify`] checks after every pass in debug builds:
+//! What holds of every program, and what [`Program::verify`] checks after every pass in debug
+//! builds:
 //!
-//! * code is in static single assignment form: the value of the operation at index k is [`Value`] k, and the operands of
-//!   an operation have smaller indices than it;
+//! * code is in static single assignment form: the value of the operation at index k is [`Value`]
+//!   k, and the operands of an operation have smaller indices than it;
 //! * every operation is used, directly or not, by a result or a guard of its function;
-//! * only [`Program::prepare`] and [`Program::start`] read parameters, and they read nothing else; all other functions
-//!   read prepared values instead, and contain no operation whose operands are all known once parameters are;
+//! * only [`Program::prepare`] and [`Program::start`] read parameters, and they read nothing else;
+//!   all other functions read prepared values instead, and contain no operation whose operands are
+//!   all known once parameters are;
 //! * no two operations of a function do the same thing;
-//! * the order of operations is the order of rounding: whoever runs a program reorders nothing, so the same machine gives
-//!   the same bits everywhere;
+//! * the order of operations is the order of rounding: whoever runs a program reorders nothing, so
+//!   the same machine gives the same bits everywhere;
 //! * the same description gives the same program.
 
 use lagrangian_symbolic::{self as symbolic, Rational};
@@ -64,12 +67,14 @@ pub struct Program {
     pub outputs: Vec<Slot>,
     /// Facts that a run checks; [`Role::Assumption`] counts them.
     pub assumptions: Vec<Fact>,
-    /// Whatever is known once the parameters are: reads parameters, and its results are the prepared values.
+    /// Whatever is known once the parameters are: reads parameters, and its results are the
+    /// prepared values.
     ///
-    /// Its guards are the pivots of the mass matrix that no coordinate changes. Where one fails, the accelerations do not
-    /// exist at any state; the other functions do not care.
+    /// Its guards are the pivots of the mass matrix that no coordinate changes. Where one fails,
+    /// the accelerations do not exist at any state; the other functions do not care.
     pub prepare: Function,
-    /// For each prepared value its formula in terms of parameters, as a spec would write it; cut short (`…`) where long.
+    /// For each prepared value its formula in terms of parameters, as a spec would write it; cut
+    /// short (`…`) where long.
     pub prepared: Vec<String>,
     /// Where the coordinates start: reads parameters only.
     pub start: Function,
@@ -172,7 +177,8 @@ pub enum Shape {
     Scalar,
     /// So many numbers.
     Vector(usize),
-    /// A symmetric matrix of that order, its lower triangle row by row: entry (i, j), j ≤ i, is result i (i + 1)/2 + j.
+    /// A symmetric matrix of that order, its lower triangle row by row: entry (i, j), j ≤ i, is
+    /// result i (i + 1)/2 + j.
     Symmetric(usize),
 }
 
@@ -301,15 +307,16 @@ pub enum Source {
     Acceleration(u32),
 }
 
-/// A pivot of the mass matrix that must not vanish: the results are meaningless unless `pivot > tolerance·scale`.
+/// A pivot of the mass matrix that must not vanish: the results are meaningless unless `pivot >
+/// tolerance·scale`.
 ///
 /// Written so that a pivot that is no number fails too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guard {
     /// The pivot dᵢ of M = L D Lᵀ.
     pub pivot: Value,
-    /// The diagonal entry Mᵢᵢ that it was left over from; the pivot itself where nothing was taken off, or where Mᵢᵢ is not at
-    /// hand: then it must be positive, no more.
+    /// The diagonal entry Mᵢᵢ that it was left over from; the pivot itself where nothing was taken
+    /// off, or where Mᵢᵢ is not at hand: then it must be positive, no more.
     pub scale: Value,
     /// The share of the entry that may be rounding error.
     pub tolerance: f64,
@@ -322,7 +329,8 @@ pub struct Guard {
 pub struct Singular {
     /// The index of the coordinate whose effective inertia vanishes.
     pub coordinate: usize,
-    /// What is left of its inertia, as a share of what it was: pivot over diagonal entry; not finite where either is not.
+    /// What is left of its inertia, as a share of what it was: pivot over diagonal entry; not
+    /// finite where either is not.
     pub ratio: f64,
 }
 
@@ -346,7 +354,8 @@ pub struct Reads {
 }
 
 impl Program {
-    /// The function of a role. There is one for every role but outputs and assumptions that the machine does not have.
+    /// The function of a role. There is one for every role but outputs and assumptions that the
+    /// machine does not have.
     pub fn function(&self, role: Role) -> Option<&Function> {
         match role {
             Role::Prepare => Some(&self.prepare),

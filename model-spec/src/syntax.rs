@@ -48,8 +48,8 @@
 //! factor      = ("1" | NAME | "(" unit ")") ["^" ["-"] NUMBER]
 //! ```
 //!
-//! A parameter, a coordinate, an input and an output need their unit, a constant and an output their
-//! value. Which fields a record may have says [`SectionKind::fields`].
+//! A parameter, a coordinate, an input and an output need their unit, a constant and an output
+//! their value. Which fields a record may have says [`SectionKind::fields`].
 
 mod ast;
 mod brackets;

@@ -122,7 +122,8 @@ fn begins_word(c: char) -> bool {
     c == '_' || c.is_alphabetic()
 }
 
-/// True for a further character of a word: letters, digits and combining accents (`q̇`), but not `²`.
+/// True for a further character of a word: letters, digits and combining accents (`q̇`), but not
+/// `²`.
 fn continues_word(c: char) -> bool {
     begins_word(c) || c.is_ascii_digit() || ('\u{300}'..='\u{36f}').contains(&c)
 }
@@ -277,8 +278,8 @@ impl<'a> Lexer<'a> {
             )
             .help("end it with `\"`"),
         );
-        // It was most likely meant to end on its line, so the lines below are worth reading. Doing so
-        // once is enough for a reader, and many times would take quadratic time.
+        // It was most likely meant to end on its line, so the lines below are worth reading. Doing
+        // so once is enough for a reader, and many times would take quadratic time.
         self.eat_while(|c| c != '\n');
         if self.resumed {
             self.at = self.text.len();

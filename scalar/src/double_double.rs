@@ -1,12 +1,13 @@
 //! Numbers of about 106 bits: unevaluated sums of two `f64`.
 //!
-//! The basic operations and their error bounds, in units of u = 2⁻⁵³, are from M. Joldes, J.-M. Muller and V. Popescu,
-//! *Tight and rigorous error bounds for basic building blocks of double-word arithmetic*, ACM TOMS 44 (2017) 15:1–15:27:
-//! sum 3u², product 5u², quotient 10u²; root 4u² (V. Lefèvre et al., *Accurate calculation of Euclidean norms using
-//! double-word arithmetic*, ACM TOMS 49 (2023)). Functions are series in these operations; their errors, added up beside
-//! each of them, stay below 64u² = 2⁻¹⁰⁰, relative to the result. (A power has the error of its logarithm, multiplied by the
-//! exponent: 2⁻¹⁰⁰ (1 + |y ln x|).) The bounds hold for results, and intermediate ones, between 2⁻⁹⁰⁰ and 2¹⁰²³; nearer to
-//! 0 the second word underflows.
+//! The basic operations and their error bounds, in units of u = 2⁻⁵³, are from M. Joldes, J.-M.
+//! Muller and V. Popescu, *Tight and rigorous error bounds for basic building blocks of double-word
+//! arithmetic*, ACM TOMS 44 (2017) 15:1–15:27: sum 3u², product 5u², quotient 10u²; root 4u² (V.
+//! Lefèvre et al., *Accurate calculation of Euclidean norms using double-word arithmetic*, ACM TOMS
+//! 49 (2023)). Functions are series in these operations; their errors, added up beside each of
+//! them, stay below 64u² = 2⁻¹⁰⁰, relative to the result. (A power has the error of its logarithm,
+//! multiplied by the exponent: 2⁻¹⁰⁰ (1 + |y ln x|).) The bounds hold for results, and intermediate
+//! ones, between 2⁻⁹⁰⁰ and 2¹⁰²³; nearer to 0 the second word underflows.
 
 use core::cmp::Ordering;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -14,7 +15,8 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 use crate::Scalar;
 use crate::exact::{fast_two_sum, two_product, two_sum};
 
-/// A number hi + lo with |lo| at most half a unit in the last place of hi: about 106 bits, 32 decimal digits.
+/// A number hi + lo with |lo| at most half a unit in the last place of hi: about 106 bits, 32
+/// decimal digits.
 ///
 /// ```
 /// use lagrangian_scalar::{DoubleDouble, Scalar};
@@ -90,7 +92,8 @@ impl DoubleDouble {
 
     /// e^x − 1, accurate for small x too.
     ///
-    /// With x = k ln 2 + r, |r| ≤ 0.35: e^x = 2^k e^r. The error is 28u²: 13u² from the series, 3u² from each doubling.
+    /// With x = k ln 2 + r, |r| ≤ 0.35: e^x = 2^k e^r. The error is 28u²: 13u² from the series, 3u²
+    /// from each doubling.
     fn exp_m1(self) -> Self {
         if self.hi.abs() > 800.0 {
             // Overflow; or underflow, to −1 exactly.
@@ -114,9 +117,9 @@ impl DoubleDouble {
 
     /// (k mod 4, x − kπ/2) with |x − kπ/2| ≤ π/4, up to rounding of k.
     ///
-    /// x and the products of k with the parts of π/2 are summed exactly, six times over (T. Ogita, S. M. Rump and S. Oishi,
-    /// *Accurate sum and dot product*, SIAM J. Sci. Comput. 26 (2005) 1955–1988, algorithm 4.8), so that the remainder is
-    /// accurate next to multiples of π/2.
+    /// x and the products of k with the parts of π/2 are summed exactly, six times over (T. Ogita,
+    /// S. M. Rump and S. Oishi, *Accurate sum and dot product*, SIAM J. Sci. Comput. 26 (2005)
+    /// 1955–1988, algorithm 4.8), so that the remainder is accurate next to multiples of π/2.
     fn quarter_turns(self) -> Option<(i64, Self)> {
         let k = libm::rint(self.hi / HALF_PI[0]);
         if k == 0.0 {
@@ -146,8 +149,8 @@ impl DoubleDouble {
     }
 }
 
-/// e^r − 1 for |r| ≤ 0.35: s = r/32, then e^s − 1 = s(1 + s/2(1 + s/3(…))), 13 terms being enough as s¹³/14! < 2⁻¹²⁰, and
-/// five times e^2s − 1 = 2(e^s − 1) + (e^s − 1)².
+/// e^r − 1 for |r| ≤ 0.35: s = r/32, then e^s − 1 = s(1 + s/2(1 + s/3(…))), 13 terms being enough
+/// as s¹³/14! < 2⁻¹²⁰, and five times e^2s − 1 = 2(e^s − 1) + (e^s − 1)².
 fn small_exp_m1(r: DoubleDouble) -> DoubleDouble {
     let s = r.scaled(-5);
     let mut factor = DoubleDouble::ONE;
@@ -291,7 +294,8 @@ impl Scalar for DoubleDouble {
     }
 
     /// From an approximation a, by turning the point back by a and taking the angle δ that is left:
-    /// tan δ = (y cos a − x sin a)/(x cos a + y sin a), and δ = tan δ to order δ³ ≈ 2⁻¹⁵⁰. Error 45u².
+    /// tan δ = (y cos a − x sin a)/(x cos a + y sin a), and δ = tan δ to order δ³ ≈ 2⁻¹⁵⁰. Error
+    /// 45u².
     fn atan2(self, x: Self) -> Self {
         let y = self;
         let a = libm::atan2(y.hi, x.hi);
@@ -360,8 +364,8 @@ impl Scalar for DoubleDouble {
         (small_exp_m1(self.without_ln_2(k)) + Self::ONE).scaled(k as i32)
     }
 
-    /// k ln 2 + ln m with x = 2^k m and √½ ≤ m ≤ √2, and ln m = 2 artanh z = 2z(1 + z²/3 + z⁴/5 + …),
-    /// z = (m − 1)/(m + 1), |z| ≤ 0.172. 21 terms, as z⁴²/43 < 2⁻¹¹². Error 35u².
+    /// k ln 2 + ln m with x = 2^k m and √½ ≤ m ≤ √2, and ln m = 2 artanh z = 2z(1 + z²/3 + z⁴/5 +
+    /// …), z = (m − 1)/(m + 1), |z| ≤ 0.172. 21 terms, as z⁴²/43 < 2⁻¹¹². Error 35u².
     fn ln(self) -> Self {
         if self.hi.is_nan() || self.hi <= 0.0 {
             return Self::UNDEFINED;

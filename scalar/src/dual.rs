@@ -1,15 +1,16 @@
 //! Numbers that carry a derivative.
 //!
-//! The sum x + x′ε with ε² = 0 obeys f(x + x′ε) = f(x) + f′(x) x′ ε: evaluating an expression in such numbers evaluates its
-//! derivative too, by the chain rule and without any differences. W. K. Clifford, *Preliminary sketch of biquaternions*,
-//! Proc. London Math. Soc. 4 (1873) 381–395; A. Griewank and A. Walther, *Evaluating Derivatives*, 2nd ed., SIAM 2008,
-//! chapter 3.
+//! The sum x + x′ε with ε² = 0 obeys f(x + x′ε) = f(x) + f′(x) x′ ε: evaluating an expression in
+//! such numbers evaluates its derivative too, by the chain rule and without any differences. W. K.
+//! Clifford, *Preliminary sketch of biquaternions*, Proc. London Math. Soc. 4 (1873) 381–395; A.
+//! Griewank and A. Walther, *Evaluating Derivatives*, 2nd ed., SIAM 2008, chapter 3.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
 
-/// A value and its derivative with respect to one variable. Nests: `Dual<Dual<f64>>` has second derivatives.
+/// A value and its derivative with respect to one variable. Nests: `Dual<Dual<f64>>` has second
+/// derivatives.
 ///
 /// ```
 /// use lagrangian_scalar::{Dual, Scalar};
@@ -206,8 +207,8 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(root, S::ONE / twice(root))
     }
 
-    /// (x^y)′ = y x^(y−1) x′ + x^y ln x y′; the second term only where the exponent varies, so that a negative base may have
-    /// an integer exponent.
+    /// (x^y)′ = y x^(y−1) x′ + x^y ln x y′; the second term only where the exponent varies, so that
+    /// a negative base may have an integer exponent.
     fn powf(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let power = x.powf(y);

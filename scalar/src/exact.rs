@@ -13,20 +13,24 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// [`two_sum`] for |a| ≥ |b|.
 ///
-/// T. J. Dekker, *A floating-point technique for extending the available precision*, Numer. Math. 18 (1971) 224–242.
+/// T. J. Dekker, *A floating-point technique for extending the available precision*, Numer. Math.
+/// 18 (1971) 224–242.
 #[inline]
 pub fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// (p, e) with p = fl(ab) and p + e = ab, provided that p is finite and |ab| ≥ 2⁻⁹⁶⁸ (below, bits of e underflow).
+/// (p, e) with p = fl(ab) and p + e = ab, provided that p is finite and |ab| ≥ 2⁻⁹⁶⁸ (below, bits
+/// of e underflow).
 ///
-/// Dekker's product: each factor is split into halves of 26 bits, whose products are exact. (`f64::mul_add` would do it in
-/// one operation, but is a slow call where the processor is not known to have it.)
+/// Dekker's product: each factor is split into halves of 26 bits, whose products are exact.
+/// (`f64::mul_add` would do it in one operation, but is a slow call where the processor is not
+/// known to have it.)
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
-    // Splitting multiplies by 2²⁷ + 1: move what would overflow out of the way. Powers of 2 are exact.
+    // Splitting multiplies by 2²⁷ + 1: move what would overflow out of the way. Powers of 2 are
+    // exact.
     const LARGE: f64 = 1e299;
     const DOWN: f64 = 1.0 / (1u64 << 32) as f64;
     const UP: f64 = (1u64 << 32) as f64;

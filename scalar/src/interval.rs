@@ -1,15 +1,17 @@
 //! Intervals that enclose the true value: every operation rounds outward.
 //!
-//! R. E. Moore, R. B. Kearfott and M. J. Cloud, *Introduction to Interval Analysis*, SIAM 2009. Sums, products, quotients
-//! and roots are widened by one floating-point number where they were rounded, and only there: whether they were is known
-//! exactly. Functions are widened by more than the error of `libm`.
+//! R. E. Moore, R. B. Kearfott and M. J. Cloud, *Introduction to Interval Analysis*, SIAM 2009.
+//! Sums, products, quotients and roots are widened by one floating-point number where they were
+//! rounded, and only there: whether they were is known exactly. Functions are widened by more than
+//! the error of `libm`.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Scalar;
 use crate::exact::{two_product, two_sum};
 
-/// All numbers from `lo` to `hi`, both finite; or nothing known at all, when [`is_finite`](Scalar::is_finite) is false.
+/// All numbers from `lo` to `hi`, both finite; or nothing known at all, when
+/// [`is_finite`](Scalar::is_finite) is false.
 ///
 /// ```
 /// use lagrangian_scalar::{Interval, Scalar};
@@ -24,14 +26,16 @@ pub struct Interval {
     hi: f64,
 }
 
-/// Widening of sin, cos, asin, acos, atan, exp and ln, in units in the last place. The sources of `libm` state errors below
-/// 1; a test measures them.
+/// Widening of sin, cos, asin, acos, atan, exp and ln, in units in the last place. The sources of
+/// `libm` state errors below 1; a test measures them.
 const SIMPLE: u32 = 2;
 
-/// Widening of the functions that are put together from others: tan, atan2, sinh, cosh, tanh and powers. Errors below 2.
+/// Widening of the functions that are put together from others: tan, atan2, sinh, cosh, tanh and
+/// powers. Errors below 2.
 const COMPOSED: u32 = 4;
 
-/// Below this magnitude the rounding error of a product or quotient may itself not be a floating-point number.
+/// Below this magnitude the rounding error of a product or quotient may itself not be a
+/// floating-point number.
 const SMALL: f64 = 1e-280;
 
 impl Interval {
@@ -41,7 +45,8 @@ impl Interval {
         hi: f64::INFINITY,
     };
 
-    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both are finite.
+    /// All numbers from `lo` to `hi`; [`UNKNOWN`](Self::UNKNOWN) unless `lo` ≤ `hi` and both are
+    /// finite.
     pub fn new(lo: f64, hi: f64) -> Self {
         if lo.is_finite() && hi.is_finite() && lo <= hi {
             Interval { lo, hi }
@@ -134,7 +139,8 @@ impl Interval {
         !turns.is_finite() || libm::floor(turns.hi) >= libm::ceil(turns.lo)
     }
 
-    /// A sine or cosine that has its maximum 1 at the phase `top` (in turns) and its minimum −1 half a turn later.
+    /// A sine or cosine that has its maximum 1 at the phase `top` (in turns) and its minimum −1
+    /// half a turn later.
     fn wave(self, function: fn(f64) -> f64, top: f64) -> Self {
         let mut result = self.monotone(function, SIMPLE);
         if !result.is_finite() {
@@ -172,7 +178,8 @@ fn product(a: f64, b: f64) -> Interval {
     }
 }
 
-/// a/b for b ≠ 0. The remainder a − qb is a floating-point number and tells on which side the rounded quotient q lies.
+/// a/b for b ≠ 0. The remainder a − qb is a floating-point number and tells on which side the
+/// rounded quotient q lies.
 fn quotient(a: f64, b: f64) -> Interval {
     let q = a / b;
     if a == 0.0 {
@@ -346,7 +353,8 @@ impl Scalar for Interval {
         if self.lo < 0.0 && self.hi >= 0.0 && x.lo <= 0.0 {
             return Interval::new(-pi, pi);
         }
-        // Elsewhere it is monotone along each side of the box. (Adding 0 makes a positive zero of a negative one.)
+        // Elsewhere it is monotone along each side of the box. (Adding 0 makes a positive zero of a
+        // negative one.)
         self.corners(x, |y, x| {
             Interval::around(libm::atan2(y + 0.0, x + 0.0), COMPOSED)
         })

@@ -1,65 +1,75 @@
-//! Numbers that prove identities: residues modulo the prime p = 2⁶¹ − 1, with an exact sine and cosine.
+//! Numbers that prove identities: residues modulo the prime p = 2⁶¹ − 1, with an exact sine and
+//! cosine.
 //!
-//! Give every symbol of two expressions a random value and evaluate both in a finite field. If the expressions are equal
-//! the results are equal, always: there is no rounding. If they differ, their difference is a polynomial of some degree d
-//! (after clearing denominators), and it vanishes at a random point with probability at most d/p (J. T. Schwartz, *Fast
-//! probabilistic algorithms for verification of polynomial identities*, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979).
-//! So agreement at a few points is a proof up to a chance that can be made as small as one likes. G. H. Gonnet,
-//! *Determining equivalence of expressions in random polynomial time*, STOC 1984, did so for expressions with functions.
+//! Give every symbol of two expressions a random value and evaluate both in a finite field. If the
+//! expressions are equal the results are equal, always: there is no rounding. If they differ, their
+//! difference is a polynomial of some degree d (after clearing denominators), and it vanishes at a
+//! random point with probability at most d/p (J. T. Schwartz, *Fast probabilistic algorithms for
+//! verification of polynomial identities*, J. ACM 27 (1980) 701–717; R. Zippel, EUROSAM 1979). So
+//! agreement at a few points is a proof up to a chance that can be made as small as one likes. G.
+//! H. Gonnet, *Determining equivalence of expressions in random polynomial time*, STOC 1984, did so
+//! for expressions with functions.
 //!
 //! # Sine and cosine
 //!
-//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must turn with the angle: the map
-//! x ↦ e^{ix} = cos x + i sin x takes sums to products. So a [`Residue`] carries two images of a number, under two ring
-//! homomorphisms that agree on nothing but the rationals:
+//! The angle x and the point (cos x, sin x) are algebraically independent, but the point must turn
+//! with the angle: the map x ↦ e^{ix} = cos x + i sin x takes sums to products. So a [`Residue`]
+//! carries two images of a number, under two ring homomorphisms that agree on nothing but the
+//! rationals:
 //!
 //! * its image in GF(p), or GF(p²) = GF(p)\[i\] where roots need it: this is what is compared;
 //! * its image among the 2-adic numbers, as 128 bits: this is what angles are made from.
 //!
-//! The points of the unit circle over GF(p) form a cyclic group of order p + 1 = 2⁶¹ under multiplication in GF(p²), with a
-//! generator g. For a 2-adic number x let
+//! The points of the unit circle over GF(p) form a cyclic group of order p + 1 = 2⁶¹ under
+//! multiplication in GF(p²), with a generator g. For a 2-adic number x let
 //!
 //! ```text
 //! e^{ix} := g^(2¹² x mod 2⁶¹)
 //! ```
 //!
-//! which is a homomorphism from the 2-adic numbers x with at most 12 halvings to the circle. Hence sin² + cos² = 1, all
-//! addition theorems, double angles, and half, third, … angles hold exactly, without any bookkeeping by the evaluator. A
-//! symbol takes 2⁴⁸ different angles (it is given an odd 2-adic image, so that division keeps all bits), so a wrong identity
-//! of degree d in the sines and cosines of a symbol passes with probability at most 2d/2⁴⁸.
+//! which is a homomorphism from the 2-adic numbers x with at most 12 halvings to the circle. Hence
+//! sin² + cos² = 1, all addition theorems, double angles, and half, third, … angles hold exactly,
+//! without any bookkeeping by the evaluator. A symbol takes 2⁴⁸ different angles (it is given an
+//! odd 2-adic image, so that division keeps all bits), so a wrong identity of degree d in the sines
+//! and cosines of a symbol passes with probability at most 2d/2⁴⁸.
 //!
 //! # π
 //!
-//! π is transcendental, and so is a random constant in both images. What is known of it, e^{iπ} = −1, is kept apart: each
-//! number carries the exact rational b of its part bπ while it has one (sums, and products with rationals), and
-//! e^{i(x + bπ)} = e^{ix} ζ(b) with ζ(b) a root of unity of the right order. Those of order 2^k lie on the circle; GF(p²)
-//! also has those of order 3, 9, 5, 25, 7, 11, 13, …, the divisors of p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π
-//! with g^(2¹²π) = −1 would be simpler, but would make sin(2πft) vanish for all symbols f and t, and e^{iπ/3} equal −1: it
-//! would accept wrong equations.
+//! π is transcendental, and so is a random constant in both images. What is known of it, e^{iπ} =
+//! −1, is kept apart: each number carries the exact rational b of its part bπ while it has one
+//! (sums, and products with rationals), and e^{i(x + bπ)} = e^{ix} ζ(b) with ζ(b) a root of unity
+//! of the right order. Those of order 2^k lie on the circle; GF(p²) also has those of order 3, 9,
+//! 5, 25, 7, 11, 13, …, the divisors of p − 1, so that cos(2π/3) = −1/2. A 2-adic image of π with
+//! g^(2¹²π) = −1 would be simpler, but would make sin(2πft) vanish for all symbols f and t, and
+//! e^{iπ/3} equal −1: it would accept wrong equations.
 //!
 //! # Roots and signs
 //!
-//! In half of all cases a ∈ GF(p) has a root; √a is then the root that is a square itself, so that √(ab) = √a√b. Otherwise
-//! the value is undefined ([`is_finite`](Scalar::is_finite) is false): "a is a square" plays the part of "a > 0", and the
-//! test takes another point. Accordingly sign(x) is the Legendre symbol, |x| = x sign(x) = √(x²), min and max are
-//! (a + b ∓ |a − b|)/2. Constants cannot be drawn again; for them signs are the true signs where the value is a known
-//! rational, √ of a rational is multiplicative over its prime factors and lies in GF(p²) if need be, and a constant without
-//! any root takes an opaque value.
+//! In half of all cases a ∈ GF(p) has a root; √a is then the root that is a square itself, so that
+//! √(ab) = √a√b. Otherwise the value is undefined ([`is_finite`](Scalar::is_finite) is false): "a
+//! is a square" plays the part of "a > 0", and the test takes another point. Accordingly sign(x) is
+//! the Legendre symbol, |x| = x sign(x) = √(x²), min and max are (a + b ∓ |a − b|)/2. Constants
+//! cannot be drawn again; for them signs are the true signs where the value is a known rational, √
+//! of a rational is multiplicative over its prime factors and lies in GF(p²) if need be, and a
+//! constant without any root takes an opaque value.
 //!
 //! # The other functions
 //!
-//! * asin, acos, atan, atan2: the 2-adic image is a logarithm on the circle, so sin(asin x) = x, tan(atan x) = x,
-//!   cos(atan2(y, x)) = x/√(x² + y²), and the functions agree with each other. Where the root in question does not exist
-//!   the angle is good for everything except sin and cos, which are then undefined (opaque, for constants).
-//! * exp is opaque: a hash of its argument's image in the field, with e^{−x} = 1/e^x. sinh, cosh, tanh come from it.
+//! * asin, acos, atan, atan2: the 2-adic image is a logarithm on the circle, so sin(asin x) = x,
+//!   tan(atan x) = x, cos(atan2(y, x)) = x/√(x² + y²), and the functions agree with each other.
+//!   Where the root in question does not exist the angle is good for everything except sin and cos,
+//!   which are then undefined (opaque, for constants).
+//! * exp is opaque: a hash of its argument's image in the field, with e^{−x} = 1/e^x. sinh, cosh,
+//!   tanh come from it.
 //! * ln is opaque; so is a power, unless the exponent is n/2.
 //!
 //! # What is not recognised
 //!
-//! An equation that passes is true, up to chance. A true one may fail where it needs more than the above: an angle that
-//! itself contains sines or roots in two forms (their 2-adic images are hashes of the field's image, so sin²x + cos²x = 1 is
-//! not known inside an angle); an angle with more than 12 halvings, which is opaque (0.1 taken from an `f64` has 55, taken
-//! as the ratio 1/10 has 1); a positive constant other than a power of 2 pulled out of a root or an absolute value, as in
+//! An equation that passes is true, up to chance. A true one may fail where it needs more than the
+//! above: an angle that itself contains sines or roots in two forms (their 2-adic images are hashes
+//! of the field's image, so sin²x + cos²x = 1 is not known inside an angle); an angle with more
+//! than 12 halvings, which is opaque (0.1 taken from an `f64` has 55, taken as the ratio 1/10 has
+//! 1); a positive constant other than a power of 2 pulled out of a root or an absolute value, as in
 //! √(9x) = 3√x; functional equations of exp, ln and powers.
 
 mod field;
@@ -79,22 +89,23 @@ const HALVINGS: i32 = 12;
 /// log₂ of the order of the circle group.
 const CIRCLE_BITS: u32 = 61;
 
-/// ((4 + i)/(4 − i))⁷: a point of order 2⁶¹, chosen among its odd powers such that g^(2⁵⁹) = i, the right angle, and
-/// g^(2⁵⁸) = (1 + i)/√2.
+/// ((4 + i)/(4 − i))⁷: a point of order 2⁶¹, chosen among its odd powers such that g^(2⁵⁹) = i, the
+/// right angle, and g^(2⁵⁸) = (1 + i)/√2.
 const GENERATOR: Field = Field {
     re: 508_119_004_661_630_789,
     im: 1_119_946_030_696_053_400,
 };
 
-/// An element of GF(p) of order (p − 1)/2 = 3²·5²·7·11·13·31·41·61·151·331·1321, 109², chosen such that the third root of
-/// unity made from it is (−1 + i√3)/2 and the fifth has the real part (√5 − 1)/4.
+/// An element of GF(p) of order (p − 1)/2 = 3²·5²·7·11·13·31·41·61·151·331·1321, 109², chosen such
+/// that the third root of unity made from it is (−1 + i√3)/2 and the fifth has the real part (√5 −
+/// 1)/4.
 const ODD_ROOT: Field = Field::real(11_881);
 
 /// The order of [`ODD_ROOT`].
 const ODD_ORDER: i64 = (P / 2) as i64;
 
-/// A number known by its images in GF(p²), p = 2⁶¹ − 1, and among the 2-adic numbers; see the [module](crate::residue) for what that
-/// is good for.
+/// A number known by its images in GF(p²), p = 2⁶¹ − 1, and among the 2-adic numbers; see the
+/// [module](crate::residue) for what that is good for.
 ///
 /// Two residues are equal if their images in the field are equal and both are defined.
 #[derive(Clone, Copy, Debug)]
@@ -112,8 +123,8 @@ pub struct Residue {
 }
 
 impl Residue {
-    /// The value of the symbol number `index` in the experiment number `seed`: the same for the same numbers, and otherwise
-    /// independent.
+    /// The value of the symbol number `index` in the experiment number `seed`: the same for the
+    /// same numbers, and otherwise independent.
     ///
     /// ```
     /// use lagrangian_scalar::{Residue, Scalar};
@@ -157,8 +168,9 @@ impl Residue {
         }
     }
 
-    /// A value of which nothing is known but its image in the field; its 2-adic image is made from that one, the images of
-    /// x and −x being opposite. 0, ±1/2 and ±1 are recognised: cos(π/2) is 0, not merely something equal to it.
+    /// A value of which nothing is known but its image in the field; its 2-adic image is made from
+    /// that one, the images of x and −x being opposite. 0, ±1/2 and ±1 are recognised: cos(π/2) is
+    /// 0, not merely something equal to it.
     fn opaque(field: Field, constant: bool) -> Self {
         for twice in -2..=2 {
             if field == Field::integer(twice).half()
@@ -218,7 +230,8 @@ impl Residue {
         Some((on_circle * root.0, on_circle.conjugate() * root.1))
     }
 
-    /// A power of the generator for an angle that is not known well enough: equal for equal values, opposite for opposite.
+    /// A power of the generator for an angle that is not known well enough: equal for equal values,
+    /// opposite for opposite.
     fn opaque_exponent(self) -> u64 {
         let (positive, negated) = self.field.canonical();
         let exponent = hash(Tag::Angle, &[positive.re, positive.im]) | 1;
@@ -229,8 +242,9 @@ impl Residue {
         }
     }
 
-    /// The angle of the direction (`cosine`, `sine`): 2-adic by the logarithm on the circle. `on_circle` says whether
-    /// cosine² + sine² = 1; if not, the two are only numbers that determine the angle.
+    /// The angle of the direction (`cosine`, `sine`): 2-adic by the logarithm on the circle.
+    /// `on_circle` says whether cosine² + sine² = 1; if not, the two are only numbers that
+    /// determine the angle.
     fn angle(cosine: Field, sine: Field, on_circle: bool, constant: bool) -> Self {
         let (sine, negated) = sine.canonical();
         let words = [cosine.re, cosine.im, sine.re, sine.im, on_circle as u64];
@@ -246,7 +260,8 @@ impl Residue {
                 let angle = Residue::pi_times(turn);
                 return if negated { -angle } else { angle };
             }
-            // Any 2-adic number with these 61 lowest bits will do; let the others be given by the direction too.
+            // Any 2-adic number with these 61 lowest bits will do; let the others be given by the
+            // direction too.
             let bits = (hash(Tag::Upper, &words) as u128) << CIRCLE_BITS | log as u128;
             angle.two_adic = TwoAdic::from_bits(bits, 0, 128).scaled(-HALVINGS);
         } else if !constant {
@@ -372,7 +387,8 @@ impl Scalar for Residue {
             return Residue::UNDEFINED;
         }
         let square = x.field * x.field + y.field * y.field;
-        // With √(−a) = i√a the same formula gives a direction that scales as it should, though not on the circle.
+        // With √(−a) = i√a the same formula gives a direction that scales as it should, though not
+        // on the circle.
         let scale = square.root().and_then(|root| {
             let on_circle = root.im == 0;
             Some((root.inverse()?, on_circle))
@@ -497,7 +513,8 @@ impl Scalar for Residue {
         self.defined && bound.defined && self.field != bound.field
     }
 
-    /// The rational number, where it is known; otherwise the residue, which says nothing but whether two are equal.
+    /// The rational number, where it is known; otherwise the residue, which says nothing but
+    /// whether two are equal.
     fn to_f64(self) -> f64 {
         match self.rational {
             _ if !self.defined => f64::NAN,
@@ -604,8 +621,9 @@ impl Div for Residue {
 
 /// ζ(b) = e^{iπb} and its inverse, if the field has roots of unity of that order.
 ///
-/// With b/2 = n/(2^k m), m odd, the root is a product of one of order 2^k, a power of the circle's generator, and one of
-/// order m, a power of [`ODD_ROOT`], by 1/(2^k m) ≡ u/2^k + w/m (mod 1), u = 1/m mod 2^k, w = 1/2^k mod m.
+/// With b/2 = n/(2^k m), m odd, the root is a product of one of order 2^k, a power of the circle's
+/// generator, and one of order m, a power of [`ODD_ROOT`], by 1/(2^k m) ≡ u/2^k + w/m (mod 1), u =
+/// 1/m mod 2^k, w = 1/2^k mod m.
 fn root_of_unity(b: Ratio) -> Option<(Field, Field)> {
     let k = b.denominator.trailing_zeros() + 1;
     let m = b.denominator >> (k - 1);
@@ -627,10 +645,11 @@ fn root_of_unity(b: Ratio) -> Option<(Field, Field)> {
     Some((on_circle * odd, on_circle.conjugate() * odd_inverse))
 }
 
-/// n of a point gⁿ of the circle, bit by bit from the lowest: gⁿ raised to the power 2⁶⁰ is −1 if n is odd, 1 if even.
+/// n of a point gⁿ of the circle, bit by bit from the lowest: gⁿ raised to the power 2⁶⁰ is −1 if n
+/// is odd, 1 if even.
 ///
-/// S. Pohlig and M. Hellman, *An improved algorithm for computing logarithms over GF(p)*, IEEE Trans. Inf. Theory 24 (1978)
-/// 106–110.
+/// S. Pohlig and M. Hellman, *An improved algorithm for computing logarithms over GF(p)*, IEEE
+/// Trans. Inf. Theory 24 (1978) 106–110.
 fn circle_logarithm(mut point: Field) -> u64 {
     let mut log = 0;
     // g^(−2^k)
@@ -668,7 +687,8 @@ fn root_of_rational(value: Ratio) -> Residue {
         / Residue::from_rational(Ratio::integer(value.denominator))
 }
 
-/// √n as a product over the prime factors of n, each prime's root by [`Field::root`]: so √12 = 2√3 and √21 = √3√7.
+/// √n as a product over the prime factors of n, each prime's root by [`Field::root`]: so √12 = 2√3
+/// and √21 = √3√7.
 ///
 /// Factors above 2¹¹ are not looked for, except that n may be a square.
 fn root_of_integer(mut n: u64) -> Residue {
@@ -733,7 +753,8 @@ fn wide(high: u64, low: u64) -> u128 {
 
 /// A hash of the words, each of them stirred in by a step of SplitMix64.
 ///
-/// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
+/// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA
+/// 2014.
 fn hash(tag: Tag, words: &[u64]) -> u64 {
     words
         .iter()

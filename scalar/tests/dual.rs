@@ -1,4 +1,5 @@
-//! Derivatives against differences in double-double, against closed forms, and exactly in the prime field.
+//! Derivatives against differences in double-double, against closed forms, and exactly in the prime
+//! field.
 
 mod common;
 
@@ -65,7 +66,8 @@ fn derivatives_equal_differences() {
             let result = dual(Dual::variable(x));
             assert_eq!(result.value, function(x), "{name}");
             let difference = (function(x + step) - function(x - step)) / (step + step);
-            // Truncation step² f‴/6 with |f‴| ≤ 10⁴ on these ranges, 1.5e-18; rounding 2⁻¹⁰⁰ |f|/step below 1e-18.
+            // Truncation step² f‴/6 with |f‴| ≤ 10⁴ on these ranges, 1.5e-18; rounding 2⁻¹⁰⁰
+            // |f|/step below 1e-18.
             let error = (result.derivative - difference).abs().to_f64();
             assert!(
                 error < 1e-17,

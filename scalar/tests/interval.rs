@@ -105,7 +105,8 @@ fn chains_of_operations_enclose_the_truth() {
     );
 }
 
-/// The errors that the widening relies on: below 1 unit in the last place, or 2 where functions are composed.
+/// The errors that the widening relies on: below 1 unit in the last place, or 2 where functions are
+/// composed.
 #[test]
 fn the_errors_of_libm_are_below_half_of_the_widening() {
     let check = |name: &str, limit: f64, result: f64, truth: DoubleDouble| {

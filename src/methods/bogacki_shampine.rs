@@ -4,8 +4,8 @@ use super::Tableau;
 
 /// Bogacki–Shampine 3(2), first same as last.
 ///
-/// P. Bogacki and L. F. Shampine, *A 3(2) pair of Runge–Kutta formulas*, Appl. Math. Lett. 2 (1989) 321–325. Dense
-/// output is the cubic through both ends.
+/// P. Bogacki and L. F. Shampine, *A 3(2) pair of Runge–Kutta formulas*, Appl. Math. Lett. 2 (1989)
+/// 321–325. Dense output is the cubic through both ends.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "bs32",
     title: "Bogacki–Shampine 3(2)",

@@ -4,9 +4,10 @@ use super::Tableau;
 
 /// Dormand–Prince 5(4), first same as last.
 ///
-/// J. R. Dormand and P. J. Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6 (1980) 19–26.
-/// Dense output of order 4: L. F. Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135–150, in the
-/// form of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.6.
+/// J. R. Dormand and P. J. Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl.
+/// Math. 6 (1980) 19–26. Dense output of order 4: L. F. Shampine, *Some practical Runge–Kutta
+/// formulas*, Math. Comp. 46 (1986) 135–150, in the form of E. Hairer, S. P. Nørsett, G. Wanner,
+/// *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.6.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "dopri5",
     title: "Dormand–Prince 5(4)",

@@ -6,9 +6,10 @@ use super::Tableau;
 
 /// Dormand–Prince 8(5,3) with dense output of order 7.
 ///
-/// The method DOP853 of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993,
-/// section II.10 (with section II.6 for dense output); coefficients as in the authors' program of that name. P. J. Prince
-/// and J. R. Dormand, *High order embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 7 (1981) 67–75.
+/// The method DOP853 of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
+/// Equations I*, 2nd ed., 1993, section II.10 (with section II.6 for dense output); coefficients as
+/// in the authors' program of that name. P. J. Prince and J. R. Dormand, *High order embedded
+/// Runge–Kutta formulae*, J. Comput. Appl. Math. 7 (1981) 67–75.
 pub(super) const TABLEAU: Tableau = Tableau {
     name: "dop853",
     title: "Dormand–Prince 8(5,3)",
@@ -293,8 +294,8 @@ pub(super) const TABLEAU: Tableau = Tableau {
     ],
 
     step_change: (0.333, 6.0),
-    // A third of the steps of a double pendulum is given up without it, one in twelve with it: 3 % more work for half of
-    // the error.
+    // A third of the steps of a double pendulum is given up without it, one in twelve with it: 3 %
+    // more work for half of the error.
     smoothing: 0.04,
     stability: Some(6.1),
 };

@@ -1,15 +1,16 @@
 //! A tableau made ready for machines.
 //!
-//! The state of a machine is `y = (q, v)` with `q' = v`, `v' = a(t, q, v)`. Put the stages of `q'` into those of `q`, and
-//! a Runge–Kutta method needs the accelerations `kⱼ` alone:
+//! The state of a machine is `y = (q, v)` with `q' = v`, `v' = a(t, q, v)`. Put the stages of `q'`
+//! into those of `q`, and a Runge–Kutta method needs the accelerations `kⱼ` alone:
 //!
 //! ```text
 //! vᵢ = v + h Σⱼ aᵢⱼ kⱼ
 //! qᵢ = q + cᵢ h v + h² Σⱼ āᵢⱼ kⱼ,   Ā = A A
 //! ```
 //!
-//! the same numbers up to roundoff, with half of the storage and one pass over the stages for both. E. Hairer,
-//! S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993, section II.14.
+//! the same numbers up to roundoff, with half of the storage and one pass over the stages for both.
+//! E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993,
+//! section II.14.
 
 use super::{MAX_STAGES, Tableau};
 
@@ -82,7 +83,8 @@ impl Row {
                 size += product.abs();
                 i += 1;
             }
-            // A sum of at most 16 rounded products: what is no larger than their roundoff stands for 0.
+            // A sum of at most 16 rounded products: what is no larger than their roundoff stands
+            // for 0.
             let position = if sum.abs() <= 16.0 * f64::EPSILON * size {
                 0.0
             } else {

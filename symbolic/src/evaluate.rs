@@ -82,8 +82,8 @@ pub fn evaluate<S: Scalar>(
         .collect()
 }
 
-/// The `f64` nearest to a constant, computed with twice its digits: `50*pi`, `1 - cos(0.01)`. Not a number where a symbol
-/// occurs or the constant has no value.
+/// The `f64` nearest to a constant, computed with twice its digits: `50*pi`, `1 - cos(0.01)`. Not a
+/// number where a symbol occurs or the constant has no value.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, nearest};

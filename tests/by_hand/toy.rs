@@ -8,7 +8,8 @@ pub type Motion<const N: usize> = fn(f64, &[f64; N], &[f64; N], f64, f64) -> [f6
 /// A function of `q`.
 pub type OfPlace<const N: usize> = fn(&[f64; N]) -> f64;
 
-/// A machine of `N` coordinates, given by its functions. Its one input is `u`; its one parameter `p`.
+/// A machine of `N` coordinates, given by its functions. Its one input is `u`; its one parameter
+/// `p`.
 #[derive(Clone, Copy, Debug)]
 pub struct Toy<const N: usize> {
     pub names: [&'static str; N],

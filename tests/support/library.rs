@@ -1,4 +1,5 @@
-//! The machines of `machines/`, and machines that tests write down themselves, as programs for the interpreter.
+//! The machines of `machines/`, and machines that tests write down themselves, as programs for the
+//! interpreter.
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_spec::compile::Compiled;
@@ -20,7 +21,8 @@ pub const MACHINES: [&str; 9] = [
     "vibrating_crusher",
 ];
 
-/// Does something with every machine, as compiled into `lagrangian-machines`: `$do!(CartPole, "cart_pole")`.
+/// Does something with every machine, as compiled into `lagrangian-machines`: `$do!(CartPole,
+/// "cart_pole")`.
 #[macro_export]
 macro_rules! for_each_machine {
     ($do:ident) => {

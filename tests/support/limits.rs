@@ -38,10 +38,11 @@ pub fn conserves<M: Machine>(
 
 /// By how much a run may change a quantity that the motion conserves.
 ///
-/// A step keeps the root mean square of `δyᵢ / (τ (1 + |yᵢ|))` over its 2n numbers below 1, so by Cauchy and Schwarz it
-/// changes `f` by at most `s τ` with `s = √(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`. The motion neither enlarges nor mends an error in
-/// what it conserves, so the steps add up at worst: `τ Σ s`. To this comes the rounding in the two values of `f` that are
-/// compared, as if each `yᵢ` were off by 16 units in the last place.
+/// A step keeps the root mean square of `δyᵢ / (τ (1 + |yᵢ|))` over its 2n numbers below 1, so by
+/// Cauchy and Schwarz it changes `f` by at most `s τ` with `s = √(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`. The
+/// motion neither enlarges nor mends an error in what it conserves, so the steps add up at worst:
+/// `τ Σ s`. To this comes the rounding in the two values of `f` that are compared, as if each `yᵢ`
+/// were off by 16 units in the last place.
 fn drift<M: Machine, L: InputLaw<M::System>>(
     run: &Solution<M, L>,
     tolerance: f64,
@@ -60,7 +61,8 @@ fn drift<M: Machine, L: InputLaw<M::System>>(
 /// `√(2n) ‖∂f/∂yᵢ (1 + |yᵢ|)‖₂`, by central differences.
 fn sensitivity(y: &[f64], f: impl Fn(&[f64]) -> f64) -> f64 {
     let squares = (0..y.len()).map(|i| {
-        // The error of the difference is of the order of its square and of ε over it: 1e-10 relative.
+        // The error of the difference is of the order of its square and of ε over it: 1e-10
+        // relative.
         let h = 1e-5 * (1.0 + y[i].abs());
         let at = |yi: f64| {
             let mut y = y.to_vec();
@@ -75,10 +77,11 @@ fn sensitivity(y: &[f64], f: impl Fn(&[f64]) -> f64) -> f64 {
 
 /// Holds a run against references, `view` choosing what of its state they show.
 ///
-/// With steps that follow the tolerance τ the error of a run goes as τ. So its distance from a run a hundred times coarser
-/// is the error of the coarse one but for 1 %, and a hundred times that of its own: the distance is the limit, and leaves a
-/// factor of a hundred to what is not so regular. `bound` is what the limit itself must not exceed, or the test would say
-/// nothing. Errors are relative to `scales + |reference|`.
+/// With steps that follow the tolerance τ the error of a run goes as τ. So its distance from a run
+/// a hundred times coarser is the error of the coarse one but for 1 %, and a hundred times that of
+/// its own: the distance is the limit, and leaves a factor of a hundred to what is not so regular.
+/// `bound` is what the limit itself must not exceed, or the test would say nothing. Errors are
+/// relative to `scales + |reference|`.
 pub fn follows<'a, M: Machine>(
     machine: &'a M,
     start: &State<Coordinates<M>>,

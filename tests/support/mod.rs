@@ -1,4 +1,5 @@
-//! What tests and benches of machines share: the library, references of many digits, random numbers, limits of error.
+//! What tests and benches of machines share: the library, references of many digits, random
+//! numbers, limits of error.
 #![allow(dead_code, reason = "each test and each bench uses some of it")]
 
 pub mod accuracy;

@@ -1,5 +1,5 @@
-//! Random numbers that are the same everywhere: splitmix64, by G. L. Steele, D. Lea and C. H. Flood, *Fast splittable
-//! pseudorandom number generators*, OOPSLA 2014.
+//! Random numbers that are the same everywhere: splitmix64, by G. L. Steele, D. Lea and C. H.
+//! Flood, *Fast splittable pseudorandom number generators*, OOPSLA 2014.
 
 /// A stream of random numbers; tests name its seed.
 pub struct SplitMix(u64);

@@ -1,4 +1,5 @@
-//! Tables of reference values: lines of a time and of decimal numbers with more digits than `f64` has.
+//! Tables of reference values: lines of a time and of decimal numbers with more digits than `f64`
+//! has.
 
 use lagrangian_scalar::DoubleDouble;
 use lagrangian_symbolic::Rational;

@@ -10,8 +10,8 @@ use super::states::{accelerations, vector};
 /// The seed of all states.
 const SEED: u64 = 20_260_001;
 
-/// States of a machine around its start, where all that it assumes holds: angles all the way round, lengths by half of
-/// themselves and 2 cm, rates of 5 rad/s and 0.5 m/s, times in [0, 10).
+/// States of a machine around its start, where all that it assumes holds: angles all the way round,
+/// lengths by half of themselves and 2 cm, rates of 5 rad/s and 0.5 m/s, times in [0, 10).
 pub struct Random<M: Machine> {
     pub system: M::System,
     start: Vec<f64>,
@@ -72,8 +72,8 @@ impl<M: Machine> Random<M> {
     }
 }
 
-/// Holds the accelerations of a machine at random states against 30 digits: they are as exact as rounding of `M` and `f`
-/// and the condition of `M` allow. `change` makes the states more special.
+/// Holds the accelerations of a machine at random states against 30 digits: they are as exact as
+/// rounding of `M` and `f` and the condition of `M` allow. `change` makes the states more special.
 pub fn accurate<M: Machine>(
     machine: &M,
     program: &Program,
@@ -103,7 +103,8 @@ pub fn accurate<M: Machine>(
             "{}: error {error:e}, limit {limit:e}, κ {condition:e}",
             place()
         );
-        // The limit is c κ ε with c from the operations: of the order of their number, a thousand or so.
+        // The limit is c κ ε with c from the operations: of the order of their number, a thousand
+        // or so.
         let usual = 1e4 * condition * f64::EPSILON * accuracy.size;
         assert!(
             limit <= usual,

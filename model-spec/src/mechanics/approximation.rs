@@ -1,8 +1,9 @@
 //! Coordinates that are not treated exactly, because a paper or a linear theory does not.
 //!
-//! Approximations act on energies, before Lagrange's equations are formed: what is derived from an energy conserves it,
-//! while equations cut short one by one need not. Forces, torques and outputs stay exact, and so do positions. Where both
-//! kinds occur, velocities are frozen first; then energies, built from them, are cut to second order.
+//! Approximations act on energies, before Lagrange's equations are formed: what is derived from an
+//! energy conserves it, while equations cut short one by one need not. Forces, torques and outputs
+//! stay exact, and so do positions. Where both kinds occur, velocities are frozen first; then
+//! energies, built from them, are cut to second order.
 
 use lagrangian_symbolic::{Dag, Expr, Function, Id, Node, Symbol, Tangent, reachable, substitute};
 
@@ -40,7 +41,8 @@ impl<'d> Approximations<'d> {
         self.frozen.is_empty() && self.small.is_empty()
     }
 
-    /// Frozen coordinates, eq. (E16): in velocities `sin θ → 0` and `cos θ → 1`, after differentiating.
+    /// Frozen coordinates, eq. (E16): in velocities `sin θ → 0` and `cos θ → 1`, after
+    /// differentiating.
     ///
     /// In angles like `θ + φ` that is `θ → 0`, as the addition theorems say. Elsewhere `θ` stays.
     pub fn motion(&self, motion: &Motion<'d>) -> Motion<'d> {
@@ -57,7 +59,8 @@ impl<'d> Approximations<'d> {
     /// Small coordinates, eq. (E17): energies to second order in coordinates and rates together,
     /// `f(εθ, εθ̇) = f₀ + ε f₁ + ½ ε² f₂ + …` at `ε = 1`.
     ///
-    /// Undefined where an energy has no such expansion: a distance that vanishes at `θ = 0` has a kink there.
+    /// Undefined where an energy has no such expansion: a distance that vanishes at `θ = 0` has a
+    /// kink there.
     pub fn energies(&self, energies: &[Expr<'d>]) -> Vec<Expr<'d>> {
         if self.small.is_empty() {
             return energies.to_vec();

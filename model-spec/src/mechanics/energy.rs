@@ -5,7 +5,8 @@ use lagrangian_symbolic::{Expr, Tangent};
 use super::kinematics::{Motion, apply_tensor, vector};
 use crate::model::{Body, Inertia, Model};
 
-/// Kinetic energy of one body, eq. (E1): `T = ½ m ẋ·ẋ + ½ ωᵀI ω`, where `m` and `I` are constant along the motion.
+/// Kinetic energy of one body, eq. (E1): `T = ½ m ẋ·ẋ + ½ ωᵀI ω`, where `m` and `I` are constant
+/// along the motion.
 pub(super) fn kinetic_energy<'d>(body: &Body<'d>, motion: &Motion<'d>) -> Expr<'d> {
     kinetic_form(body, motion, motion) / 2
 }
@@ -30,8 +31,8 @@ fn dot<'d>(u: &[Expr<'d>], w: &[Expr<'d>], body: &Body<'d>) -> Expr<'d> {
         .sum(u.iter().zip(w).map(|(&u_k, &w_k)| u_k * w_k))
 }
 
-/// Potential energy, eq. (E2): `V = Σ ½ c s² + Σ U − Σ m g·x`, over springs of stretch (or twist) `s`, given potentials,
-/// and bodies under gravity.
+/// Potential energy, eq. (E2): `V = Σ ½ c s² + Σ U − Σ m g·x`, over springs of stretch (or twist)
+/// `s`, given potentials, and bodies under gravity.
 pub(super) fn potential_energy<'d>(model: &Model<'d>) -> Expr<'d> {
     let springs = model
         .springs
@@ -45,7 +46,8 @@ pub(super) fn potential_energy<'d>(model: &Model<'d>) -> Expr<'d> {
     model.dag.sum(springs.chain(potentials).chain(gravity))
 }
 
-/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over dampers and given functions.
+/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over dampers and given
+/// functions.
 ///
 /// `rate` is the total derivative.
 pub(super) fn dissipation<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {

@@ -1,9 +1,11 @@
-//! What is equal, and what equations do not depend on although it stands in them: by experiment in a prime field.
+//! What is equal, and what equations do not depend on although it stands in them: by experiment in
+//! a prime field.
 //!
-//! Sines and cosines cancel in ways that no local rule sees: how far a top has spun about its own axis is in the position of
-//! every particle of it and in none of its equations. So it is not looked for but tried: two expressions are evaluated at
-//! points of a prime field, where nothing is rounded. Different values prove a difference; equal values at a random point
-//! leave a chance of about the degree of the expressions over 2⁴⁸ that they differ after all (J. T. Schwartz, *Fast
+//! Sines and cosines cancel in ways that no local rule sees: how far a top has spun about its own
+//! axis is in the position of every particle of it and in none of its equations. So it is not
+//! looked for but tried: two expressions are evaluated at points of a prime field, where nothing is
+//! rounded. Different values prove a difference; equal values at a random point leave a chance of
+//! about the degree of the expressions over 2⁴⁸ that they differ after all (J. T. Schwartz, *Fast
 //! probabilistic algorithms for verification of polynomial identities*, J. ACM 27 (1980) 701–717).
 //!
 //! Points are fixed, so the same machine gives the same equations.
@@ -20,16 +22,19 @@ use crate::model::stage;
 /// Experiments that have to agree.
 const EXPERIMENTS: usize = 3;
 
-/// The same where signs stand in an expression: a sign has two values, so that each experiment leaves a chance of ½.
+/// The same where signs stand in an expression: a sign has two values, so that each experiment
+/// leaves a chance of ½.
 const EXPERIMENTS_WITH_SIGNS: usize = 64;
 
 /// Experiments that are tried for each one that counts: a square root exists at every second point.
 const TRIALS: usize = 16;
 
-/// Evaluations of nodes that experiments on one machine may take: some seconds. What is left open then stays as it is.
+/// Evaluations of nodes that experiments on one machine may take: some seconds. What is left open
+/// then stays as it is.
 const WORK: usize = 10_000_000;
 
-/// Whether the two are equal, as far as the prime field can tell; `None` where neither has a value at any point.
+/// Whether the two are equal, as far as the prime field can tell; `None` where neither has a value
+/// at any point.
 pub(crate) fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     let dag = a.dag();
     let needed = experiments(dag, &[a, b]);
@@ -69,7 +74,8 @@ pub(super) fn cyclic<'d>(
     expressions: &[Expr<'d>],
     candidates: &[Symbol],
 ) -> Vec<Symbol> {
-    // The slopes of a random combination of the expressions, all in one sweep, leave few to be tried one by one.
+    // The slopes of a random combination of the expressions, all in one sweep, leave few to be
+    // tried one by one.
     let combined: Vec<_> = (1..)
         .map(|n: i64| dag.int(n * n + 7 * n + 1))
         .zip(expressions)
@@ -114,7 +120,8 @@ pub(super) fn cyclic<'d>(
     Vec::new()
 }
 
-/// The expressions with 0 put in for symbols on which they do not depend; as they were if that has no value.
+/// The expressions with 0 put in for symbols on which they do not depend; as they were if that has
+/// no value.
 pub(super) fn without<'d>(
     dag: &'d Dag,
     expressions: Vec<Expr<'d>>,
@@ -126,8 +133,8 @@ pub(super) fn without<'d>(
     if has_value { shorter } else { expressions }
 }
 
-/// Rewrites every expression that depends on nothing but parameters such that nothing else stands in it; what is zero
-/// becomes the constant 0.
+/// Rewrites every expression that depends on nothing but parameters such that nothing else stands
+/// in it; what is zero becomes the constant 0.
 pub(super) fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     let constants = constants(dag, expressions);
     for (expression, constant) in expressions.iter_mut().zip(constants) {
@@ -143,7 +150,8 @@ pub(super) fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     }
 }
 
-/// For each expression that depends on nothing but parameters its value at a point; the point is the same for all.
+/// For each expression that depends on nothing but parameters its value at a point; the point is
+/// the same for all.
 fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
     // One more: the first has nothing to agree with.
     let needed = experiments(dag, expressions) + 1;
@@ -176,8 +184,8 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
     trials.into_iter().map(constant).collect()
 }
 
-/// Which expressions surely depend on more than parameters: ordinary numbers say so where the difference is large, at a
-/// hundredth of the price.
+/// Which expressions surely depend on more than parameters: ordinary numbers say so where the
+/// difference is large, at a hundredth of the price.
 fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     /// Far above any rounding.
     const CLEAR: f64 = 1e-6;
@@ -191,8 +199,9 @@ fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     at(1).into_iter().zip(at(2)).map(differ).collect()
 }
 
-/// A number between ½ and 1½ for a symbol: fractions of multiples of √2, √3, …, which are spread evenly (H. Weyl, *Über die
-/// Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916) 313–352).
+/// A number between ½ and 1½ for a symbol: fractions of multiples of √2, √3, …, which are spread
+/// evenly (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916)
+/// 313–352).
 pub(crate) fn number(point: u32, symbol: Symbol) -> f64 {
     let root = (symbol.index() as f64 + 2.0).sqrt() * std::f64::consts::E;
     0.5 + (f64::from(point + 1) * root).fract()

@@ -42,8 +42,8 @@ impl<'d> Variables<'d> {
 
     /// The total time derivative of a motion that does not accelerate: (E8) with `a = 0`.
     ///
-    /// For whatever depends on `q` and `t` only it *is* the total derivative; applied twice it gives all of an
-    /// acceleration but the terms linear in `a`.
+    /// For whatever depends on `q` and `t` only it *is* the total derivative; applied twice it
+    /// gives all of an acceleration but the terms linear in `a`.
     pub fn coasting(&self, model: &Model<'d>) -> Tangent<'d> {
         Tangent::new(model.dag, &self.kinematic(model).collect::<Vec<_>>())
     }
@@ -91,16 +91,17 @@ impl<'d> Variables<'d> {
 
 /// How one body moves: the velocity of its mass centre and its angular velocity.
 ///
-/// Which axes they refer to is for the caller to say. The angular velocity has no component where rotation carries no
-/// energy, one in the plane, three in space.
+/// Which axes they refer to is for the caller to say. The angular velocity has no component where
+/// rotation carries no energy, one in the plane, three in space.
 #[derive(Clone, Debug)]
 pub(super) struct Motion<'d> {
     pub linear: Vec<Expr<'d>>,
     pub angular: Vec<Expr<'d>>,
 }
 
-/// How every body moves when coordinates and time change at the given `rate`, straight from positions and axes: the mass
-/// centre along the ground's axes, the angular velocity by (E9) about the body's own.
+/// How every body moves when coordinates and time change at the given `rate`, straight from
+/// positions and axes: the mass centre along the ground's axes, the angular velocity by (E9) about
+/// the body's own.
 pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Vec<Motion<'d>> {
     let motion = |body: &Body<'d>| {
         let linear = body.at.iter().map(|&x| rate.of(x)).collect();
@@ -129,7 +130,8 @@ pub(super) fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Exp
     }
 }
 
-/// Angular velocity of a frame about its own axes, eq. (E9): `ω₁ = e₃·ė₂`, `ω₂ = e₁·ė₃`, `ω₃ = e₂·ė₁`.
+/// Angular velocity of a frame about its own axes, eq. (E9): `ω₁ = e₃·ė₂`, `ω₂ = e₁·ė₃`, `ω₃ =
+/// e₂·ė₁`.
 ///
 /// These are the entries below the diagonal, cyclically, of `AᵀȦ`, which is skew since `AᵀA = 1`.
 pub(super) fn angular_velocity_of_axes<'d>(
@@ -191,7 +193,8 @@ pub(super) struct Chains {
 }
 
 impl Chains {
-    /// The chains that lead from the ground to the frames that turn, and to those whose origins move.
+    /// The chains that lead from the ground to the frames that turn, and to those whose origins
+    /// move.
     pub fn to<'d>(
         model: &Model<'d>,
         turning: impl Iterator<Item = PoseId>,
@@ -220,7 +223,8 @@ impl Chains {
         }
     }
 
-    /// Velocities of frames along their own axes, eq. (E10), when coordinates and time change at the given `rate`.
+    /// Velocities of frames along their own axes, eq. (E10), when coordinates and time change at
+    /// the given `rate`.
     ///
     /// From parent to child, with `r` the shift and `e`, `φ` the axis and angle of the turn:
     ///
@@ -259,14 +263,16 @@ impl Chains {
         twists
     }
 
-    /// Accelerations of frames along their own axes, eq. (E11), given their velocities at the same `rate`.
+    /// Accelerations of frames along their own axes, eq. (E11), given their velocities at the same
+    /// `rate`.
     ///
     /// ```text
     /// shift:  α' = α                        a' = a + α×r + ω×(ω×r + 2 ṙ) + r̈
     /// turn:   α' = Rᵀα + e φ̈ + φ̇ ω'×e       a' = Rᵀa
     /// ```
     ///
-    /// `ground` is the acceleration of the ground: zero, or `−g`, which has the same effect on every body as gravity.
+    /// `ground` is the acceleration of the ground: zero, or `−g`, which has the same effect on
+    /// every body as gravity.
     pub fn accelerations<'d>(
         &self,
         model: &Model<'d>,
@@ -322,8 +328,9 @@ impl Chains {
     }
 }
 
-/// A vector of the ground along the axes of one frame: `Rᵀ` for each turn on the way there; or, far from the ground, its
-/// products with the axes, so that a vector on every link of a long chain does not make as many walks along it.
+/// A vector of the ground along the axes of one frame: `Rᵀ` for each turn on the way there; or, far
+/// from the ground, its products with the axes, so that a vector on every link of a long chain does
+/// not make as many walks along it.
 pub(super) fn along_axes<'d>(model: &Model<'d>, pose: PoseId, ground: &[Expr<'d>]) -> Vector<'d> {
     const FAR: usize = 64;
     let mut turns = Vec::new();

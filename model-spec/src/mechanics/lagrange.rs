@@ -4,9 +4,9 @@
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ
 //! ```
 //!
-//! What is derived here is the measure of everything else: [`Oracle`] takes no short cut, and no code is emitted from it
-//! unless an approximation asks for these very equations ([`super::approximation`]). Explicit time is never dropped: the
-//! `d/dt` is that of eq. (E8).
+//! What is derived here is the measure of everything else: [`Oracle`] takes no short cut, and no
+//! code is emitted from it unless an approximation asks for these very equations
+//! ([`super::approximation`]). Explicit time is never dropped: the `d/dt` is that of eq. (E8).
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
@@ -78,8 +78,8 @@ fn mass_matrix<'d>(momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
     Symmetric::from_lower(v.len(), |i, j| momenta[i].diff(v[j]))
 }
 
-/// Applied generalized forces, eq. (E6): `Qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ`, where `F` is the virtual work of forces and torques:
-/// `Fᵢ = Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ`.
+/// Applied generalized forces, eq. (E6): `Qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ`, where `F` is the virtual
+/// work of forces and torques: `Fᵢ = Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ`.
 fn applied<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,
@@ -122,9 +122,9 @@ fn applied<'d>(
     (0..x.q.len()).map(force).collect()
 }
 
-/// `M`, `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as there are: `p = ∂T/∂v` and `∂T/∂q` are one
-/// reverse sweep each, `M` one for each of its rows, and `h = ṗ − ∂T/∂q` at `a = 0` one forward sweep. Nothing if they become
-/// too large.
+/// `M`, `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as there are: `p = ∂T/∂v`
+/// and `∂T/∂q` are one reverse sweep each, `M` one for each of its rows, and `h = ṗ − ∂T/∂q` at `a
+/// = 0` one forward sweep. Nothing if they become too large.
 pub(super) fn inertia<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,

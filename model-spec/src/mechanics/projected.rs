@@ -1,4 +1,5 @@
-//! The cheap route to the same equations: accelerations projected on the directions in which coordinates move.
+//! The cheap route to the same equations: accelerations projected on the directions in which
+//! coordinates move.
 //!
 //! A body's inertia resists along `∂x/∂qᵢ`, and so
 //!
@@ -6,21 +7,25 @@
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ m ẍ·∂x/∂qᵢ + Σ (I α + ω×I ω)·∂ω/∂vᵢ
 //! ```
 //!
-//! Why: let `u = Dp` be the rate of a scalar position `p(q, t)` of constant weight `w`, `T = ½ Σ w u²`. Then
-//! `∂u/∂vᵢ = ∂p/∂qᵢ` (cancelling the dots) and `d/dt ∂p/∂qᵢ = ∂u/∂qᵢ` (exchanging derivatives), hence
+//! Why: let `u = Dp` be the rate of a scalar position `p(q, t)` of constant weight `w`, `T = ½ Σ w
+//! u²`. Then `∂u/∂vᵢ = ∂p/∂qᵢ` (cancelling the dots) and `d/dt ∂p/∂qᵢ = ∂u/∂qᵢ` (exchanging
+//! derivatives), hence
 //!
 //! ```text
 //! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ w [D(u ∂p/∂qᵢ) − u ∂u/∂qᵢ] = Σ w (Du) ∂p/∂qᵢ
 //! ```
 //!
-//! It needs `w` constant. For a rigid body in space, cut into particles fixed in it, the same sum over particles is
-//! `m ẍ·∂x/∂qᵢ` for the mass centre and `(I α + ω×I ω)·∂ω/∂vᵢ` for the rest, along any axes: Kane's equations.
-//! T. R. Kane and D. A. Levinson, *Dynamics: Theory and Applications*, 1985, ch. 4 and 6.
+//! It needs `w` constant. For a rigid body in space, cut into particles fixed in it, the same sum
+//! over particles is `m ẍ·∂x/∂qᵢ` for the mass centre and `(I α + ω×I ω)·∂ω/∂vᵢ` for the rest,
+//! along any axes: Kane's equations. T. R. Kane and D. A. Levinson, *Dynamics: Theory and
+//! Applications*, 1985, ch. 4 and 6.
 //!
-//! What makes it cheap is that a sum `Σ load·∂p/∂qᵢ` for *all* `i` is one reverse sweep over the graph of the positions.
-//! Where links hang on links the graph is a chain, and forward and reverse sweep together are the recursive Newton–Euler
-//! algorithm: linear in the number of links. Frames in space carry their velocities along their own axes (E10), where a
-//! turn is four multiplications; there the reverse sweep runs over `u(v)` instead of `p(q)`, since `∂u/∂vᵢ` is the same.
+//! What makes it cheap is that a sum `Σ load·∂p/∂qᵢ` for *all* `i` is one reverse sweep over the
+//! graph of the positions. Where links hang on links the graph is a chain, and forward and reverse
+//! sweep together are the recursive Newton–Euler algorithm: linear in the number of links. Frames
+//! in space carry their velocities along their own axes (E10), where a turn is four
+//! multiplications; there the reverse sweep runs over `u(v)` instead of `p(q)`, since `∂u/∂vᵢ` is
+//! the same.
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
 
@@ -44,7 +49,8 @@ pub(super) struct Projection<'a, 'd> {
 struct Carrier<'d> {
     /// Scalar positions with their weights: `T = ½ Σ w (Dp)²`.
     points: Vec<Weighted<'d>>,
-    /// Mass, and the mass centre along the axes of a frame in space; such a centre is not among the points.
+    /// Mass, and the mass centre along the axes of a frame in space; such a centre is not among the
+    /// points.
     centre: Option<(Expr<'d>, PoseId, Vector<'d>)>,
     /// Inertia about the axes of a frame in space.
     tensor: Option<([Expr<'d>; 6], PoseId)>,
@@ -100,8 +106,8 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Mass matrix, eq. (E12): `Mᵢⱼ = Σ w ∂p/∂qᵢ ∂p/∂qⱼ`, which is (E4).
     ///
-    /// Column `j` is the momentum of a machine that moves with `vⱼ = 1`, projected: one reverse sweep. Nothing if they become
-    /// too large.
+    /// Column `j` is the momentum of a machine that moves with `vⱼ = 1`, projected: one reverse
+    /// sweep. Nothing if they become too large.
     pub fn mass_matrix(&self) -> Option<Symmetric<Expr<'d>>> {
         let actual = self.velocities(&mut self.x.coasting(self.model));
         let n = self.x.q.len();
@@ -141,8 +147,8 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds what is applied, gravity apart, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
     ///
-    /// Springs pull with `−k s` along their stretch, dampers with `−b ṡ`; forces and torques act where they act. A
-    /// coefficient that depends on coordinates or rates gives its own term.
+    /// Springs pull with `−k s` along their stretch, dampers with `−b ṡ`; forces and torques act
+    /// where they act. A coefficient that depends on coordinates or rates gives its own term.
     pub fn add_applied(&self, loads: &mut Loads<'d>) {
         let (model, rate) = (self.model, &mut self.x.coasting(self.model));
         for spring in &model.springs {
@@ -261,8 +267,8 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Inertia, and these loads, on velocities.
     ///
-    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. Velocities along axes that turn need the loads
-    /// `−m ω×u` and `−ω×I ω` on top of `−m u̇` and `−I ω̇`.
+    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. Velocities along axes that
+    /// turn need the loads `−m ω×u` and `−ω×I ω` on top of `−m u̇` and `−I ω̇`.
     pub fn unprojected(&self, loads: &Loads<'d>) -> super::Unprojected<'d> {
         let rate = &mut self.x.coasting(self.model);
         let velocities = self.velocities(rate);
@@ -310,7 +316,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// The angular velocity of the frame along whose axes a body's velocities are, where it has one.
+    /// The angular velocity of the frame along whose axes a body's velocities are, where it has
+    /// one.
     fn angular_velocity(&self, body: &Carrier<'d>, rate: &mut Tangent<'d>) -> Option<Vector<'d>> {
         let pose = body
             .centre
@@ -361,8 +368,9 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Power of whatever moves the machine by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the inertia of what is driven
-    /// times the velocity at which it is driven. Accelerations occur in it.
+    /// Power of whatever moves the machine by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the
+    /// inertia of what is driven times the velocity at which it is driven. Accelerations occur in
+    /// it.
     pub fn drive_power(&self) -> Expr<'d> {
         let driven = self.velocities(&mut self.x.explicit(self.model));
         if driven.iter().all(Carried::is_at_rest) {
@@ -399,8 +407,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         self.bodies.iter().map(velocity).collect()
     }
 
-    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with accelerations; with `gravity`
-    /// the ground accelerates by `−g`.
+    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with
+    /// accelerations; with `gravity` the ground accelerates by `−g`.
     fn inertia(&self, rate: &mut Tangent<'d>, gravity: bool) -> Vec<Carried<'d>> {
         let model = self.model;
         let gravity = model.gravity.as_ref().filter(|_| gravity);
@@ -521,7 +529,8 @@ impl<'d> Loads<'d> {
     }
 }
 
-/// In the plane everything is a scalar position; in space what moves with frames is described along their axes.
+/// In the plane everything is a scalar position; in space what moves with frames is described along
+/// their axes.
 fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
     let centre = match model.space {
         Space::Plane => None,

@@ -8,8 +8,9 @@ use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::model::Model;
 use crate::syntax::SectionKind;
 
-/// Refuses what is understood but not derived yet: one message for each section. True if anything is refused. Circles are
-/// geometry: on their own they add nothing to the equations, and reports draw them.
+/// Refuses what is understood but not derived yet: one message for each section. True if anything
+/// is refused. Circles are geometry: on their own they add nothing to the equations, and reports
+/// draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
     let sections = [
         (SectionKind::Constraints, model.constraints.is_empty()),
@@ -33,14 +34,16 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
     refused
 }
 
-/// The most coordinates of a machine: with 256 the mass matrix has 32 896 different entries, and eliminating it takes three
-/// million operations.
+/// The most coordinates of a machine: with 256 the mass matrix has 32 896 different entries, and
+/// eliminating it takes three million operations.
 pub const MOST_COORDINATES: usize = 256;
 
-/// The most nodes that the expressions of a machine may have; 256 links in relative angles take half a million.
+/// The most nodes that the expressions of a machine may have; 256 links in relative angles take
+/// half a million.
 const MOST_NODES: usize = 1_500_000;
 
-/// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True if refused.
+/// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
+/// if refused.
 pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) -> bool {
     let Some(coordinate) = model.coordinates.get(MOST_COORDINATES) else {
         return false;
@@ -96,7 +99,8 @@ pub(super) fn refuse_undefined(
     true
 }
 
-/// Refuses coordinates that move no inertia: their rows of `M` are zero, and they have no acceleration. True if refused.
+/// Refuses coordinates that move no inertia: their rows of `M` are zero, and they have no
+/// acceleration. True if refused.
 pub(super) fn refuse_massless(
     model: &Model<'_>,
     mass_matrix: &Symmetric<Expr<'_>>,

@@ -1,9 +1,11 @@
-//! The accelerations without a mass matrix: eliminated where the inertia is, from the tips of the machine to the ground.
+//! The accelerations without a mass matrix: eliminated where the inertia is, from the tips of the
+//! machine to the ground.
 //!
-//! Inertia sits on velocities `u` of bodies, `T = ½ Σ w u²`, and the velocity of a body is built from that of what it hangs
-//! on: `u = u' + l cos φ·φ̇`. Written for all accelerations at once the equations of motion are sparse, and this elimination
-//! keeps them so. By Gauss's principle the accelerations make `½ Σ G_xy ẋ ẏ − Σ g_x ẋ` least. This form is held over a
-//! *front* of velocities, at first those that carry inertia or loads. Until the front is empty:
+//! Inertia sits on velocities `u` of bodies, `T = ½ Σ w u²`, and the velocity of a body is built
+//! from that of what it hangs on: `u = u' + l cos φ·φ̇`. Written for all accelerations at once the
+//! equations of motion are sparse, and this elimination keeps them so. By Gauss's principle the
+//! accelerations make `½ Σ G_xy ẋ ẏ − Σ g_x ẋ` least. This form is held over a *front* of
+//! velocities, at first those that carry inertia or loads. Until the front is empty:
 //!
 //! ```text
 //! a velocity v of a coordinate on which nothing else in the front depends is eliminated:
@@ -13,11 +15,12 @@
 //!     g_k += cₖ (g_u − G_uu β)     g_x −= G_ux β
 //! ```
 //!
-//! The accelerations follow in reverse order. On a chain of links this is the articulated-body algorithm, linear in the
-//! number of links (R. Featherstone, *The calculation of robot dynamics using articulated-body inertias*, Int. J. Robotics
-//! Res. 2 (1983) 13–30); a machine of free bodies falls apart, since the inertia that a body in polar coordinates leaves
-//! behind is `m − m cos² − m sin² = 0` to the algebra. Every `G` is positive semidefinite and every elimination symmetric,
-//! so rounding errors stay as small as in Cholesky's method.
+//! The accelerations follow in reverse order. On a chain of links this is the articulated-body
+//! algorithm, linear in the number of links (R. Featherstone, *The calculation of robot dynamics
+//! using articulated-body inertias*, Int. J. Robotics Res. 2 (1983) 13–30); a machine of free
+//! bodies falls apart, since the inertia that a body in polar coordinates leaves behind is `m − m
+//! cos² − m sin² = 0` to the algebra. Every `G` is positive semidefinite and every elimination
+//! symmetric, so rounding errors stay as small as in Cholesky's method.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,10 +32,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::mechanics::Unprojected;
 use crate::model::Model;
 
-/// The most terms that may go into the form. Where it takes more, the mass matrix is the better way.
+/// The most terms that may go into the form. Where it takes more, the mass matrix is the better
+/// way.
 const BUDGET: usize = 40_000;
 
-/// Accelerations in the order of the coordinates, and pivots in the order of elimination, with their coordinates.
+/// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
+/// their coordinates.
 pub(super) struct Solution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
@@ -249,7 +254,8 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// Takes a velocity out of the front: its own entry of G, the others of its row, and the terms of its load.
+    /// Takes a velocity out of the front: its own entry of G, the others of its row, and the terms
+    /// of its load.
     fn take(&mut self, id: Id) -> (Expr<'d>, Vec<(Id, Expr<'d>)>, Vec<Expr<'d>>) {
         let row = self.form.remove(&id).unwrap_or_default();
         let mut own = self.dag.zero();
@@ -288,8 +294,9 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// The velocity to replace by its parts, towards the coordinate that the fewest of the front depend on: so that a chain
-    /// is taken apart from its tip. The last one built of those that depend on it; nothing else can be built from that.
+    /// The velocity to replace by its parts, towards the coordinate that the fewest of the front
+    /// depend on: so that a chain is taken apart from its tip. The last one built of those that
+    /// depend on it; nothing else can be built from that.
     fn next_to_replace(&self) -> Option<Id> {
         let built = || {
             self.form
@@ -363,7 +370,8 @@ impl<'d> Front<'d> {
         for (part, c) in parts {
             let w = self.dag.expr(*part);
             let rate = self.rate.of(*c);
-            // Multiplied out: the parts have terms in common, as 2 ṡ φ̇ cos φ, of which each gives one half.
+            // Multiplied out: the parts have terms in common, as 2 ṡ φ̇ cos φ, of which each gives
+            // one half.
             terms.extend(terms_of(rate).into_iter().map(|term| term * w));
         }
         let drift = self.dag.sum(terms);
@@ -371,8 +379,8 @@ impl<'d> Front<'d> {
         drift
     }
 
-    /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that more than one other
-    /// node is built from. `None` if it is not linear.
+    /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that
+    /// more than one other node is built from. `None` if it is not linear.
     fn composition(&self, id: Id) -> Option<Composition<'d>> {
         let mut parts: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         let mut rest = Vec::new();
@@ -480,8 +488,8 @@ struct Totals<'d> {
 }
 
 impl<'d> Totals<'d> {
-    /// The sum; with sums among its factors multiplied out where that makes it shorter: terms of several eliminations may
-    /// cancel, which they cannot while some of them are inside a product.
+    /// The sum; with sums among its factors multiplied out where that makes it shorter: terms of
+    /// several eliminations may cancel, which they cannot while some of them are inside a product.
     fn total(&mut self, terms: Vec<Expr<'d>>) -> Expr<'d> {
         let mut shortest = self.dag.sum(terms.iter().copied());
         if terms.len() > 1 {
@@ -496,7 +504,8 @@ impl<'d> Totals<'d> {
         self.without_content(shortest)
     }
 
-    /// The sum with those terms multiplied out that have something to cancel; `None` if there are none, or it is long.
+    /// The sum with those terms multiplied out that have something to cancel; `None` if there are
+    /// none, or it is long.
     fn partly_expanded(&self, terms: &[Expr<'d>], reach: Reach) -> Option<Expr<'d>> {
         let mut parts: Vec<Vec<Expr<'d>>> = Vec::with_capacity(terms.len());
         let mut len = 0;

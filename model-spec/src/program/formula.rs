@@ -84,8 +84,8 @@ struct Writer<'a, 'd> {
 }
 
 impl Writer<'_, '_> {
-    /// Writes a node. Every level of nesting writes something before it goes deeper, so the limit on the length limits the
-    /// depth too.
+    /// Writes a node. Every level of nesting writes something before it goes deeper, so the limit
+    /// on the length limits the depth too.
     fn write(&mut self, id: Id, place: Binding) {
         if self.text.len() > LONGEST {
             return;

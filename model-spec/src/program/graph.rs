@@ -1,14 +1,16 @@
 //! All values of all functions of a machine, each once, with products and sums still whole.
 //!
-//! Here the *stages are split*: whatever only parameters decide is kept apart from the rest, so that it becomes a prepared
-//! value. Every value is written `±p·x`, a [`Scaled`]: `p` is known once the parameters are, `x` has no such factor. In a
-//! sum whose terms share `p` it moves out, and so on outwards, until it meets other parameters and costs nothing:
+//! Here the *stages are split*: whatever only parameters decide is kept apart from the rest, so
+//! that it becomes a prepared value. Every value is written `±p·x`, a [`Scaled`]: `p` is known once
+//! the parameters are, `x` has no such factor. In a sum whose terms share `p` it moves out, and so
+//! on outwards, until it meets other parameters and costs nothing:
 //!
 //! ```text
 //! m·(l·s₁ + l·s₂)·v²  =  (m·l)·((s₁ + s₂)·v²)
 //! ```
 //!
-//! Never more multiplications than before: one for each term that loses its factor, against one where the sum is used.
+//! Never more multiplications than before: one for each term that loses its factor, against one
+//! where the sum is used.
 
 use lagrangian_symbolic::{Function, Rational};
 use rustc_hash::FxHashMap;
@@ -36,8 +38,8 @@ pub(super) enum Node {
     Read(Source),
     /// At least two terms, by id, the first of them positive; or a single negative one.
     Sum(Box<[Term]>),
-    /// Factors and their powers, by id; no factor is a product, but for one that is known. Two factors at least, or one with a
-    /// power other than 1.
+    /// Factors and their powers, by id; no factor is a product, but for one that is known. Two
+    /// factors at least, or one with a power other than 1.
     Product(Box<[(Id, i32)]>),
     Function(Function, Box<[Id]>),
     /// The same value, but computed on its own: a factor of products, whatever it is a product of.
@@ -51,7 +53,8 @@ pub(super) struct Term {
     pub(super) negative: bool,
 }
 
-/// `±factor·core`: the factor is known once the parameters are, the core is 1 or has no such factor.
+/// `±factor·core`: the factor is known once the parameters are, the core is 1 or has no such
+/// factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Scaled {
     pub(super) negative: bool,
@@ -172,7 +175,8 @@ impl Graph {
 
     /// The function of its arguments.
     pub(super) fn function(&mut self, function: Function, arguments: &[Scaled]) -> Scaled {
-        // A sum may have been turned round when it was built, so that its angle is −x: sin(−x) = −sin x, cos(−x) = cos x.
+        // A sum may have been turned round when it was built, so that its angle is −x: sin(−x) =
+        // −sin x, cos(−x) = cos x.
         if let ([x], Function::Sin | Function::Cos) = (arguments, function) {
             let argument = self.unsigned(*x);
             let id = self.intern(Node::Function(function, Box::new([argument])));

@@ -1,4 +1,5 @@
-//! Programs run over any number, without a compiler: the command line's engine, and what generated code is tested against.
+//! Programs run over any number, without a compiler: the command line's engine, and what generated
+//! code is tested against.
 
 use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::Function as Call;
@@ -8,8 +9,9 @@ use super::{Function, Op, Program, Role, Singular, Source, Value};
 
 /// A program ready to run over numbers of type `S`.
 ///
-/// It does what the program says in the order in which the program says it, so over `f64` its results have the same bits as
-/// those of generated code (as long as that uses the same sine). Nothing is allocated after [`Interpreter::new`].
+/// It does what the program says in the order in which the program says it, so over `f64` its
+/// results have the same bits as those of generated code (as long as that uses the same sine).
+/// Nothing is allocated after [`Interpreter::new`].
 #[derive(Clone, Debug)]
 pub struct Interpreter<S> {
     layout: Layout,
@@ -108,7 +110,8 @@ impl<S: Scalar> Interpreter<S> {
     /// [`Shape`](super::Shape) says.
     ///
     /// # Panics
-    /// If an argument that the function reads, or `results`, has another length than the program says.
+    /// If an argument that the function reads, or `results`, has another length than the program
+    /// says.
     pub fn call(
         &mut self,
         role: Role,

@@ -1,7 +1,8 @@
-//! The plain text of a program: `derive --as program`, and the file beside generated code that a reviewer reads.
+//! The plain text of a program: `derive --as program`, and the file beside generated code that a
+//! reviewer reads.
 //!
-//! One operation a line, `_7 = _3 * prepared[2]`; sine and cosine of one angle on one line; what a line computes for the
-//! outside stands behind it.
+//! One operation a line, `_7 = _3 * prepared[2]`; sine and cosine of one angle on one line; what a
+//! line computes for the outside stands behind it.
 
 use std::fmt::{self, Write as _};
 

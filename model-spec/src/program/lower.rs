@@ -347,7 +347,8 @@ fn accelerations<'d>(
     let along = unprojected.and_then(|machine| along_the_machine(lowering, matrix, machine));
     let elimination = Elimination::of(matrix, forces.len());
     let along = match along {
-        // What is certainly longer is not even written down: it grows with the cube of the number of coordinates.
+        // What is certainly longer is not even written down: it grows with the cube of the number
+        // of coordinates.
         Some(along) if elimination.multiplications > along.counts().ops() => return along,
         other => other,
     };
@@ -403,11 +404,13 @@ fn along_the_machine<'d>(
     Some(if is_cheap { full } else { lean })
 }
 
-/// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may cost, in percent of the
-/// rest. Where they are not at hand, as in a chain in relative angles, a pivot need only be positive.
+/// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may
+/// cost, in percent of the rest. Where they are not at hand, as in a chain in relative angles, a
+/// pivot need only be positive.
 const DEAREST_GUARDS: usize = 10;
 
-/// The function that computes what the others read, the formulas of its results, and the others with their final indices.
+/// The function that computes what the others read, the formulas of its results, and the others
+/// with their final indices.
 fn prepare(
     graph: &mut Graph,
     functions: Vec<(Function, Vec<Id>)>,

@@ -13,8 +13,8 @@ pub struct Mutant {
     pub program: Program,
 }
 
-/// Programs that differ from this one in the sign, the coefficient, the function or the operand of a single operation:
-/// every `stride`-th of those that there are.
+/// Programs that differ from this one in the sign, the coefficient, the function or the operand of
+/// a single operation: every `stride`-th of those that there are.
 ///
 /// # Panics
 /// If `stride` is 0.

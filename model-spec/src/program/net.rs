@@ -1,8 +1,9 @@
 //! The values of one function, products and sums still whole: where common parts are found.
 //!
-//! A function starts from the part of the [`Graph`] that its results need; what parameters alone decide is cut off and
-//! becomes an argument. Then every quotient gets its division, shared where a divisor occurs more than once, and
-//! [common pairs](super::pairs) of factors and of terms become items of their own.
+//! A function starts from the part of the [`Graph`] that its results need; what parameters alone
+//! decide is cut off and becomes an argument. Then every quotient gets its division, shared where a
+//! divisor occurs more than once, and [common pairs](super::pairs) of factors and of terms become
+//! items of their own.
 
 use lagrangian_symbolic::Function;
 use rustc_hash::FxHashMap;
@@ -10,8 +11,9 @@ use rustc_hash::FxHashMap;
 use super::graph::{Graph, Id, Node};
 use super::{Op, Source};
 
-/// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found as a common pair;
-/// higher ones are squared and multiplied by themselves, since nobody shares parts of x¹⁷.
+/// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found
+/// as a common pair; higher ones are squared and multiplied by themselves, since nobody shares
+/// parts of x¹⁷.
 const WRITTEN_OUT_POWER: u32 = 8;
 
 /// An index into [`Net::items`].
@@ -40,7 +42,8 @@ pub(super) enum Leaf {
     Prepared(Id),
 }
 
-/// What is known when: constants and prepared values, time, coordinates, velocities, inputs, accelerations.
+/// What is known when: constants and prepared values, time, coordinates, velocities, inputs,
+/// accelerations.
 pub(super) type Stage = u8;
 
 pub(super) struct Net {
@@ -152,7 +155,8 @@ impl Net {
         Index::try_from(self.items.len() - 1).expect("memory ends before 2^32 items")
     }
 
-    /// A divisor that several products have gets one reciprocal; a single division stays a division.
+    /// A divisor that several products have gets one reciprocal; a single division stays a
+    /// division.
     fn share_divisions(&mut self) {
         // Divisors that always occur together are one divisor.
         let mut groups: FxHashMap<Vec<Index>, Vec<usize>> = FxHashMap::default();

@@ -1,10 +1,13 @@
-//! Common pairs: what two factors have in several products is multiplied once; then the same for terms of sums.
+//! Common pairs: what two factors have in several products is multiplied once; then the same for
+//! terms of sums.
 //!
-//! Greedy: the pair that occurs most often becomes an item of its own and takes its place everywhere, until no pair occurs
-//! twice. Each step saves as many operations as the pair occurs, less one. Among pairs that occur equally often, the one
-//! known earliest is taken, so that what does not change while velocities do stays together; then the older one.
+//! Greedy: the pair that occurs most often becomes an item of its own and takes its place
+//! everywhere, until no pair occurs twice. Each step saves as many operations as the pair occurs,
+//! less one. Among pairs that occur equally often, the one known earliest is taken, so that what
+//! does not change while velocities do stays together; then the older one.
 //!
-//! M. A. Breuer, *Generation of optimal code for expressions via factorization*, Comm. ACM 12 (1969) 333–340.
+//! M. A. Breuer, *Generation of optimal code for expressions via factorization*, Comm. ACM 12
+//! (1969) 333–340.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -13,8 +16,9 @@ use rustc_hash::FxHashMap;
 
 use super::net::{Index, Item, Net, Stage};
 
-/// The most changes to the table of pairs in one pass. A pass that needs more stops there: its code is right, only longer
-/// than it could be. A change takes some 50 ns; a spatial arm of six joints needs 20 000.
+/// The most changes to the table of pairs in one pass. A pass that needs more stops there: its code
+/// is right, only longer than it could be. A change takes some 50 ns; a spatial arm of six joints
+/// needs 20 000.
 const BUDGET: usize = 1 << 18;
 
 impl Net {
@@ -42,7 +46,8 @@ struct Member {
     count: u32,
 }
 
-/// Two different members, the smaller index first, or one member twice; and whether their signs differ.
+/// Two different members, the smaller index first, or one member twice; and whether their signs
+/// differ.
 type Pair = (Index, Index, bool);
 
 /// A product or a sum, without the members that occur nowhere else.

@@ -1,9 +1,10 @@
 //! A program held against the equations it came from, and against Lagrange's equations themselves.
 //!
-//! Both sides are evaluated at random points of a prime field ([`Residue`]), where nothing is rounded: a program that is
-//! wrong in a sign, a factor or an operand gives another value, but for a chance of about the degree of the difference
-//! over 2⁶¹ at each point. The accelerations are not compared with other accelerations; they are put into the residual of
-//! Lagrange's equations, which must vanish. So it does not matter how they were computed.
+//! Both sides are evaluated at random points of a prime field ([`Residue`]), where nothing is
+//! rounded: a program that is wrong in a sign, a factor or an operand gives another value, but for
+//! a chance of about the degree of the difference over 2⁶¹ at each point. The accelerations are not
+//! compared with other accelerations; they are put into the residual of Lagrange's equations, which
+//! must vanish. So it does not matter how they were computed.
 
 use std::fmt;
 
@@ -20,8 +21,8 @@ use crate::model::Model;
 /// The points at which everything must agree.
 pub const POINTS: usize = 3;
 
-/// The most points to try. A root needs a point where its argument is a square, which is one point of two; a machine with
-/// twenty roots would need a million.
+/// The most points to try. A root needs a point where its argument is a square, which is one point
+/// of two; a machine with twenty roots would need a million.
 const MOST_TRIES: u64 = 4096;
 
 /// How a program is wrong.
@@ -88,8 +89,8 @@ impl fmt::Display for Disagreement {
 
 impl std::error::Error for Disagreement {}
 
-/// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h, and accelerations that
-/// obey them.
+/// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
+/// and accelerations that obey them.
 pub fn prove(
     program: &Program,
     model: &Model<'_>,
@@ -213,7 +214,8 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// The results of a function of the program; with what it reads undefined, they are undefined too.
+    /// The results of a function of the program; with what it reads undefined, they are undefined
+    /// too.
     fn call(&mut self, role: Role, len: usize) -> Result<Vec<Residue>, Verdict> {
         let arguments = Arguments {
             t: self.t,
@@ -296,7 +298,8 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// The product of the pivots is the determinant of M, one for each coordinate, and each is held against its Mᵢᵢ or itself.
+    /// The product of the pivots is the determinant of M, one for each coordinate, and each is held
+    /// against its Mᵢᵢ or itself.
     fn check_pivots(&mut self) -> Result<(), Verdict> {
         let n = self.program.dimension();
         let wrong = Disagreement::Pivots { point: self.number };
@@ -330,8 +333,8 @@ impl<'a, 'd> Point<'a, 'd> {
     }
 }
 
-/// A program whose accelerations are the pivots and their scales instead, in the order of the guards: those of `prepare`
-/// first.
+/// A program whose accelerations are the pivots and their scales instead, in the order of the
+/// guards: those of `prepare` first.
 fn with_guarded_values(program: &Program) -> Program {
     let mut probe = program.clone();
     let values = |function: &Function| {
@@ -376,7 +379,8 @@ fn guarded_coordinates(program: &Program) -> Vec<usize> {
     guards.map(|guard| guard.coordinate).collect()
 }
 
-/// The determinant of a symmetric matrix, by its lower triangle; undefined where a leading minor vanishes.
+/// The determinant of a symmetric matrix, by its lower triangle; undefined where a leading minor
+/// vanishes.
 fn determinant(lower: &[Residue], n: usize) -> Residue {
     let index = Shape::index;
     let mut left = lower.to_vec();

@@ -197,10 +197,11 @@ impl Builder {
     }
 }
 
-/// The operations that the roots need, each as late as its first use allows, the operand that needs more room first.
+/// The operations that the roots need, each as late as its first use allows, the operand that needs
+/// more room first.
 ///
-/// R. Sethi and J. D. Ullman, *The generation of optimal code for arithmetic expressions*, J. ACM 17 (1970) 715–728: exact
-/// for trees; shared values are counted at each use here.
+/// R. Sethi and J. D. Ullman, *The generation of optimal code for arithmetic expressions*, J. ACM
+/// 17 (1970) 715–728: exact for trees; shared values are counted at each use here.
 fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
     let mut room: Vec<u32> = Vec::with_capacity(code.len());
     let mut partner: FxHashMap<(Value, bool), Value> = FxHashMap::default();

@@ -1,25 +1,28 @@
 //! The accelerations from `M a = f`, specialised to what is zero, constant or varying in M.
 //!
-//! M = L D Lᵀ without exchange of rows, in an order found here. M is symmetric and positive definite wherever the
-//! coordinates describe the machine, and for such a matrix every order is backward stable: the computed factors are those
-//! of M + ΔM with |ΔM| ≤ γ |L| |D| |Lᵀ| ≤ γ' √(Mᵢᵢ Mⱼⱼ) (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*,
-//! 2nd ed. 2002, theorems 10.3 and 10.4). So the order may be the one that is cheapest to run.
+//! M = L D Lᵀ without exchange of rows, in an order found here. M is symmetric and positive
+//! definite wherever the coordinates describe the machine, and for such a matrix every order is
+//! backward stable: the computed factors are those of M + ΔM with |ΔM| ≤ γ |L| |D| |Lᵀ| ≤ γ' √(Mᵢᵢ
+//! Mⱼⱼ) (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, theorems
+//! 10.3 and 10.4). So the order may be the one that is cheapest to run.
 //!
-//! The order is that of minimum degree with a weight for stages: operations whose operands only parameters decide are free,
-//! because they are done once. Zeros stay out of the code altogether; blocks that are not coupled fall apart by themselves.
+//! The order is that of minimum degree with a weight for stages: operations whose operands only
+//! parameters decide are free, because they are done once. Zeros stay out of the code altogether;
+//! blocks that are not coupled fall apart by themselves.
 //!
-//! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally ordered triangular
-//! factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
+//! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
+//! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
 
 use super::Shape;
 use super::graph::{Graph, Scaled};
 
 /// How many times n·2⁻⁵² of its diagonal entry a pivot must exceed.
 ///
-/// What is left of Mᵢᵢ in the pivot dᵢ carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the elimination (theorem 10.3),
-/// half of n·2⁻⁵²·Mᵢᵢ and a little; the rest allows for entries of M that are wrong by 7n·2⁻⁵³ of themselves, more than the
-/// roundings on the way from the ground to a body of any machine seen. A pivot below that may be nothing but error: there,
-/// accelerations would have no correct digit.
+/// What is left of Mᵢᵢ in the pivot dᵢ carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the
+/// elimination (theorem 10.3), half of n·2⁻⁵²·Mᵢᵢ and a little; the rest allows for entries of M
+/// that are wrong by 7n·2⁻⁵³ of themselves, more than the roundings on the way from the ground to a
+/// body of any machine seen. A pivot below that may be nothing but error: there, accelerations
+/// would have no correct digit.
 const PIVOT_MARGIN: f64 = 4.0;
 
 /// The share of a diagonal entry that may be rounding error in a pivot of an n×n matrix.
@@ -190,8 +193,8 @@ impl Pattern {
         (count(Kind::Known), count(Kind::Varying))
     }
 
-    /// The multiplications that eliminating k takes at run time: for the multipliers, for the rest of the matrix, for the
-    /// right-hand side and the solution.
+    /// The multiplications that eliminating k takes at run time: for the multipliers, for the rest
+    /// of the matrix, for the right-hand side and the solution.
     fn cost(&self, k: usize) -> usize {
         let (known, varying) = self.neighbours(k);
         let all = known + varying;
@@ -223,7 +226,8 @@ impl Pattern {
     }
 }
 
-/// The order in which coordinates are eliminated: each time the cheapest one; the first one, if several are.
+/// The order in which coordinates are eliminated: each time the cheapest one; the first one, if
+/// several are.
 pub(super) struct Elimination {
     order: Vec<usize>,
     /// How many multiplications it will take at run time.

@@ -1,4 +1,5 @@
-//! Checks that a program is what its module says it is. A program that fails has met a bug of the compiler.
+//! Checks that a program is what its module says it is. A program that fails has met a bug of the
+//! compiler.
 
 use rustc_hash::FxHashSet;
 

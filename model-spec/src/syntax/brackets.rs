@@ -1,7 +1,8 @@
 //! Brackets find their partners before anything else is read.
 //!
-//! A bracket that is missing throws a parser off for the rest of the file. Here it is reported once,
-//! where it opens, and made up where it most likely belongs; the parser only ever sees balanced text.
+//! A bracket that is missing throws a parser off for the rest of the file. Here it is reported
+//! once, where it opens, and made up where it most likely belongs; the parser only ever sees
+//! balanced text.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;

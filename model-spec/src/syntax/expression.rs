@@ -8,8 +8,8 @@ use crate::token::{Delimiter, TokenKind};
 
 /// How deep brackets, powers and signs may nest.
 ///
-/// Formulas that people write nest ten deep. Reading and every later walk over the tree recurse, and a
-/// hundred levels fit into the smallest stack that a thread is given.
+/// Formulas that people write nest ten deep. Reading and every later walk over the tree recurse,
+/// and a hundred levels fit into the smallest stack that a thread is given.
 pub const NESTING_LIMIT: usize = 128;
 
 impl Parser<'_> {

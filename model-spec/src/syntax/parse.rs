@@ -1,8 +1,8 @@
 //! Words one after the other, what is said about those that do not fit, and how reading goes on.
 //!
-//! Parsing never stops at a mistake. What is wrong is reported, the rest of the smallest list element
-//! around it is skipped, and reading goes on behind the next comma; so the mistakes of one item hide
-//! none in another, and the tree is as complete as the text allows.
+//! Parsing never stops at a mistake. What is wrong is reported, the rest of the smallest list
+//! element around it is skipped, and reading goes on behind the next comma; so the mistakes of one
+//! item hide none in another, and the tree is as complete as the text allows.
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SourceId, Span};
@@ -252,8 +252,8 @@ impl<'t> Parser<'t> {
             self.unexpected(&format!("`{}`", opening(delimiter)));
             return None;
         };
-        // An unclosed brace was closed where a section or the text ends, and what it holds is sound;
-        // other brackets were closed anywhere.
+        // An unclosed brace was closed where a section or the text ends, and what it holds is
+        // sound; other brackets were closed anywhere.
         let quiet = word.mended && delimiter != Delimiter::Brace;
         self.quiet += usize::from(quiet);
         self.at += 1;
@@ -279,7 +279,8 @@ impl<'t> Parser<'t> {
 
     /// The elements of a list up to the end of the group, with commas between them.
     ///
-    /// `begins` tells where another element begins, so that a missing comma costs nothing but itself.
+    /// `begins` tells where another element begins, so that a missing comma costs nothing but
+    /// itself.
     pub(super) fn list(
         &mut self,
         group: Group,

@@ -1,7 +1,8 @@
 //! The field GF(p²), p = 2⁶¹ − 1: numbers `re + i·im` with i² = −1.
 //!
-//! p is a Mersenne prime and p ≡ 3 (mod 4), so −1 has no root in GF(p) and adjoining i gives a field. Nearly every value
-//! lies in GF(p), `im = 0`; roots such as √3 and the angles π/3, π/5, … need the rest.
+//! p is a Mersenne prime and p ≡ 3 (mod 4), so −1 has no root in GF(p) and adjoining i gives a
+//! field. Nearly every value lies in GF(p), `im = 0`; roots such as √3 and the angles π/3, π/5, …
+//! need the rest.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
@@ -45,7 +46,8 @@ pub fn pow(mut a: u64, mut n: u64) -> u64 {
 
 /// The root of `a` in GF(p) that is a square itself, a^((p+1)/4), if `a` has a root at all.
 ///
-/// Of r and −r exactly one is a square, since −1 is none; choosing it makes √(ab) = √a·√b for all squares a, b.
+/// Of r and −r exactly one is a square, since −1 is none; choosing it makes √(ab) = √a·√b for all
+/// squares a, b.
 pub fn root(a: u64) -> Option<u64> {
     // (p + 1)/4 = 2⁵⁹.
     let r = (0..59).fold(a, |r, _| mul(r, r));
@@ -136,8 +138,9 @@ impl Field {
 
     /// A root whose real part (imaginary part, if the real part is 0) is a square in GF(p); unique.
     ///
-    /// With self = a + ib = (c + id)²: c² = (a ± √(a²+b²))/2 and d = b/(2c). The product of the two candidates for c² is
-    /// −b²/4, no square, so exactly one of them is a square. No root exists if the norm a² + b² has none.
+    /// With self = a + ib = (c + id)²: c² = (a ± √(a²+b²))/2 and d = b/(2c). The product of the two
+    /// candidates for c² is −b²/4, no square, so exactly one of them is a square. No root exists if
+    /// the norm a² + b² has none.
     pub fn root(self) -> Option<Field> {
         if self.im == 0 {
             return match root(self.re) {

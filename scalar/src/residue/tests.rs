@@ -3,7 +3,8 @@ use super::*;
 /// Points that every identity is tried at.
 const POINTS: u64 = 20;
 
-/// Checks an identity between expressions of three symbols at random points, skipping those where a side is undefined.
+/// Checks an identity between expressions of three symbols at random points, skipping those where a
+/// side is undefined.
 fn identity(sides: impl Fn(Residue, Residue, Residue) -> (Residue, Residue)) {
     let mut defined = 0;
     for seed in 0..POINTS {

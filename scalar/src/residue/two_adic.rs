@@ -1,8 +1,8 @@
 //! 2-adic numbers with a known number of bits.
 //!
-//! A 2-adic number is a series Σ b_k 2^k that begins at some k and never ends towards larger k; what is known of one is its
-//! value modulo a power of two. Odd numbers have inverses, so every rational is a 2-adic number.
-//! F. Q. Gouvêa, *p-adic Numbers*, 3rd ed., Springer 2020, chapter 4.
+//! A 2-adic number is a series Σ b_k 2^k that begins at some k and never ends towards larger k;
+//! what is known of one is its value modulo a power of two. Odd numbers have inverses, so every
+//! rational is a 2-adic number. F. Q. Gouvêa, *p-adic Numbers*, 3rd ed., Springer 2020, chapter 4.
 
 use core::ops::{Add, Div, Mul, Neg};
 
@@ -16,7 +16,8 @@ pub enum TwoAdic {
     Zero,
     /// A multiple of 2^precision, nothing else being known.
     Vanishing { precision: i32 },
-    /// 2^exponent · mantissa; of the mantissa, which is odd, the lowest `bits` ≤ 128 bits are known, the others kept 0.
+    /// 2^exponent · mantissa; of the mantissa, which is odd, the lowest `bits` ≤ 128 bits are
+    /// known, the others kept 0.
     Known {
         mantissa: u128,
         exponent: i32,
@@ -61,8 +62,9 @@ impl TwoAdic {
         }
     }
 
-    /// 2^exponent · mantissa, with `bits` bits of the mantissa known (all, if they are 128: the mantissa is then an integer
-    /// in two's complement, and what is shifted in above it is unknown).
+    /// 2^exponent · mantissa, with `bits` bits of the mantissa known (all, if they are 128: the
+    /// mantissa is then an integer in two's complement, and what is shifted in above it is
+    /// unknown).
     pub fn from_bits(mantissa: u128, exponent: i64, bits: u32) -> TwoAdic {
         let mantissa = low_bits(mantissa, bits);
         if exponent.abs() > EXPONENT_LIMIT {
@@ -119,7 +121,8 @@ impl TwoAdic {
     }
 }
 
-/// The inverse of an odd number modulo 2¹²⁸, by Newton: x ← x(2 − mx) doubles the correct bits, and m·m ≡ 1 (mod 8).
+/// The inverse of an odd number modulo 2¹²⁸, by Newton: x ← x(2 − mx) doubles the correct bits, and
+/// m·m ≡ 1 (mod 8).
 fn inverse_of_odd(m: u128) -> u128 {
     (0..6).fold(m, |x, _| {
         x.wrapping_mul(2u128.wrapping_sub(m.wrapping_mul(x)))

@@ -7,7 +7,8 @@
 
 use astro_float_num::{BigFloat, Consts, RoundingMode};
 
-/// Bits of the truth: two numbers that differ by a cancellation of 2⁻¹¹⁰ still have three times the bits of what is tested.
+/// Bits of the truth: two numbers that differ by a cancellation of 2⁻¹¹⁰ still have three times the
+/// bits of what is tested.
 pub const BITS: usize = 448;
 
 pub const ROUND: RoundingMode = RoundingMode::ToEven;
@@ -85,7 +86,8 @@ pub fn constants() -> Consts {
     Consts::new().expect("memory for the constants of the truth")
 }
 
-/// The truth of atan2 by the half-angle formula 2 atan(y/(√(x² + y²) + x)), or its other form for x < 0.
+/// The truth of atan2 by the half-angle formula 2 atan(y/(√(x² + y²) + x)), or its other form for x
+/// < 0.
 pub fn atan2(y: &BigFloat, x: &BigFloat, constants: &mut Consts) -> BigFloat {
     let length = sqrt(&add(&mul(x, x), &mul(y, y)));
     let tan_of_half = if x.is_negative() {
