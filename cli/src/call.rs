@@ -82,6 +82,8 @@ pub enum Form {
     Markdown,
     /// The equations, for typesetting.
     Latex,
+    /// The equations, as a page for a browser.
+    Html,
     /// The code that `machine!` emits.
     Rust,
     /// The operations, one a line, with their counts.

@@ -60,6 +60,7 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
         Form::C => emit::c::file(program, &origin, &formulas()),
         Form::Markdown => emit::markdown::text(&Document::new(compiled)),
         Form::Latex => emit::latex::text(&Document::new(compiled)),
+        Form::Html => emit::html::text(&Document::new(compiled)),
     }
 }
 

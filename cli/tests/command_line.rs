@@ -365,6 +365,10 @@ fn every_form_of_a_derivation_holds_what_it_should() {
             vec![r"\documentclass", r"\ddot{x}", r"\end{document}"],
         ),
         (
+            "html",
+            vec!["<!DOCTYPE html>", "<math display=\"block\">", "</html>"],
+        ),
+        (
             "rust",
             vec!["@generated", "pub struct CartPole", "accelerations"],
         ),

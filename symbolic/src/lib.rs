@@ -21,8 +21,8 @@
 //! - [`Tangent`], [`reverse`] and [`substitute`] walk a graph once and remember every node: shared
 //!   parts stay shared.
 //! - [`evaluate()`] gives numbers of any type, from `f64` to a prime field that proves identities.
-//! - [`text`] and [`latex`] write expressions down, [`normal`] multiplies out, compares and
-//!   collects.
+//! - [`text`], [`latex`] and [`mathml`] write expressions down, [`normal`] multiplies out, compares
+//!   and collects.
 
 pub mod dag;
 pub mod normal;
@@ -39,5 +39,8 @@ pub use calculus::{Tangent, reverse, substitute};
 pub use dag::{Dag, Function, Id, Node, Stage, Symbol, reachable};
 pub use evaluate::{evaluate, nearest};
 pub use expr::Expr;
-pub use print::{Names, latex, latex_as_built, latex_name, text};
+pub use print::{
+    Math, Names, latex, latex_name, latex_words, markup_words, math, math_as_built, math_name,
+    mathml, mathml_name, text,
+};
 pub use rational::{MAX_BITS, Rational};

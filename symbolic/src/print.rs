@@ -1,21 +1,26 @@
 //! Expressions as a person would write them.
 //!
-//! [`text`] is valid in the spec language, and reading it back gives the same node; [`latex`] is
-//! for the page, and may rearrange: it writes `cos(φ₂ − φ₁)` where the graph holds the four
-//! products.
+//! [`text`] is valid in the spec language, and reading it back gives the same node. [`math`] is for
+//! the page, and may rearrange: it gives `cos(φ₂ − φ₁)` where the graph holds the four products. What
+//! it gives is a [`Math`], which [`latex`] and [`mathml`] write down.
 //!
-//! Order of factors: numbers, parameters, coordinates, functions, rates. Order of terms: by the
-//! latest symbols in them, higher powers first, in the order in which the symbols were declared; a
-//! positive term leads if there is one.
+//! Order of factors: numbers, parameters, coordinates, functions, rates; on the page functions come
+//! last, since `sin φ ṡ` may be read as the sine of a product. Order of terms: by the latest symbols
+//! in them, higher powers first, in the order in which the symbols were declared; a positive term
+//! leads if there is one.
 //!
 //! What is shared in the graph is written out each time it is used, so a long chain makes a very
 //! long text; [`Expr::size`] tells beforehand. No function here calls itself on a child.
 
 mod latex;
 mod layout;
+mod lines;
+mod math;
+mod mathml;
 mod names;
 mod number;
 mod text;
+mod typeset;
 
 use core::fmt;
 
@@ -24,24 +29,27 @@ use crate::dag::{Dag, Id, Node, Symbol};
 use crate::expr::Expr;
 use crate::normal;
 
-pub use names::latex_name;
+pub use latex::latex_words;
+pub use math::{Form, Mark, Math, Sign};
+pub use mathml::markup_words;
+pub use names::{latex_name, math_name, mathml_name};
 
 /// How symbols are called.
 pub trait Names {
     /// The name in a text: an identifier, or `der(x)`.
     fn text(&self, symbol: Symbol) -> String;
-    /// The name in LaTeX, without superscripts: a power may follow.
-    fn latex(&self, symbol: Symbol) -> String;
+    /// The name on a page, without superscripts: a power may follow.
+    fn math(&self, symbol: Symbol) -> Math;
 }
 
-/// The names that the symbols were declared with; `theta1` is `\theta_{1}`, see [`latex_name`].
+/// The names that the symbols were declared with; `theta1` is θ₁, see [`math_name`].
 impl Names for Dag {
     fn text(&self, symbol: Symbol) -> String {
         self.name(symbol)
     }
 
-    fn latex(&self, symbol: Symbol) -> String {
-        latex_name(&self.name(symbol))
+    fn math(&self, symbol: Symbol) -> Math {
+        math_name(&self.name(symbol))
     }
 }
 
@@ -60,7 +68,19 @@ pub fn text(expression: Expr<'_>, names: &dyn Names) -> String {
     text::Writer::new(&arena, &symbols).write(expression.id())
 }
 
-/// The expression in LaTeX, angles joined and terms collected where that makes it shorter.
+/// The expression as a page shows it, angles joined and terms collected where that makes it shorter.
+pub fn math(expression: Expr<'_>, names: &dyn Names) -> Math {
+    math_as_built(normal::readable(expression, normal::READABLE_BUDGET), names)
+}
+
+/// The expression as a page shows it, as it is built.
+pub fn math_as_built(expression: Expr<'_>, names: &dyn Names) -> Math {
+    let symbols = symbol_names(expression, |symbol| names.math(symbol));
+    let arena = expression.dag().arena.borrow();
+    typeset::Writer::new(&arena, &symbols).write(expression.id())
+}
+
+/// [`math()`] in LaTeX, for math mode.
 ///
 /// ```
 /// use lagrangian_symbolic::{Dag, Stage, latex};
@@ -71,14 +91,21 @@ pub fn text(expression: Expr<'_>, names: &dyn Names) -> String {
 /// assert_eq!(latex(e, &dag), r"\cos\left(\varphi_{2} - \varphi_{1}\right)");
 /// ```
 pub fn latex(expression: Expr<'_>, names: &dyn Names) -> String {
-    latex_as_built(normal::readable(expression, normal::READABLE_BUDGET), names)
+    math(expression, names).latex()
 }
 
-/// The expression in LaTeX, as it is built.
-pub fn latex_as_built(expression: Expr<'_>, names: &dyn Names) -> String {
-    let symbols = symbol_names(expression, |symbol| names.latex(symbol));
-    let arena = expression.dag().arena.borrow();
-    latex::Writer::new(&arena, &symbols).write(expression.id())
+/// [`math()`] as presentation MathML: an element `math` for a line of text.
+///
+/// ```
+/// use lagrangian_symbolic::{Dag, Stage, mathml};
+///
+/// let dag = Dag::new();
+/// let (m, v) = (dag.symbol("m", Stage::PARAMETER), dag.symbol("der(x)", Stage(4)));
+/// let momentum = "<math><mi>m</mi><mo>&#x2062;</mo><mover accent=\"true\"><mi>x</mi><mo>˙</mo></mover></math>";
+/// assert_eq!(mathml(m * v, &dag), momentum);
+/// ```
+pub fn mathml(expression: Expr<'_>, names: &dyn Names) -> String {
+    math(expression, names).mathml()
 }
 
 impl Expr<'_> {
@@ -137,10 +164,10 @@ impl fmt::Display for Expr<'_> {
 
 /// The names of the symbols in an expression, by index; asked for before the graph is borrowed,
 /// since who names them may ask the graph.
-fn symbol_names(expression: Expr<'_>, name: impl Fn(Symbol) -> String) -> Vec<String> {
+fn symbol_names<T: Clone + Default>(expression: Expr<'_>, name: impl Fn(Symbol) -> T) -> Vec<T> {
     let mut names = Vec::new();
     for symbol in expression.symbols() {
-        names.resize(symbol.index(), String::new());
+        names.resize(symbol.index(), T::default());
         names.push(name(symbol));
     }
     names

@@ -2,7 +2,10 @@
 
 mod support;
 
-use lagrangian_symbolic::{Dag, Expr, Rational, Stage, latex, latex_as_built, text};
+use lagrangian_symbolic::{
+    Dag, Expr, Rational, Stage, latex, math, math_as_built, math_name, mathml_name, text,
+};
+use support::markup;
 use support::parser::parse;
 use support::{SYMBOLS, SplitMix, Tree, all_functions, same, symbols};
 
@@ -139,7 +142,7 @@ fn latex_is_written_as_by_hand() {
     );
     expect(
         m1 * s1 * phi1.sin() * der_phi1 + m2 * s1 * phi1.sin() * der_phi1,
-        r"\left(m_{1} + m_{2}\right) s_{1} \sin \varphi_{1} \dot{\varphi}_{1}",
+        r"\left(m_{1} + m_{2}\right) s_{1} \dot{\varphi}_{1} \sin \varphi_{1}",
     );
     expect(
         -(m2 * s1 * (phi1.cos() * phi2.cos() + phi1.sin() * phi2.sin())),
@@ -156,7 +159,7 @@ fn latex_is_written_as_by_hand() {
         (x.square() + s1.square()).sqrt(),
         r"\sqrt{x^{2} + s_{1}^{2}}",
     );
-    expect(x.abs() * x.exp(), r"\left|x\right| e^{x}");
+    expect(x.abs() * x.exp(), r"\left\vert x\right\vert e^{x}");
     expect(dag.zero(), "0");
     expect(x / m1 - 1, r"\frac{x}{m_{1}} - 1");
     expect(
@@ -165,8 +168,8 @@ fn latex_is_written_as_by_hand() {
     );
     expect(dag.pi() * x, r"\pi x");
     assert_eq!(
-        latex_as_built(phi1.cos() * (x + 1), dag),
-        r"\cos \varphi_{1} \left(x + 1\right)"
+        math_as_built(phi1.cos() * (x + 1), dag).latex(),
+        r"\left(x + 1\right) \cos \varphi_{1}"
     );
 }
 
@@ -196,4 +199,108 @@ fn readable_forms_keep_their_value() {
         }
     }
     assert!(decided > 900, "{decided}");
+}
+
+#[test]
+fn both_languages_of_a_page_say_the_same() {
+    let mut random = SplitMix(23);
+    let functions = all_functions();
+    let mut seen = 0;
+    for case in 0..2_000 {
+        let dag = Dag::new();
+        let symbols = symbols(&dag);
+        let e = Tree::random(&mut random, 1 + case % 4, &functions).build(&dag, &symbols);
+        let formula = math_as_built(e, &dag);
+        let atoms = markup::atoms_of_latex(&formula.latex());
+        seen += atoms.len();
+        assert_eq!(
+            atoms,
+            markup::atoms_of_mathml(&formula.mathml()),
+            "case {case}: {e}"
+        );
+    }
+    assert!(seen > 10_000, "{seen}");
+}
+
+#[test]
+fn lines_say_what_the_formula_says() {
+    let mut random = SplitMix(24);
+    let mut broken = 0;
+    for case in 0..2_000 {
+        let dag = Dag::new();
+        let symbols = symbols(&dag);
+        let e = Tree::random(&mut random, 2 + case % 4, &support::SMOOTH).build(&dag, &symbols);
+        let formula = math_as_built(e, &dag);
+        let lines = formula.lines(12.0, 10.0);
+        broken += usize::from(lines.len() > 1);
+        // Each line stands alone, and what is torn apart is only put on several lines.
+        let atoms: Vec<String> = lines
+            .iter()
+            .flat_map(|line| markup::atoms_of_mathml(&line.mathml()))
+            .collect();
+        assert_eq!(
+            atoms,
+            markup::atoms_of_mathml(&formula.mathml()),
+            "case {case}: {e}"
+        );
+        for line in &lines {
+            assert_eq!(
+                markup::atoms_of_latex(&line.latex()),
+                markup::atoms_of_mathml(&line.mathml()),
+                "case {case}: {e}"
+            );
+        }
+    }
+    assert!(broken > 500, "{broken}");
+}
+
+#[test]
+fn a_line_ends_between_terms_and_within_its_width() {
+    let dag = Dag::new();
+    let symbol = |name: &str| dag.symbol(name, Stage(3));
+    let sum = |names: [&str; 3]| dag.sum(names.map(symbol));
+    let e = sum(["a", "b", "c"]) * sum(["u", "v", "w"]);
+    let formula = math_as_built(e, &dag) + math(symbol("x"), &dag);
+    let whole = formula.width();
+    assert_eq!(formula.lines(whole + 0.1, 1.0).len(), 1);
+    let lines: Vec<String> = formula
+        .lines(whole - 0.1, whole)
+        .iter()
+        .map(lagrangian_symbolic::Math::latex)
+        .collect();
+    assert_eq!(
+        lines,
+        [r"\left(a + b + c\right) \left(u + v + w\right)", "+ x"]
+    );
+    // A sum in parentheses is torn where nothing else helps, its power included.
+    let e = sum(["a", "b", "c"]).square();
+    let lines: Vec<String> = math(e, &dag)
+        .lines(4.5, 9.0)
+        .iter()
+        .map(lagrangian_symbolic::Math::latex)
+        .collect();
+    assert_eq!(lines, [r"\bigl(a + b", r"+ c\bigr)^{2}"]);
+}
+
+#[test]
+fn names_of_any_kind_can_be_set() {
+    for (name, mathml) in [
+        (
+            "q[-1]",
+            "<msub><mi>q</mi><mrow><mo>\u{2212}</mo><mn>1</mn></mrow></msub>",
+        ),
+        ("_", "<mi>_</mi>"),
+        ("θ", "<mi>θ</mi>"),
+        ("Ä", "<mi>Ä</mi>"),
+        (
+            "der(x_left)",
+            "<msub><mover accent=\"true\"><mi>x</mi><mo>˙</mo></mover><mi>left</mi></msub>",
+        ),
+    ] {
+        assert_eq!(mathml_name(name), format!("<math>{mathml}</math>"));
+    }
+    assert_eq!(math_name("_").latex(), r"\_");
+    assert_eq!(math_name("θ").latex(), r"\theta");
+    assert_eq!(math_name("Ä").latex(), r"\text{Ä}");
+    assert_eq!(math_name("der(q[2])").squared().latex(), r"\dot{q}_{2}^{2}");
 }

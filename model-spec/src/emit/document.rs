@@ -1,8 +1,9 @@
 //! A derivation as a text to read: what the machine is, its energies, its equations of motion, and what the code costs.
 //!
-//! [`markdown`](super::markdown) and [`latex`](super::latex) print the same [`Document`].
+//! [`markdown`](super::markdown), [`latex`](super::latex) and [`html`](super::html) print the same [`Document`]. Formulas
+//! in it are values, not texts in one of these languages.
 
-use lagrangian_symbolic::{Expr, Symbol, latex, latex_name};
+use lagrangian_symbolic::{Expr, Math, Names, Symbol, math};
 
 use crate::compile::Compiled;
 use crate::mechanics::Route;
@@ -11,8 +12,11 @@ use crate::model::{ApproximationKind, Coordinate, Model, Space};
 /// Expressions of a greater [`size`](Expr::size) are not printed: they would fill pages, and nobody reads them.
 const READABLE: u64 = 3000;
 
-/// The length of a line of a formula, in characters of its LaTeX. A formula is broken where a new term begins.
-const LINE: usize = 110;
+/// The width of a line of a formula, in the size of its font (em): that of A4 paper with margins of 2 cm.
+const LINE: f32 = 44.0;
+
+/// What lines are indented by that continue a formula, in em.
+const INDENT: f32 = 2.0;
 
 /// A derivation to read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,12 +39,64 @@ pub struct Section {
 /// A piece of a chapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Words. What stands between `$` is LaTeX.
-    Paragraph(String),
-    /// A formula in LaTeX, line by line: the lines after the first continue it.
-    Formula(Vec<String>),
-    /// A table: its head, its rows. What stands between `$` is LaTeX.
-    Table(Vec<String>, Vec<Vec<String>>),
+    /// A heading below that of the section.
+    Heading(Words),
+    /// Words.
+    Paragraph(Words),
+    /// Items, one below the other.
+    List(Vec<Words>),
+    /// A formula, line by line.
+    Formula(Vec<Row>),
+    /// A table: its head, its rows.
+    Table(Vec<Words>, Vec<Vec<Words>>),
+}
+
+/// Words with mathematics and code among them.
+pub type Words = Vec<Run>;
+
+/// A piece of a line of words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Run {
+    /// Words, nothing in them escaped.
+    Text(String),
+    /// Mathematics.
+    Math(Math),
+    /// What a program or a spec would say.
+    Code(String),
+}
+
+/// A line of a formula.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    /// The line.
+    pub math: Math,
+    /// Whether it continues the line before it; then it is indented.
+    pub continues: bool,
+    /// What is said about it at the right margin; nothing if empty.
+    pub note: String,
+}
+
+impl From<&str> for Run {
+    fn from(text: &str) -> Run {
+        Run::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Run {
+    fn from(text: String) -> Run {
+        Run::Text(text)
+    }
+}
+
+impl From<Math> for Run {
+    fn from(math: Math) -> Run {
+        Run::Math(math)
+    }
+}
+
+/// A line of words from its pieces.
+macro_rules! words {
+    ($($run:expr),* $(,)?) => { vec![$(Run::from($run)),*] };
 }
 
 impl Document {
@@ -67,22 +123,29 @@ fn section(title: &str, blocks: Vec<Block>) -> Section {
     }
 }
 
+fn paragraph(words: Words) -> Block {
+    Block::Paragraph(words)
+}
+
+fn head(titles: &[&str]) -> Vec<Words> {
+    titles.iter().map(|title| words![*title]).collect()
+}
+
 fn machine(compiled: &Compiled<'_>) -> Section {
     let Compiled { model, program, .. } = compiled;
     let mut blocks = Vec::new();
     if !model.docs.is_empty() {
-        blocks.push(Block::Paragraph(model.docs.clone()));
+        blocks.push(paragraph(words![model.docs.clone()]));
     }
-    let head = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
     let rows = model.coordinates.iter().map(|coordinate| {
         vec![
-            math(name(model, coordinate.q)),
-            coordinate.name.to_string(),
-            coordinate.unit.to_string(),
-            coordinate.docs.clone(),
+            words![name(model, coordinate.q)],
+            words![Run::Code(coordinate.name.to_string())],
+            words![coordinate.unit_text.clone()],
+            words![coordinate.docs.clone()],
         ]
     });
-    blocks.push(Block::Paragraph("Generalized coordinates:".into()));
+    blocks.push(paragraph(words!["Generalized coordinates:"]));
     blocks.push(Block::Table(
         head(&["", "name", "unit", ""]),
         rows.collect(),
@@ -93,14 +156,14 @@ fn machine(compiled: &Compiled<'_>) -> Section {
             let default = slot.default.as_ref();
             let default = default.map_or_else(String::new, |default| default.text.clone());
             vec![
-                math(name(model, parameter.symbol)),
-                parameter.name.to_string(),
-                parameter.unit.to_string(),
-                default,
-                parameter.docs.clone(),
+                words![name(model, parameter.symbol)],
+                words![Run::Code(parameter.name.to_string())],
+                words![parameter.unit_text.clone()],
+                words![default],
+                words![parameter.docs.clone()],
             ]
         });
-        blocks.push(Block::Paragraph("Parameters:".into()));
+        blocks.push(paragraph(words!["Parameters:"]));
         blocks.push(Block::Table(
             head(&["", "name", "unit", "default", ""]),
             rows.collect(),
@@ -112,7 +175,7 @@ fn machine(compiled: &Compiled<'_>) -> Section {
             .iter()
             .map(|fact| fact.text.as_str())
             .collect();
-        blocks.push(Block::Paragraph(format!("Assumed: {}.", facts.join(", "))));
+        blocks.push(paragraph(words![format!("Assumed: {}.", facts.join(", "))]));
     }
     for approximation in &model.approximations {
         let coordinate = &model.coordinates[approximation.coordinate];
@@ -124,10 +187,11 @@ fn machine(compiled: &Compiled<'_>) -> Section {
                 "energies and dissipation to second order in it and its rate"
             }
         };
-        blocks.push(Block::Paragraph(format!(
-            "Approximated: {}, {what}.",
-            math(name(model, coordinate.q))
-        )));
+        blocks.push(paragraph(words![
+            "Approximated: ",
+            name(model, coordinate.q),
+            format!(", {what}.")
+        ]));
     }
     section("The machine", blocks)
 }
@@ -136,32 +200,27 @@ fn bodies(compiled: &Compiled<'_>) -> Section {
     let Compiled {
         model, equations, ..
     } = compiled;
-    let axes: &[&str] = match model.space {
-        Space::Plane => &["x", "y"],
-        Space::Space => &["x", "y", "z"],
+    let axes: &[char] = match model.space {
+        Space::Plane => &['x', 'y'],
+        Space::Space => &['x', 'y', 'z'],
     };
     let mut blocks = Vec::new();
     for (body, derived) in model.bodies.iter().zip(&equations.bodies) {
-        let label = format!(r"\text{{{}}}", body.name.to_string().replace('_', r"\_"));
-        blocks.push(Block::Paragraph(format!(
+        let label = || Math::text(body.name.to_string());
+        blocks.push(paragraph(words![format!(
             "Position, velocity and kinetic energy of {}:",
             body.name
-        )));
-        for (axis, position) in axes.iter().zip(&derived.position) {
-            blocks.push(equation(model, &format!("{axis}_{{{label}}}"), *position));
+        )]));
+        for (&axis, position) in axes.iter().zip(&derived.position) {
+            let axis = Math::letter(axis).with_index(label());
+            blocks.push(equation(model, axis, *position));
         }
-        for (axis, velocity) in axes.iter().zip(&derived.velocity) {
-            blocks.push(equation(
-                model,
-                &format!(r"\dot{{{axis}}}_{{{label}}}"),
-                *velocity,
-            ));
+        for (&axis, velocity) in axes.iter().zip(&derived.velocity) {
+            let rate = Math::letter(axis).dotted().with_index(label());
+            blocks.push(equation(model, rate, *velocity));
         }
-        blocks.push(equation(
-            model,
-            &format!("T_{{{label}}}"),
-            derived.kinetic_energy,
-        ));
+        let energy = Math::letter('T').with_index(label());
+        blocks.push(equation(model, energy, derived.kinetic_energy));
     }
     section("The bodies", blocks)
 }
@@ -170,15 +229,15 @@ fn energies(compiled: &Compiled<'_>) -> Section {
     let Compiled {
         model, equations, ..
     } = compiled;
-    let mut blocks = vec![equation(model, "T", equations.kinetic_energy)];
+    let mut blocks = vec![equation(model, Math::letter('T'), equations.kinetic_energy)];
     let mut absent = Vec::new();
     for (what, letter, value) in [
-        ("potential energy", "V", equations.potential_energy),
-        ("dissipation", "D", equations.dissipation),
+        ("potential energy", 'V', equations.potential_energy),
+        ("dissipation", 'D', equations.dissipation),
     ] {
         match value.is_zero() {
             true => absent.push(what),
-            false => blocks.push(equation(model, letter, value)),
+            false => blocks.push(equation(model, Math::letter(letter), value)),
         }
     }
     if !absent.is_empty() {
@@ -186,7 +245,7 @@ fn energies(compiled: &Compiled<'_>) -> Section {
             "The machine has no {}; the code has none either.",
             absent.join(" and no ")
         );
-        blocks.push(Block::Paragraph(text));
+        blocks.push(paragraph(words![text]));
     }
     section("Energies and dissipation", blocks)
 }
@@ -201,49 +260,45 @@ fn motion(compiled: &Compiled<'_>) -> Section {
         Route::Projected => "Lagrange's equations of the second kind,",
         Route::Lagrange => "Lagrange's equations of the second kind, of the approximated energies,",
     };
-    blocks.push(Block::Paragraph(format!(
-        r"{route} $\frac{{d}}{{dt}} \frac{{\partial T}}{{\partial \dot q_i}} - \frac{{\partial T}}{{\partial q_i}} = Q_i$: inertia and velocity terms on the left, applied forces on the right."
-    )));
+    blocks.push(paragraph(words![
+        format!("{route} "),
+        lagrange(),
+        ": inertia and velocity terms on the left, applied forces on the right.",
+    ]));
     for (i, coordinate) in model.coordinates.iter().enumerate() {
-        let inertia = model.coordinates.iter().enumerate().map(|(j, other)| {
-            let entry = match i >= j {
-                true => *equations.mass_matrix.get(i, j),
-                false => *equations.mass_matrix.get(j, i),
-            };
-            entry * other.a
-        });
+        let inertia = model.coordinates.iter().enumerate();
+        let inertia = inertia.map(|(j, other)| *equations.mass_matrix.get(i, j) * other.a);
         let left = model.dag.sum(inertia.chain([equations.bias[i]]));
         let right = equations.applied[i];
-        blocks.push(Block::Paragraph(format!(
-            "For {}:",
-            math(name(model, coordinate.q))
-        )));
+        blocks.push(paragraph(words!["For ", name(model, coordinate.q), ":"]));
         blocks.push(match (printable(left), printable(right)) {
-            (true, true) => {
-                let mut lines = broken(&formula(model, left));
-                let right = broken(&formula(model, right));
-                let mut right = right.into_iter();
-                let first = right.next().unwrap_or_default();
-                lines.push(format!("= {first}"));
-                lines.extend(right);
-                Block::Formula(lines)
-            }
+            (true, true) => formula(math(left, model.dag).equals(math(right, model.dag))),
             _ => too_long(coordinate, left.size().saturating_add(right.size())),
         });
     }
     section("Equations of motion", blocks)
 }
 
+/// d/dt ∂T/∂q̇ᵢ − ∂T/∂qᵢ = Qᵢ.
+fn lagrange() -> Math {
+    let letter = Math::letter;
+    let q = || letter('q').with_index(letter('i'));
+    let q_rate = letter('q').dotted().with_index(letter('i'));
+    let partial = |of: char, by: Math| Math::fraction(letter('∂') * letter(of), letter('∂') * by);
+    let rate = Math::fraction(letter('d'), letter('d') * letter('t'));
+    (rate * partial('T', q_rate) - partial('T', q())).equals(letter('Q').with_index(letter('i')))
+}
+
 fn code(compiled: &Compiled<'_>) -> Section {
     let program = &compiled.program;
-    let head = [
+    let head = head(&[
         "",
         "multiplications",
         "additions",
         "divisions",
         "sine–cosine pairs",
         "other",
-    ];
+    ]);
     let functions = program
         .all_functions()
         .filter(|function| !function.results.is_empty());
@@ -256,16 +311,19 @@ fn code(compiled: &Compiled<'_>) -> Section {
             counts.sincos,
             counts.other,
         ];
-        let name = format!("`{}`", program.title(function.role));
+        let name = words![Run::Code(program.title(function.role))];
         [name]
             .into_iter()
-            .chain(numbers.map(|n| n.to_string()))
+            .chain(numbers.map(|n| words![n.to_string()]))
             .collect()
     });
-    let table = Block::Table(head.map(String::from).into(), rows.collect());
-    let words =
-        "What one call of each function costs; `prepare` is called once for a set of parameters.";
-    section("The code", vec![Block::Paragraph(words.into()), table])
+    let table = Block::Table(head, rows.collect());
+    let words = words![
+        "What one call of each function costs; ",
+        Run::Code("prepare".into()),
+        " is called once for a set of parameters.",
+    ];
+    section("The code", vec![paragraph(words), table])
 }
 
 fn printable(expression: Expr<'_>) -> bool {
@@ -273,89 +331,34 @@ fn printable(expression: Expr<'_>) -> bool {
 }
 
 fn too_long(coordinate: &Coordinate<'_>, size: u64) -> Block {
-    Block::Paragraph(format!(
+    paragraph(words![format!(
         "The equation of {} has {size} symbols written out, and is shown as a program only.",
         coordinate.name
-    ))
+    )])
 }
 
 /// `label = expression`, or how long it would be.
-fn equation(model: &Model<'_>, label: &str, expression: Expr<'_>) -> Block {
+fn equation(model: &Model<'_>, label: Math, expression: Expr<'_>) -> Block {
     if !printable(expression) {
-        let text = format!(
-            "${label}$ has {} symbols written out, and is shown as a program only.",
-            expression.size()
-        );
-        return Block::Paragraph(text);
+        let size = expression.size();
+        let text = format!(" has {size} symbols written out, and is shown as a program only.");
+        return paragraph(words![label, text]);
     }
-    let mut lines = broken(&formula(model, expression)).into_iter();
-    let first = lines.next().unwrap_or_default();
-    let first = format!("{label} = {first}");
-    Block::Formula([first].into_iter().chain(lines).collect())
+    formula(label.equals(math(expression, model.dag)))
 }
 
-fn formula(model: &Model<'_>, expression: Expr<'_>) -> String {
-    latex(expression, model.dag)
+/// A formula in lines.
+fn formula(math: Math) -> Block {
+    let lines = math.lines(LINE, LINE - INDENT).into_iter().enumerate();
+    let rows = lines.map(|(index, math)| Row {
+        math,
+        continues: index > 0,
+        note: String::new(),
+    });
+    Block::Formula(rows.collect())
 }
 
-fn name(model: &Model<'_>, symbol: Expr<'_>) -> String {
+fn name(model: &Model<'_>, symbol: Expr<'_>) -> Math {
     let symbol: Option<Symbol> = symbol.as_symbol();
-    symbol.map_or_else(String::new, |symbol| latex_name(&model.dag.name(symbol)))
-}
-
-fn math(latex: String) -> String {
-    format!("${latex}$")
-}
-
-/// A formula in lines, broken before `+` and `-` that stand outside all brackets.
-fn broken(formula: &str) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    let mut depth = 0_i32;
-    for word in formula.split(' ') {
-        let line = match lines.last_mut() {
-            Some(line) => line,
-            None => break,
-        };
-        if depth == 0 && matches!(word, "+" | "-") && line.len() > LINE {
-            lines.push(word.to_owned());
-        } else {
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-        depth += depth_of(word);
-    }
-    lines
-}
-
-/// How many brackets a word opens more than it closes; `\{` is no bracket, `\left(` is.
-fn depth_of(word: &str) -> i32 {
-    let mut depth = 0;
-    let mut escaped = false;
-    for letter in word.chars() {
-        match letter {
-            _ if escaped => {}
-            '{' | '(' | '[' => depth += 1,
-            '}' | ')' | ']' => depth -= 1,
-            _ => {}
-        }
-        escaped = letter == '\\' && !escaped;
-    }
-    depth
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn formulas_are_broken_between_terms_only() {
-        let term = format!(r"\left(a + b - {}\right)", "c".repeat(LINE));
-        let formula = format!("{term} - {term} + d");
-        assert_eq!(
-            broken(&formula),
-            [term.clone(), format!("- {term}"), "+ d".to_owned()]
-        );
-    }
+    symbol.map_or_else(Math::default, |symbol| model.dag.math(symbol))
 }

@@ -1,80 +1,110 @@
-//! A derivation as LaTeX, a whole document that needs `amsmath` and `longtable` only.
+//! A derivation as LaTeX, a whole document that needs `amsmath`, `longtable` and `geometry` only.
 
-use super::document::{Block, Document};
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::latex_words;
+
+use super::document::{Block, Document, Row, Run, Words};
 
 /// The document as LaTeX.
 pub fn text(document: &Document) -> String {
+    let mut body = format!("\\section*{{{}}}\n", latex_words(&document.title));
+    for section in &document.sections {
+        body.push_str(&format!(
+            "\n\\subsection*{{{}}}\n",
+            latex_words(&section.title)
+        ));
+        for block in &section.blocks {
+            body.push('\n');
+            match block {
+                Block::Heading(heading) => {
+                    body.push_str(&format!("\\subsubsection*{{{}}}\n", words(heading)));
+                }
+                Block::Paragraph(paragraph) => body.push_str(&format!("{}\n", words(paragraph))),
+                Block::List(items) => {
+                    body.push_str("\\begin{itemize}\n");
+                    for item in items {
+                        body.push_str(&format!("\\item {}\n", words(item)));
+                    }
+                    body.push_str("\\end{itemize}\n");
+                }
+                Block::Formula(rows) => body.push_str(&formula(rows)),
+                Block::Table(head, rows) => body.push_str(&table(head, rows)),
+            }
+        }
+    }
+    format!("{}{body}\\end{{document}}\n", preamble(&body))
+}
+
+fn preamble(body: &str) -> String {
     let mut text = String::from(concat!(
-        "\\documentclass[a4paper]{article}\n",
+        "\\documentclass[a4paper,fleqn]{article}\n",
         "\\usepackage[utf8]{inputenc}\n",
         "\\usepackage[T1]{fontenc}\n",
+        "\\usepackage{textcomp}\n",
         "\\usepackage{amsmath}\n",
         "\\usepackage{longtable}\n",
         "\\usepackage[margin=2cm]{geometry}\n",
         "\\allowdisplaybreaks\n",
-        "\\begin{document}\n",
+        "\\setlength{\\parindent}{0pt}\n",
+        "\\setlength{\\parskip}{4pt}\n",
+        "\\setlength{\\LTleft}{0pt}\n",
+        "\\raggedright\n",
     ));
-    text.push_str(&format!("\\section*{{{}}}\n", words(&document.title)));
-    for section in &document.sections {
-        text.push_str(&format!("\n\\subsection*{{{}}}\n", words(&section.title)));
-        for block in &section.blocks {
-            text.push('\n');
-            match block {
-                Block::Paragraph(paragraph) => text.push_str(&format!("{}\n", words(paragraph))),
-                Block::Formula(lines) => text.push_str(&format!("\\[\n{}\n\\]\n", aligned(lines))),
-                Block::Table(head, rows) => {
-                    let columns = "l".repeat(head.len().saturating_sub(1));
-                    text.push_str(&format!("\\begin{{longtable}}{{{columns}p{{6cm}}}}\n"));
-                    text.push_str(&row(head));
-                    text.push_str("\\hline\n");
-                    rows.iter().for_each(|cells| text.push_str(&row(cells)));
-                    text.push_str("\\end{longtable}\n");
-                }
-            }
-        }
+    // Letters that the fonts at hand may lack show by their number instead of ending the run; engines that read Unicode
+    // show them as they are.
+    let foreign: BTreeSet<char> = body.chars().filter(|&c| c > '\u{17f}').collect();
+    for letter in foreign {
+        let number = letter as u32;
+        text.push_str(&format!(
+            "\\ifdefined\\DeclareUnicodeCharacter\\DeclareUnicodeCharacter{{{number:04X}}}{{[U+{number:04X}]}}\\fi\n"
+        ));
     }
-    text.push_str("\\end{document}\n");
+    text.push_str("\\begin{document}\n");
     text
 }
 
-/// The lines of a formula, the first at the left.
-pub(super) fn aligned(lines: &[String]) -> String {
-    match lines {
-        [only] => only.clone(),
-        lines => {
-            let body = lines.join(" \\\\\n&\\quad ");
-            format!("\\begin{{aligned}}\n&{body}\n\\end{{aligned}}")
-        }
-    }
+/// The lines of a formula, the first at the left, notes at the right margin. A page may end between two of them.
+fn formula(rows: &[Row]) -> String {
+    let line = |row: &Row| {
+        let indent = if row.continues { r"\quad {}" } else { "" };
+        let note = match row.note.as_str() {
+            "" => String::new(),
+            note => format!(r" \tag*{{\footnotesize {}}}", latex_words(note)),
+        };
+        format!("&{indent} {}{note}", row.math.latex())
+    };
+    let lines: Vec<String> = rows.iter().map(line).collect();
+    format!(
+        "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
+        lines.join(" \\\\\n")
+    )
 }
 
-fn row(cells: &[String]) -> String {
-    let cells: Vec<String> = cells.iter().map(|cell| words(cell)).collect();
-    format!("{} \\\\\n", cells.join(" & "))
+fn table(head: &[Words], rows: &[Vec<Words>]) -> String {
+    let columns: String = (0..head.len())
+        .map(|k| match k + 1 == head.len() {
+            _ if super::html::is_numeric(rows, k) => "r",
+            true => "p{7cm}",
+            false => "l",
+        })
+        .collect();
+    let row = |cells: &[Words]| {
+        let cells: Vec<String> = cells.iter().map(words).collect();
+        format!("{} \\\\\n", cells.join(" & "))
+    };
+    let body: String = rows.iter().map(|cells| row(cells)).collect();
+    format!(
+        "\\begin{{longtable}}{{{columns}}}\n{}\\hline\n\\endhead\n{body}\\end{{longtable}}\n",
+        row(head)
+    )
 }
 
-/// Words with everything escaped that LaTeX takes for its own; what stands between `$` is left alone.
-fn words(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    let mut formula = false;
-    for letter in text.chars() {
-        match letter {
-            '$' => {
-                formula = !formula;
-                escaped.push('$');
-            }
-            _ if formula => escaped.push(letter),
-            '&' | '%' | '#' | '_' | '{' | '}' => {
-                escaped.push('\\');
-                escaped.push(letter);
-            }
-            '\\' => escaped.push_str("\\textbackslash{}"),
-            '~' => escaped.push_str("\\textasciitilde{}"),
-            '^' => escaped.push_str("\\textasciicircum{}"),
-            '`' => {}
-            '–' => escaped.push_str("--"),
-            letter => escaped.push(letter),
-        }
-    }
-    escaped
+fn words(words: &Words) -> String {
+    let run = |run: &Run| match run {
+        Run::Text(text) => latex_words(text),
+        Run::Math(math) => format!("${}$", math.latex()),
+        Run::Code(code) => format!(r"\texttt{{{}}}", latex_words(code)),
+    };
+    words.iter().map(run).collect()
 }

@@ -1,22 +1,31 @@
-//! A derivation as Markdown; formulas between `$$`.
+//! A derivation as Markdown; formulas between `$` and `$$`.
 
-use super::document::{Block, Document};
+use super::document::{Block, Document, Row, Run, Words};
 
 /// The document as Markdown.
 pub fn text(document: &Document) -> String {
-    let mut text = format!("# {}\n", document.title);
+    let mut text = format!("# {}\n", escaped(&document.title));
     for section in &document.sections {
-        text.push_str(&format!("\n## {}\n", section.title));
+        text.push_str(&format!("\n## {}\n", escaped(&section.title)));
         for block in &section.blocks {
             text.push('\n');
             match block {
-                Block::Paragraph(words) => text.push_str(&format!("{words}\n")),
-                Block::Formula(lines) => {
-                    text.push_str(&format!("$$\n{}\n$$\n", super::latex::aligned(lines)))
+                Block::Heading(heading) => text.push_str(&format!("### {}\n", words(heading))),
+                Block::Paragraph(paragraph) => text.push_str(&format!("{}\n", words(paragraph))),
+                Block::List(items) => {
+                    for item in items {
+                        text.push_str(&format!("- {}\n", words(item).replace('\n', " ")));
+                    }
                 }
+                Block::Formula(rows) => text.push_str(&format!("$$\n{}\n$$\n", aligned(rows))),
                 Block::Table(head, rows) => {
+                    let rule = (0..head.len()).map(|k| match super::html::is_numeric(rows, k) {
+                        true => "---:",
+                        false => "---",
+                    });
+                    let rule: Vec<&str> = rule.collect();
                     text.push_str(&row(head));
-                    text.push_str(&row(&vec!["---".to_owned(); head.len()]));
+                    text.push_str(&format!("| {} |\n", rule.join(" | ")));
                     rows.iter().for_each(|cells| text.push_str(&row(cells)));
                 }
             }
@@ -25,10 +34,74 @@ pub fn text(document: &Document) -> String {
     text
 }
 
-fn row(cells: &[String]) -> String {
+/// The lines of a formula, the first at the left, notes in a column of their own.
+fn aligned(rows: &[Row]) -> String {
+    match rows {
+        [only] if only.note.is_empty() => only.math.latex(),
+        rows => {
+            let lines: Vec<String> = rows.iter().map(line).collect();
+            format!(
+                "\\begin{{aligned}}\n{}\n\\end{{aligned}}",
+                lines.join(" \\\\\n")
+            )
+        }
+    }
+}
+
+fn line(row: &Row) -> String {
+    let indent = if row.continues { r"\quad {}" } else { "" };
+    let note = match row.note.as_str() {
+        "" => String::new(),
+        note => format!(
+            r" && \quad \text{{{}}}",
+            lagrangian_symbolic::latex_words(note)
+        ),
+    };
+    format!("&{indent} {}{note}", row.math.latex())
+}
+
+fn row(cells: &[Words]) -> String {
     let cells: Vec<String> = cells
         .iter()
-        .map(|cell| cell.replace('|', r"\|").replace('\n', " "))
+        .map(|cell| words(cell).replace('\n', " "))
         .collect();
     format!("| {} |\n", cells.join(" | "))
+}
+
+fn words(words: &Words) -> String {
+    let run = |run: &Run| match run {
+        Run::Text(text) => escaped(text),
+        Run::Math(math) => format!("${}$", math.latex()),
+        // More backticks around than inside; what ends a cell of a table is escaped in code too.
+        Run::Code(code) => {
+            let longest = code.split(|c| c != '`').map(str::len).max().unwrap_or(0);
+            let fence = "`".repeat(longest + 1);
+            let space = if longest > 0 { " " } else { "" };
+            format!("{fence}{space}{}{space}{fence}", code.replace('|', r"\|"))
+        }
+    };
+    words.iter().map(run).collect()
+}
+
+/// Words with everything escaped that Markdown takes for its own.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    // Whether only digits have been written in this line: `1.` would begin a list.
+    let mut number = true;
+    let mut start = true;
+    for letter in text.chars() {
+        let special = match letter {
+            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '~' | '$' | '&' => true,
+            '#' | '+' | '-' | '=' => start,
+            '.' | ')' => number && !start,
+            _ => false,
+        };
+        if special {
+            escaped.push('\\');
+        }
+        escaped.push(letter);
+        number = letter == '\n' || (number && letter.is_ascii_digit());
+        start = letter == '\n' || (start && letter.is_whitespace());
+    }
+    escaped
 }

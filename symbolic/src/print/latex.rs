@@ -1,274 +1,237 @@
 //! LaTeX, for math mode.
 
-use std::borrow::Cow;
+use crate::print::math::{Form, Mark, Sign};
 
-use crate::arena::Arena;
-use crate::dag::{Function, Id, Node};
-use crate::print::layout::{self, Term};
-use crate::print::number::{Shape, shape};
-use crate::rational::Rational;
-
-/// The place that an expression stands in.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Place {
-    /// On its own, in braces or parentheses.
-    Whole,
-    /// Among other factors.
-    Factor,
-    /// Under an exponent.
-    Base,
-    /// After the name of a function.
-    Argument,
-}
-
-/// What is still to be written.
-enum Piece {
-    Text(Cow<'static, str>),
-    Node(Id, Place),
-    /// A positive multiple.
-    Multiple(Rational, Id),
-    Power(Id, u32),
-}
-
-/// Writes a graph, front to back, with a stack of what is still to be written.
-pub(super) struct Writer<'a> {
-    arena: &'a Arena,
-    symbols: &'a [String],
-    out: String,
-    left: Vec<Piece>,
-}
-
-impl<'a> Writer<'a> {
-    pub(super) fn new(arena: &'a Arena, symbols: &'a [String]) -> Writer<'a> {
-        Writer {
-            arena,
-            symbols,
-            out: String::new(),
-            left: Vec::new(),
-        }
-    }
-
-    pub(super) fn write(mut self, id: Id) -> String {
-        self.left.push(Piece::Node(id, Place::Whole));
-        while let Some(piece) = self.left.pop() {
-            let mut next = Vec::new();
-            match piece {
-                Piece::Text(text) => self.push(&text),
-                Piece::Node(id, place) if self.needs_parentheses(id, place) => next.extend([
-                    literal(r"\left("),
-                    Piece::Node(id, Place::Whole),
-                    literal(r"\right)"),
-                ]),
-                Piece::Node(id, _) => self.node(id, &mut next),
-                Piece::Multiple(scale, id) => self.multiple(&scale, id, &mut next),
-                Piece::Power(id, n) => self.power(id, n, &mut next),
+/// The marks, written front to back.
+pub(super) fn write(marks: &[Mark]) -> String {
+    let mut out = String::new();
+    // The forms that are open, and how many of their arguments are behind.
+    let mut open: Vec<(Form, usize)> = Vec::new();
+    for (index, mark) in marks.iter().enumerate() {
+        match mark {
+            Mark::Letter(letter) => push(&mut out, &symbol(*letter)),
+            Mark::Bold(letter) if letter.is_ascii() => {
+                push(&mut out, &format!(r"\mathbf{{{letter}}}"));
             }
-            self.left.extend(next.into_iter().rev());
-        }
-        self.out
-    }
-
-    /// Appends; a command and a letter after it are kept apart.
-    fn push(&mut self, text: &str) {
-        let letters = |c: char| c.is_ascii_alphabetic();
-        let before = self.out.trim_end_matches(letters);
-        let command = before.len() < self.out.len() && before.ends_with('\\');
-        if command && text.starts_with(letters) {
-            self.out.push(' ');
-        }
-        self.out.push_str(text);
-    }
-
-    fn needs_parentheses(&self, id: Id, place: Place) -> bool {
-        match (place, self.arena.node(id)) {
-            (Place::Whole, _) => false,
-            (_, Node::Symbol(_) | Node::Pi) => false,
-            (Place::Factor, Node::Sum(_)) => true,
-            (Place::Factor, Node::Constant(value)) => value.is_negative(),
-            (Place::Factor, _) => false,
-            (_, Node::Constant(value)) => value.is_negative() || !value.is_integer(),
-            (Place::Base, Node::Function(Function::Abs, _)) => false,
-            _ => true,
-        }
-    }
-
-    fn node(&self, id: Id, next: &mut Vec<Piece>) {
-        match self.arena.node(id) {
-            Node::Constant(value) => {
-                next.push(literal(if value.is_negative() { "-" } else { "" }));
-                next.push(owned(number(&value.abs())));
+            Mark::Bold(letter) => push(&mut out, &format!(r"\boldsymbol{{{}}}", symbol(*letter))),
+            Mark::Word(word) if word.chars().all(|c| c.is_ascii_alphanumeric()) => {
+                push(&mut out, &format!(r"\mathrm{{{word}}}"));
             }
-            Node::Pi => next.push(literal(r"\pi")),
-            Node::Symbol(symbol) => next.push(owned(self.symbols[symbol.index()].clone())),
-            Node::Sum(terms) => {
-                let terms = layout::terms(self.arena, terms, true);
-                for (
-                    index,
-                    Term {
-                        negative,
-                        scale,
-                        id,
-                    },
-                ) in terms.into_iter().enumerate()
-                {
-                    next.push(literal(match (index, negative) {
-                        (0, false) => "",
-                        (0, true) => "-",
-                        (_, false) => " + ",
-                        (_, true) => " - ",
-                    }));
-                    next.push(Piece::Multiple(scale, id));
+            Mark::Word(words) => push(&mut out, &format!(r"\text{{{}}}", latex_words(words))),
+            Mark::Text(words) => push(&mut out, &format!(r"\text{{{}}}", latex_words(words))),
+            Mark::Number(digits) => push(&mut out, digits),
+            Mark::Function(name) => push(&mut out, &function(name)),
+            Mark::Sign(Sign::Apply) => {
+                // An argument in parentheses needs no space.
+                if marks.get(index + 1) != Some(&Mark::Open(Form::Parentheses)) {
+                    out.push(' ');
                 }
             }
-            Node::Product(_) => next.push(Piece::Multiple(Rational::ONE, id)),
-            Node::Function(function, arguments) => self.function(*function, arguments, None, next),
-        }
-    }
-
-    /// `\frac{1}{2} m x^{2}`, `\frac{a}{2 b}`.
-    fn multiple(&self, scale: &Rational, id: Id, next: &mut Vec<Piece>) {
-        let fraction = layout::fraction(self.arena, id);
-        let mut above: Vec<Piece> = fraction
-            .above
-            .iter()
-            .map(|&(id, n)| Piece::Power(id, n))
-            .collect();
-        let mut below: Vec<Piece> = fraction
-            .below
-            .iter()
-            .map(|&(id, n)| Piece::Power(id, n))
-            .collect();
-        let is_fraction = !below.is_empty();
-        if !scale.is_one() || above.is_empty() {
-            match shape(scale) {
-                Shape::Fraction(p, q) if is_fraction => {
-                    if p != "1" || above.is_empty() {
-                        above.insert(0, owned(p));
-                    }
-                    below.insert(0, owned(q));
+            Mark::Sign(sign) => push(&mut out, self::sign(*sign)),
+            Mark::Open(form) => {
+                open.push((*form, 0));
+                push(&mut out, opening(*form));
+            }
+            Mark::Next => {
+                if let Some((form, done)) = open.last_mut() {
+                    *done += 1;
+                    push(&mut out, between(*form, *done));
                 }
-                _ => above.insert(0, owned(number(scale))),
             }
-        }
-        if is_fraction {
-            next.push(literal(r"\frac{"));
-            spaced(above, next);
-            next.push(literal("}{"));
-            spaced(below, next);
-            next.push(literal("}"));
-        } else {
-            spaced(above, next);
-        }
-    }
-
-    /// `\theta^{2}`, `\sin^{2} \theta`.
-    fn power(&self, id: Id, n: u32, next: &mut Vec<Piece>) {
-        match self.arena.node(id) {
-            _ if n == 1 => next.push(Piece::Node(id, Place::Factor)),
-            Node::Function(function, arguments)
-                if command(*function).is_some() && arguments.len() == 1 =>
-            {
-                self.function(*function, arguments, Some(n), next);
-            }
-            _ => next.extend([Piece::Node(id, Place::Base), owned(format!("^{{{n}}}"))]),
-        }
-    }
-
-    fn function(
-        &self,
-        function: Function,
-        arguments: &[Id],
-        power: Option<u32>,
-        next: &mut Vec<Piece>,
-    ) {
-        let x = arguments[0];
-        match function {
-            Function::Sqrt => {
-                next.extend([
-                    literal(r"\sqrt{"),
-                    Piece::Node(x, Place::Whole),
-                    literal("}"),
-                ]);
-            }
-            Function::Abs => next.extend([
-                literal(r"\left|"),
-                Piece::Node(x, Place::Whole),
-                literal(r"\right|"),
-            ]),
-            Function::Exp => {
-                next.extend([literal("e^{"), Piece::Node(x, Place::Whole), literal("}")]);
-            }
-            Function::Pow => next.extend([
-                Piece::Node(x, Place::Base),
-                literal("^{"),
-                Piece::Node(arguments[1], Place::Whole),
-                literal("}"),
-            ]),
-            _ => {
-                next.push(literal(command(function).unwrap_or("")));
-                if let Some(n) = power {
-                    next.push(owned(format!("^{{{n}}}")));
-                }
-                if arguments.len() == 1 {
-                    let atom = !self.needs_parentheses(x, Place::Argument);
-                    next.push(literal(if atom { " " } else { "" }));
-                    next.push(Piece::Node(x, Place::Argument));
-                } else {
-                    for (index, &argument) in arguments.iter().enumerate() {
-                        next.push(literal(if index == 0 { r"\left(" } else { ", " }));
-                        next.push(Piece::Node(argument, Place::Whole));
-                    }
-                    next.push(literal(r"\right)"));
+            Mark::Close => {
+                if let Some((form, _)) = open.pop() {
+                    push(&mut out, closing(form));
                 }
             }
         }
     }
+    out.trim().to_owned()
 }
 
-/// The command of a function that is written by its name; an exponent goes to the name: sin²x.
-fn command(function: Function) -> Option<&'static str> {
-    Some(match function {
-        Function::Sin => r"\sin",
-        Function::Cos => r"\cos",
-        Function::Tan => r"\tan",
-        Function::Asin => r"\arcsin",
-        Function::Acos => r"\arccos",
-        Function::Atan => r"\arctan",
-        Function::Atan2 => r"\operatorname{atan2}",
-        Function::Sinh => r"\sinh",
-        Function::Cosh => r"\cosh",
-        Function::Tanh => r"\tanh",
-        Function::Ln => r"\ln",
-        Function::Sign => r"\operatorname{sign}",
-        Function::Min => r"\min",
-        Function::Max => r"\max",
-        Function::Sqrt | Function::Abs | Function::Exp | Function::Pow => return None,
-    })
-}
-
-/// Factors next to each other; two numbers would read as one.
-fn spaced(pieces: Vec<Piece>, next: &mut Vec<Piece>) {
-    for (index, piece) in pieces.into_iter().enumerate() {
-        if index > 0 {
-            next.push(literal(" "));
+/// Appends; a command and a letter after it are kept apart.
+fn push(out: &mut String, text: &str) {
+    let letters = |c: char| c.is_ascii_alphabetic();
+    if text.starts_with(letters) {
+        let before = out.trim_end_matches(letters);
+        if before.len() < out.len() && before.ends_with('\\') {
+            out.push(' ');
         }
-        next.push(piece);
+    }
+    out.push_str(text);
+}
+
+fn opening(form: Form) -> &'static str {
+    match form {
+        Form::Fraction => r"\frac{",
+        Form::Power | Form::Index | Form::IndexAndPower | Form::Under => "",
+        Form::Root => r"\sqrt{",
+        Form::Dots(0 | 1) => r"\dot{",
+        Form::Dots(2) => r"\ddot{",
+        Form::Dots(_) => r"\dddot{",
+        Form::Parentheses => r"\left(",
+        Form::Bars => r"\left\vert",
+        Form::Matrix(_) => r"\begin{pmatrix} ",
     }
 }
 
-fn number(value: &Rational) -> String {
-    match shape(value) {
-        Shape::Decimal(text) => text,
-        Shape::Scientific(mantissa, exponent) if mantissa == "1" => format!("10^{{{exponent}}}"),
-        Shape::Scientific(mantissa, exponent) => format!(r"{mantissa} \cdot 10^{{{exponent}}}"),
-        Shape::Fraction(above, below) => format!(r"\frac{{{above}}}{{{below}}}"),
+/// What ends an argument when so many are behind.
+fn between(form: Form, done: usize) -> &'static str {
+    match form {
+        Form::Fraction => "}{",
+        Form::Power => "^{",
+        Form::Index | Form::Under => "_{",
+        Form::IndexAndPower if done == 1 => "_{",
+        Form::IndexAndPower => "}^{",
+        Form::Matrix(columns) if done.is_multiple_of(columns) => r" \\ ",
+        Form::Matrix(_) => " & ",
+        Form::Root | Form::Dots(_) | Form::Parentheses | Form::Bars => "",
     }
 }
 
-fn literal(text: &'static str) -> Piece {
-    Piece::Text(Cow::Borrowed(text))
+fn closing(form: Form) -> &'static str {
+    match form {
+        Form::Parentheses => r"\right)",
+        Form::Bars => r"\right\vert",
+        Form::Matrix(_) => r" \end{pmatrix}",
+        _ => "}",
+    }
 }
 
-fn owned(text: String) -> Piece {
-    Piece::Text(Cow::Owned(text))
+fn sign(sign: Sign) -> &'static str {
+    match sign {
+        Sign::Plus => " + ",
+        Sign::Minus => " - ",
+        Sign::Negative => "-",
+        Sign::Equals => " = ",
+        Sign::Times | Sign::Apply => " ",
+        Sign::Dot => r" \cdot ",
+        Sign::Comma => ", ",
+        Sign::Sum => r"\sum",
+        Sign::Dots => r"\dots",
+        Sign::Quad => r" \quad ",
+        Sign::LeftParenthesis => r"\bigl(",
+        Sign::RightParenthesis => r"\bigr)",
+    }
+}
+
+fn function(name: &'static str) -> String {
+    match name {
+        "asin" => r"\arcsin".into(),
+        "acos" => r"\arccos".into(),
+        "atan" => r"\arctan".into(),
+        "sin" | "cos" | "tan" | "sinh" | "cosh" | "tanh" | "ln" | "min" | "max" => {
+            format!(r"\{name}")
+        }
+        _ => format!(r"\operatorname{{{name}}}"),
+    }
+}
+
+/// A letter; what LaTeX has no command for is left to the fonts of the text.
+fn symbol(letter: char) -> String {
+    let command = match letter {
+        '_' => r"\_",
+        '∂' => r"\partial",
+        'α' => r"\alpha",
+        'β' => r"\beta",
+        'γ' => r"\gamma",
+        'δ' => r"\delta",
+        'ε' => r"\varepsilon",
+        'ζ' => r"\zeta",
+        'η' => r"\eta",
+        'θ' => r"\theta",
+        'ι' => r"\iota",
+        'κ' => r"\kappa",
+        'λ' => r"\lambda",
+        'μ' => r"\mu",
+        'ν' => r"\nu",
+        'ξ' => r"\xi",
+        'π' => r"\pi",
+        'ρ' => r"\rho",
+        'σ' => r"\sigma",
+        'τ' => r"\tau",
+        'υ' => r"\upsilon",
+        'φ' => r"\varphi",
+        'χ' => r"\chi",
+        'ψ' => r"\psi",
+        'ω' => r"\omega",
+        'Γ' => r"\Gamma",
+        'Δ' => r"\Delta",
+        'Θ' => r"\Theta",
+        'Λ' => r"\Lambda",
+        'Ξ' => r"\Xi",
+        'Π' => r"\Pi",
+        'Σ' => r"\Sigma",
+        'Υ' => r"\Upsilon",
+        'Φ' => r"\Phi",
+        'Ψ' => r"\Psi",
+        'Ω' => r"\Omega",
+        letter if letter.is_ascii_alphanumeric() => return letter.to_string(),
+        letter => return format!(r"\text{{{}}}", latex_words(&letter.to_string())),
+    };
+    command.to_owned()
+}
+
+/// Words as LaTeX, for text mode or inside of `\text`: everything that it takes for its own is escaped.
+///
+/// ```
+/// use lagrangian_symbolic::latex_words;
+///
+/// assert_eq!(latex_words("50 % of $x_1$"), r"50 \% of \$x\_1\$");
+/// ```
+pub fn latex_words(words: &str) -> String {
+    let mut escaped = String::with_capacity(words.len());
+    for letter in words.chars() {
+        match letter {
+            '&' | '%' | '#' | '_' | '{' | '}' | '$' => escaped.extend(['\\', letter]),
+            '\\' => escaped.push_str(r"\textbackslash{}"),
+            '~' => escaped.push_str(r"\textasciitilde{}"),
+            '^' => escaped.push_str(r"\textasciicircum{}"),
+            '<' => escaped.push_str(r"\textless{}"),
+            '>' => escaped.push_str(r"\textgreater{}"),
+            '|' => escaped.push_str(r"\textbar{}"),
+            '"' => escaped.push_str(r"\textquotedbl{}"),
+            '\'' => escaped.push_str(r"\textquotesingle{}"),
+            '`' => escaped.push_str(r"\textasciigrave{}"),
+            // Two of them would become a dash.
+            '-' => escaped.push_str("-{}"),
+            '–' => escaped.push_str("--"),
+            '—' => escaped.push_str("---"),
+            '…' => escaped.push_str(r"\dots{}"),
+            '·' => escaped.push_str(r"\textperiodcentered{}"),
+            '²' => escaped.push_str(r"\textsuperscript{2}"),
+            '³' => escaped.push_str(r"\textsuperscript{3}"),
+            '°' => escaped.push_str(r"\textdegree{}"),
+            letter if letter.is_control() => escaped.push(if letter == '\n' { '\n' } else { ' ' }),
+            letter => match mathematical(letter) {
+                Some(command) => escaped.push_str(&format!(r"\ensuremath{{{command}}}")),
+                None => escaped.push(letter),
+            },
+        }
+    }
+    escaped
+}
+
+/// Letters and signs that text fonts lack.
+fn mathematical(letter: char) -> Option<String> {
+    let command = match letter {
+        '−' => "-",
+        '±' => r"\pm",
+        '×' => r"\times",
+        '≤' => r"\le",
+        '≥' => r"\ge",
+        '≠' => r"\ne",
+        '≈' => r"\approx",
+        '→' => r"\to",
+        '√' => r"\surd",
+        '∞' => r"\infty",
+        'α'..='ω' | 'Α'..='Ω' => {
+            let symbol = symbol(letter);
+            return symbol
+                .starts_with('\\')
+                .then_some(symbol)
+                .filter(|command| !command.starts_with(r"\text"));
+        }
+        _ => return None,
+    };
+    Some(command.to_owned())
 }

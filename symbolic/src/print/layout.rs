@@ -3,7 +3,7 @@
 use core::cmp::Reverse;
 
 use crate::arena::Arena;
-use crate::dag::{Id, Node, Stage};
+use crate::dag::{Function, Id, Node, Stage};
 use crate::rational::Rational;
 
 /// A term `±scale·node` of a sum.
@@ -50,8 +50,18 @@ pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<
     shown.into_iter().map(term).collect()
 }
 
+/// The order of factors.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// (m₁ + m₂)*l*s*cos(φ)*ṡ: by stage; sums of parameters first, other sums last.
+    Stages,
+    /// (m₁ + m₂) l s ṡ cos φ: what has parentheses of its own before functions that take the next factor for a part
+    /// of their argument.
+    FunctionsLast,
+}
+
 /// The node as a fraction, factors in the order to print; 1 has no factors.
-pub(super) fn fraction(arena: &Arena, id: Id) -> Fraction {
+pub(super) fn fraction(arena: &Arena, id: Id, order: Order) -> Fraction {
     let alone = [(id, 1)];
     let factors = match arena.node(id) {
         Node::Product(factors) => factors,
@@ -64,7 +74,10 @@ pub(super) fn fraction(arena: &Arena, id: Id) -> Fraction {
             .filter(|(_, n)| (*n > 0) == wanted)
             .map(|&(id, n)| (id, n.unsigned_abs()))
             .collect();
-        side.sort_by_key(|&(id, _)| factor_key(arena, id));
+        side.sort_by_key(|&(id, _)| match order {
+            Order::Stages => factor_key(arena, id),
+            Order::FunctionsLast => typeset_key(arena, id),
+        });
         side
     };
     Fraction {
@@ -73,7 +86,7 @@ pub(super) fn fraction(arena: &Arena, id: Id) -> Fraction {
     }
 }
 
-/// (m₁ + m₂) l s cos φ ṡ: by stage; sums of parameters first, other sums last.
+/// [`Order::Stages`].
 fn factor_key(arena: &Arena, id: Id) -> (Stage, u8, u32) {
     let stage = arena.stage(id);
     match arena.node(id) {
@@ -82,6 +95,20 @@ fn factor_key(arena: &Arena, id: Id) -> (Stage, u8, u32) {
         Node::Symbol(symbol) => (stage, 1, symbol.0),
         Node::Function(..) | Node::Product(_) => (stage, 2, id.0),
         Node::Sum(_) => (stage, 3, id.0),
+    }
+}
+
+/// [`Order::FunctionsLast`]: numbers, parameters, coordinates, rates; then sums; then functions by their names.
+fn typeset_key(arena: &Arena, id: Id) -> (Stage, u8, u32) {
+    use Function::{Abs, Exp, Pow, Sqrt};
+    const LAST: Stage = Stage(u8::MAX);
+    let stage = arena.stage(id);
+    match arena.node(id) {
+        Node::Sum(_) if stage > Stage::PARAMETER => (LAST, 0, id.0),
+        Node::Function(function, _) if !matches!(function, Abs | Exp | Pow | Sqrt) => {
+            (LAST, 1 + stage.0.min(8), id.0)
+        }
+        _ => factor_key(arena, id),
     }
 }
 

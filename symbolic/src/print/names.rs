@@ -1,4 +1,6 @@
-//! Names in LaTeX.
+//! Names as a person would typeset them.
+
+use crate::print::math::{Form, Mark, Math, Sign};
 
 /// A name as a person would typeset it.
 ///
@@ -6,15 +8,12 @@
 /// subscripts, the second of two letters too; longer words upright; `der(…)` as a dot.
 ///
 /// ```
-/// use lagrangian_symbolic::latex_name;
+/// use lagrangian_symbolic::math_name;
 ///
-/// assert_eq!(latex_name("theta1"), r"\theta_{1}");
-/// assert_eq!(latex_name("cx"), "c_{x}");
-/// assert_eq!(latex_name("x_left"), r"x_{\mathrm{left}}");
-/// assert_eq!(latex_name("q[3]"), "q_{3}");
-/// assert_eq!(latex_name("der(der(phi2))"), r"\ddot{\varphi}_{2}");
+/// assert_eq!(math_name("cx").latex(), "c_{x}");
+/// assert_eq!(math_name("cx").mathml(), "<math><msub><mi>c</mi><mi>x</mi></msub></math>");
 /// ```
-pub fn latex_name(name: &str) -> String {
+pub fn math_name(name: &str) -> Math {
     let (mut inner, mut dots) = (name, 0);
     while let Some(below) = inner
         .strip_prefix("der(")
@@ -34,81 +33,114 @@ pub fn latex_name(name: &str) -> String {
         greek(letters),
         letters.chars().collect::<Vec<_>>().as_slice(),
     ) {
-        (Some(command), _) => command.to_owned(),
-        (None, []) => r"\square".to_owned(),
-        (None, [letter]) => letter.to_string(),
+        (Some(letter), _) => Math::letter(letter),
+        (None, []) => Math::letter('_'),
+        (None, &[letter]) => Math::letter(letter),
         // cx, yb: a quantity and its direction.
-        (None, [letter, index]) => {
-            subscripts.push(index.to_string());
-            letter.to_string()
+        (None, &[letter, index]) => {
+            subscripts.push(Math::letter(index));
+            Math::letter(letter)
         }
-        (None, _) => format!(r"\mathrm{{{letters}}}"),
+        (None, _) => Math::mark(Mark::Word(letters.to_owned())),
     };
-    subscripts.extend(
-        Some(digits)
-            .filter(|digits| !digits.is_empty())
-            .map(str::to_owned),
-    );
+    subscripts.extend(Some(digits).filter(|digits| !digits.is_empty()).map(number));
     subscripts.extend(parts.map(subscript));
 
     let accented = match dots {
         0 => base,
-        1 => format!(r"\dot{{{base}}}"),
-        2 => format!(r"\ddot{{{base}}}"),
-        3 => format!(r"\dddot{{{base}}}"),
-        _ => format!(r"\frac{{d^{{{dots}}}}}{{d t^{{{dots}}}}} {base}"),
+        1..=3 => Math::form(Form::Dots(dots), [base]),
+        _ => {
+            let d = || Math::letter('d');
+            let order = || Math::number(i64::from(dots));
+            let below = d() * Math::letter('t').power(order());
+            Math::fraction(d().power(order()), below) * base
+        }
     };
     if subscripts.is_empty() {
         accented
     } else {
-        format!("{accented}_{{{}}}", subscripts.join(","))
+        accented.with_index(Math::joined(subscripts, Sign::Comma))
     }
 }
 
-fn subscript(part: &str) -> String {
+/// [`math_name`] in LaTeX.
+///
+/// ```
+/// use lagrangian_symbolic::latex_name;
+///
+/// assert_eq!(latex_name("theta1"), r"\theta_{1}");
+/// assert_eq!(latex_name("x_left"), r"x_{\mathrm{left}}");
+/// assert_eq!(latex_name("q[3]"), "q_{3}");
+/// assert_eq!(latex_name("der(der(phi2))"), r"\ddot{\varphi}_{2}");
+/// ```
+pub fn latex_name(name: &str) -> String {
+    math_name(name).latex()
+}
+
+/// [`math_name`] in MathML: an element `math` for a line of text.
+///
+/// ```
+/// use lagrangian_symbolic::mathml_name;
+///
+/// assert_eq!(mathml_name("theta1"), "<math><msub><mi>θ</mi><mn>1</mn></msub></math>");
+/// ```
+pub fn mathml_name(name: &str) -> String {
+    math_name(name).mathml()
+}
+
+fn subscript(part: &str) -> Math {
     let letters = part.trim_end_matches(|c: char| c.is_ascii_digit());
-    match greek(part) {
-        Some(command) => command.to_owned(),
-        None if letters.chars().count() > 1 => format!(r"\mathrm{{{part}}}"),
-        None => part.to_owned(),
+    let digits = &part[letters.len()..];
+    match (greek(part), letters.chars().collect::<Vec<_>>().as_slice()) {
+        (Some(letter), _) => Math::letter(letter),
+        (None, []) => number(digits),
+        // A member of a family: q[-1].
+        (None, ['-']) if !digits.is_empty() => -number(digits),
+        (None, &[letter]) if digits.is_empty() => Math::letter(letter),
+        (None, &[letter]) => Math::row([Math::letter(letter), number(digits)]),
+        (None, _) => Math::mark(Mark::Word(part.to_owned())),
     }
 }
 
-fn greek(name: &str) -> Option<&'static str> {
+fn number(digits: &str) -> Math {
+    Math::mark(Mark::Number(digits.to_owned()))
+}
+
+fn greek(name: &str) -> Option<char> {
     Some(match name {
-        "alpha" => r"\alpha",
-        "beta" => r"\beta",
-        "gamma" => r"\gamma",
-        "delta" => r"\delta",
-        "epsilon" => r"\varepsilon",
-        "zeta" => r"\zeta",
-        "eta" => r"\eta",
-        "theta" => r"\theta",
-        "iota" => r"\iota",
-        "kappa" => r"\kappa",
-        "lambda" => r"\lambda",
-        "mu" => r"\mu",
-        "nu" => r"\nu",
-        "xi" => r"\xi",
-        "rho" => r"\rho",
-        "sigma" => r"\sigma",
-        "tau" => r"\tau",
-        "upsilon" => r"\upsilon",
-        "phi" => r"\varphi",
-        "chi" => r"\chi",
-        "psi" => r"\psi",
-        "omega" => r"\omega",
-        "Gamma" => r"\Gamma",
-        "Delta" => r"\Delta",
-        "Theta" => r"\Theta",
-        "Lambda" => r"\Lambda",
-        "Xi" => r"\Xi",
-        "Pi" => r"\Pi",
-        "Sigma" => r"\Sigma",
-        "Upsilon" => r"\Upsilon",
-        "Phi" => r"\Phi",
-        "Psi" => r"\Psi",
-        "Omega" => r"\Omega",
+        "alpha" => 'α',
+        "beta" => 'β',
+        "gamma" => 'γ',
+        "delta" => 'δ',
+        "epsilon" => 'ε',
+        "zeta" => 'ζ',
+        "eta" => 'η',
+        "theta" => 'θ',
+        "iota" => 'ι',
+        "kappa" => 'κ',
+        "lambda" => 'λ',
+        "mu" => 'μ',
+        "nu" => 'ν',
+        "xi" => 'ξ',
+        "rho" => 'ρ',
+        "sigma" => 'σ',
+        "tau" => 'τ',
+        "upsilon" => 'υ',
+        "phi" => 'φ',
+        "chi" => 'χ',
+        "psi" => 'ψ',
+        "omega" => 'ω',
+        "Gamma" => 'Γ',
+        "Delta" => 'Δ',
+        "Theta" => 'Θ',
+        "Lambda" => 'Λ',
+        "Xi" => 'Ξ',
+        "Pi" => 'Π',
+        "Sigma" => 'Σ',
+        "Upsilon" => 'Υ',
+        "Phi" => 'Φ',
+        "Psi" => 'Ψ',
+        "Omega" => 'Ω',
         _ => return None,
     })
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::arena::Arena;
 use crate::dag::{Function, Id, Node};
-use crate::print::layout::{self, Term};
+use crate::print::layout::{self, Order, Term};
 use crate::print::number::{Shape, shape};
 use crate::rational::Rational;
 
@@ -132,7 +132,7 @@ impl<'a> Writer<'a> {
 
     /// `1/2*m*x^2/(a*b)`.
     fn multiple(&self, scale: &Rational, id: Id, next: &mut Vec<Piece>) {
-        let fraction = layout::fraction(self.arena, id);
+        let fraction = layout::fraction(self.arena, id, Order::Stages);
         let mut below: Vec<Piece> = fraction
             .below
             .iter()

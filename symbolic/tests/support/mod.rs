@@ -2,6 +2,7 @@
 //! tree says.
 #![allow(dead_code, reason = "each test uses its part")]
 
+pub mod markup;
 pub mod parser;
 
 use lagrangian_scalar::{Residue, Scalar};

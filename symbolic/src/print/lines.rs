@@ -1,0 +1,248 @@
+//! How wide a formula is, and where it is broken into lines.
+
+use crate::print::math::{Form, Mark, Math, Sign};
+
+/// A place before a sign at which a line may end.
+struct Break {
+    /// The mark that begins the next line.
+    mark: usize,
+    /// The width of all before it.
+    at: f32,
+    /// How many parentheses are open there.
+    depth: usize,
+}
+
+impl Math {
+    /// About how wide it is in a display, in the size of its font (em).
+    pub fn width(&self) -> f32 {
+        measure(&self.marks).0
+    }
+
+    /// In lines, the first at most so wide, the others as the second number says, in em. A line ends before `+`, `−` or
+    /// `=`, outside of parentheses rather than inside, and never in a fraction, under a root or in an exponent: what
+    /// cannot be broken may be wider.
+    ///
+    /// Parentheses that are closed in another line are of one size ([`Sign::LeftParenthesis`]).
+    pub fn lines(&self, first: f32, others: f32) -> Vec<Math> {
+        let (width, breaks) = measure(&self.marks);
+        let mut cuts: Vec<usize> = Vec::new();
+        let (mut start, mut room) = (0.0, first);
+        while width - start > room {
+            let mut best: Option<(f32, &Break)> = None;
+            for place in breaks.iter().filter(|place| place.at > start) {
+                let filled = (place.at - start) / room;
+                if filled > 1.0 && best.is_some() {
+                    break;
+                }
+                let score = match place.depth {
+                    _ if filled > 1.0 => -filled,
+                    0 => filled,
+                    depth => filled - 0.3 - 0.1 * depth as f32,
+                };
+                if best.is_none_or(|(other, _)| score >= other) {
+                    best = Some((score, place));
+                }
+            }
+            let Some((_, place)) = best else { break };
+            cuts.push(place.mark);
+            (start, room) = (place.at, others);
+        }
+        split(&self.marks, &cuts)
+    }
+}
+
+/// The marks in lines that begin at `cuts`.
+fn split(marks: &[Mark], cuts: &[usize]) -> Vec<Math> {
+    let torn = torn(marks, cuts);
+    let mut lines = vec![Math::default()];
+    for (index, mark) in marks.iter().enumerate() {
+        if cuts.contains(&index) {
+            lines.push(Math::default());
+        }
+        let Some(line) = lines.last_mut() else { break };
+        match (mark, torn.contains(&index)) {
+            // The exponent goes to the parenthesis that closes.
+            (Mark::Open(Form::Power), true) => {}
+            (Mark::Open(_), true) => line.marks.push(Mark::Sign(Sign::LeftParenthesis)),
+            (Mark::Close, true) => {
+                if marks.get(index + 1) == Some(&Mark::Next) {
+                    line.marks.push(Mark::Open(Form::Power));
+                }
+                line.marks.push(Mark::Sign(Sign::RightParenthesis));
+            }
+            _ => line.marks.push(mark.clone()),
+        }
+    }
+    lines.retain(|line| !line.is_empty());
+    lines
+}
+
+/// The marks that open and close parentheses around a cut, and open powers of such parentheses.
+fn torn(marks: &[Mark], cuts: &[usize]) -> std::collections::BTreeSet<usize> {
+    let mut torn = std::collections::BTreeSet::new();
+    let mut open: Vec<usize> = Vec::new();
+    for (index, mark) in marks.iter().enumerate() {
+        if cuts.binary_search(&index).is_ok() {
+            torn.extend(&open);
+        }
+        match mark {
+            Mark::Open(_) => open.push(index),
+            Mark::Close => {
+                let opened = open.pop();
+                let is_power = opened.is_some_and(|o| marks[o] == Mark::Open(Form::Power));
+                if opened.is_some_and(|opened| torn.contains(&opened)) && !is_power {
+                    torn.insert(index);
+                }
+            }
+            _ => {}
+        }
+    }
+    torn
+}
+
+/// A form that is open while marks are measured.
+struct Level {
+    form: Form,
+    /// Whether a line may end inside: then its marks are added to the line at once.
+    transparent: bool,
+    /// The widths of its arguments so far.
+    arguments: Vec<f32>,
+    /// The size of the font.
+    size: f32,
+    /// How many fractions are around.
+    fractions: usize,
+}
+
+/// The width of a row, and where it may be broken.
+fn measure(marks: &[Mark]) -> (f32, Vec<Break>) {
+    let mut x = 0.0;
+    let mut breaks = Vec::new();
+    let mut open: Vec<Level> = Vec::new();
+    for (index, mark) in marks.iter().enumerate() {
+        let clear = open.last().is_none_or(|level| level.transparent);
+        let (size, fractions) = match open.last() {
+            Some(level) => (level.size_of_argument(), level.fractions),
+            None => (1.0, 0),
+        };
+        let width = match mark {
+            Mark::Open(form) => {
+                let transparent = clear
+                    && match form {
+                        Form::Parentheses => true,
+                        Form::Power => marks.get(index + 1) == Some(&Mark::Open(Form::Parentheses)),
+                        _ => false,
+                    };
+                open.push(Level {
+                    form: *form,
+                    transparent,
+                    arguments: vec![0.0],
+                    size,
+                    fractions: fractions + usize::from(*form == Form::Fraction),
+                });
+                if transparent && *form == Form::Parentheses {
+                    0.42
+                } else {
+                    0.0
+                }
+            }
+            Mark::Next => {
+                if let Some(level) = open.last_mut() {
+                    // No line ends in an exponent.
+                    level.transparent = false;
+                    level.arguments.push(0.0);
+                }
+                continue;
+            }
+            Mark::Close => match open.pop() {
+                Some(level) if level.transparent => 0.42,
+                Some(level) => level.width(),
+                None => 0.0,
+            },
+            Mark::Sign(Sign::Plus | Sign::Minus | Sign::Equals) if clear && x > 0.0 => {
+                let depth = open.iter().filter(|l| l.form == Form::Parentheses).count();
+                breaks.push(Break {
+                    mark: index,
+                    at: x,
+                    depth,
+                });
+                1.25
+            }
+            mark => size * width_of(mark),
+        };
+        match open.last_mut() {
+            Some(level) if !level.transparent => {
+                if let Some(argument) = level.arguments.last_mut() {
+                    *argument += width;
+                }
+            }
+            _ => x += width,
+        }
+    }
+    (x, breaks)
+}
+
+impl Level {
+    fn size_of_argument(&self) -> f32 {
+        let is_script = matches!(self.form, Form::Power | Form::Index | Form::IndexAndPower)
+            && self.arguments.len() > 1;
+        let is_small = self.form == Form::Fraction && self.fractions > 1;
+        if is_script || is_small {
+            self.size * 0.7
+        } else {
+            self.size
+        }
+    }
+
+    fn width(&self) -> f32 {
+        let widest = |arguments: &[f32]| arguments.iter().copied().fold(0.0, f32::max);
+        let all = &self.arguments[..];
+        match self.form {
+            Form::Fraction => widest(all) + 0.24,
+            Form::Under => widest(all),
+            Form::Power | Form::Index => all.iter().sum(),
+            Form::IndexAndPower => all[0] + widest(&all[1..]),
+            Form::Root => widest(all) + 0.85,
+            Form::Dots(_) => widest(all),
+            Form::Parentheses | Form::Bars => widest(all) + 0.84,
+            Form::Matrix(columns) => {
+                let columns = columns.max(1);
+                let column = |k: usize| all.iter().skip(k).step_by(columns).copied();
+                let widths = (0..columns).map(|k| column(k).fold(0.0, f32::max) + 1.0);
+                widths.sum::<f32>() + 1.4
+            }
+        }
+    }
+}
+
+/// About the widths of Computer Modern at 10 points (D. E. Knuth, *Computer Modern Typefaces*, 1986).
+fn width_of(mark: &Mark) -> f32 {
+    let letter = |c: char| match c {
+        'i' | 'j' | 'l' | 't' | 'ι' => 0.36,
+        'm' | 'w' | 'M' | 'W' => 0.9,
+        'A'..='Z' => 0.75,
+        _ => 0.56,
+    };
+    let word = |word: &str| word.chars().map(letter).sum::<f32>() * 0.92;
+    match mark {
+        Mark::Letter(c) => letter(*c),
+        Mark::Bold(c) => 1.1 * letter(*c),
+        Mark::Word(text) => word(text),
+        Mark::Text(text) => word(text),
+        Mark::Number(digits) => 0.5 * digits.len() as f32,
+        Mark::Function(name) => word(name) + 0.17,
+        Mark::Sign(sign) => match sign {
+            Sign::Plus | Sign::Minus => 1.22,
+            Sign::Equals => 1.33,
+            Sign::Negative => 0.78,
+            Sign::Times => 0.0,
+            Sign::Dot => 0.72,
+            Sign::Apply => 0.17,
+            Sign::Comma => 0.45,
+            Sign::Sum => 1.44,
+            Sign::Dots => 1.2,
+            Sign::Quad => 1.0,
+            Sign::LeftParenthesis | Sign::RightParenthesis => 0.46,
+        },
+        Mark::Open(_) | Mark::Next | Mark::Close => 0.0,
+    }
+}

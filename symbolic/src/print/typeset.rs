@@ -1,0 +1,269 @@
+//! From the graph to a formula on a page.
+
+use crate::arena::Arena;
+use crate::dag::{Function, Id, Node};
+use crate::print::layout::{self, Order, Term};
+use crate::print::math::{Form, Mark, Math, Sign};
+use crate::print::number::{Shape, shape};
+use crate::rational::Rational;
+
+/// The place that an expression stands in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// On its own, in braces or parentheses.
+    Whole,
+    /// Among other factors.
+    Factor,
+    /// Under an exponent.
+    Base,
+    /// After the name of a function.
+    Argument,
+}
+
+/// What is still to be written.
+enum Piece {
+    Mark(Mark),
+    Node(Id, Place),
+    /// A positive multiple.
+    Multiple(Rational, Id),
+    Power(Id, u32),
+}
+
+/// Sets a graph, front to back, with a stack of what is still to be written.
+pub(super) struct Writer<'a> {
+    arena: &'a Arena,
+    symbols: &'a [Math],
+    out: Vec<Mark>,
+    left: Vec<Piece>,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(arena: &'a Arena, symbols: &'a [Math]) -> Writer<'a> {
+        Writer {
+            arena,
+            symbols,
+            out: Vec::new(),
+            left: Vec::new(),
+        }
+    }
+
+    pub(super) fn write(mut self, id: Id) -> Math {
+        self.left.push(Piece::Node(id, Place::Whole));
+        while let Some(piece) = self.left.pop() {
+            let mut next = Vec::new();
+            match piece {
+                Piece::Mark(mark) => self.out.push(mark),
+                Piece::Node(id, place) if self.needs_parentheses(id, place) => {
+                    form(
+                        Form::Parentheses,
+                        [vec![Piece::Node(id, Place::Whole)]],
+                        &mut next,
+                    );
+                }
+                Piece::Node(id, _) => self.node(id, &mut next),
+                Piece::Multiple(scale, id) => self.multiple(&scale, id, &mut next),
+                Piece::Power(id, n) => self.power(id, n, &mut next),
+            }
+            self.left.extend(next.into_iter().rev());
+        }
+        Math { marks: self.out }
+    }
+
+    fn needs_parentheses(&self, id: Id, place: Place) -> bool {
+        match (place, self.arena.node(id)) {
+            (Place::Whole, _) => false,
+            (_, Node::Symbol(_) | Node::Pi) => false,
+            (Place::Factor, Node::Sum(_)) => true,
+            (Place::Factor, Node::Constant(value)) => value.is_negative(),
+            (Place::Factor, _) => false,
+            (_, Node::Constant(value)) => value.is_negative() || !value.is_integer(),
+            (Place::Base, Node::Function(Function::Abs, _)) => false,
+            _ => true,
+        }
+    }
+
+    fn node(&self, id: Id, next: &mut Vec<Piece>) {
+        match self.arena.node(id) {
+            Node::Constant(value) => {
+                if value.is_negative() {
+                    next.push(sign(Sign::Negative));
+                }
+                next.extend(marks(number(&value.abs())));
+            }
+            Node::Pi => next.push(Piece::Mark(Mark::Letter('π'))),
+            Node::Symbol(symbol) => {
+                next.extend(marks(self.symbols[symbol.index()].clone()));
+            }
+            Node::Sum(terms) => {
+                let terms = layout::terms(self.arena, terms, true);
+                for (
+                    index,
+                    Term {
+                        negative,
+                        scale,
+                        id,
+                    },
+                ) in terms.into_iter().enumerate()
+                {
+                    match (index, negative) {
+                        (0, false) => {}
+                        (0, true) => next.push(sign(Sign::Negative)),
+                        (_, false) => next.push(sign(Sign::Plus)),
+                        (_, true) => next.push(sign(Sign::Minus)),
+                    }
+                    next.push(Piece::Multiple(scale, id));
+                }
+            }
+            Node::Product(_) => next.push(Piece::Multiple(Rational::ONE, id)),
+            Node::Function(function, arguments) => self.function(*function, arguments, None, next),
+        }
+    }
+
+    /// `½ m x²`, `a/(2 b)` as fractions.
+    fn multiple(&self, scale: &Rational, id: Id, next: &mut Vec<Piece>) {
+        let fraction = layout::fraction(self.arena, id, Order::FunctionsLast);
+        let factors = |factors: &[(Id, u32)]| -> Vec<Vec<Piece>> {
+            let power = |&(id, n): &(Id, u32)| vec![Piece::Power(id, n)];
+            factors.iter().map(power).collect()
+        };
+        let mut above = factors(&fraction.above);
+        let mut below = factors(&fraction.below);
+        let is_fraction = !below.is_empty();
+        if !scale.is_one() || above.is_empty() {
+            match shape(scale) {
+                Shape::Fraction(p, q) if is_fraction => {
+                    if p != "1" || above.is_empty() {
+                        above.insert(0, marks(digits(p)).collect());
+                    }
+                    below.insert(0, marks(digits(q)).collect());
+                }
+                _ => above.insert(0, marks(number(scale)).collect()),
+            }
+        }
+        if is_fraction {
+            form(Form::Fraction, [product(above), product(below)], next);
+        } else {
+            next.extend(product(above));
+        }
+    }
+
+    /// `θ²`, `sin² θ`.
+    fn power(&self, id: Id, n: u32, next: &mut Vec<Piece>) {
+        let exponent = || Math::number(i64::from(n));
+        match self.arena.node(id) {
+            _ if n == 1 => next.push(Piece::Node(id, Place::Factor)),
+            Node::Function(function, arguments) if has_name(*function) && arguments.len() == 1 => {
+                self.function(*function, arguments, Some(n), next);
+            }
+            Node::Symbol(symbol) => {
+                let symbol = self.symbols[symbol.index()].clone();
+                next.extend(marks(symbol.power(exponent())));
+            }
+            _ => form(
+                Form::Power,
+                [
+                    vec![Piece::Node(id, Place::Base)],
+                    marks(exponent()).collect(),
+                ],
+                next,
+            ),
+        }
+    }
+
+    fn function(
+        &self,
+        function: Function,
+        arguments: &[Id],
+        power: Option<u32>,
+        next: &mut Vec<Piece>,
+    ) {
+        let whole = |id: Id| vec![Piece::Node(id, Place::Whole)];
+        let x = arguments[0];
+        match function {
+            Function::Sqrt => form(Form::Root, [whole(x)], next),
+            Function::Abs => form(Form::Bars, [whole(x)], next),
+            Function::Exp => {
+                let base = vec![Piece::Mark(Mark::Letter('e'))];
+                form(Form::Power, [base, whole(x)], next);
+            }
+            Function::Pow => {
+                let base = vec![Piece::Node(x, Place::Base)];
+                form(Form::Power, [base, whole(arguments[1])], next);
+            }
+            _ => {
+                let name = vec![Piece::Mark(Mark::Function(function.name()))];
+                match power {
+                    Some(n) => {
+                        let exponent = marks(Math::number(i64::from(n))).collect();
+                        form(Form::Power, [name, exponent], next);
+                    }
+                    None => next.extend(name),
+                }
+                next.push(sign(Sign::Apply));
+                if let [x] = arguments {
+                    next.push(Piece::Node(*x, Place::Argument));
+                } else {
+                    let mut list = Vec::new();
+                    for (index, &argument) in arguments.iter().enumerate() {
+                        if index > 0 {
+                            list.push(sign(Sign::Comma));
+                        }
+                        list.extend(whole(argument));
+                    }
+                    form(Form::Parentheses, [list], next);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a function is written by its name; an exponent goes to the name then: sin²x.
+fn has_name(function: Function) -> bool {
+    use Function::{Abs, Exp, Pow, Sqrt};
+    !matches!(function, Sqrt | Abs | Exp | Pow)
+}
+
+/// Factors next to each other.
+fn product(factors: Vec<Vec<Piece>>) -> Vec<Piece> {
+    let mut product = Vec::new();
+    for (index, factor) in factors.into_iter().enumerate() {
+        if index > 0 {
+            product.push(sign(Sign::Times));
+        }
+        product.extend(factor);
+    }
+    product
+}
+
+fn form(form: Form, arguments: impl IntoIterator<Item = Vec<Piece>>, next: &mut Vec<Piece>) {
+    next.push(Piece::Mark(Mark::Open(form)));
+    for (index, argument) in arguments.into_iter().enumerate() {
+        if index > 0 {
+            next.push(Piece::Mark(Mark::Next));
+        }
+        next.extend(argument);
+    }
+    next.push(Piece::Mark(Mark::Close));
+}
+
+fn number(value: &Rational) -> Math {
+    let ten = |exponent: i64| Math::number(10).power(Math::number(exponent));
+    match shape(value) {
+        Shape::Decimal(text) => digits(text),
+        Shape::Scientific(mantissa, exponent) if mantissa == "1" => ten(exponent),
+        Shape::Scientific(mantissa, exponent) => digits(mantissa).then(Sign::Dot, ten(exponent)),
+        Shape::Fraction(above, below) => Math::fraction(digits(above), digits(below)),
+    }
+}
+
+fn digits(text: String) -> Math {
+    Math::mark(Mark::Number(text))
+}
+
+fn marks(math: Math) -> impl Iterator<Item = Piece> {
+    math.marks.into_iter().map(Piece::Mark)
+}
+
+fn sign(sign: Sign) -> Piece {
+    Piece::Mark(Mark::Sign(sign))
+}
