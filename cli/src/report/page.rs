@@ -1,6 +1,9 @@
 //! The page: its text, its tables, and the files it is made from.
 
 use lagrangian::{Machine, System};
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::emit::document::{Block, Document};
+use lagrangian_spec::emit::html as derivation;
 use lagrangian_spec::program::{Program, Role};
 
 use super::Report;
@@ -11,6 +14,9 @@ use crate::simulate::shortest;
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
+
+/// What the derivation may fill, in bytes: whole equations of a large machine are megabytes.
+const DERIVATION: usize = 700_000;
 
 /// What plays, draws and plots: one module, whose parts follow each other.
 const SCRIPTS: [&str; 5] = [
@@ -42,7 +48,9 @@ pub fn text(
         "events" => events(report),
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
-        "style" => STYLE.to_owned(),
+        "equations" => equations(report.compiled),
+        // The page's own comes last: its colours follow the button, too.
+        "style" => [derivation::STYLE, STYLE].concat(),
         "data" => html::json(data),
         "script" => [kinematics, &SCRIPTS.concat()].join("\n"),
         _ => String::new(),
@@ -383,4 +391,56 @@ fn counts(program: &Program) -> String {
         "other",
     ];
     html::table("Operations of one call", &head, &rows)
+}
+
+/// The derivation, as far as there is room for it: the shortest formulas of all.
+fn equations(compiled: &Compiled<'_>) -> String {
+    let mut document = Document::new(compiled);
+    let sections = document.sections.iter().enumerate();
+    let mut lengths: Vec<(usize, [usize; 2])> = sections
+        .flat_map(|(s, section)| {
+            let blocks = section.blocks.iter().enumerate();
+            blocks.map(move |(b, block)| (length(block), [s, b]))
+        })
+        .collect();
+    lengths.sort_unstable();
+    let mut room = DERIVATION;
+    let mut left_out = false;
+    for (length, [s, b]) in lengths {
+        if length <= room {
+            room -= length;
+            continue;
+        }
+        if let Some(block) = document
+            .sections
+            .get_mut(s)
+            .and_then(|section| section.blocks.get_mut(b))
+        {
+            *block = Block::Paragraph(vec!["(too long for this page)".into()]);
+            left_out = true;
+        }
+    }
+    let note = match left_out {
+        true => {
+            "<p class=\"note\">Formulas too long for this page are printed by <code>lagrangian derive</code>.</p>\n"
+        }
+        false => "",
+    };
+    format!(
+        "<h2>Derivation</h2>\n{note}{}",
+        derivation::article(&document)
+    )
+}
+
+/// How long a block is as HTML.
+fn length(block: &Block) -> usize {
+    let section = lagrangian_spec::emit::document::Section {
+        title: String::new(),
+        blocks: vec![block.clone()],
+    };
+    derivation::article(&Document {
+        title: String::new(),
+        sections: vec![section],
+    })
+    .len()
 }

@@ -76,7 +76,7 @@ impl Experiment {
         }
     }
 
-    /// Whether a function of the values is the same in every state of a world; `None` means that it has no value.
+    /// Whether a function of the values is the same in every state of a world.
     fn is_constant(&self, f: impl Fn(&[Residue]) -> Residue) -> bool {
         for states in &self.worlds {
             let defined: Vec<Residue> = states
@@ -92,6 +92,11 @@ impl Experiment {
             }
         }
         false
+    }
+
+    /// Whether a value is the same in every state.
+    pub fn keeps(&self, place: usize) -> bool {
+        self.is_constant(|x| x[place])
     }
 
     /// Whether two points of so many components keep their distance.

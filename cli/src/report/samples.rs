@@ -8,7 +8,7 @@ use std::fmt::Write;
 use crate::recording::{Column, Kind, Recording};
 
 /// What the states may fill, in bytes before they are encoded.
-const STATE_BYTES: usize = 1_200_000;
+const STATE_BYTES: usize = 1_050_000;
 
 /// More states than this show nothing more.
 const MOST: usize = 16_384;

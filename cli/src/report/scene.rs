@@ -12,7 +12,7 @@
 //! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
 //! vectors are places in the list of values that the page computes.
 
-use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step};
+use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
 
@@ -586,17 +586,23 @@ impl<'d> Finder<'_, 'd> {
         if self.dimension() != 2 {
             return None;
         }
-        let gradient = |of: Expr<'d>| -> Vec<f64> {
-            let along = |coordinate: &lagrangian_spec::model::Coordinate<'d>| {
-                let symbol = coordinate.q.as_symbol()?;
-                let rate = [(symbol, self.model.dag.one())];
-                Some(Tangent::new(self.model.dag, &rate).of(of))
-            };
-            let slopes: Option<Vec<Expr<'d>>> = self.model.coordinates.iter().map(along).collect();
-            let slopes = slopes.unwrap_or_default();
-            evaluate(self.model.dag, &slopes, |symbol| (self.value)(symbol))
+        let slopes = |of: Expr<'d>| -> Vec<Expr<'d>> {
+            let coordinates = self.model.coordinates.iter();
+            let symbols = coordinates.filter_map(|coordinate| coordinate.q.as_symbol());
+            symbols
+                .map(|symbol| {
+                    Tangent::new(self.model.dag, &[(symbol, self.model.dag.one())]).of(of)
+                })
+                .collect()
         };
-        let wanted = gradient(element.stretch);
+        let numbers =
+            |slopes: &[Expr<'d>]| evaluate(self.model.dag, slopes, |symbol| (self.value)(symbol));
+        // The line of action of a stretch that is not linear would move about.
+        let linear = slopes(element.stretch);
+        if linear.iter().any(|slope| slope.stage() > stage::PARAMETER) {
+            return None;
+        }
+        let wanted = numbers(&linear);
         if wanted.iter().all(|slope| *slope == 0.0) {
             return None;
         }
@@ -606,7 +612,9 @@ impl<'d> Finder<'_, 'd> {
                 Rotation::Angle(angle) => angle,
                 Rotation::Frame(pose) => self.model.poses[pose.index()].angle,
             };
-            let motion: Vec<Vec<f64>> = [body.at[0], body.at[1], angle].map(gradient).into();
+            let motion: Vec<Vec<f64>> = [body.at[0], body.at[1], angle]
+                .map(|of| numbers(&slopes(of)))
+                .into();
             let Some([x, y, moment]) = wrench(&motion, &wanted) else {
                 continue;
             };
@@ -631,12 +639,8 @@ impl<'d> Finder<'_, 'd> {
     /// A torsion spring is shown at the first body whose angle is its twist, up to a constant.
     fn twist(&self, element: &Elastic<'d>) -> Option<Placed> {
         let same = |angle: Expr<'d>| {
-            let rest = element.stretch - angle;
-            let moves = |symbol: &Symbol| {
-                let stage = self.model.dag.stage_of(*symbol);
-                stage > lagrangian_spec::model::stage::PARAMETER
-            };
-            !rest.symbols().iter().any(moves)
+            let rest = [element.stretch - angle];
+            Experiment::new(self.model, &rest).keeps(0)
         };
         let turned = self
             .model
@@ -771,9 +775,9 @@ fn principal(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
             let tan = theta.signum() / (theta.abs() + theta.hypot(1.0));
             let cos = 1.0 / tan.hypot(1.0);
             let sin = tan * cos;
-            for k in 0..3 {
-                let (x, y) = (a[k][p], a[k][q]);
-                (a[k][p], a[k][q]) = (cos * x - sin * y, sin * x + cos * y);
+            for row in &mut a {
+                let (x, y) = (row[p], row[q]);
+                (row[p], row[q]) = (cos * x - sin * y, sin * x + cos * y);
             }
             for k in 0..3 {
                 let (x, y) = (a[p][k], a[q][k]);
