@@ -1,7 +1,50 @@
 //! Machines that run: the equations of motion that `machine!` derives, integrated.
 //!
-//! [`Machine`] holds the parameters of a machine, [`System`] its equations of motion. Without the feature `std` the
-//! crate allocates nothing and needs no operating system.
+//! ```
+//! # #[cfg(all(feature = "std", feature = "macros"))]
+//! # mod program {
+//! use lagrangian::Simulation;
+//!
+//! lagrangian::machine! {
+//!     /// A block on a spring.
+//!     machine Oscillator in plane {
+//!         parameters { m: kg = 2, k: N/m = 8 }
+//!         coordinates { x: m = 0.1 }
+//!         bodies { block { mass: m, at: (x, 0) } }
+//!         springs { spring { stiffness: k, stretch: x } }
+//!     }
+//! }
+//!
+//! # pub
+//! fn main() -> Result<(), lagrangian::Error> {
+//!     let oscillator = Oscillator { k: 18.0, ..Default::default() };
+//!     let run = Simulation::new(&oscillator).until(5.0).run(oscillator.start())?;
+//!     let exact = 0.1 * (18.0_f64 / 2.0).sqrt().cos(); // x = x₀ cos √(k/m) t at t = 1
+//!     assert!((run.at(1.0)?.q.x - exact).abs() < 1e-8);
+//!     Ok(())
+//! }
+//! # }
+//! # #[cfg(all(feature = "std", feature = "macros"))]
+//! # fn main() -> Result<(), lagrangian::Error> { program::main() }
+//! # #[cfg(not(all(feature = "std", feature = "macros")))]
+//! # fn main() {}
+//! ```
+//!
+//! The macro derives the equations of motion while the crate compiles. A spec can also stand in a file,
+//! `machine!(file = "machines/oscillator.machine")`, and the command `lagrangian` runs such a file as it is. The tutorial,
+//! the reference of the language and the equations stand in `docs/`.
+//!
+//! What the macro writes is a struct of parameters with public fields, which is a [`Machine`]; its
+//! [`prepare`](Machine::prepare) gives a [`System`], the equations of motion for these parameters. [`Simulation`] integrates
+//! them and returns a [`Solution`]: the state at every instant, events, and the balance of energy. A [`Stepper`] takes
+//! single steps, without an allocator.
+//!
+//! | feature | |
+//! | --- | --- |
+//! | `std` (default) | simulations, solutions, events; without it the crate allocates nothing and needs no operating system |
+//! | `macros` (default) | `machine!` |
+//! | `interpreter` | specs that are read while the program runs |
+//! | `nalgebra` | vectors and matrices of that crate at the interface |
 #![no_std]
 
 #[cfg(feature = "std")]
@@ -61,3 +104,14 @@ pub use lagrangian_macros::machine;
 /// The numbers that emitted code is generic over.
 pub use lagrangian_scalar as scalar;
 pub use lagrangian_scalar::Scalar;
+
+/// The programs of the docs, compiled and run as they are printed. They share one compilation with the examples in this
+/// crate's own docs.
+#[cfg(all(doctest, feature = "std", feature = "macros"))]
+mod documentation {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+
+    #[doc = include_str!("../docs/tutorial.md")]
+    struct Tutorial;
+}

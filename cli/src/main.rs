@@ -12,7 +12,6 @@ mod output;
 mod plot;
 mod reading;
 mod recording;
-mod report;
 mod simulate;
 mod table;
 

@@ -1,0 +1,146 @@
+//! The docs, held to what they say: every spec in them is checked, every command is run and prints what stands beneath it,
+//! every link leads somewhere, and the reference has an entry for every section and every error.
+//!
+//! A block's language says what happens to it.
+//!
+//! | language | |
+//! | --- | --- |
+//! | `machine` | a whole spec: saved under the name in its first line, `// NAME.machine`, or else under the name of its machine in snake case; it can be derived, unless the next block shows what is wrong with it, or the words after it say that it is `not-supported` |
+//! | `console` | commands after `$ `, and beneath each everything that it prints; `…` stands for what changes from run to run, and alone on a line for any number of lines |
+//! | `sh` | commands that must succeed, whatever they print |
+//! | `rust` | compiled and run as documentation tests of the library, see the end of `src/lib.rs` |
+//! | `text`, `json`, `toml` | forms and excerpts: nothing is done with them |
+//!
+//! The pages share nothing: each is a reader who begins with an empty folder and the library of machines.
+
+mod links;
+mod page;
+mod reader;
+mod reference;
+
+use std::collections::BTreeSet;
+use std::process::Command;
+
+use page::Page;
+use reader::{Reader, Verdict};
+
+/// The pages whose blocks are run.
+const PAGES: [&str; 5] = [
+    "README.md",
+    "docs/tutorial.md",
+    "docs/reference.md",
+    "docs/spec-language.md",
+    "docs/command-line.md",
+];
+
+/// Reads a page from top to bottom and does what it says.
+fn follow(path: &str) {
+    let page = Page::open(path);
+    let reader = Reader::new(path);
+    let blocks = page.blocks();
+    for (index, block) in blocks.iter().enumerate() {
+        let at = format!("{path}:{}", block.line);
+        match block.language.as_str() {
+            "machine" => {
+                let next = blocks.get(index + 1);
+                let shown = next.filter(|next| next.language == "console");
+                let verdict = if shown.is_some_and(|next| next.text.contains("\nerror")) {
+                    Verdict::Wrong
+                } else if block.after.contains("`not-supported`") {
+                    Verdict::NotSupported
+                } else {
+                    Verdict::Sound
+                };
+                reader.save(block, verdict, &at);
+            }
+            "console" => reader.compare(block, &at),
+            "sh" => reader.run(block, &at),
+            "rust" | "json" | "toml" => {}
+            "text" => {
+                let spec = |line: &str| line.starts_with("machine ") && line.ends_with('{');
+                let hidden = block.text.lines().any(spec);
+                assert!(!hidden, "{at}: a spec is a block of the language `machine`");
+            }
+            other => panic!("{at}: nothing is known to be done with a block of {other:?}"),
+        }
+    }
+}
+
+#[test]
+fn the_readme_does_what_it_says() {
+    follow("README.md");
+}
+
+#[test]
+fn the_tutorial_does_what_it_says() {
+    follow("docs/tutorial.md");
+}
+
+#[test]
+fn the_reference_does_what_it_says() {
+    follow("docs/reference.md");
+}
+
+#[test]
+fn the_page_of_the_language_does_what_it_says() {
+    follow("docs/spec-language.md");
+}
+
+#[test]
+fn the_page_of_the_command_line_does_what_it_says() {
+    follow("docs/command-line.md");
+}
+
+#[test]
+fn every_rust_block_is_a_documentation_test() {
+    let library = Page::open("src/lib.rs");
+    for path in PAGES {
+        let page = Page::open(path);
+        if page.blocks().iter().any(|block| block.language == "rust") {
+            let included = format!("include_str!(\"../{path}\")");
+            assert!(
+                library.text.contains(&included),
+                "src/lib.rs does not include {path}, so nobody runs its programs"
+            );
+        }
+    }
+}
+
+/// Commands and options as the command itself lists them.
+#[test]
+fn every_option_is_in_the_docs() {
+    let help = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+        let output = command.args(arguments).arg("--help").output();
+        String::from_utf8(output.expect("the command runs").stdout).expect("text")
+    };
+    let listed = |text: &str, heading: &str| -> Vec<String> {
+        let lines = text.lines().skip_while(|line| *line != heading).skip(1);
+        let items = lines.take_while(|line| !line.is_empty());
+        items.map(|line| line.trim().to_owned()).collect()
+    };
+    let page = Page::open("docs/command-line.md").text;
+    let mut options = BTreeSet::new();
+    for line in listed(&help(&[]), "Commands:") {
+        let command = line.split_whitespace().next().expect("a command");
+        let row = format!("| `lagrangian {command} ");
+        assert!(page.contains(&row), "no row for `lagrangian {command}`");
+        let help = help(&[command]);
+        let words = help.lines().filter_map(|line| {
+            let line = line.trim_start();
+            let line = line.strip_prefix("-h, ").unwrap_or(line);
+            line.strip_prefix("--")?.split([' ', '.', ',']).next()
+        });
+        options.extend(words.map(|word| format!("--{word}")));
+    }
+    options.remove("--help");
+    assert!(options.len() > 8, "{options:?}");
+    for option in options {
+        assert!(
+            page.contains(&format!("`{option}"))
+                || page.contains(&format!("[{option}"))
+                || page.contains(&format!("{option} ")),
+            "docs/command-line.md does not tell of {option}"
+        );
+    }
+}
