@@ -129,6 +129,9 @@ pub struct Simulate {
     /// Draw the motion as SVG: coordinates, outputs, energies, and what is left over in their balance.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
+    /// Write a page that shows the machine move, beside its curves, parameters and equations; one file, for any browser.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
 }
 
 /// `name=value`.

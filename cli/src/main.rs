@@ -12,6 +12,7 @@ mod output;
 mod plot;
 mod reading;
 mod recording;
+mod report;
 mod simulate;
 mod table;
 

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::FontFamily;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::recording::{Column, Kind, Recording};
+use crate::recording::{Kind, Panel, Recording, thin};
 
 /// Units of the drawing in 1/96 inch: the library rounds to whole units, and whole 1/96 inches show as stairs.
 const UNIT: u32 = 8;
@@ -32,18 +32,15 @@ const COLOURS: [RGBColor; 8] = [
     RGBColor(140, 140, 60),
 ];
 
-/// Curves that share an axis.
-struct Panel<'a> {
-    label: String,
-    columns: Vec<&'a Column>,
-}
+/// What is drawn, from top to bottom.
+const KINDS: [Kind; 4] = [Kind::Coordinate, Kind::Output, Kind::Energy, Kind::Residual];
 
 /// The drawing as SVG text, titled with the machine's name.
 ///
 /// # Errors
 /// What the drawing library says, as a sentence.
 pub fn svg(title: &str, recording: &Recording) -> Result<String, String> {
-    let panels = panels(recording);
+    let panels = recording.panels(&KINDS);
     let mut text = String::new();
     let height = 48 * UNIT + PANEL * panels.len().max(1) as u32;
     draw(
@@ -56,46 +53,6 @@ pub fn svg(title: &str, recording: &Recording) -> Result<String, String> {
     let drawn = format!("width=\"{WIDTH}\" height=\"{height}\"");
     let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / UNIT, height / UNIT);
     Ok(text.replacen(&drawn, &shown, 1))
-}
-
-/// Coordinates by unit, outputs by unit, energies, the residual: each a panel, where there is something in it.
-fn panels(recording: &Recording) -> Vec<Panel<'_>> {
-    let mut panels: Vec<Panel> = Vec::new();
-    for kind in [Kind::Coordinate, Kind::Output] {
-        let mut units: Vec<&str> = Vec::new();
-        for column in recording.of_kind(kind) {
-            if !units.contains(&column.unit.as_str()) {
-                units.push(&column.unit);
-            }
-        }
-        for unit in units {
-            let what = if kind == Kind::Coordinate {
-                "coordinates"
-            } else {
-                "outputs"
-            };
-            panels.push(Panel {
-                label: format!("{what} [{unit}]"),
-                columns: recording
-                    .of_kind(kind)
-                    .filter(|column| column.unit == unit)
-                    .collect(),
-            });
-        }
-    }
-    for (kind, label) in [
-        (Kind::Energy, "energy [J]"),
-        (Kind::Residual, "energy balance [J]"),
-    ] {
-        let columns: Vec<_> = recording.of_kind(kind).collect();
-        if !columns.is_empty() {
-            panels.push(Panel {
-                label: label.to_owned(),
-                columns,
-            });
-        }
-    }
-    panels
 }
 
 type Drawing<T> = Result<T, Box<dyn std::error::Error>>;
@@ -152,14 +109,14 @@ fn draw_panel(
         .label_style(font(12))
         .axis_desc_style(font(13))
         .x_desc("t [s]")
-        .y_desc(&panel.label)
+        .y_desc(panel.label())
         .y_labels(5)
         .x_label_formatter(&|x| label(x, along))
         .y_label_formatter(&|y| label(y, across))
         .draw()?;
     let colours = COLOURS.iter().cycle();
     for (column, colour) in panel.columns.iter().zip(colours.clone()) {
-        let points = thin(&recording.times, &column.values);
+        let points = thin(&recording.times, &column.values, POINTS);
         chart.draw_series(LineSeries::new(
             points,
             colour.stroke_width(UNIT + UNIT / 4),
@@ -202,37 +159,6 @@ fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     (low - margin)..(high + margin)
 }
 
-/// So many points that the curve looks the same: of every stretch the lowest and the highest, in order.
-fn thin(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
-    let points: Vec<(f64, f64)> = times
-        .iter()
-        .copied()
-        .zip(values.iter().copied())
-        .filter(|(_, value)| value.is_finite())
-        .collect();
-    if points.len() <= POINTS {
-        return points;
-    }
-    let stretch = points.len().div_ceil(POINTS / 2);
-    let mut kept = Vec::with_capacity(POINTS + 2);
-    for part in points.chunks(stretch) {
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        if let (Some(low), Some(high)) =
-            (part.iter().min_by(by_value), part.iter().max_by(by_value))
-        {
-            let (first, second) = if low.0 <= high.0 {
-                (low, high)
-            } else {
-                (high, low)
-            };
-            kept.push(*first);
-            kept.push(*second);
-        }
-    }
-    kept.extend(points.last());
-    kept
-}
-
 /// A tick's label: plain where that is short, with an exponent elsewhere.
 fn short(x: f64) -> String {
     let size = x.abs();
@@ -252,6 +178,7 @@ fn short(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recording::Column;
 
     #[test]
     fn labels_are_short() {
@@ -259,17 +186,6 @@ mod tests {
         assert_eq!(short(12000.0), "12000");
         assert_eq!(short(1.5e-9), "1.5e-9");
         assert_eq!(short(-2e6), "-2e6");
-    }
-
-    #[test]
-    fn a_thinned_curve_keeps_its_extremes() {
-        let times: Vec<f64> = (0..100_000).map(f64::from).collect();
-        let mut values = vec![0.0; times.len()];
-        values[70_001] = 5.0;
-        values[123] = -3.0;
-        let kept = thin(&times, &values);
-        assert!(kept.len() <= POINTS + 2);
-        assert!(kept.contains(&(70_001.0, 5.0)) && kept.contains(&(123.0, -3.0)));
     }
 
     #[test]

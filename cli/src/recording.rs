@@ -45,6 +45,48 @@ impl Recording {
             .filter(move |column| column.kind == kind)
     }
 
+    /// Every so many instants, and the last.
+    pub fn each(&self, stride: usize) -> Recording {
+        let last = self.times.len().saturating_sub(1);
+        let kept = |values: &[f64]| {
+            let numbered = values.iter().enumerate();
+            let kept = numbered.filter(|(row, _)| row % stride.max(1) == 0 || *row == last);
+            kept.map(|(_, value)| *value).collect()
+        };
+        Recording {
+            times: kept(&self.times),
+            columns: self
+                .columns
+                .iter()
+                .map(|column| Column {
+                    values: kept(&column.values),
+                    ..column.clone()
+                })
+                .collect(),
+        }
+    }
+
+    /// What is drawn together: coordinates, rates and outputs by unit, energies, the residual; of the kinds asked for,
+    /// each where there is something in it.
+    pub fn panels(&self, kinds: &[Kind]) -> Vec<Panel<'_>> {
+        let mut panels: Vec<Panel> = Vec::new();
+        for &kind in kinds {
+            for column in self.of_kind(kind) {
+                let unit = column.unit.as_str();
+                let same = |panel: &&mut Panel| panel.kind == kind && panel.unit == unit;
+                match panels.iter_mut().find(same) {
+                    Some(panel) => panel.columns.push(column),
+                    None => panels.push(Panel {
+                        kind,
+                        unit,
+                        columns: vec![column],
+                    }),
+                }
+            }
+        }
+        panels
+    }
+
     /// The headers of a table: the name with its unit, `s1 [m]`, time first.
     pub fn headers(&self) -> impl Iterator<Item = String> + '_ {
         let columns = self
@@ -55,5 +97,93 @@ impl Recording {
                 unit => format!("{} [{unit}]", column.name),
             });
         std::iter::once("t [s]".to_owned()).chain(columns)
+    }
+}
+
+/// Quantities that share an axis.
+pub struct Panel<'a> {
+    /// What they are.
+    pub kind: Kind,
+    /// Their unit.
+    pub unit: &'a str,
+    /// The quantities.
+    pub columns: Vec<&'a Column>,
+}
+
+impl Panel<'_> {
+    /// `coordinates [rad]`.
+    pub fn label(&self) -> String {
+        let what = match self.kind {
+            Kind::Coordinate => "coordinates",
+            Kind::Rate => "rates",
+            Kind::Output => "outputs",
+            Kind::Energy => "energy",
+            Kind::Residual => "energy balance",
+        };
+        format!("{what} [{}]", self.unit)
+    }
+}
+
+/// About so many points that the curve looks the same: of every stretch the lowest and the highest, in order.
+pub fn thin(times: &[f64], values: &[f64], most: usize) -> Vec<(f64, f64)> {
+    let points: Vec<(f64, f64)> = times
+        .iter()
+        .copied()
+        .zip(values.iter().copied())
+        .filter(|(_, value)| value.is_finite())
+        .collect();
+    if points.len() <= most {
+        return points;
+    }
+    let stretch = points.len().div_ceil((most / 2).max(1));
+    let mut kept = Vec::with_capacity(most + 2);
+    for part in points.chunks(stretch) {
+        let numbered = || part.iter().enumerate();
+        let by_value = |a: &(usize, &(f64, f64)), b: &(usize, &(f64, f64))| a.1.1.total_cmp(&b.1.1);
+        if let (Some(low), Some(high)) = (numbered().min_by(by_value), numbered().max_by(by_value))
+        {
+            let (first, second) = if low.0 <= high.0 {
+                (low, high)
+            } else {
+                (high, low)
+            };
+            kept.push(*first.1);
+            kept.push(*second.1);
+        }
+    }
+    kept.extend(points.last());
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thinned_curve_keeps_its_extremes() {
+        let times: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let mut values = vec![0.0; times.len()];
+        values[70_001] = 5.0;
+        values[123] = -3.0;
+        let kept = thin(&times, &values, 1500);
+        assert!(kept.len() <= 1502);
+        assert!(kept.contains(&(70_001.0, 5.0)) && kept.contains(&(123.0, -3.0)));
+    }
+
+    #[test]
+    fn every_other_instant_keeps_the_last() {
+        let values = vec![0.0, 1.0, 2.0, 3.0];
+        let recording = Recording {
+            times: values.clone(),
+            columns: vec![Column {
+                name: "x".into(),
+                unit: "m".into(),
+                kind: Kind::Coordinate,
+                values,
+            }],
+        };
+        let thinned = recording.each(2);
+        assert_eq!(thinned.times, [0.0, 2.0, 3.0]);
+        assert_eq!(thinned.columns[0].values, [0.0, 2.0, 3.0]);
     }
 }

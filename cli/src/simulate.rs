@@ -8,14 +8,16 @@ use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{METHODS, Method};
 use lagrangian::{Energies, Error, Machine, Simulation, Solution, System};
 use lagrangian_spec::diagnostic::nearest;
+use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
 use crate::call;
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output;
-use crate::reading;
+use crate::reading::{self, Reading};
 use crate::recording::{Column, Kind, Recording};
+use crate::report::{self, Report};
 use crate::{plot, table};
 
 /// How often a run is recorded where the call does not say.
@@ -27,7 +29,8 @@ const MOST_SAMPLES: f64 = 5e6;
 /// Ticks of the progress bar.
 const TICKS: u64 = 1000;
 
-type Run = Solution<InterpretedMachine>;
+/// A run of a machine read from a spec.
+pub type Run = Solution<InterpretedMachine>;
 
 /// Runs the command.
 ///
@@ -35,7 +38,16 @@ type Run = Solution<InterpretedMachine>;
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let method = method(&call.method)?;
-    let machine = reading::machine(reading::program(&call.spec)?, &call.start)?;
+    // Only a report asks for more than the program.
+    let dag = Dag::new();
+    let (compiled, program) = if call.report.is_some() {
+        let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+        let program = compiled.program.clone();
+        (Some(compiled), program)
+    } else {
+        (None, reading::program(&call.spec)?)
+    };
+    let machine = reading::machine(program, &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
@@ -45,8 +57,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
 
-    let recorded = call.out.is_some() || call.plot.is_some();
+    let recorded = call.out.is_some() || call.plot.is_some() || call.report.is_some();
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
+    let finer = match call.report {
+        Some(_) => report::finer(start.q.values.len(), call.until.abs(), interval),
+        None => 1,
+    };
     let bar = progress_bar(call.spec.json);
     let shown = Cell::new(0);
     let mut simulation = Simulation::new(&machine)
@@ -67,14 +83,28 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 "--every {interval:e} would record more than {MOST_SAMPLES:e} instants"
             )));
         }
-        simulation = simulation.every(interval);
+        simulation = simulation.every(interval / f64::from(finer));
     }
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     bar.finish_and_clear();
 
     if recorded {
-        let recording = record(&run)?;
-        write(call, machine.name(), &recording)?;
+        let recording = record(&run);
+        write(call, machine.name(), &recording.each(finer as usize))?;
+        if let (Some(path), Some(compiled)) = (&call.report, &compiled) {
+            let report = Report {
+                call,
+                compiled,
+                machine: &machine,
+                method,
+                run: &run,
+                recording: &recording,
+                error: error.as_ref(),
+            };
+            std::fs::write(path, report.page()).map_err(|error| {
+                Failure::Call(format!("cannot write {}: {error}", path.display()))
+            })?;
+        }
     }
     if call.spec.json {
         output::line(format_args!("{:#}", document(&run, error.as_ref())));
@@ -149,74 +179,65 @@ fn write(call: &call::Simulate, name: &str, recording: &Recording) -> Result<(),
 }
 
 /// The samples of a run, with what can be observed at each.
-fn record(run: &Run) -> Result<Recording, Failure> {
+fn record(run: &Run) -> Recording {
     let system = run.system();
-    let labels: Vec<(String, String)> = system
-        .coordinates()
-        .map(|quantity| (quantity.name.to_owned(), quantity.unit.to_owned()))
-        .collect();
+    // A run without length has no samples.
+    let states = match run.samples() {
+        [] => std::slice::from_ref(run.start()),
+        states => states,
+    };
     let mut columns: Vec<Column> = Vec::new();
     let mut column = |name: String, unit: String, kind| {
         columns.push(Column {
             name,
             unit,
             kind,
-            values: Vec::new(),
+            values: Vec::with_capacity(states.len()),
         })
     };
-    for (name, unit) in &labels {
-        column(name.clone(), unit.clone(), Kind::Coordinate);
+    for quantity in system.coordinates() {
+        column(quantity.name.into(), quantity.unit.into(), Kind::Coordinate);
     }
-    for (name, unit) in &labels {
-        let unit = if unit == "1" {
-            "1/s".into()
-        } else {
-            format!("{unit}/s")
+    for quantity in system.coordinates() {
+        let unit = match quantity.unit {
+            "1" => "1/s".into(),
+            unit => format!("{unit}/s"),
         };
-        column(format!("der({name})"), unit, Kind::Rate);
+        column(format!("der({})", quantity.name), unit, Kind::Rate);
     }
-    let mut times = Vec::new();
-    let mut rows: Vec<Vec<f64>> = Vec::new();
-    for state in run.samples() {
-        let seen = run.observe_state(state).map_err(cause)?;
-        if times.is_empty() {
-            for (quantity, _) in system.output_values(&seen.outputs) {
-                column(
-                    quantity.name.to_owned(),
-                    quantity.unit.to_owned(),
-                    Kind::Output,
-                );
+    let start = run.start();
+    let (q, v) = (&start.q.values, &start.v.values);
+    let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &system.default_inputs());
+    for (quantity, _) in system.output_values(&outputs) {
+        column(quantity.name.into(), quantity.unit.into(), Kind::Output);
+    }
+    for name in ["kinetic energy", "potential energy", "total energy"] {
+        column(name.into(), "J".into(), Kind::Energy);
+    }
+    column("energy residual".into(), "J".into(), Kind::Residual);
+
+    let unknown = vec![f64::NAN; outputs.values.len()];
+    for state in states {
+        // Where a run ends early there may be no accelerations, and then nothing that is made from them.
+        let (outputs, energies) = match run.observe_state(state) {
+            Ok(seen) => {
+                let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
+                let energies = [kinetic, potential, kinetic + potential];
+                (seen.outputs.values, energies)
             }
-            for name in ["kinetic energy", "potential energy", "total energy"] {
-                column(name.into(), "J".into(), Kind::Energy);
-            }
-            column("energy residual".into(), "J".into(), Kind::Residual);
+            Err(_) => (unknown.clone(), [f64::NAN; 3]),
+        };
+        let moving = state.q.values.iter().chain(&state.v.values).copied();
+        let residual = residual_at(run.energies(), state.t);
+        let row = moving.chain(outputs).chain(energies).chain([residual]);
+        for (column, value) in columns.iter_mut().zip(row) {
+            column.values.push(value);
         }
-        times.push(state.t);
-        let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
-        let outputs = seen.outputs.values.iter();
-        let states = state
-            .q
-            .values
-            .iter()
-            .chain(&state.v.values)
-            .chain(outputs)
-            .copied();
-        let energies = [
-            kinetic,
-            potential,
-            kinetic + potential,
-            residual_at(run.energies(), state.t),
-        ];
-        rows.push(states.chain(energies).collect());
     }
-    for (index, column) in columns.iter_mut().enumerate() {
-        column.values = rows
-            .iter()
-            .filter_map(|row| row.get(index).copied())
-            .collect();
+    Recording {
+        times: states.iter().map(|state| state.t).collect(),
+        columns,
     }
-    Ok(Recording { times, columns })
 }
 
 /// What is left over in the energy balance at a time: known at the ends of steps, interpolated between them.
@@ -280,7 +301,7 @@ fn document(run: &Run, error: Option<&Error>) -> Value {
 }
 
 /// The shortest text that reads back to the same number.
-fn shortest(x: f64) -> String {
+pub fn shortest(x: f64) -> String {
     match x.abs() {
         size if size == 0.0 || (1e-4..1e9).contains(&size) => x.to_string(),
         _ => format!("{x:e}"),

@@ -1,0 +1,137 @@
+//! A run as a page to look at: one HTML file that needs nothing else.
+//!
+//! The page holds the motion ([`samples`]), the geometry as a function of it ([`scene`] and [`script`]), the curves that do
+//! not follow from it, and text ([`page`]). So a position on the page is the model's own expression at interpolated
+//! coordinates, explicit time included, and the size of the file does not depend on how much is drawn. What draws and plays
+//! is hand-written and stands in the files beside this one, as a browser gets it.
+
+mod html;
+mod page;
+mod places;
+mod samples;
+mod scene;
+mod script;
+
+use lagrangian::Error;
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::methods::Method;
+use lagrangian_spec::compile::Compiled;
+use lagrangian_symbolic::Symbol;
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::recording::{Column, Kind, Recording, thin};
+use crate::simulate::Run;
+use samples::Samples;
+use scene::Scene;
+
+pub use samples::finer;
+
+/// What the curves may fill that are stored as such, in bytes before they are encoded; and the most points of one.
+const CURVE_BYTES: usize = 320_000;
+const CURVE_POINTS: usize = 1600;
+
+/// A run, and everything that a page says about it.
+pub struct Report<'a, 'd> {
+    pub call: &'a call::Simulate,
+    pub compiled: &'a Compiled<'d>,
+    pub machine: &'a InterpretedMachine,
+    pub method: &'a Method,
+    pub run: &'a Run,
+    /// The run, recorded as closely as [`finer`] says.
+    pub recording: &'a Recording,
+    /// What ended it early.
+    pub error: Option<&'a Error>,
+}
+
+impl Report<'_, '_> {
+    /// The page.
+    pub fn page(&self) -> String {
+        let scene = self.scene();
+        let samples = Samples::new(self.recording);
+        let data = self.data(&scene, &samples);
+        let kinematics = script::kinematics(&self.compiled.model, &scene.values);
+        page::text(self, &scene, &samples, &data, &kinematics)
+    }
+
+    fn scene(&self) -> Scene<'_> {
+        let model = &self.compiled.model;
+        let start = self.run.start();
+        let mut known: Vec<(Symbol, f64)> = Vec::new();
+        let mut know = |symbol: Option<Symbol>, value| known.extend(symbol.map(|s| (s, value)));
+        know(model.time.as_symbol(), start.t);
+        for (parameter, value) in model.parameters.iter().zip(self.machine.parameter_values()) {
+            know(parameter.symbol.as_symbol(), *value);
+        }
+        for (coordinate, value) in model.coordinates.iter().zip(&start.q.values) {
+            know(coordinate.q.as_symbol(), *value);
+        }
+        known.sort_unstable_by_key(|(symbol, _)| *symbol);
+        let value = |symbol: Symbol| {
+            let found = known.binary_search_by_key(&symbol, |(symbol, _)| *symbol);
+            found.map_or(0.0, |place| known[place].1)
+        };
+        Scene::new(model, &value)
+    }
+
+    /// What the scripts read.
+    fn data(&self, scene: &Scene<'_>, samples: &Samples) -> Value {
+        let times = &self.recording.times;
+        let kinds = [
+            Kind::Coordinate,
+            Kind::Rate,
+            Kind::Output,
+            Kind::Energy,
+            Kind::Residual,
+        ];
+        let panels = self.recording.panels(&kinds);
+        let stored = panels
+            .iter()
+            .filter(|panel| !matches!(panel.kind, Kind::Coordinate | Kind::Rate))
+            .map(|panel| panel.columns.len())
+            .sum::<usize>();
+        let points = (CURVE_BYTES / 8 / stored.max(1)).clamp(16, CURVE_POINTS);
+        let panels: Vec<Value> = panels
+            .iter()
+            .map(|panel| {
+                let curves: Vec<Value> = panel
+                    .columns
+                    .iter()
+                    .map(|column| self.curve(column, points))
+                    .collect();
+                json!({ "label": panel.label(), "unit": panel.unit, "curves": curves })
+            })
+            .collect();
+        json!({
+            "from": times.first(),
+            "interval": match times.as_slice() {
+                [first, .., _] => times.get(samples.stride).map(|next| next - first),
+                _ => None,
+            },
+            "to": times.last(),
+            "count": samples.count,
+            "coordinates": self.compiled.model.coordinates.len(),
+            "states": samples.states,
+            "parameters": self.machine.parameter_values(),
+            "values": scene.values.len(),
+            "picture": scene.picture,
+            "panels": panels,
+        })
+    }
+
+    /// A curve: of a coordinate or a rate its index, since the states have it; of anything else its points.
+    fn curve(&self, column: &Column, points: usize) -> Value {
+        let of_kind = || self.recording.of_kind(column.kind);
+        let index = of_kind().position(|other| std::ptr::eq(other, column));
+        match column.kind {
+            Kind::Coordinate => json!({ "name": column.name, "coordinate": index }),
+            Kind::Rate => json!({ "name": column.name, "rate": index }),
+            _ => {
+                let points = thin(&self.recording.times, &column.values, points);
+                let times = samples::encoded(points.iter().map(|(time, _)| *time));
+                let values = samples::encoded(points.iter().map(|(_, value)| *value));
+                json!({ "name": column.name, "times": times, "values": values })
+            }
+        }
+    }
+}

@@ -1,0 +1,758 @@
+// The picture of the machine on a canvas.
+
+/** Colours of the style sheet, as a canvas takes them; read again when the theme changes. */
+class Palette {
+  constructor() {
+    this.probe = document.createElement('span');
+    this.probe.hidden = true;
+    document.body.append(this.probe);
+    this.read();
+  }
+
+  read() {
+    const colour = (css) => {
+      this.probe.style.color = css;
+      return getComputedStyle(this.probe).color;
+    };
+    for (const name of ['paper', 'panel', 'ink', 'muted', 'line', 'grid', 'accent']) {
+      this[name] = colour(`var(--${name})`);
+    }
+    this.series = (index, count) => colour(seriesColour(index, count));
+  }
+}
+
+/** The colour of one of several: a few that stay apart, or a ramp of hues along a large family. */
+function seriesColour(index, count) {
+  if (count <= 8) return `var(--c${index})`;
+  return `hsl(${Math.round(210 + (290 * index) / count) % 360} 65% var(--ramp))`;
+}
+
+/** Everything that is drawn, from the picture that the page holds; see scene.rs for what its fields mean. */
+class Drawing {
+  constructor(canvas, picture, motion) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d');
+    this.picture = picture;
+    this.motion = motion;
+    this.palette = new Palette();
+    this.names = false;
+    this.frames = false;
+    this.trail = 0;
+    this.follow = null;
+    const gravity = picture.gravity === null ? null : this.vector(motion.values(motion.from), picture.gravity);
+    const down = gravity && Math.hypot(...gravity) > 0 ? unit(gravity) : null;
+    this.view = new View(picture.dimension, down ? down.map((x) => -x) : [0, 0, 1]);
+    this.arrangeElements();
+    this.measure();
+    this.tracePaths();
+    this.recolour();
+  }
+
+  /** The vector of the values at a place, in three components. */
+  vector(x, place) {
+    return [x[place], x[place + 1], this.picture.dimension === 3 ? x[place + 2] : 0];
+  }
+
+  /** One of the axes at a place. */
+  axis(x, place, index) {
+    return this.vector(x, place + index * this.picture.dimension);
+  }
+
+  /** A point given in a body's axes. */
+  inBody(x, body, local) {
+    let point = this.vector(x, body.at);
+    if (body.axes === null) return along(point, 1, [...local, 0].slice(0, 3));
+    local.forEach((s, k) => { point = along(point, s, this.axis(x, body.axes, k)); });
+    return point;
+  }
+
+  recolour() {
+    this.palette.read();
+    const { bodies } = this.picture;
+    this.colours = bodies.map((_, index) => this.palette.series(index, bodies.length));
+  }
+
+  /** Several springs and dampers at one place are drawn side by side. */
+  arrangeElements() {
+    const groups = new Map();
+    for (const element of this.picture.elements) {
+      const key = JSON.stringify({ ...element, name: '', damper: false });
+      groups.set(key, [...(groups.get(key) ?? []), element]);
+    }
+    for (const group of groups.values()) {
+      group.forEach((element, index) => { element.beside = index - (group.length - 1) / 2; });
+    }
+  }
+
+  /** The points that a picture must show, with the room that each needs around it. */
+  extent(x) {
+    const { picture } = this;
+    const points = [];
+    const add = (point, radius = 0) => points.push([point, radius]);
+    for (const body of picture.bodies) {
+      const { solid } = body;
+      const size = solid?.half?.length ? Math.hypot(...solid.half) : Math.hypot(solid?.radius ?? 0, solid?.half ?? 0);
+      add(this.vector(x, body.at), size);
+      if (body.rod !== null) add(this.vector(x, body.rod));
+    }
+    for (const link of picture.links) link.ends.forEach((end) => add(this.vector(x, end)));
+    for (const circle of picture.circles) add(this.vector(x, circle.center), Math.abs(x[circle.radius]));
+    for (const element of picture.elements) {
+      if (element.placed === 'between') element.ends.forEach((end) => add(this.vector(x, end)));
+    }
+    if (points.length === 0) add(this.vector(x, picture.ground));
+    return points.filter(([point, radius]) => Number.isFinite(radius) && point.every(Number.isFinite));
+  }
+
+  /** How large the motion is: what the view shows, and how high the ground lies. */
+  measure() {
+    const { motion, picture, view } = this;
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    const instants = Math.min(600, Math.max(2, motion.count));
+    const grow = (point, radius) => {
+      for (let k = 0; k < 3; k++) {
+        low[k] = Math.min(low[k], point[k] - radius);
+        high[k] = Math.max(high[k], point[k] + radius);
+      }
+    };
+    for (let i = 0; i <= instants; i++) {
+      const x = motion.values(motion.from + (motion.duration * i) / instants);
+      this.extent(x).forEach(([point, radius]) => grow(point, radius));
+    }
+    if (!(low[0] <= high[0])) [low, high].forEach((corner) => corner.fill(0));
+    let reach = Math.max(...high.map((h, k) => h - low[k]));
+    if (!(reach > 0)) reach = 1;
+    this.reach = reach;
+    this.sketches(low, high, grow);
+    const center = low.map((l, k) => (l + high[k]) / 2);
+    const size = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
+    if (picture.dimension === 2) {
+      view.home = { center, size: [Math.max(size[0], 0.02 * reach), Math.max(size[1], 0.02 * reach)] };
+    } else {
+      // What is turned must not be cut off: a ball around it.
+      const ball = Math.hypot(...size) || reach;
+      view.home = { center, size: [0.8 * ball, 0.8 * ball] };
+    }
+    // The ground plane: through the origin, or below what hangs from it.
+    const heights = [low, high].map((corner) => dot(corner, view.up));
+    this.floor = Math.min(0, ...heights);
+    if (this.floor > -0.02 * reach) this.floor = 0;
+  }
+
+  /** Springs and dampers of which only the line of action is known get a stand on the ground, at some distance. */
+  sketches(low, high, grow) {
+    const { picture, motion } = this;
+    const elements = picture.elements.filter((element) => element.placed === 'sketch');
+    const x = motion.values(motion.from);
+    for (const element of elements) {
+      const body = picture.bodies[element.body];
+      const radius = Math.max(
+        body.solid?.radius ?? 0,
+        ...picture.circles.filter((circle) => circle.body === element.body).map((circle) => x[circle.radius]),
+        0.02 * this.reach,
+      );
+      const off = Math.hypot(...element.foot);
+      // At the rim of what the body is drawn as, or else as far out as the line of action is from its centre.
+      const edge = off < radius ? Math.sqrt(radius ** 2 - off ** 2) : off;
+      element.lug = off < radius ? null : radius / Math.hypot(off, edge);
+      const away = element.along.map((a) => a * element.side);
+      // The direction is given at the start; the point moves with the body from there.
+      element.edge = [...away.map((a) => a * edge), 0];
+      element.edgeLocal = this.toBody(x, body, element.edge);
+      const foot = this.inBody(x, body, element.foot.map((f, k) => f + element.edgeLocal[k]));
+      element.stand = along(foot, 0.4 * radius + 0.14 * this.reach, [...away, 0]);
+      grow(element.stand, 0);
+    }
+  }
+
+  /** A vector in the ground's axes, in those of a body. */
+  toBody(x, body, vector) {
+    if (body.axes === null) return vector;
+    return [0, 1].map((k) => dot(vector, this.axis(x, body.axes, k)));
+  }
+
+  /** Where the mass centres have been: closely enough that straight lines show it. */
+  tracePaths() {
+    const { motion, picture } = this;
+    const bodies = picture.bodies;
+    const most = Math.max(400_000 / Math.max(bodies.length, 1), 2);
+    const steps = Math.max(motion.count - 1, 1);
+    const at = (t) => {
+      const x = motion.values(t);
+      return bodies.map((body) => this.vector(x, body.at));
+    };
+    const bend = (parts) => {
+      let worst = 0;
+      for (let probe = 0; probe < 48; probe++) {
+        const step = Math.floor((probe / 48) * steps * parts);
+        const time = (s) => motion.from + (motion.duration * s) / (steps * parts);
+        const [a, m, b] = [step, step + 0.5, step + 1].map((s) => at(time(s)));
+        m.forEach((point, i) => {
+          worst = Math.max(worst, Math.hypot(...point.map((p, k) => p - (a[i][k] + b[i][k]) / 2)));
+        });
+      }
+      return worst;
+    };
+    let parts = 1;
+    while (parts < 64 && steps * parts * 2 <= most && bend(parts) > 0.001 * this.reach) parts *= 2;
+    this.pathSteps = steps * parts;
+    this.paths = bodies.map(() => new Float32Array(3 * (this.pathSteps + 1)));
+    for (let step = 0; step <= this.pathSteps; step++) {
+      at(motion.from + (motion.duration * step) / this.pathSteps)
+        .forEach((point, i) => this.paths[i].set(point, 3 * step));
+    }
+  }
+
+  /** Fits the canvas to its place on the page; `sharpness` is in canvas pixels for each pixel of the page. */
+  resize(sharpness = window.devicePixelRatio || 1) {
+    const { canvas, view } = this;
+    view.width = canvas.clientWidth || 640;
+    view.height = canvas.clientHeight || 480;
+    canvas.width = Math.round(view.width * sharpness);
+    canvas.height = Math.round(view.height * sharpness);
+    this.sharpness = sharpness;
+  }
+
+  /** Draws the machine at time `t`. */
+  draw(t) {
+    const { context: c, view, picture, palette } = this;
+    const x = this.motion.values(t);
+    view.center = this.follow === null ? null : this.vector(x, picture.bodies[this.follow].at);
+    c.setTransform(this.sharpness, 0, 0, this.sharpness, 0, 0);
+    c.fillStyle = palette.paper;
+    c.fillRect(0, 0, view.width, view.height);
+    c.lineJoin = 'round';
+    c.lineCap = 'round';
+    c.font = '12px system-ui, sans-serif';
+    this.drawGround();
+    this.drawTrails(t);
+    // What is nearer to the viewer covers what is not; in the plane all are equally near, and the order stays.
+    const parts = [];
+    this.drawCircles(x, parts);
+    this.drawSolids(x, parts);
+    this.drawJoints(x, parts);
+    this.drawElements(x, parts);
+    parts.sort((a, b) => a.depth - b.depth);
+    parts.forEach((part) => part.draw());
+    this.drawCentres(x);
+    if (this.frames) this.drawFrames(x);
+    if (this.names) this.drawNames(x);
+    this.drawScale();
+    this.drawGravity(x);
+  }
+
+  polyline(points) {
+    const c = this.context;
+    c.beginPath();
+    points.forEach(([px, py], i) => (i ? c.lineTo(px, py) : c.moveTo(px, py)));
+  }
+
+  stroke(colour, width) {
+    this.context.strokeStyle = colour;
+    this.context.lineWidth = width;
+    this.context.stroke();
+  }
+
+  fill(colour, alpha = 1) {
+    const c = this.context;
+    c.globalAlpha = alpha;
+    c.fillStyle = colour;
+    c.fill();
+    c.globalAlpha = 1;
+  }
+
+  line(a, b, colour, width) {
+    this.polyline([a, b]);
+    this.stroke(colour, width);
+  }
+
+  disc([px, py], radius, fill, stroke, width = 1.2) {
+    const c = this.context;
+    c.beginPath();
+    c.arc(px, py, Math.max(radius, 0), 0, 2 * Math.PI);
+    if (fill) this.fill(fill);
+    if (stroke) this.stroke(stroke, width);
+  }
+
+  /** A grid in the plane of the machine, or on the ground; the axes of the ground. */
+  drawGround() {
+    const { view, palette } = this;
+    if (this.picture.dimension === 2) {
+      const step = round125((90 / view.scale) * 1.3);
+      const [left, top] = view.unproject(0, 0);
+      const [right, bottom] = view.unproject(view.width, view.height);
+      const rule = (from, to, ends) => {
+        for (let k = Math.ceil(from / step); k <= Math.floor(to / step); k++) {
+          const [a, b] = ends(k * step);
+          this.line(view.project(a), view.project(b), k === 0 ? palette.line : palette.grid, 1);
+        }
+      };
+      rule(left, right, (x) => [[x, bottom, 0], [x, top, 0]]);
+      rule(bottom, top, (y) => [[left, y, 0], [right, y, 0]]);
+      return;
+    }
+    const step = round125(this.reach / 4);
+    const count = Math.ceil((0.75 * this.reach) / step) + 1;
+    const base = view.up.map((u) => u * this.floor);
+    const at = (i, k) => view.project(along(along(base, i * step, view.first), k * step, view.second));
+    for (let k = -count; k <= count; k++) {
+      const colour = k === 0 ? palette.line : palette.grid;
+      this.line(at(k, -count), at(k, count), colour, 1);
+      this.line(at(-count, k), at(count, k), colour, 1);
+    }
+    const origin = view.project([0, 0, 0]);
+    [[1, 0, 0], [0, 1, 0], [0, 0, 1]].forEach((axis, k) => {
+      const tip = view.project(axis.map((a) => a * step));
+      this.arrow(origin, tip, palette.muted, 1.2);
+      this.text('xyz'[k], tip[0] + 6, tip[1], palette.muted);
+    });
+  }
+
+  arrow(a, b, colour, width) {
+    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    const size = Math.hypot(dx, dy);
+    this.line(a, b, colour, width);
+    if (size < 3) return;
+    const head = Math.min(4 + 2 * width, 0.5 * size) / size;
+    const side = (s) => [b[0] - head * dx + s * 0.45 * head * dy, b[1] - head * dy - s * 0.45 * head * dx];
+    this.polyline([side(1), b, side(-1)]);
+    this.context.closePath();
+    this.fill(colour);
+  }
+
+  text(words, px, py, colour, align = 'left') {
+    const c = this.context;
+    c.textAlign = align;
+    c.textBaseline = 'middle';
+    c.lineWidth = 3;
+    c.strokeStyle = this.palette.paper;
+    c.strokeText(words, px, py);
+    c.fillStyle = colour;
+    c.fillText(words, px, py);
+  }
+
+  /** Where the mass centres were before, paler the longer ago. */
+  drawTrails(t) {
+    const { motion, picture, view } = this;
+    const share = motion.duration === 0 ? 0 : (t - motion.from) / motion.duration;
+    const end = share * this.pathSteps;
+    const start = Math.max(0, end - this.trail * this.pathSteps);
+    if (!(end > start)) return;
+    const c = this.context;
+    const most = Math.max(60, 24_000 / Math.max(picture.bodies.length, 1));
+    const stride = Math.max(1, Math.ceil((end - start) / most));
+    const x = motion.x;
+    const fades = 6;
+    this.paths.forEach((path, index) => {
+      const point = (step) => view.project([path[3 * step], path[3 * step + 1], path[3 * step + 2]]);
+      for (let fade = 0; fade < fades; fade++) {
+        const from = Math.ceil(start + ((end - start) * fade) / fades);
+        const to = Math.floor(start + ((end - start) * (fade + 1)) / fades);
+        c.beginPath();
+        for (let step = from; step < to; step += stride) c.lineTo(...point(step));
+        c.lineTo(...point(to));
+        if (fade === fades - 1) c.lineTo(...view.project(this.vector(x, picture.bodies[index].at)));
+        else c.lineTo(...point(Math.min(to + 1, this.pathSteps)));
+        c.globalAlpha = (0.75 * (fade + 1)) / fades;
+        this.stroke(this.colours[index], 1.3);
+      }
+      c.globalAlpha = 1;
+    });
+  }
+
+  /** A circle in the plane of two axes, as points on the screen. */
+  round(center, radius, a, b, count = 40) {
+    const points = [];
+    for (let i = 0; i < count; i++) {
+      const angle = (2 * Math.PI * i) / count;
+      points.push(this.view.project(
+        along(along(center, radius * Math.cos(angle), a), radius * Math.sin(angle), b),
+      ));
+    }
+    return points;
+  }
+
+  drawCircles(x, parts) {
+    const { picture, view, palette } = this;
+    for (const circle of picture.circles) {
+      const center = this.vector(x, circle.center);
+      const [px, py, depth] = view.project(center);
+      const radius = Math.abs(x[circle.radius]) * view.scale;
+      const colour = circle.body === null ? palette.muted : this.colours[circle.body];
+      const mark = view.project(along(center, Math.abs(x[circle.radius]), this.axis(x, circle.axes, 0)));
+      parts.push({
+        depth,
+        draw: () => {
+          this.disc([px, py], radius, null, colour, 2);
+          this.context.globalAlpha = 0.07;
+          this.disc([px, py], radius, colour, null);
+          this.context.globalAlpha = 1;
+          // Shows how it is turned.
+          const inner = [px + 0.86 * (mark[0] - px), py + 0.86 * (mark[1] - py)];
+          this.line(inner, mark, colour, 2);
+        },
+      });
+    }
+  }
+
+  drawSolids(x, parts) {
+    this.picture.bodies.forEach((body, index) => {
+      if (body.solid === null) return;
+      const draw = { disc: 'drawDisc', bar: 'drawBar', cylinder: 'drawCylinder', box: 'drawBox' };
+      this[draw[body.solid.form]](x, body, this.colours[index], parts);
+    });
+  }
+
+  drawDisc(x, body, colour, parts) {
+    const { view } = this;
+    const at = this.vector(x, body.at);
+    const center = view.project(at);
+    const radius = body.solid.radius * view.scale;
+    parts.push({
+      depth: center[2],
+      draw: () => {
+        this.context.beginPath();
+        this.context.arc(center[0], center[1], radius, 0, 2 * Math.PI);
+        this.fill(colour, 0.16);
+        this.stroke(colour, 1.4);
+        if (body.axes === null) return;
+        this.context.globalAlpha = 0.55;
+        for (const k of [0, 1]) {
+          const rim = (s) => view.project(along(at, s * body.solid.radius, this.axis(x, body.axes, k)));
+          this.line(rim(-1), rim(1), colour, 1);
+        }
+        this.context.globalAlpha = 1;
+        // The mark is on the first axis.
+        const mark = view.project(along(at, 0.82 * body.solid.radius, this.axis(x, body.axes, 0)));
+        this.disc(mark, Math.min(Math.max(0.1 * radius, 1.5), 5), colour, null);
+      },
+    });
+  }
+
+  drawBar(x, body, colour, parts) {
+    const { view, palette } = this;
+    const at = this.vector(x, body.at);
+    const end = this.vector(x, body.solid.end);
+    const other = along(at, -1, along(end, -1, at));
+    const ends = [end, other].map((point) => view.project(point));
+    const width = Math.min(Math.max(0.2 * body.solid.half * view.scale, 2.5), 15);
+    parts.push({
+      depth: view.project(at)[2],
+      draw: () => {
+        this.line(...ends, colour, width);
+        if (width > 5) {
+          this.line(...ends, palette.paper, width - 2.6);
+          this.context.globalAlpha = 0.35;
+          this.line(...ends, colour, width - 2.6);
+          this.context.globalAlpha = 1;
+        }
+        this.disc(ends[0], Math.max(0.22 * width, 1), palette.paper, palette.ink, 1);
+      },
+    });
+  }
+
+  /** A flat face; lighter the more it faces the viewer. */
+  face(points, normal, colour, parts) {
+    const projected = points.map((point) => this.view.project(point));
+    const depth = projected.reduce((sum, p) => sum + p[2], 0) / projected.length;
+    const facing = Math.abs(dot(normal, this.view.toward));
+    parts.push({
+      depth,
+      draw: () => {
+        this.polyline(projected);
+        this.context.closePath();
+        this.fill(this.palette.paper, 0.55);
+        this.fill(colour, 0.25 + 0.3 * (1 - facing));
+        this.stroke(colour, 1.1);
+      },
+    });
+  }
+
+  drawBox(x, body, colour, parts) {
+    const { solid } = body;
+    const at = this.vector(x, body.at);
+    const axes = solid.axes.map((axis) => this.turned(x, body, axis));
+    const half = solid.half.map((h) => Math.max(h, 0.004 * this.reach));
+    const corner = (signs) => signs.reduce((point, s, k) => along(point, s * half[k], axes[k]), at);
+    for (let k = 0; k < 3; k++) {
+      const [i, j] = [(k + 1) % 3, (k + 2) % 3];
+      for (const side of [-1, 1]) {
+        const points = [[-1, -1], [1, -1], [1, 1], [-1, 1]].map(([a, b]) => {
+          const signs = [0, 0, 0];
+          [signs[k], signs[i], signs[j]] = [side, a, b];
+          return corner(signs);
+        });
+        this.face(points, axes[k], colour, parts);
+      }
+    }
+  }
+
+  drawCylinder(x, body, colour, parts) {
+    const { solid } = body;
+    const at = this.vector(x, body.at);
+    const axis = this.turned(x, body, solid.axis);
+    const spoke = [0, 1, 2]
+      .map((k) => this.axis(x, body.axes, k))
+      .map((e) => along(e, -dot(e, axis), axis))
+      .reduce((a, b) => (Math.hypot(...a) >= 0.7 ? a : b));
+    const first = unit(spoke);
+    const second = cross(axis, first);
+    const half = Math.max(solid.half, 0.01 * solid.radius);
+    const count = 24;
+    const rim = (side, i) => {
+      const angle = (2 * Math.PI * i) / count;
+      const center = along(at, side * half, axis);
+      return along(along(center, solid.radius * Math.cos(angle), first), solid.radius * Math.sin(angle), second);
+    };
+    const ring = (side) => Array.from({ length: count }, (_, i) => rim(side, i));
+    for (const side of [-1, 1]) this.face(ring(side), axis, colour, parts);
+    // The mantle, in strips without edges: their depth keeps them between the ends.
+    for (let i = 0; i < count; i += 2) {
+      const points = [rim(-1, i), rim(-1, i + 2), rim(1, i + 2), rim(1, i)].map((p) => this.view.project(p));
+      parts.push({
+        depth: points.reduce((sum, p) => sum + p[2], 0) / 4,
+        draw: () => {
+          this.polyline(points);
+          this.context.closePath();
+          this.fill(colour, 0.25);
+        },
+      });
+    }
+    // Spokes show how it spins; one is marked.
+    for (const side of [-1, 1]) {
+      const center = along(at, side * half, axis);
+      for (let i = 0; i < 4; i++) {
+        const [a, b] = [center, rim(side, (i * count) / 4)].map((p) => this.view.project(p));
+        parts.push({ depth: (a[2] + b[2]) / 2 + 1e-3 * this.reach, draw: () => this.line(a, b, colour, i ? 0.8 : 2.6) });
+      }
+    }
+  }
+
+  /** A direction given in a body's axes. */
+  turned(x, body, direction) {
+    return direction.reduce((sum, s, k) => along(sum, s, this.axis(x, body.axes, k)), [0, 0, 0]);
+  }
+
+  /** Links, rods, the pins between them, and the stand on the ground. */
+  drawJoints(x, parts) {
+    const { picture, view, palette } = this;
+    const pins = new Map();
+    const join = (from, to, colour, width) => {
+      const [a, b] = [from, to].map((place) => view.project(this.vector(x, place)));
+      parts.push({ depth: (a[2] + b[2]) / 2, draw: () => this.line(a, b, colour, width) });
+      pins.set(from, a);
+    };
+    for (const link of picture.links) {
+      const colour = link.body === null ? palette.muted : this.colours[link.body];
+      join(link.ends[0], link.ends[1], colour, picture.dimension === 2 ? 4 : 5);
+    }
+    picture.bodies.forEach((body, index) => {
+      if (body.rod !== null) join(body.rod, body.at, this.colours[index], 2.4);
+      if (body.solid?.form === 'bar') pins.set(body.solid.end, view.project(this.vector(x, body.solid.end)));
+    });
+    const small = picture.bodies.length > 24 ? 1.6 : 3;
+    for (const [place, at] of pins) {
+      if (place === picture.ground) this.drawStand(at, parts);
+      parts.push({ depth: at[2] + 1e-6, draw: () => this.disc(at, small, palette.paper, palette.ink, 1.2) });
+    }
+  }
+
+  /** The support at the origin of the ground, on the side where the machine is not. */
+  drawStand(at, parts) {
+    const { view, palette } = this;
+    const machine = dot(view.home.center, view.above) >= 0 ? 1 : -1;
+    parts.unshift({
+      depth: -Infinity,
+      draw: () => {
+        const [px, py] = at;
+        const down = machine;
+        this.polyline([[px, py], [px - 8, py + 13 * down], [px + 8, py + 13 * down]]);
+        this.context.closePath();
+        this.fill(palette.panel);
+        this.stroke(palette.muted, 1.2);
+        this.hatch([px, py + 13 * down], [0, down], 15);
+      },
+    });
+  }
+
+  /** A piece of the ground: a line across a direction, hatched beyond. */
+  hatch([px, py], [dx, dy], half) {
+    const { palette } = this;
+    const across = (s, out) => [px - s * dy + out * dx, py + s * dx + out * dy];
+    this.line(across(-half, 0), across(half, 0), palette.muted, 1.4);
+    for (let s = -half + 3; s <= half; s += 5) this.line(across(s, 0), across(s - 5, 6), palette.muted, 1);
+  }
+
+  drawElements(x, parts) {
+    const { picture, view } = this;
+    for (const element of picture.elements) {
+      if (element.placed === 'twist') {
+        const at = view.project(this.vector(x, element.about));
+        parts.push({ depth: at[2], draw: () => this.drawSpiral(at, element) });
+        continue;
+      }
+      let ends;
+      if (element.placed === 'between') {
+        ends = element.ends.map((end) => view.project(this.vector(x, end)));
+      } else {
+        const local = element.foot.map((f, k) => f + element.edgeLocal[k]);
+        const body = picture.bodies[element.body];
+        const end = this.inBody(x, body, local);
+        ends = [element.stand, end].map((point) => view.project(point));
+        if (element.lug !== null) {
+          // An arm of the body that reaches out to the line of action.
+          const at = this.vector(x, body.at);
+          const root = view.project(along(at, element.lug, along(end, -1, at)));
+          const colour = this.colours[element.body];
+          parts.push({ depth: root[2], draw: () => this.line(root, ends[1], colour, 3) });
+        }
+      }
+      parts.push({ depth: (ends[0][2] + ends[1][2]) / 2, draw: () => this.drawElement(element, ends) });
+    }
+  }
+
+  drawElement(element, [a, b]) {
+    const { palette } = this;
+    const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    const length = Math.hypot(dx, dy);
+    if (length < 2) return;
+    const [ex, ey] = [dx / length, dy / length];
+    const aside = 15 * element.beside;
+    // Along the element, and across it.
+    const at = (s, w) => [a[0] + s * ex - (w + aside) * ey, a[1] + s * ey + (w + aside) * ex];
+    if (aside) {
+      this.line(a, at(0, 0), palette.ink, 1);
+      this.line(b, at(length, 0), palette.ink, 1);
+    }
+    if (element.placed === 'sketch') this.hatch(at(0, 0), [-ex, -ey], 9);
+    const colour = element.damper ? palette.muted : palette.ink;
+    if (element.damper) {
+      // The pot stays with the first end, the piston with the second.
+      const pot = Math.min(26, 0.5 * length);
+      const start = 0.5 * (length - pot);
+      this.line(at(0, 0), at(start, 0), colour, 1.3);
+      this.polyline([at(start + pot, -5), at(start, -5), at(start, 5), at(start + pot, 5)]);
+      this.stroke(colour, 1.5);
+      const piston = start + 0.55 * pot;
+      this.line(at(piston, -3.6), at(piston, 3.6), colour, 2);
+      this.line(at(piston, 0), at(length, 0), colour, 1.3);
+      return;
+    }
+    const lead = Math.min(10, 0.15 * length);
+    const coils = 8;
+    const points = [at(0, 0), at(lead, 0)];
+    for (let i = 0; i < 2 * coils; i++) {
+      const s = lead + ((length - 2 * lead) * (i + 0.5)) / (2 * coils);
+      points.push(at(s, i % 2 ? 5.5 : -5.5));
+    }
+    points.push(at(length - lead, 0), at(length, 0));
+    this.polyline(points);
+    this.stroke(colour, 1.3);
+  }
+
+  drawSpiral([px, py], element) {
+    const points = [];
+    const turns = 2.5;
+    for (let i = 0; i <= 60; i++) {
+      const angle = (2 * Math.PI * turns * i) / 60;
+      const radius = 3 + (11 * i) / 60 + 4 * Math.abs(element.beside);
+      points.push([px + radius * Math.cos(angle), py - radius * Math.sin(angle)]);
+    }
+    this.polyline(points);
+    this.stroke(element.damper ? this.palette.muted : this.palette.ink, 1.2);
+  }
+
+  /** Mass centres: a ball for a particle, the usual quartered disc for a body. Area grows with the cube root of the mass. */
+  drawCentres(x) {
+    const { picture, view, palette } = this;
+    const heaviest = Math.max(...picture.bodies.map((body) => body.mass));
+    const base = Math.min(Math.max(0.012 * Math.min(view.width, view.height), 4), 9);
+    // In a long chain they must not hide the links.
+    const crowd = Math.min(1, 14 / picture.bodies.length);
+    picture.bodies.forEach((body, index) => {
+      const at = view.project(this.vector(x, body.at));
+      if (!Number.isFinite(at[0] + at[1])) return;
+      const share = body.mass > 0 && heaviest > 0 ? Math.cbrt(body.mass / heaviest) : 0;
+      const size = base * (0.45 + 0.75 * share) * Math.max(crowd, 0.3);
+      if (body.solid === null && body.axes === null) {
+        this.disc(at, 1.25 * size, this.colours[index], palette.ink, 1);
+        return;
+      }
+      const radius = Math.max(0.75 * size, 1.2);
+      this.disc(at, radius, palette.paper, null);
+      const c = this.context;
+      for (const quarter of [0, 2]) {
+        c.beginPath();
+        c.moveTo(at[0], at[1]);
+        c.arc(at[0], at[1], radius, (quarter * Math.PI) / 2, ((quarter + 1) * Math.PI) / 2);
+        this.fill(this.colours[index]);
+      }
+      this.disc(at, radius, null, this.colours[index], 1.2);
+    });
+  }
+
+  drawFrames(x) {
+    const { picture, view, palette } = this;
+    const length = 0.09 * this.reach;
+    for (const frame of picture.frames) {
+      const origin = this.vector(x, frame.origin);
+      const start = view.project(origin);
+      for (let k = 0; k < picture.dimension; k++) {
+        const tip = view.project(along(origin, length, this.axis(x, frame.axes, k)));
+        this.arrow(start, tip, ['#d1495b', '#3a9d5d', '#3d7dca'][k], 1.5);
+      }
+      this.text(frame.name, start[0] + 7, start[1] + 11, palette.muted);
+    }
+  }
+
+  drawNames(x) {
+    const { picture, view, palette } = this;
+    picture.bodies.forEach((body, index) => {
+      const at = view.project(this.vector(x, body.at));
+      this.text(body.name, at[0] + 10, at[1] - 10, this.colours[index]);
+    });
+    for (const element of picture.elements) {
+      if (element.placed === 'twist') continue;
+      const points = element.placed === 'between'
+        ? element.ends.map((end) => view.project(this.vector(x, end)))
+        : [view.project(element.stand)];
+      const [px, py] = [0, 1].map((k) => points.reduce((sum, p) => sum + p[k], 0) / points.length);
+      this.text(element.name, px + 8, py + 12 + 13 * element.beside, palette.muted);
+    }
+    for (const circle of picture.circles) {
+      const center = this.vector(x, circle.center);
+      const at = view.project(along(center, -Math.abs(x[circle.radius]), this.axis(x, circle.axes, 1)));
+      this.text(circle.name, at[0], at[1], palette.muted, 'center');
+    }
+  }
+
+  drawScale() {
+    const { view, palette } = this;
+    const metres = round125((0.24 * view.width) / view.scale);
+    const length = metres * view.scale;
+    const y = view.height - 14;
+    this.polyline([[14, y - 5], [14, y], [14 + length, y], [14 + length, y - 5]]);
+    this.stroke(palette.ink, 1.4);
+    this.text(lengthText(metres), 14 + length / 2, y - 10, palette.ink, 'center');
+  }
+
+  drawGravity(x) {
+    const { picture, view, palette } = this;
+    if (picture.gravity === null) return;
+    const g = this.vector(x, picture.gravity);
+    const size = Math.hypot(...g);
+    if (!(size > 0)) return;
+    const direction = [dot(g, view.right) / size, -dot(g, view.above) / size];
+    const [px, py] = [view.width - 26, 36];
+    const end = (s) => [px + 20 * s * direction[0], py + 20 * s * direction[1]];
+    this.arrow(end(-1), end(1), palette.muted, 1.8);
+    this.text('g', px - 9, py, palette.muted, 'right');
+  }
+}
+
+/** A length with a unit that keeps the number short. */
+function lengthText(metres) {
+  const [factor, name] = metres >= 1000 ? [1e-3, 'km'] : metres >= 0.1 ? [1, 'm'] : metres >= 1e-3 ? [1e3, 'mm'] : [1e6, 'µm'];
+  return `${figure(metres * factor, 3)} ${name}`;
+}

@@ -1,0 +1,118 @@
+//! Text that reaches a page, made harmless; tables.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+/// Text between tags and in quoted attributes.
+pub fn text(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            // No reader sees them, and no document may hold them.
+            '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\x7f' => {}
+            letter => safe.push(letter),
+        }
+    }
+    safe
+}
+
+/// JSON within a `<script>` element: nothing in it looks like a tag or a comment.
+pub fn json(value: &Value) -> String {
+    let text = value.to_string();
+    text.replace('<', "\\u003c")
+        .replace('\u{2028}', "\\u2028")
+        .replace('\u{2029}', "\\u2029")
+}
+
+/// A text in which every `{{name}}` is replaced by what `part` says; what is put in is not looked at again.
+pub fn fill(template: &str, part: impl Fn(&str) -> String) -> String {
+    let mut filled = String::new();
+    let mut rest = template;
+    while let Some((before, after)) = rest.split_once("{{") {
+        filled.push_str(before);
+        match after.split_once("}}") {
+            Some((name, after)) => {
+                filled.push_str(&part(name));
+                rest = after;
+            }
+            None => rest = after,
+        }
+    }
+    filled.push_str(rest);
+    filled
+}
+
+/// A cell of a table.
+pub enum Cell {
+    /// Words.
+    Words(String),
+    /// A number, or a name: aligned and in letters of one width.
+    Figure(String),
+    /// HTML.
+    Raw(String),
+}
+
+/// A table with a caption for those who cannot see where it stands.
+pub fn table(caption: &str, head: &[&str], rows: &[Vec<Cell>]) -> String {
+    let mut html = format!(
+        "<div class=\"scroll\"><table><caption>{}</caption>",
+        text(caption)
+    );
+    if head.iter().any(|title| !title.is_empty()) {
+        html.push_str("<thead><tr>");
+        for title in head {
+            let _ = write!(html, "<th scope=\"col\">{}</th>", text(title));
+        }
+        html.push_str("</tr></thead>");
+    }
+    html.push_str("<tbody>\n");
+    for row in rows {
+        html.push_str("<tr>");
+        for (index, cell) in row.iter().enumerate() {
+            let (class, body) = match cell {
+                Cell::Words(words) => ("", text(words)),
+                Cell::Figure(figure) => (" class=\"figure\"", text(figure)),
+                Cell::Raw(html) => ("", html.clone()),
+            };
+            let _ = match index {
+                0 => write!(html, "<th scope=\"row\">{body}</th>"),
+                _ => write!(html, "<td{class}>{body}</td>"),
+            };
+        }
+        html.push_str("</tr>\n");
+    }
+    html.push_str("</tbody></table></div>\n");
+    html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_leaves_its_place() {
+        assert_eq!(
+            text("</script>\"'&\u{1}"),
+            "&lt;/script&gt;&quot;&#39;&amp;"
+        );
+        let value = serde_json::json!({ "</script><!--": "\u{2028}" });
+        let safe = json(&value);
+        assert!(!safe.contains('<') && !safe.contains('\u{2028}'), "{safe}");
+        assert_eq!(serde_json::from_str::<Value>(&safe).unwrap(), value);
+    }
+
+    #[test]
+    fn what_is_put_in_is_not_looked_at_again() {
+        let part = |name: &str| match name {
+            "a" => "{{b}}".to_owned(),
+            _ => "!".to_owned(),
+        };
+        assert_eq!(fill("x{{a}}y{{b}}z{{", part), "x{{b}}y!z");
+    }
+}

@@ -1,0 +1,446 @@
+//! The page: its text, its tables, and the files it is made from.
+
+use lagrangian::{Machine, System};
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::emit::document::{Block, Document};
+use lagrangian_spec::emit::html as derivation;
+use lagrangian_spec::program::{Program, Role};
+
+use super::Report;
+use super::html::{self, Cell, text as safe};
+use super::samples::Samples;
+use super::scene::Scene;
+use crate::simulate::shortest;
+
+const PAGE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+
+/// What the derivation may fill, in bytes: whole equations of a large machine are megabytes.
+const DERIVATION: usize = 700_000;
+
+/// What plays, draws and plots: one module, whose parts follow each other.
+const SCRIPTS: [&str; 5] = [
+    include_str!("motion.js"),
+    include_str!("view.js"),
+    include_str!("drawing.js"),
+    include_str!("plots.js"),
+    include_str!("page.js"),
+];
+
+/// The page of a report.
+pub fn text(
+    report: &Report<'_, '_>,
+    scene: &Scene<'_>,
+    samples: &Samples,
+    data: &serde_json::Value,
+    kinematics: &str,
+) -> String {
+    let model = &report.compiled.model;
+    let name = safe(&model.name);
+    html::fill(PAGE, |part| match part {
+        "name" => name.clone(),
+        "docs" => paragraphs(&model.docs),
+        "alert" => alert(report),
+        "omitted" => omitted(&scene.picture.omitted),
+        "parameters" => parameters(report),
+        "start" => start(report),
+        "energy" => energy(report),
+        "events" => events(report),
+        "statistics" => statistics(report, samples),
+        "counts" => counts(&report.compiled.program),
+        "equations" => equations(report.compiled),
+        // The page's own comes last: its colours follow the button, too.
+        "style" => [derivation::STYLE, STYLE].concat(),
+        "data" => html::json(data),
+        "script" => [kinematics, &SCRIPTS.concat()].join("\n"),
+        _ => String::new(),
+    })
+}
+
+fn paragraphs(docs: &str) -> String {
+    let paragraphs = docs.split("\n\n").filter(|part| !part.trim().is_empty());
+    let paragraphs =
+        paragraphs.map(|part| format!("<p class=\"docs\">{}</p>\n", safe(part.trim())));
+    paragraphs.collect()
+}
+
+fn words(docs: &str) -> Cell {
+    Cell::Words(docs.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+fn figure(x: f64) -> Cell {
+    Cell::Figure(shortest(rounded(x)).replace('-', "−"))
+}
+
+/// A unit as books print it: `kg*m^2` is kg·m².
+fn unit(text: &str) -> String {
+    let powers = [("^-", "⁻"), ("^2", "²"), ("^3", "³"), ("^4", "⁴")];
+    let text = text.replace('*', "·");
+    let text = powers
+        .iter()
+        .fold(text, |text, (from, to)| text.replace(from, to));
+    match text.as_str() {
+        "1" => String::new(),
+        _ => text
+            .replace("⁻1", "⁻¹")
+            .replace("⁻2", "⁻²")
+            .replace('-', "−"),
+    }
+}
+
+/// A number to look at, in nine digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.8e}").parse().unwrap_or(x)
+}
+
+fn name(name: impl ToString) -> Cell {
+    Cell::Raw(format!("<code>{}</code>", safe(&name.to_string())))
+}
+
+/// A number that somebody set, and what it would have been.
+fn changed(value: f64, otherwise: Option<f64>) -> Cell {
+    let shown = shortest(rounded(value)).replace('-', "−");
+    match otherwise {
+        Some(otherwise) if otherwise.to_bits() == value.to_bits() => Cell::Figure(shown),
+        otherwise => {
+            let before = otherwise.map_or_else(|| "none".to_owned(), |x| shortest(rounded(x)));
+            Cell::Raw(format!(
+                "<strong class=\"changed\">{}</strong> <span class=\"default\">default {}</span>",
+                safe(&shown),
+                safe(&before.replace('-', "−"))
+            ))
+        }
+    }
+}
+
+/// Why the run ended early, and what else its reader must know.
+fn alert(report: &Report<'_, '_>) -> String {
+    let mut alert = String::new();
+    if let Some(error) = report.error {
+        alert.push_str(&format!(
+            "<p class=\"alert\" role=\"alert\"><strong>The run ended early, at t = {} s:</strong> {}</p>\n",
+            shortest(report.run.end().t),
+            safe(&error.to_string())
+        ));
+    }
+    for warning in report.run.warnings() {
+        alert.push_str(&format!(
+            "<p class=\"alert\"><strong>Warning:</strong> {}</p>\n",
+            safe(&warning.to_string())
+        ));
+    }
+    alert
+}
+
+fn omitted(names: &[String]) -> String {
+    if names.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<p class=\"note\">Not drawn, since the spec gives no place for them: {}.</p>\n",
+        safe(&names.join(", "))
+    )
+}
+
+fn parameters(report: &Report<'_, '_>) -> String {
+    let Report {
+        call,
+        compiled,
+        machine,
+        run,
+        ..
+    } = report;
+    let program = &compiled.program;
+    let mut html = String::new();
+    let slots = program.parameters.iter().zip(machine.parameter_values());
+    let rows: Vec<Vec<Cell>> = slots
+        .map(|(slot, value)| {
+            let default = slot.default.as_ref().map(|default| default.value);
+            vec![
+                name(&slot.name),
+                changed(*value, default),
+                Cell::Words(unit(&slot.unit_text)),
+                words(&slot.docs),
+            ]
+        })
+        .collect();
+    let head = ["name", "value", "unit", "meaning"];
+    if !rows.is_empty() {
+        html.push_str(&html::table("Parameters", &head, &rows));
+    }
+    let constants: Vec<Vec<Cell>> = compiled
+        .model
+        .constants
+        .iter()
+        .map(|constant| {
+            let value =
+                lagrangian_symbolic::evaluate(compiled.model.dag, &[constant.value], |_| f64::NAN);
+            let set = call
+                .spec
+                .constants
+                .iter()
+                .any(|(set, _)| *set == constant.name.base);
+            vec![
+                name(&constant.name),
+                match set {
+                    true => Cell::Raw(format!(
+                        "<strong class=\"changed\">{}</strong> <span class=\"default\">set</span>",
+                        safe(&shortest(value[0]).replace('-', "−"))
+                    )),
+                    false => figure(value[0]),
+                },
+                Cell::Words(unit(&constant.unit_text)),
+                words(&constant.docs),
+            ]
+        })
+        .collect();
+    if !constants.is_empty() {
+        html.push_str(&html::table("Constants", &head, &constants));
+    }
+    let system = run.system();
+    let inputs = system.default_inputs();
+    let inputs: Vec<Vec<Cell>> = program
+        .inputs
+        .iter()
+        .zip(system.input_values(&inputs))
+        .map(|(slot, (_, value))| {
+            let default = slot.default.as_ref().map_or(0.0, |default| default.value);
+            vec![
+                name(&slot.name),
+                changed(value, Some(default)),
+                Cell::Words(unit(&slot.unit_text)),
+                words(&slot.docs),
+            ]
+        })
+        .collect();
+    if !inputs.is_empty() {
+        html.push_str(&html::table("Inputs, held constant", &head, &inputs));
+    }
+    if html.is_empty() {
+        html.push_str("<p>The machine has no parameters.</p>");
+    }
+    html
+}
+
+/// Where the run starts and where it ends.
+fn start(report: &Report<'_, '_>) -> String {
+    let Report { machine, run, .. } = report;
+    let default = machine.start();
+    let (start, end) = (run.start(), run.end());
+    let rows: Vec<Vec<Cell>> = report
+        .compiled
+        .program
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(i, slot)| {
+            let at = |values: &[f64]| values.get(i).copied().unwrap_or(f64::NAN);
+            vec![
+                name(&slot.name),
+                changed(at(&start.q.values), Some(at(&default.q.values))),
+                changed(at(&start.v.values), Some(at(&default.v.values))),
+                figure(at(&end.q.values)),
+                figure(at(&end.v.values)),
+                Cell::Words(unit(&slot.unit_text)),
+                words(&slot.docs),
+            ]
+        })
+        .collect();
+    let head = [
+        "coordinate",
+        "start",
+        "its rate",
+        "end",
+        "its rate",
+        "unit",
+        "meaning",
+    ];
+    html::table("Coordinates at the start and at the end", &head, &rows)
+}
+
+fn joules(x: f64) -> Cell {
+    Cell::Figure(format!("{x:.6e}").replace('-', "−"))
+}
+
+fn energy(report: &Report<'_, '_>) -> String {
+    let Some(balance) = report.run.energy_balance() else {
+        return String::new();
+    };
+    let row = |what: &str, value: Cell| vec![Cell::Words(what.into()), value];
+    let share = format!("{:.1e}", balance.relative()).replace('-', "−");
+    let rows = [
+        row(
+            "kinetic and potential energy at the start",
+            joules(balance.start),
+        ),
+        row("work of drives, forces and inputs", joules(balance.work)),
+        row("dissipated", joules(balance.dissipated)),
+        row(
+            "kinetic and potential energy at the end",
+            joules(balance.end),
+        ),
+        row(
+            "left over: what is wrong with the run",
+            joules(balance.residual()),
+        ),
+        row(
+            "left over, as a part of the energy turned over",
+            Cell::Figure(share),
+        ),
+    ];
+    html::table("Energy balance", &["", "J"], &rows)
+}
+
+/// What happened, each with a link to its instant.
+fn events(report: &Report<'_, '_>) -> String {
+    let rows: Vec<Vec<Cell>> = report
+        .run
+        .events()
+        .iter()
+        .map(|event| {
+            let t = event.state.t;
+            let link = format!("<a href=\"#t={t:?}\">{}</a>", shortest(t));
+            vec![Cell::Raw(link), Cell::Words(event.name.clone())]
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    html::table("Events", &["t [s]", "what happened"], &rows)
+}
+
+fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
+    let Report {
+        call, run, method, ..
+    } = report;
+    let statistics = run.statistics();
+    let row = |what: &str, value: String| vec![Cell::Words(what.into()), Cell::Figure(value)];
+    let rows = [
+        row(
+            "spec",
+            call.spec
+                .path
+                .file_name()
+                .map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        ),
+        row(
+            "time",
+            format!(
+                "{} s to {} s",
+                shortest(run.start().t),
+                shortest(run.end().t)
+            )
+            .replace('-', "−"),
+        ),
+        row("method", method.tableau.title.into()),
+        row(
+            "tolerance of a step, relative and absolute",
+            shortest(call.tolerance).replace('-', "−"),
+        ),
+        row("steps", statistics.steps.to_string()),
+        row("steps rejected", statistics.rejected.to_string()),
+        row(
+            "evaluations of the accelerations",
+            statistics.evaluations.to_string(),
+        ),
+        row(
+            "time of the run on the clock",
+            format!("{:.3} s", statistics.seconds),
+        ),
+        row("states on this page", samples.count.to_string()),
+        row(
+            "their interpolation, greatest error as a part of a coordinate's span",
+            format!("{:.0e}", samples.error).replace('-', "−"),
+        ),
+        row(
+            "written by",
+            format!("lagrangian {}", env!("CARGO_PKG_VERSION")),
+        ),
+    ];
+    html::table("The run", &[""], &rows)
+}
+
+/// What the functions that a step needs cost.
+fn counts(program: &Program) -> String {
+    let functions = program.all_functions().filter(|function| {
+        matches!(function.role, Role::Prepare | Role::Accelerations) && !function.results.is_empty()
+    });
+    let rows: Vec<Vec<Cell>> = functions
+        .map(|function| {
+            let counts = function.counts();
+            let numbers = [
+                counts.multiplications,
+                counts.additions,
+                counts.divisions,
+                counts.sincos,
+                counts.other,
+            ];
+            let numbers = numbers.map(|n| Cell::Figure(n.to_string()));
+            [name(program.title(function.role))]
+                .into_iter()
+                .chain(numbers)
+                .collect()
+        })
+        .collect();
+    let head = [
+        "function",
+        "multiplications",
+        "additions",
+        "divisions",
+        "sine–cosine pairs",
+        "other",
+    ];
+    html::table("Operations of one call", &head, &rows)
+}
+
+/// The derivation, as far as there is room for it: the shortest formulas of all.
+fn equations(compiled: &Compiled<'_>) -> String {
+    let mut document = Document::new(compiled);
+    let sections = document.sections.iter().enumerate();
+    let mut lengths: Vec<(usize, [usize; 2])> = sections
+        .flat_map(|(s, section)| {
+            let blocks = section.blocks.iter().enumerate();
+            blocks.map(move |(b, block)| (length(block), [s, b]))
+        })
+        .collect();
+    lengths.sort_unstable();
+    let mut room = DERIVATION;
+    let mut left_out = false;
+    for (length, [s, b]) in lengths {
+        if length <= room {
+            room -= length;
+            continue;
+        }
+        if let Some(block) = document
+            .sections
+            .get_mut(s)
+            .and_then(|section| section.blocks.get_mut(b))
+        {
+            *block = Block::Paragraph(vec!["(too long for this page)".into()]);
+            left_out = true;
+        }
+    }
+    let note = match left_out {
+        true => {
+            "<p class=\"note\">Formulas too long for this page are printed by <code>lagrangian derive</code>.</p>\n"
+        }
+        false => "",
+    };
+    format!(
+        "<h2>Derivation</h2>\n{note}{}",
+        derivation::article(&document)
+    )
+}
+
+/// How long a block is as HTML.
+fn length(block: &Block) -> usize {
+    let section = lagrangian_spec::emit::document::Section {
+        title: String::new(),
+        blocks: vec![block.clone()],
+    };
+    derivation::article(&Document {
+        title: String::new(),
+        sections: vec![section],
+    })
+    .len()
+}

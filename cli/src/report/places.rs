@@ -1,0 +1,173 @@
+//! The numbers that a page computes at every instant, and what is rigid among them.
+//!
+//! A point is the place of its first component in one long list of values; equal points share a place. Which points keep
+//! their distance whatever the machine does is decided exactly: in the prime field of [`Residue`], where every parameter
+//! has one random value and every coordinate several.
+
+use std::collections::BTreeMap;
+
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_spec::model::{Model, stage};
+use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
+
+/// Random values of the parameters that are tried: roots of some have no value in the field.
+const WORLDS: u64 = 4;
+
+/// Random states in each of them. Three that have a value must agree, or four: a wrong «constant» passes with a probability
+/// of about 2⁻¹⁰⁰.
+const STATES: u64 = 6;
+const NEEDED: usize = 3;
+
+/// The values, each list of components once.
+#[derive(Default)]
+pub struct Places<'d> {
+    values: Vec<Expr<'d>>,
+    known: BTreeMap<Vec<Id>, usize>,
+}
+
+impl<'d> Places<'d> {
+    /// The place of the first of these components.
+    pub fn of(&mut self, components: &[Expr<'d>]) -> usize {
+        let ids: Vec<Id> = components.iter().map(|component| component.id()).collect();
+        let next = self.values.len();
+        let place = *self.known.entry(ids).or_insert(next);
+        if place == next {
+            self.values.extend_from_slice(components);
+        }
+        place
+    }
+
+    /// All of them.
+    pub fn values(&self) -> &[Expr<'d>] {
+        &self.values
+    }
+
+    /// Their number in all states of the experiment.
+    pub fn experiment(&self, model: &Model<'d>) -> Experiment {
+        Experiment::new(model, &self.values)
+    }
+
+    /// Gives up the values.
+    pub fn into_values(self) -> Vec<Expr<'d>> {
+        self.values
+    }
+}
+
+/// The values in random worlds (parameters) and states (time and coordinates).
+pub struct Experiment {
+    /// `worlds[w][s][place]`.
+    worlds: Vec<Vec<Vec<Residue>>>,
+}
+
+impl Experiment {
+    /// Evaluates in all of them.
+    pub fn new(model: &Model<'_>, values: &[Expr<'_>]) -> Experiment {
+        let state = |world: u64, state: u64| {
+            let value = |symbol: Symbol| {
+                let known = model.dag.stage_of(symbol) <= stage::PARAMETER;
+                let seed = world * (STATES + 1) + if known { 0 } else { state + 1 };
+                Residue::random(seed, symbol.index() as u64)
+            };
+            evaluate(model.dag, values, value)
+        };
+        let world = |w| (0..STATES).map(|s| state(w, s)).collect();
+        Experiment {
+            worlds: (0..WORLDS).map(world).collect(),
+        }
+    }
+
+    /// Whether a function of the values is the same in every state of a world.
+    fn is_constant(&self, f: impl Fn(&[Residue]) -> Residue) -> bool {
+        for states in &self.worlds {
+            let defined: Vec<Residue> = states
+                .iter()
+                .map(|state| f(state))
+                .filter(|value| value.is_finite())
+                .take(NEEDED + 1)
+                .collect();
+            if let [first, rest @ ..] = defined.as_slice()
+                && defined.len() >= NEEDED
+            {
+                return rest.iter().all(|value| value == first);
+            }
+        }
+        false
+    }
+
+    /// Whether a value is the same in every state.
+    pub fn keeps(&self, place: usize) -> bool {
+        self.is_constant(|x| x[place])
+    }
+
+    /// Whether two points of so many components keep their distance.
+    pub fn keeps_distance(&self, a: usize, b: usize, dimension: usize) -> bool {
+        self.is_constant(|x| {
+            let square = |k| {
+                let d = x[a + k] - x[b + k];
+                d * d
+            };
+            (1..dimension).fold(square(0), |sum, k| sum + square(k))
+        })
+    }
+
+    /// Whether a point rests in the frame with this origin and these axes, components of one axis after the other.
+    pub fn rests(&self, point: usize, origin: usize, axes: usize, dimension: usize) -> bool {
+        (0..dimension).all(|axis| {
+            self.is_constant(|x| {
+                let along = |k| x[axes + axis * dimension + k] * (x[point + k] - x[origin + k]);
+                (1..dimension).fold(along(0), |sum, k| sum + along(k))
+            })
+        })
+    }
+
+    /// Whether a vector keeps its length, given the places of its components; components that are 0 are left out.
+    pub fn keeps_length(&self, components: &[usize]) -> bool {
+        self.is_constant(|x| {
+            let square = |place: &usize| x[*place] * x[*place];
+            components
+                .iter()
+                .fold(Residue::ZERO, |sum, place| sum + square(place))
+        })
+    }
+
+    /// Whether all components are equal, that is, two points are one.
+    pub fn coincide(&self, a: usize, b: usize, dimension: usize) -> bool {
+        let zero = |x: &[Residue]| (0..dimension).all(|k| x[a + k] == x[b + k]);
+        a == b || self.worlds.iter().flatten().all(|state| zero(state))
+    }
+
+    /// Whether the distance of two points and a stretch differ by what does not change: `|a − b| = ±(stretch + c)`.
+    ///
+    /// Without roots: with `e = |a − b|² − stretch²` that is `e = 2 c · stretch + c²`, so the pairs (stretch, e) lie on a
+    /// line whose slope and intercept agree. Returns whether `c` is 0.
+    pub fn is_stretch(&self, a: usize, b: usize, stretch: usize, dimension: usize) -> Option<bool> {
+        for states in &self.worlds {
+            let pairs: Vec<(Residue, Residue)> = states
+                .iter()
+                .map(|x| {
+                    let square = |k| {
+                        let d = x[a + k] - x[b + k];
+                        d * d
+                    };
+                    let distance = (1..dimension).fold(square(0), |sum, k| sum + square(k));
+                    (x[stretch], distance - x[stretch] * x[stretch])
+                })
+                .filter(|(s, e)| s.is_finite() && e.is_finite())
+                .collect();
+            let [(s0, e0), (s1, e1), rest @ ..] = pairs.as_slice() else {
+                continue;
+            };
+            if rest.len() + 2 < NEEDED || s0 == s1 {
+                continue;
+            }
+            let (ds, de) = (*s1 - *s0, *e1 - *e0);
+            if !rest.iter().all(|(s, e)| de * (*s - *s0) == (*e - *e0) * ds) {
+                return None;
+            }
+            let c = de / (ds + ds);
+            let agrees = *e0 == (c + c) * *s0 + c * c;
+            return agrees.then_some(c == Residue::ZERO);
+        }
+        None
+    }
+}

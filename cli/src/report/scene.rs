@@ -1,0 +1,791 @@
+//! What is drawn of a machine. A spec says nothing about drawing: what is joined is found in the model.
+//!
+//! * A shift of constant length, from one frame to the next, is a link.
+//! * A body is joined by a rod to the nearest point before it (the ground, origins of frames, earlier bodies) from which
+//!   it keeps its distance. If there is none, to a point that its own position is built on: the pivot of a driven
+//!   pendulum, the axle of a debalance.
+//! * A body with an inertia is drawn as the uniform solid that has it: a disc, or a bar where it hangs at the end of one,
+//!   in the plane; a cylinder or a box in space.
+//! * A spring or damper given by its stretch is drawn between the two points whose distance differs from the stretch by
+//!   a constant; failing that, on its line of action: where on its body a force must act to have that work.
+//!
+//! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
+//! vectors are places in the list of values that the page computes.
+
+use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
+use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
+use serde::Serialize;
+
+use super::places::{Experiment, Places};
+
+/// A part of so many pairs of points and elements would take seconds to search.
+const MOST_PAIRS: usize = 400_000;
+
+/// How near the half-length of a uniform bar must be to the distance of a joint for the body to be taken for that bar.
+const BAR: f64 = 0.02;
+
+/// The picture of a machine, and the values it is drawn from.
+pub struct Scene<'d> {
+    /// What is drawn.
+    pub picture: Picture,
+    /// What the page must compute for it, at every instant.
+    pub values: Vec<Expr<'d>>,
+}
+
+/// What is drawn. All numbers of type `usize` are places in the values, but for `body`, which is an index.
+#[derive(Debug, Serialize)]
+pub struct Picture {
+    /// 2 in the plane, 3 in space.
+    pub dimension: usize,
+    /// The origin of the ground.
+    pub ground: usize,
+    pub bodies: Vec<BodyDrawn>,
+    pub frames: Vec<FrameDrawn>,
+    /// Shifts of constant length between frames.
+    pub links: Vec<Link>,
+    /// Springs and dampers.
+    pub elements: Vec<ElementDrawn>,
+    pub circles: Vec<CircleDrawn>,
+    /// The acceleration of gravity, a vector.
+    pub gravity: Option<usize>,
+    /// Springs and dampers that have no place that could be shown.
+    pub omitted: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+pub struct BodyDrawn {
+    pub name: String,
+    /// In kg, of this run.
+    pub mass: f64,
+    /// The mass centre.
+    pub at: usize,
+    /// The axes, components of one after the other; absent where the spec does not say how the body is turned.
+    pub axes: Option<usize>,
+    /// The point that a rod joins it to.
+    pub rod: Option<usize>,
+    pub solid: Option<Solid>,
+}
+
+/// A uniform solid with the mass and inertia of a body.
+#[derive(Debug, Serialize, PartialEq)]
+#[serde(rename_all = "lowercase", tag = "form")]
+pub enum Solid {
+    /// In the plane.
+    Disc { radius: f64 },
+    /// In the plane, from `end`, at `half` from the mass centre, to as far beyond it.
+    Bar { end: usize, half: f64 },
+    /// In space, about an axis given in the body's axes.
+    Cylinder {
+        axis: [f64; 3],
+        radius: f64,
+        half: f64,
+    },
+    /// In space, along axes given in the body's axes.
+    Box { axes: [[f64; 3]; 3], half: [f64; 3] },
+}
+
+#[derive(Debug, Serialize)]
+pub struct FrameDrawn {
+    pub name: String,
+    pub origin: usize,
+    pub axes: usize,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Link {
+    pub ends: [usize; 2],
+    /// The first body that is fixed to it.
+    pub body: Option<usize>,
+}
+
+#[derive(Debug, Serialize)]
+pub struct ElementDrawn {
+    pub name: String,
+    /// Whether it is a damper and no spring.
+    pub damper: bool,
+    #[serde(flatten)]
+    pub place: Placed,
+}
+
+#[derive(Debug, Serialize, PartialEq)]
+#[serde(rename_all = "lowercase", tag = "placed")]
+pub enum Placed {
+    /// Between two points.
+    Between { ends: [usize; 2] },
+    /// From the ground to a point of a body, in its axes, along a direction in the ground's: a sketch, since the spec gives
+    /// the line of action only. `side` is −1 where it stands behind the body, 1 before it.
+    Sketch {
+        body: usize,
+        foot: [f64; 2],
+        along: [f64; 2],
+        side: i8,
+    },
+    /// Twists about a point.
+    Twist { about: usize },
+}
+
+#[derive(Debug, Serialize)]
+pub struct CircleDrawn {
+    pub name: String,
+    pub center: usize,
+    pub radius: usize,
+    /// The axes of what it is fixed to.
+    pub axes: usize,
+    /// The body that it belongs to.
+    pub body: Option<usize>,
+}
+
+impl<'d> Scene<'d> {
+    /// The scene of a machine that starts at these values of the symbols: parameters, coordinates, time.
+    pub fn new(model: &Model<'d>, value: &dyn Fn(Symbol) -> f64) -> Scene<'d> {
+        let mut places = Places::default();
+        let points = Points::new(model, &mut places);
+        let experiment = places.experiment(model);
+        let start = evaluate(model.dag, places.values(), value);
+        let finder = Finder {
+            model,
+            points: &points,
+            experiment: &experiment,
+            start: &start,
+            value,
+        };
+        let links = finder.links();
+        let mut bodies: Vec<BodyDrawn> = Vec::new();
+        for index in 0..model.bodies.len() {
+            let body = finder.body(index, &links);
+            bodies.push(body);
+        }
+        let built_on = finder.built_on(&bodies, &links);
+        for (body, anchor) in bodies.iter_mut().zip(built_on) {
+            if let Some(anchor) = anchor {
+                body.rod = Some(places.of(&anchor));
+            }
+        }
+        let links = finder.without_bars(links, &bodies);
+        let (elements, omitted) = finder.elements();
+        let picture = Picture {
+            dimension: points.dimension,
+            ground: points.origins[0],
+            bodies,
+            frames: model
+                .frames
+                .iter()
+                .map(|frame| FrameDrawn {
+                    name: frame.name.to_string(),
+                    origin: points.origins[frame.pose.index()],
+                    axes: points.axes[frame.pose.index()],
+                })
+                .collect(),
+            links,
+            elements,
+            circles: points.circles(model),
+            gravity: points.gravity,
+            omitted,
+        };
+        Scene {
+            picture,
+            values: places.into_values(),
+        }
+    }
+}
+
+/// The places of everything that has one.
+struct Points {
+    dimension: usize,
+    /// Of each pose.
+    origins: Vec<usize>,
+    axes: Vec<usize>,
+    /// Of each body.
+    bodies: Vec<usize>,
+    body_axes: Vec<Option<usize>>,
+    /// Centre, radius, axes of each circle.
+    circles: Vec<[usize; 3]>,
+    /// Of each spring, then of each damper, that is given by its ends.
+    ends: Vec<Option<[usize; 2]>>,
+    /// Their stretches.
+    stretches: Vec<usize>,
+    gravity: Option<usize>,
+}
+
+impl Points {
+    fn new<'d>(model: &Model<'d>, places: &mut Places<'d>) -> Points {
+        let dimension = model.space.dimension();
+        let origins = model.poses.iter().map(|pose| places.of(&pose.origin));
+        let origins = origins.collect();
+        let axes = model
+            .poses
+            .iter()
+            .map(|pose| places.of(&pose.axes.concat()));
+        let axes = axes.collect();
+        let bodies = model
+            .bodies
+            .iter()
+            .map(|body| places.of(&body.at))
+            .collect();
+        let turned = model.bodies.iter().map(|body| {
+            let axes = body_axes(model, body)?;
+            Some(places.of(&axes.concat()))
+        });
+        let turned = turned.collect();
+        let circles = model.circles.iter().map(|circle| {
+            let (origin, axes) = match circle.on {
+                Place::Frame(pose) => {
+                    let pose = &model.poses[pose.index()];
+                    (pose.origin.clone(), pose.axes.clone())
+                }
+                Place::Body(body) => {
+                    let body = &model.bodies[body];
+                    let ground = || model.poses[PoseId::GROUND.index()].axes.clone();
+                    (
+                        body.at.clone(),
+                        body_axes(model, body).unwrap_or_else(ground),
+                    )
+                }
+            };
+            let center: Vec<Expr<'d>> = (0..dimension)
+                .map(|k| {
+                    let along = circle
+                        .center
+                        .iter()
+                        .zip(&axes)
+                        .map(|(c, axis)| *c * axis[k]);
+                    model.dag.sum([origin[k]].into_iter().chain(along))
+                })
+                .collect();
+            [
+                places.of(&center),
+                places.of(&[circle.radius]),
+                places.of(&axes.concat()),
+            ]
+        });
+        let circles = circles.collect();
+        let mut ends = Vec::new();
+        let mut stretches = Vec::new();
+        for element in model.springs.iter().chain(&model.dampers) {
+            let points = element.ends.as_ref();
+            ends.push(points.map(|[from, to]| [places.of(from), places.of(to)]));
+            stretches.push(places.of(&[element.stretch]));
+        }
+        Points {
+            dimension,
+            origins,
+            axes,
+            bodies,
+            body_axes: turned,
+            circles,
+            ends,
+            stretches,
+            gravity: model.gravity.as_ref().map(|gravity| places.of(gravity)),
+        }
+    }
+
+    fn circles(&self, model: &Model<'_>) -> Vec<CircleDrawn> {
+        let circles = model.circles.iter().zip(&self.circles);
+        let drawn = circles.map(|(circle, &[center, radius, axes])| CircleDrawn {
+            name: circle.name.to_string(),
+            center,
+            radius,
+            axes,
+            body: holder(model, circle.on),
+        });
+        drawn.collect()
+    }
+}
+
+/// The axes of a body; none where the spec does not say how it is turned.
+fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<'d>>>> {
+    match body.rotation {
+        Rotation::Unspecified => None,
+        Rotation::Angle(angle) => {
+            let (sin, cos) = (angle.sin(), angle.cos());
+            Some(vec![vec![cos, sin], vec![-sin, cos]])
+        }
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
+    }
+}
+
+/// The body that a circle is fixed to, or whose frame it is fixed to.
+fn holder(model: &Model<'_>, place: Place) -> Option<usize> {
+    match place {
+        Place::Body(body) => Some(body),
+        Place::Frame(PoseId::GROUND) => None,
+        Place::Frame(pose) => {
+            let on = |body: &Body| matches!(body.rotation, Rotation::Frame(own) if own == pose);
+            model.bodies.iter().position(on)
+        }
+    }
+}
+
+struct Finder<'a, 'd> {
+    model: &'a Model<'d>,
+    points: &'a Points,
+    experiment: &'a Experiment,
+    /// The values at the start.
+    start: &'a [f64],
+    value: &'a dyn Fn(Symbol) -> f64,
+}
+
+impl<'d> Finder<'_, 'd> {
+    fn dimension(&self) -> usize {
+        self.points.dimension
+    }
+
+    /// How far two points are from each other at the start.
+    fn distance(&self, a: usize, b: usize) -> f64 {
+        let difference = |k| self.start[a + k] - self.start[b + k];
+        let squares = (0..self.dimension()).map(|k| difference(k) * difference(k));
+        squares.sum::<f64>().sqrt()
+    }
+
+    fn joined(&self, a: usize, b: usize) -> bool {
+        self.experiment.keeps_distance(a, b, self.dimension())
+            && !self.experiment.coincide(a, b, self.dimension())
+    }
+
+    /// Shifts of constant length.
+    fn links(&self) -> Vec<Link> {
+        let mut links: Vec<Link> = Vec::new();
+        for (index, pose) in self.model.poses.iter().enumerate() {
+            let Step::Shift(_) = pose.step else { continue };
+            let origin = |pose: PoseId| self.points.origins[pose.index()];
+            let ends = [origin(pose.parent), self.points.origins[index]];
+            if self.joined(ends[0], ends[1]) && !links.iter().any(|link| link.ends == ends) {
+                links.push(Link { ends, body: None });
+            }
+        }
+        for link in &mut links {
+            link.body = (0..self.model.bodies.len()).find(|&body| {
+                let rests = |end: &usize| self.rests(*end, body);
+                link.ends.iter().all(rests)
+            });
+        }
+        links
+    }
+
+    /// Whether a point is fixed in a body.
+    fn rests(&self, point: usize, body: usize) -> bool {
+        let (at, axes) = (self.points.bodies[body], self.points.body_axes[body]);
+        axes.is_some_and(|axes| self.experiment.rests(point, at, axes, self.dimension()))
+    }
+
+    /// The points that a body may be joined to: the ground, origins of frames, bodies before it; each once.
+    fn references(&self, body: usize) -> Vec<usize> {
+        let mut references = Vec::new();
+        for &place in self
+            .points
+            .origins
+            .iter()
+            .chain(&self.points.bodies[..body])
+        {
+            if !references.contains(&place) {
+                references.push(place);
+            }
+        }
+        references
+    }
+
+    fn body(&self, index: usize, links: &[Link]) -> BodyDrawn {
+        let body = &self.model.bodies[index];
+        let at = self.points.bodies[index];
+        let references = self.references(index);
+        let joined: Vec<usize> = references
+            .iter()
+            .copied()
+            .filter(|&reference| self.joined(at, reference))
+            .collect();
+        let nearest = |points: &[usize]| {
+            let by_distance =
+                |a: &&usize, b: &&usize| self.distance(at, **a).total_cmp(&self.distance(at, **b));
+            points.iter().min_by(by_distance).copied()
+        };
+        let numbers = |expressions: &[Expr<'d>]| {
+            evaluate(self.model.dag, expressions, |symbol| (self.value)(symbol))
+        };
+        let mass = numbers(&[body.mass])[0];
+        let fixed: Vec<usize> = joined
+            .iter()
+            .copied()
+            .filter(|&point| self.rests(point, index))
+            .collect();
+        let on_link = links
+            .iter()
+            .flat_map(|link| link.ends)
+            .any(|end| self.experiment.coincide(end, at, self.dimension()));
+        let outlined = |circle: &CircleDrawn| circle.body == Some(index);
+        let outlined = self.points.circles(self.model).iter().any(outlined);
+        let solid = match body.inertia {
+            Inertia::Particle => None,
+            _ if outlined => None,
+            Inertia::Planar(inertia) => {
+                let squared = numbers(&[inertia])[0] / mass;
+                self.planar_solid(at, squared, &fixed)
+            }
+            Inertia::Tensor(ref entries) => solid_in_space(mass, &numbers(entries)),
+        };
+        // A bar reaches its joints itself.
+        let rod = match solid {
+            Some(Solid::Bar { .. }) => None,
+            _ if on_link => None,
+            _ => nearest(&joined),
+        };
+        BodyDrawn {
+            name: body.name.to_string(),
+            mass,
+            at,
+            axes: self.points.body_axes[index],
+            rod,
+            solid,
+        }
+    }
+
+    /// The uniform bar or disc with this square of the radius of gyration.
+    fn planar_solid(&self, at: usize, squared: f64, fixed: &[usize]) -> Option<Solid> {
+        if !(squared > 0.0 && squared.is_finite()) {
+            return None;
+        }
+        // A bar of length 2h has the inertia m h²/3, a disc of radius R has m R²/2.
+        let half = (3.0 * squared).sqrt();
+        let is_end = |&&end: &&usize| (self.distance(at, end) - half).abs() < BAR * half;
+        Some(match fixed.iter().find(is_end) {
+            Some(&end) => Solid::Bar { end, half },
+            None => Solid::Disc {
+                radius: (2.0 * squared).sqrt(),
+            },
+        })
+    }
+
+    /// For bodies that nothing holds: the point that the position of each is built on, where it is one.
+    ///
+    /// A position is a sum in which whatever it was written from is one term: `platform.point(x0, y0) + polar(e, ω t)`. If
+    /// one term of each component makes a vector of constant length, the rest is the point at its other end.
+    fn built_on(&self, bodies: &[BodyDrawn], links: &[Link]) -> Vec<Option<Vec<Expr<'d>>>> {
+        let dag = self.model.dag;
+        let held = |body: &BodyDrawn| {
+            let on_link = |link: &Link| link.ends.contains(&body.at);
+            body.rod.is_some()
+                || matches!(body.solid, Some(Solid::Bar { .. }))
+                || links.iter().any(on_link)
+        };
+        let found = bodies.iter().zip(&self.model.bodies).map(|(drawn, body)| {
+            if held(drawn) {
+                return None;
+            }
+            let terms: Vec<Vec<Expr<'d>>> = body.at.iter().map(|&x| terms(x)).collect();
+            if terms.iter().map(Vec::len).product::<usize>() > 64 {
+                return None;
+            }
+            let mut sheet: Vec<Expr<'d>> = Vec::new();
+            let places: Vec<Vec<usize>> = terms
+                .iter()
+                .map(|terms| {
+                    let first = sheet.len();
+                    sheet.extend(terms);
+                    (first..sheet.len()).collect()
+                })
+                .collect();
+            let experiment = Experiment::new(self.model, &sheet);
+            let choice = choices(&places).find(|choice| {
+                let one = choice.iter().all(|&place| !sheet[place].is_zero());
+                one && experiment.keeps_length(choice)
+            })?;
+            let anchor: Vec<Expr<'d>> = body
+                .at
+                .iter()
+                .zip(&choice)
+                .map(|(&x, &place)| dag.sum([x, -sheet[place]]))
+                .collect();
+            // All of it dropped: the ground, which was tried.
+            let ground = anchor.iter().all(|x| x.is_zero());
+            (!ground).then_some(anchor)
+        });
+        found.collect()
+    }
+
+    /// Links that no bar covers already.
+    fn without_bars(&self, links: Vec<Link>, bodies: &[BodyDrawn]) -> Vec<Link> {
+        let covered = |link: &Link| {
+            bodies.iter().enumerate().any(|(index, body)| {
+                let Some(Solid::Bar { half, .. }) = body.solid else {
+                    return false;
+                };
+                link.ends.iter().all(|&end| {
+                    (self.distance(body.at, end) - half).abs() < 2.0 * BAR * half
+                        && self.rests(end, index)
+                })
+            })
+        };
+        links.into_iter().filter(|link| !covered(link)).collect()
+    }
+
+    /// Springs and dampers with their places, and the names of those that have none.
+    fn elements(&self) -> (Vec<ElementDrawn>, Vec<String>) {
+        let springs = self.model.springs.iter().map(|spring| (spring, false));
+        let dampers = self.model.dampers.iter().map(|damper| (damper, true));
+        let given = self.points.ends.iter().zip(&self.points.stretches);
+        let mut candidates = self.references(self.model.bodies.len());
+        if candidates.len().pow(2) / 2 * self.points.ends.len() > MOST_PAIRS {
+            candidates.clear();
+        }
+        let mut sketches: Vec<(usize, [f64; 2])> = Vec::new();
+        let (mut drawn, mut omitted) = (Vec::new(), Vec::new());
+        for ((element, damper), (ends, &stretch)) in springs.chain(dampers).zip(given) {
+            let between = |ends| Placed::Between { ends };
+            let found = match *ends {
+                _ if element.torsional => self.twist(element),
+                Some(ends) => Some(between(ends)),
+                None => {
+                    let pair = self.pair(stretch, &candidates);
+                    pair.map(between).or_else(|| self.sketch(element))
+                }
+            };
+            let Some(mut place) = found else {
+                let kind = if damper { "damper" } else { "spring" };
+                omitted.push(format!("{kind} {}", element.name));
+                continue;
+            };
+            // Where several act on one body along one direction, they stand on opposite sides by turns.
+            if let Placed::Sketch {
+                body, along, side, ..
+            } = &mut place
+            {
+                let same = |(other, direction): &&(usize, [f64; 2])| {
+                    let [a, b] = [direction, along];
+                    other == body && (a[0] * b[0] + a[1] * b[1]).abs() > 0.9
+                };
+                let before = sketches.iter().filter(same).count();
+                *side = if before % 2 == 0 { -1 } else { 1 };
+                sketches.push((*body, *along));
+            }
+            drawn.push(ElementDrawn {
+                name: element.name.to_string(),
+                damper,
+                place,
+            });
+        }
+        (drawn, omitted)
+    }
+
+    /// The two points whose distance is the stretch and a constant. From the ground the constant must not be 0: that would
+    /// be a coordinate, not a length.
+    fn pair(&self, stretch: usize, candidates: &[usize]) -> Option<[usize; 2]> {
+        let ground = self.points.origins[0];
+        for (index, &a) in candidates.iter().enumerate() {
+            for &b in &candidates[index + 1..] {
+                let found = self.experiment.is_stretch(a, b, stretch, self.dimension());
+                if found.is_some_and(|zero| !(zero && a == ground)) {
+                    return Some([a, b]);
+                }
+            }
+        }
+        None
+    }
+
+    /// The line of action of a force that works on the stretch alone, as a force on one body of a plane machine: `w` with
+    /// `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start.
+    fn sketch(&self, element: &Elastic<'d>) -> Option<Placed> {
+        if self.dimension() != 2 {
+            return None;
+        }
+        let slopes = |of: Expr<'d>| -> Vec<Expr<'d>> {
+            let coordinates = self.model.coordinates.iter();
+            let symbols = coordinates.filter_map(|coordinate| coordinate.q.as_symbol());
+            symbols
+                .map(|symbol| {
+                    Tangent::new(self.model.dag, &[(symbol, self.model.dag.one())]).of(of)
+                })
+                .collect()
+        };
+        let numbers =
+            |slopes: &[Expr<'d>]| evaluate(self.model.dag, slopes, |symbol| (self.value)(symbol));
+        // The line of action of a stretch that is not linear would move about.
+        let linear = slopes(element.stretch);
+        if linear.iter().any(|slope| slope.stage() > stage::PARAMETER) {
+            return None;
+        }
+        let wanted = numbers(&linear);
+        if wanted.iter().all(|slope| *slope == 0.0) {
+            return None;
+        }
+        for (index, body) in self.model.bodies.iter().enumerate() {
+            let angle = match body.rotation {
+                Rotation::Unspecified => self.model.dag.zero(),
+                Rotation::Angle(angle) => angle,
+                Rotation::Frame(pose) => self.model.poses[pose.index()].angle,
+            };
+            let motion: Vec<Vec<f64>> = [body.at[0], body.at[1], angle]
+                .map(|of| numbers(&slopes(of)))
+                .into();
+            let Some([x, y, moment]) = wrench(&motion, &wanted) else {
+                continue;
+            };
+            let size = x.hypot(y);
+            if size < 1e-9 {
+                continue;
+            }
+            // The foot of the perpendicular from the mass centre, turned into the body's axes.
+            let foot = [moment * y / (size * size), -moment * x / (size * size)];
+            let turn = evaluate(self.model.dag, &[angle], |symbol| (self.value)(symbol))[0];
+            let (sin, cos) = turn.sin_cos();
+            return Some(Placed::Sketch {
+                body: index,
+                foot: [cos * foot[0] + sin * foot[1], cos * foot[1] - sin * foot[0]],
+                along: [x / size, y / size],
+                side: -1,
+            });
+        }
+        None
+    }
+
+    /// A torsion spring is shown at the first body whose angle is its twist, up to a constant.
+    fn twist(&self, element: &Elastic<'d>) -> Option<Placed> {
+        let same = |angle: Expr<'d>| {
+            let rest = [element.stretch - angle];
+            Experiment::new(self.model, &rest).keeps(0)
+        };
+        let turned = self
+            .model
+            .poses
+            .iter()
+            .enumerate()
+            .find(|(_, pose)| match pose.step {
+                Step::Turn { angle, .. } => same(angle) || same(-angle),
+                _ => false,
+            });
+        if let Some((pose, _)) = turned {
+            return Some(Placed::Twist {
+                about: self.points.origins[pose],
+            });
+        }
+        let body = self
+            .model
+            .bodies
+            .iter()
+            .position(|body| match body.rotation {
+                Rotation::Angle(angle) => same(angle) || same(-angle),
+                _ => false,
+            });
+        body.map(|body| Placed::Twist {
+            about: self.points.bodies[body],
+        })
+    }
+}
+
+/// The terms of a sum, with their coefficients; whatever is no sum is one term.
+fn terms(x: Expr<'_>) -> Vec<Expr<'_>> {
+    match x.node() {
+        Node::Sum(terms) => terms
+            .iter()
+            .map(|(id, coefficient)| x.dag().expr(*id) * coefficient.clone())
+            .collect(),
+        _ => vec![x],
+    }
+}
+
+/// Every choice of one from each list.
+fn choices(lists: &[Vec<usize>]) -> impl Iterator<Item = Vec<usize>> + '_ {
+    let count: usize = lists.iter().map(Vec::len).product();
+    (0..count).map(move |mut number| {
+        let pick = |list: &Vec<usize>| {
+            let place = list[number % list.len()];
+            number /= list.len();
+            place
+        };
+        lists.iter().map(pick).collect()
+    })
+}
+
+/// The `w` with `wanted_i = Σ_k w_k motion_k,i` for every i, by least squares; `None` where there is none. Of several the
+/// one without the parts that do not matter.
+fn wrench(motion: &[Vec<f64>], wanted: &[f64]) -> Option<[f64; 3]> {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    // Gram–Schmidt on the rows: at most three, with coefficients kept beside them.
+    let mut basis: Vec<(Vec<f64>, [f64; 3])> = Vec::new();
+    for (k, row) in motion.iter().enumerate() {
+        let mut row = row.clone();
+        let mut weights = [0.0; 3];
+        *weights.get_mut(k)? = 1.0;
+        let size = dot(&row, &row);
+        for (other, other_weights) in &basis {
+            let share = dot(&row, other) / dot(other, other);
+            row.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
+            let both = weights.iter_mut().zip(other_weights);
+            both.for_each(|(x, y)| *x -= share * y);
+        }
+        if size > 0.0 && dot(&row, &row) > 1e-12 * size {
+            basis.push((row, weights));
+        }
+    }
+    let (mut rest, mut found) = (wanted.to_vec(), [0.0; 3]);
+    for (row, weights) in &basis {
+        let share = dot(&rest, row) / dot(row, row);
+        rest.iter_mut().zip(row).for_each(|(x, y)| *x -= share * y);
+        let both = found.iter_mut().zip(weights);
+        both.for_each(|(x, y)| *x += share * y);
+    }
+    let exact = dot(&rest, &rest) <= 1e-18 * dot(wanted, wanted);
+    (exact && found.iter().all(|x| x.is_finite())).then_some(found)
+}
+
+/// The uniform cylinder, or else box, with this mass and inertia `xx, yy, zz, xy, xz, yz`.
+///
+/// A cylinder of radius R and height 2h has m R²/2 about its axis and m (R²/4 + h²/3) across it; a box of sides 2a, 2b, 2c
+/// has m (b² + c²)/3 about the first. A tensor that no solid has (A > B + C) gives sides of 0.
+fn solid_in_space(mass: f64, inertia: &[f64]) -> Option<Solid> {
+    let &[xx, yy, zz, xy, xz, yz] = inertia else {
+        return None;
+    };
+    let tensor = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let (moments, axes) = principal(tensor);
+    let largest = moments.iter().fold(0.0_f64, |a, b| a.max(*b));
+    if !(mass > 0.0 && largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    let equal = |a: f64, b: f64| (a - b).abs() < 1e-9 * largest;
+    let root = |x: f64| if x > 0.0 { x.sqrt() } else { 0.0 };
+    for (axis, [b, c]) in [(2, [0, 1]), (0, [1, 2]), (1, [2, 0])] {
+        if equal(moments[b], moments[c]) && !equal(moments[axis], moments[b]) {
+            let radius = root(2.0 * moments[axis] / mass);
+            let half = root(3.0 * (moments[b] / mass - radius * radius / 4.0));
+            return Some(Solid::Cylinder {
+                axis: axes[axis],
+                radius,
+                half,
+            });
+        }
+    }
+    let half = [0, 1, 2].map(|axis| {
+        let others = moments.iter().sum::<f64>() - 2.0 * moments[axis];
+        root(1.5 * others / mass)
+    });
+    Some(Solid::Box { axes, half })
+}
+
+/// Principal moments and axes of a symmetric tensor, by Jacobi's rotations. G. H. Golub and C. F. Van Loan, *Matrix
+/// Computations*, 4th ed. (2013), section 8.5.
+fn principal(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
+    // The rows of `v` are the axes.
+    let mut v = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // Convergence is quadratic: a few sweeps reach roundoff.
+    for _ in 0..12 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if a[p][q] == 0.0 {
+                continue;
+            }
+            let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+            let tan = theta.signum() / (theta.abs() + theta.hypot(1.0));
+            let cos = 1.0 / tan.hypot(1.0);
+            let sin = tan * cos;
+            for row in &mut a {
+                let (x, y) = (row[p], row[q]);
+                (row[p], row[q]) = (cos * x - sin * y, sin * x + cos * y);
+            }
+            for k in 0..3 {
+                let (x, y) = (a[p][k], a[q][k]);
+                (a[p][k], a[q][k]) = (cos * x - sin * y, sin * x + cos * y);
+                let (x, y) = (v[p][k], v[q][k]);
+                (v[p][k], v[q][k]) = (cos * x - sin * y, sin * x + cos * y);
+            }
+        }
+    }
+    ([a[0][0], a[1][1], a[2][2]], v)
+}
