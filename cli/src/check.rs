@@ -1,13 +1,14 @@
 //! `lagrangian check`: everything that is wrong with a spec, and printed equations against the derived ones.
 
-use lagrangian_spec::compare;
+use lagrangian_spec::compare::{self, Comparison};
 use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::call;
-use crate::diagnostics;
+use crate::diagnostics::{self, Entry};
 use crate::failure::Failure;
 use crate::output;
 use crate::reading::Reading;
@@ -22,6 +23,19 @@ struct Published {
     add: Vec<String>,
     /// Terms to drop from the print.
     drop: Vec<String>,
+    /// Those of the terms to drop that become one of the terms to add by a slip.
+    change: Vec<Change>,
+    /// Where the print adds what has different units.
+    remarks: Vec<Entry>,
+}
+
+/// A term of the print with a slip in it.
+#[derive(Debug, Serialize)]
+struct Change {
+    /// The term, which is among those to drop.
+    from: String,
+    /// The term as it should be, which is among those to add.
+    to: String,
 }
 
 /// Runs the command.
@@ -39,13 +53,7 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
     };
     let published: Vec<Published> = comparisons
         .into_iter()
-        .map(|comparison| Published {
-            add: comparison.add(),
-            drop: comparison.drop(),
-            block: comparison.block,
-            item: comparison.item,
-            agrees: comparison.agrees,
-        })
+        .map(|comparison| Published::new(comparison, &reading.sources))
         .collect();
     if call.spec.json {
         let entries = diagnostics::entries(&reading.report, &reading.sources);
@@ -58,7 +66,10 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         if let Some(compiled) = &compiled {
             summarize(compiled);
         }
-        published.iter().for_each(print);
+        for block in published.chunk_by(|a, b| a.block == b.block) {
+            block.iter().for_each(print);
+            conclude(block);
+        }
     }
     if reading.report.has_errors() {
         Err(Failure::Said)
@@ -82,21 +93,70 @@ fn counted(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-fn print(published: &Published) {
-    let Published {
-        block,
-        item,
-        agrees,
-        add,
-        drop,
-    } = published;
-    output::line(format_args!(
-        "{block}: {item}: {}",
-        if *agrees { "agrees" } else { "differs" }
-    ));
-    for (word, terms) in [("add", add), ("drop", drop)] {
-        for term in terms {
-            output::line(format_args!("    {word} {term}"));
+impl Published {
+    fn new(comparison: Comparison<'_>, sources: &Sources) -> Published {
+        let (add, drop) = (comparison.add(), comparison.drop());
+        let change = |(from, to): (usize, usize)| Change {
+            from: drop[from].clone(),
+            to: add[to].clone(),
+        };
+        let remarks = comparison.remarks.iter();
+        Published {
+            change: comparison.changes().into_iter().map(change).collect(),
+            remarks: remarks
+                .map(|remark| diagnostics::entry(remark, sources))
+                .collect(),
+            add,
+            drop,
+            block: comparison.block,
+            item: comparison.item,
+            agrees: comparison.agrees,
         }
+    }
+
+    /// Terms of a list that no change accounts for.
+    fn left<'a>(
+        &'a self,
+        list: &'a [String],
+        side: fn(&Change) -> &String,
+    ) -> impl Iterator<Item = &'a String> {
+        let is_changed = move |term: &String| self.change.iter().any(|c| side(c) == term);
+        list.iter().filter(move |term| !is_changed(term))
+    }
+}
+
+fn print(published: &Published) {
+    let Published { block, item, .. } = published;
+    let verdict = if published.agrees {
+        "agrees"
+    } else {
+        "differs"
+    };
+    output::line(format_args!("{block}: {item}: {verdict}"));
+    for Change { from, to } in &published.change {
+        output::line(format_args!("    change {from} to {to}"));
+    }
+    for term in published.left(&published.drop, |change| &change.from) {
+        output::line(format_args!("    drop {term}"));
+    }
+    for term in published.left(&published.add, |change| &change.to) {
+        output::line(format_args!("    add {term}"));
+    }
+    for remark in &published.remarks {
+        output::line(format_args!("    units: {remark}"));
+    }
+}
+
+/// How many formulas of a block are wrong.
+fn conclude(block: &[Published]) {
+    let Some(Published { block: title, .. }) = block.first() else {
+        return;
+    };
+    let wrong = block.iter().filter(|formula| !formula.agrees).count();
+    let all = counted(block.len(), "formula", "formulas");
+    match wrong {
+        0 => output::line(format_args!("{title}: {all}, nothing to mend")),
+        1 => output::line(format_args!("{title}: 1 of {all} differs")),
+        _ => output::line(format_args!("{title}: {wrong} of {all} differ")),
     }
 }

@@ -1,5 +1,6 @@
 //! Diagnostics as the Rust compiler shows them, with the words underlined; and as JSON.
 
+use std::fmt;
 use std::io::IsTerminal;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
@@ -20,18 +21,37 @@ pub struct Entry {
 
 /// The diagnostics of a report, in the order of their places.
 pub fn entries(report: &Report, sources: &Sources) -> Vec<Entry> {
-    let entry = |diagnostic: &Diagnostic| {
-        let (line, column) = sources.line_column(diagnostic.span);
-        Entry {
-            code: diagnostic.code.as_str(),
-            message: diagnostic.message.clone(),
-            help: diagnostic.help.clone(),
-            file: sources.name(diagnostic.span.source).to_owned(),
+    let diagnostics = report.diagnostics().into_iter();
+    diagnostics
+        .map(|diagnostic| entry(diagnostic, sources))
+        .collect()
+}
+
+/// One diagnostic.
+pub fn entry(diagnostic: &Diagnostic, sources: &Sources) -> Entry {
+    let (line, column) = sources.line_column(diagnostic.span);
+    Entry {
+        code: diagnostic.code.as_str(),
+        message: diagnostic.message.clone(),
+        help: diagnostic.help.clone(),
+        file: sources.name(diagnostic.span.source).to_owned(),
+        line,
+        column,
+    }
+}
+
+/// As one line: where, and what.
+impl fmt::Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Entry {
+            file,
             line,
             column,
-        }
-    };
-    report.diagnostics().into_iter().map(entry).collect()
+            message,
+            ..
+        } = self;
+        write!(f, "{file}:{line}:{column}: {message}")
+    }
 }
 
 /// Prints a report to standard error, in colour on a terminal.

@@ -17,10 +17,20 @@ pub mod crusher9;
 pub mod cushioned_crusher;
 /// The machine of [`DoublePendulum`].
 pub mod double_pendulum;
+/// The machine of [`FrozenCrusher`].
+pub mod frozen_crusher;
 /// The machine of [`HeavyTop`].
 pub mod heavy_top;
+/// The machine of [`MotorCrusher`].
+pub mod motor_crusher;
+/// The machine of [`PaperCrusher`].
+pub mod paper_crusher;
 /// The machine of [`SixJointArm`].
 pub mod six_joint_arm;
+/// The machine of [`SmallAngleCrusher`].
+pub mod small_angle_crusher;
+/// The machine of [`TwoDebalanceCrusher`].
+pub mod two_debalance_crusher;
 /// The machine of [`VibratingCrusher`].
 pub mod vibrating_crusher;
 
@@ -30,6 +40,11 @@ pub use chain_relative::ChainRelative;
 pub use crusher9::Crusher9;
 pub use cushioned_crusher::CushionedCrusher;
 pub use double_pendulum::DoublePendulum;
+pub use frozen_crusher::FrozenCrusher;
 pub use heavy_top::HeavyTop;
+pub use motor_crusher::MotorCrusher;
+pub use paper_crusher::PaperCrusher;
 pub use six_joint_arm::SixJointArm;
+pub use small_angle_crusher::SmallAngleCrusher;
+pub use two_debalance_crusher::TwoDebalanceCrusher;
 pub use vibrating_crusher::VibratingCrusher;

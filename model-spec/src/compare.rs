@@ -1,14 +1,18 @@
 //! Equations as somebody printed them, held against the derived ones.
 //!
 //! Whether a printed formula agrees is decided in the prime field, at points that leave no doubt; only one that does not is
-//! written out term by term, to say what to add and what to drop. An equation of motion may be printed times or over any
-//! factor of parameters, and a potential energy may differ by a constant: neither changes the motion. Equations (E23), (E24) of
-//! `docs/equations.md`.
+//! written out term by term, to say what to add and what to drop, and which of these are one term with a slip in it. An
+//! equation of motion may be printed times or over any factor of parameters, and a potential energy may differ by a constant:
+//! neither changes the motion. Equations (E23), (E24) of `docs/equations.md`.
+
+mod brackets;
+mod changes;
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
-use lagrangian_symbolic::normal::{self, Difference};
+use lagrangian_symbolic::normal::Difference;
 use lagrangian_symbolic::{Dag, Expr, Function, Node, evaluate, reachable, text};
 
+use crate::diagnostic::Diagnostic;
 use crate::mechanics::{Equations, experiment};
 use crate::model::{Model, PublishedItem, PublishedQuantity, stage};
 use crate::source::Span;
@@ -29,6 +33,8 @@ pub struct Comparison<'d> {
     pub agrees: bool,
     /// What mends it: one difference for each component of a vector, and one for everything else.
     pub mend: Vec<Difference<'d>>,
+    /// Where the print adds what has different units.
+    pub remarks: Vec<Diagnostic>,
 }
 
 impl<'d> Comparison<'d> {
@@ -40,6 +46,20 @@ impl<'d> Comparison<'d> {
     /// The terms to drop from what is printed, as the spec writes them.
     pub fn drop(&self) -> Vec<String> {
         self.terms(|mend| &mend.drop)
+    }
+
+    /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places in [`Self::drop`] and
+    /// [`Self::add`], where they stand as well. By the rule in the documentation of `compare/changes.rs`.
+    pub fn changes(&self) -> Vec<(usize, usize)> {
+        let (mut dropped, mut added) = (0, 0);
+        let mut all = Vec::new();
+        for mend in &self.mend {
+            let pairs = changes::pairs(&mend.drop, &mend.add).into_iter();
+            all.extend(pairs.map(|(i, j)| (dropped + i, added + j)));
+            dropped += mend.drop.len();
+            added += mend.add.len();
+        }
+        all
     }
 
     fn terms(&self, list: for<'a> fn(&'a Difference<'d>) -> &'a [Expr<'d>]) -> Vec<String> {
@@ -74,6 +94,7 @@ pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparis
                 span: item.span,
                 agrees: mend.iter().all(Difference::is_empty),
                 mend,
+                remarks: item.remarks.clone(),
             }
         }));
     }
@@ -114,7 +135,7 @@ fn mend_formula<'d>(right: Expr<'d>, printed: Expr<'d>) -> Difference<'d> {
             drop: Vec::new(),
         };
     }
-    match normal::difference(printed, right, BUDGET) {
+    match brackets::difference(printed, right, BUDGET) {
         Some(difference) if !difference.is_empty() => difference,
         _ => Difference {
             add: vec![right],

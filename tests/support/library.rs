@@ -9,15 +9,20 @@ use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// The file names of all machines.
-pub const MACHINES: [&str; 9] = [
+pub const MACHINES: [&str; 14] = [
     "cart_pole",
     "chain",
     "chain_relative",
     "crusher9",
     "cushioned_crusher",
     "double_pendulum",
+    "frozen_crusher",
     "heavy_top",
+    "motor_crusher",
+    "paper_crusher",
     "six_joint_arm",
+    "small_angle_crusher",
+    "two_debalance_crusher",
     "vibrating_crusher",
 ];
 
@@ -32,8 +37,13 @@ macro_rules! for_each_machine {
         $do!(Crusher9, "crusher9");
         $do!(CushionedCrusher, "cushioned_crusher");
         $do!(DoublePendulum, "double_pendulum");
+        $do!(FrozenCrusher, "frozen_crusher");
         $do!(HeavyTop, "heavy_top");
+        $do!(MotorCrusher, "motor_crusher");
+        $do!(PaperCrusher, "paper_crusher");
         $do!(SixJointArm, "six_joint_arm");
+        $do!(SmallAngleCrusher, "small_angle_crusher");
+        $do!(TwoDebalanceCrusher, "two_debalance_crusher");
         $do!(VibratingCrusher, "vibrating_crusher");
     };
 }

@@ -73,7 +73,8 @@ fn all_files() -> Vec<PathBuf> {
     machines
 }
 
-fn library() -> PathBuf {
+/// Where the machines of the library stand.
+pub fn library() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines")
 }
 

@@ -1,0 +1,1250 @@
+// @generated from machines/motor_crusher.machine by `cargo xtask generate`; edits are lost.
+
+//! A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
+//! coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
+//! the torque that M. Kloss gave in 1909,
+//! M = 2 Mk / (s/sk + sk/s), slip s = (ω − ψ′)/ω,
+//! written below without the division by s: it is greatest, Mk, at the slip sk, and zero at the
+//! synchronous speed ω.
+//! The faster it turns, the more the dampers of the shaken platform take: in steady motion the mean
+//! power of the motor is the mean power dissipated. With the debalance's axis at the centre of a
+//! platform on equal springs, k = 2 cx = 2 cy and b = 2 bx = 2 by, the centre runs round a circle
+//! of
+//! radius X, speed and torque are constant, and for M = m + m0
+//! torque = b ψ′ X², X = m0 e ψ′² / √((k − M ψ′²)² + (b ψ′)²)
+//! This load has a peak at resonance, ψ′² ≈ k/M. A motor whose torque does not clear the peak hangs
+//! there, and shakes the platform instead of gaining speed: the Sommerfeld effect. With a large Mk
+//! the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
+//!
+//! 10 coordinates, 24 parameters, 4 outputs. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 20 | 6 | 2 | 0 | 0 | 28 |
+//! | `mass_matrix` | 41 | 13 | 0 | 4 | 0 | 62 |
+//! | `bias` | 54 | 28 | 0 | 4 | 0 | 90 |
+//! | `applied` | 17 | 22 | 1 | 0 | 0 | 40 |
+//! | `forces` | 71 | 46 | 1 | 4 | 0 | 126 |
+//! | `accelerations` | 107 | 64 | 6 | 3 | 0 | 183 |
+//! | `kinetic_energy` | 40 | 25 | 0 | 4 | 0 | 73 |
+//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `work_rate` | 4 | 2 | 1 | 0 | 0 | 7 |
+//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `output_motor_torque` | 3 | 2 | 1 | 0 | 0 | 6 |
+//! | `output_motor_power` | 4 | 2 | 1 | 0 | 0 | 7 |
+//! | `output_amplitude` | 2 | 1 | 0 | 0 | 1 | 4 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
+/// coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
+/// the torque that M. Kloss gave in 1909,
+/// M = 2 Mk / (s/sk + sk/s), slip s = (ω − ψ′)/ω,
+/// written below without the division by s: it is greatest, Mk, at the slip sk, and zero at the
+/// synchronous speed ω.
+/// The faster it turns, the more the dampers of the shaken platform take: in steady motion the mean
+/// power of the motor is the mean power dissipated. With the debalance's axis at the centre of a
+/// platform on equal springs, k = 2 cx = 2 cy and b = 2 bx = 2 by, the centre runs round a circle
+/// of
+/// radius X, speed and torque are constant, and for M = m + m0
+/// torque = b ψ′ X², X = m0 e ψ′² / √((k − M ψ′²)² + (b ψ′)²)
+/// This load has a peak at resonance, ψ′² ≈ k/M. A motor whose torque does not clear the peak hangs
+/// there, and shakes the platform instead of gaining speed: the Sommerfeld effect. With a large Mk
+/// the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotorCrusher<S = f64> {
+    /// Mass of the platform. Unit: kg. Default: 600.
+    pub m: S,
+    /// Mass of the debalance. Unit: kg. Default: 40.
+    pub m0: S,
+    /// `m1`. Unit: kg. Default: 180.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 120.
+    pub m2: S,
+    /// `J`. Unit: kg*m^2. Default: 60.
+    pub J: S,
+    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    pub J0: S,
+    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    pub J1: S,
+    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    pub J2: S,
+    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    pub e: S,
+    /// `x0`. Unit: m. Default: 0.05.
+    pub x0: S,
+    /// `y0`. Unit: m. Default: 0.03.
+    pub y0: S,
+    /// Synchronous speed of the motor. Unit: rad/s. Default: 50*pi.
+    pub omega: S,
+    /// `cx`. Unit: N/m. Default: 300000.
+    pub cx: S,
+    /// `cy`. Unit: N/m. Default: 300000.
+    pub cy: S,
+    /// `bx`. Unit: N*s/m. Default: 1500.
+    pub bx: S,
+    /// `by`. Unit: N*s/m. Default: 1500.
+    pub by: S,
+    /// `xc`. Unit: m. Default: 0.4.
+    pub xc: S,
+    /// `yc`. Unit: m. Default: 0.3.
+    pub yc: S,
+    /// Breakdown torque of the motor. Unit: N*m. Default: 400.
+    pub Mk: S,
+    /// Slip at which it breaks down. Unit: 1. Default: 0.2.
+    pub sk: S,
+    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of the pestle.
+    /// Unit: m. Default: 0.27.
+    pub R: S,
+    /// `r1`. Unit: m. Default: 0.25.
+    pub r1: S,
+    /// `rho`. Unit: m. Default: 0.2.
+    pub rho: S,
+    /// `r2`. Unit: m. Default: 0.17.
+    pub r2: S,
+}
+
+impl Default for MotorCrusher {
+    fn default() -> Self {
+        Self {
+            m: 600.0,
+            m0: 40.0,
+            m1: 180.0,
+            m2: 120.0,
+            J: 60.0,
+            J0: 0.2,
+            J1: 9.225,
+            J2: 1.536,
+            e: 0.1,
+            x0: 0.05,
+            y0: 0.03,
+            omega: 157.07963267948966,
+            cx: 300000.0,
+            cy: 300000.0,
+            bx: 1500.0,
+            by: 1500.0,
+            xc: 0.4,
+            yc: 0.3,
+            Mk: 400.0,
+            sk: 0.2,
+            R: 0.27,
+            r1: 0.25,
+            rho: 0.2,
+            r2: 0.17,
+        }
+    }
+}
+
+impl<S> MotorCrusher<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> MotorCrusher<R> {
+        MotorCrusher {
+            m: f(self.m),
+            m0: f(self.m0),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            J: f(self.J),
+            J0: f(self.J0),
+            J1: f(self.J1),
+            J2: f(self.J2),
+            e: f(self.e),
+            x0: f(self.x0),
+            y0: f(self.y0),
+            omega: f(self.omega),
+            cx: f(self.cx),
+            cy: f(self.cy),
+            bx: f(self.bx),
+            by: f(self.by),
+            xc: f(self.xc),
+            yc: f(self.yc),
+            Mk: f(self.Mk),
+            sk: f(self.sk),
+            R: f(self.R),
+            r1: f(self.r1),
+            rho: f(self.rho),
+            r2: f(self.r2),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = S::ONE / self.omega;
+        let k7 = self.m1 + self.m2;
+        let k8 = self.m0 * self.e;
+        let k9 = self.m0 * self.y0;
+        let k10 = self.m0 * self.x0;
+        let k16 = self.m + self.m0;
+        let k12 = self.J0 + self.e * k8;
+        let k20 = S::ONE / k12;
+        let k15 = k8 * k20;
+        let k14 = k8 * k15;
+        let k0 = t0 * t0;
+        let k1 = self.sk * self.sk;
+        let k2 = self.sk * self.Mk * (t0 * S::from_f64(2.0));
+        let k3 = self.cx * S::from_f64(0.5);
+        let k4 = self.cy * S::from_f64(0.5);
+        let k5 = self.bx * S::from_f64(0.5);
+        let k6 = self.by * S::from_f64(0.5);
+        let k11 = k7 + k16;
+        let k13 = self.J + (self.y0 * k9 + self.x0 * k10);
+        let k17 = self.e * k15;
+        let k18 = k14 * k14;
+        let k19 = self.m0 * self.m0;
+        let singular = if vanishes(self.J1, self.J1, 8.881784197001252e-15) {
+            Some(singular(5, self.J1, self.J1))
+        } else if vanishes(self.J2, self.J2, 8.881784197001252e-15) {
+            Some(singular(8, self.J2, self.J2))
+        } else if vanishes(k12, k12, 8.881784197001252e-15) {
+            Some(singular(9, k12, k12))
+        } else if vanishes(self.m2, self.m2, 8.881784197001252e-15) {
+            Some(singular(6, self.m2, self.m2))
+        } else if vanishes(self.m1, k7, 8.881784197001252e-15) {
+            Some(singular(3, self.m1, k7))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            m0: self.m0,
+            m1: self.m1,
+            m2: self.m2,
+            J: self.J,
+            J0: self.J0,
+            J1: self.J1,
+            J2: self.J2,
+            e: self.e,
+            x0: self.x0,
+            y0: self.y0,
+            omega: self.omega,
+            cx: self.cx,
+            cy: self.cy,
+            bx: self.bx,
+            by: self.by,
+            xc: self.xc,
+            yc: self.yc,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            k20,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let s1 = S::from_ratio(1, 50);
+        let s2 = S::from_ratio(3, 100);
+        let q = [
+            zero,
+            zero,
+            zero,
+            s1,
+            zero,
+            zero,
+            s2,
+            S::from_f64(0.5),
+            zero,
+            zero,
+        ];
+        let v = [S::ZERO; 10];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`MotorCrusher`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `x`. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `theta`. Unit: rad.
+    pub theta: S,
+    /// `s1`. Unit: m.
+    pub s1: S,
+    /// `phi1`. Unit: rad.
+    pub phi1: S,
+    /// `theta1`. Unit: rad.
+    pub theta1: S,
+    /// `s2`. Unit: m.
+    pub s2: S,
+    /// `phi2`. Unit: rad.
+    pub phi2: S,
+    /// `theta2`. Unit: rad.
+    pub theta2: S,
+    /// Angle of the debalance against the ground. Unit: rad.
+    pub psi: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 10] {
+        [
+            self.x,
+            self.y,
+            self.theta,
+            self.s1,
+            self.phi1,
+            self.theta1,
+            self.s2,
+            self.phi2,
+            self.theta2,
+            self.psi,
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 10]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            theta: q[2],
+            s1: q[3],
+            phi1: q[4],
+            theta1: q[5],
+            s2: q[6],
+            phi2: q[7],
+            theta2: q[8],
+            psi: q[9],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            theta: f(self.theta),
+            s1: f(self.s1),
+            phi1: f(self.phi1),
+            theta1: f(self.theta1),
+            s2: f(self.s2),
+            phi2: f(self.phi2),
+            theta2: f(self.theta2),
+            psi: f(self.psi),
+        }
+    }
+}
+
+/// What can be set while a [`MotorCrusher`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`MotorCrusher`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Speed of the debalance. Unit: rad/s.
+    pub speed: S,
+    /// Torque of the motor. Unit: N*m.
+    pub motor_torque: S,
+    /// Power of the motor. Unit: W.
+    pub motor_power: S,
+    /// Distance of the platform's centre from where it rests. Unit: m.
+    pub amplitude: S,
+}
+
+/// The parameters of a [`MotorCrusher`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `m0`
+    m0: S,
+    /// `m1`
+    m1: S,
+    /// `m2`
+    m2: S,
+    /// `J`
+    J: S,
+    /// `J0`
+    J0: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `e`
+    e: S,
+    /// `x0`
+    x0: S,
+    /// `y0`
+    y0: S,
+    /// `omega`
+    omega: S,
+    /// `cx`
+    cx: S,
+    /// `cy`
+    cy: S,
+    /// `bx`
+    bx: S,
+    /// `by`
+    by: S,
+    /// `xc`
+    xc: S,
+    /// `yc`
+    yc: S,
+    /// `1/omega^2`
+    k0: S,
+    /// `sk^2`
+    k1: S,
+    /// `2*Mk*sk/omega`
+    k2: S,
+    /// `0.5*cx`
+    k3: S,
+    /// `0.5*cy`
+    k4: S,
+    /// `0.5*bx`
+    k5: S,
+    /// `0.5*by`
+    k6: S,
+    /// `m1 + m2`
+    k7: S,
+    /// `m0*e`
+    k8: S,
+    /// `m0*y0`
+    k9: S,
+    /// `m0*x0`
+    k10: S,
+    /// `m + m0 + m1 + m2`
+    k11: S,
+    /// `J0 + m0*e^2`
+    k12: S,
+    /// `J + m0*x0^2 + m0*y0^2`
+    k13: S,
+    /// `m0^2*e^2/(J0 + m0*e^2)`
+    k14: S,
+    /// `m0*e/(J0 + m0*e^2)`
+    k15: S,
+    /// `m + m0`
+    k16: S,
+    /// `m0*e^2/(J0 + m0*e^2)`
+    k17: S,
+    /// `m0^4*e^4/(J0 + m0*e^2)^2`
+    k18: S,
+    /// `m0^2`
+    k19: S,
+    /// `1/(J0 + m0*e^2)`
+    k20: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m + m0 + m1 + m2
+/// M[y, y] = m + m0 + m1 + m2
+/// M[theta, x] = -m0*y0*cos(theta) - m0*x0*sin(theta)
+/// M[theta, y] = m0*x0*cos(theta) - m0*y0*sin(theta)
+/// M[theta, theta] = m0*x0^2 + m0*y0^2 + J
+/// M[s1, x] = (m1 + m2)*cos(phi1)
+/// M[s1, y] = (m1 + m2)*sin(phi1)
+/// M[s1, s1] = m1 + m2
+/// M[phi1, x] = -(m1 + m2)*s1*sin(phi1)
+/// M[phi1, y] = (m1 + m2)*s1*cos(phi1)
+/// M[phi1, phi1] = (m1 + m2)*s1^2
+/// M[theta1, theta1] = J1
+/// M[s2, x] = m2*cos(phi2)
+/// M[s2, y] = m2*sin(phi2)
+/// M[s2, s1] = m2*cos(phi2 - phi1)
+/// M[s2, phi1] = m2*s1*sin(phi2 - phi1)
+/// M[s2, s2] = m2
+/// M[phi2, x] = -m2*s2*sin(phi2)
+/// M[phi2, y] = m2*s2*cos(phi2)
+/// M[phi2, s1] = -m2*s2*sin(phi2 - phi1)
+/// M[phi2, phi1] = m2*s1*s2*cos(phi2 - phi1)
+/// M[phi2, phi2] = m2*s2^2
+/// M[theta2, theta2] = J2
+/// M[psi, x] = -m0*e*sin(psi)
+/// M[psi, y] = m0*e*cos(psi)
+/// M[psi, theta] = m0*e*x0*cos(psi - theta) + m0*e*y0*sin(psi - theta)
+/// M[psi, psi] = m0*e^2 + J0
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S; 10]; 10] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let psi = q[9];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t0 = sin_phi1 * s1;
+    let t1 = cos_phi1 * s1;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t2 = p.m2 * s2;
+    let t3 = cos_phi2 * s2;
+    let t4 = sin_phi2 * s2;
+    let (sin_psi, cos_psi) = psi.sin_cos();
+    let t5 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
+    let zero = S::ZERO;
+    let m3_1 = -(p.k10 * sin_theta + p.k9 * cos_theta);
+    let m3_2 = p.k10 * cos_theta - sin_theta * p.k9;
+    let m4_1 = p.k7 * cos_phi1;
+    let m4_2 = p.k7 * sin_phi1;
+    let m5_1 = -(p.k7 * t0);
+    let m5_2 = p.k7 * t1;
+    let m5_5 = s1 * (p.k7 * s1);
+    let m7_1 = cos_phi2 * p.m2;
+    let m7_2 = p.m2 * sin_phi2;
+    let m7_4 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
+    let m7_5 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
+    let m8_1 = -(sin_phi2 * t2);
+    let m8_2 = cos_phi2 * t2;
+    let m8_4 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
+    let m8_5 = p.m2 * (t0 * t4 + t1 * t3);
+    let m8_8 = s2 * t2;
+    let m10_1 = -(p.k8 * sin_psi);
+    let m10_2 = p.k8 * cos_psi;
+    let m10_3 = p.k8 * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t5);
+    [
+        [p.k11, zero, m3_1, m4_1, m5_1, zero, m7_1, m8_1, zero, m10_1],
+        [zero, p.k11, m3_2, m4_2, m5_2, zero, m7_2, m8_2, zero, m10_2],
+        [m3_1, m3_2, p.k13, zero, zero, zero, zero, zero, zero, m10_3],
+        [m4_1, m4_2, zero, p.k7, zero, zero, m7_4, m8_4, zero, zero],
+        [m5_1, m5_2, zero, zero, m5_5, zero, m7_5, m8_5, zero, zero],
+        [zero, zero, zero, zero, zero, p.J1, zero, zero, zero, zero],
+        [m7_1, m7_2, zero, m7_4, m7_5, zero, p.m2, zero, zero, zero],
+        [m8_1, m8_2, zero, m8_4, m8_5, zero, zero, m8_8, zero, zero],
+        [zero, zero, zero, zero, zero, zero, zero, zero, p.J2, zero],
+        [
+            m10_1, m10_2, m10_3, zero, zero, zero, zero, zero, zero, p.k12,
+        ],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[x] = m0*y0*sin(theta)*der(theta)^2 - m0*x0*cos(theta)*der(theta)^2
+///     - 2*(m1 + m2)*sin(phi1)*der(s1)*der(phi1) - (m1 + m2)*s1*cos(phi1)*der(phi1)^2
+///     - 2*m2*sin(phi2)*der(s2)*der(phi2) - m2*s2*cos(phi2)*der(phi2)^2 - m0*e*cos(psi)*der(psi)^2
+/// h[y] = 2*(m1 + m2)*cos(phi1)*der(s1)*der(phi1) - m0*y0*cos(theta)*der(theta)^2
+///     - m0*x0*sin(theta)*der(theta)^2 - (m1 + m2)*s1*sin(phi1)*der(phi1)^2
+///     + 2*m2*cos(phi2)*der(s2)*der(phi2) - m2*s2*sin(phi2)*der(phi2)^2 - m0*e*sin(psi)*der(psi)^2
+/// h[theta] = m0*e*y0*cos(psi - theta)*der(psi)^2 - m0*e*x0*sin(psi - theta)*der(psi)^2
+/// h[s1] = -(m1 + m2)*s1*der(phi1)^2 - 2*m2*sin(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s2*cos(phi2 - phi1)*der(phi2)^2
+/// h[phi1] = 2*(m1 + m2)*s1*der(s1)*der(phi1) + 2*m2*s1*cos(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s1*s2*sin(phi2 - phi1)*der(phi2)^2
+/// h[s2] = 2*m2*sin(phi2 - phi1)*der(s1)*der(phi1) - m2*s1*cos(phi2 - phi1)*der(phi1)^2
+///     - m2*s2*der(phi2)^2
+/// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
+///     + 2*m2*s2*der(s2)*der(phi2)
+/// h[psi] = m0*e*x0*sin(psi - theta)*der(theta)^2 - m0*e*y0*cos(psi - theta)*der(theta)^2
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let psi = q[9];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let psi_dot = v[9];
+    let t0 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = cos_phi2 * s2;
+    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t3 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = cos_phi1 * s1;
+    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t6 = t5 * sin_phi1 + t3 * t4;
+    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
+    let t8 = t7 * p.m2 + t6 * p.m1;
+    let t9 = theta_dot * theta_dot;
+    let t10 = t9 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t11 = t9 * p.y0;
+    let t12 = psi_dot * (psi_dot * p.e);
+    let (sin_psi, cos_psi) = psi.sin_cos();
+    let t13 = t12 * cos_psi + (t10 * cos_theta - t11 * sin_theta);
+    let t14 = sin_phi2 * s2;
+    let t15 = sin_phi1 * s1;
+    let t16 = t3 * t15 - t5 * cos_phi1;
+    let t17 = t0 * t14 - t2 * cos_phi2 + t16;
+    let t18 = p.m2 * t17 + p.m1 * t16;
+    let t19 = t12 * sin_psi + (sin_theta * t10 + t11 * cos_theta);
+    let t20 = cos_theta * (t13 * p.k9 - t19 * p.k10);
+    let h_x = -(t13 * p.m0 + t8);
+    let h_y = -(p.m0 * t19 + t18);
+    let h_theta = sin_theta * (t19 * p.k9 + t13 * p.k10) + t20;
+    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t18);
+    let h_phi1 = t8 * t15 - t4 * t18;
+    let zero = S::ZERO;
+    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
+    let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
+    let h_psi = -((cos_psi * t19 - t13 * sin_psi) * p.k8);
+    [
+        h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero, h_psi,
+    ]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[x] = -2*bx*der(x) - 2*cx*x
+/// Q[y] = -2*by*der(y) - 2*cy*y
+/// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
+/// Q[psi] = 2*Mk*sk*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let psi_dot = v[9];
+    let t0 = theta_dot * p.yc;
+    let t1 = p.yc * theta;
+    let t2 = p.bx * (x_dot - t0) + p.cx * (x - t1);
+    let t3 = p.bx * (t0 + x_dot) + p.cx * (t1 + x);
+    let t4 = theta_dot * p.xc;
+    let t5 = theta * p.xc;
+    let t6 = p.by * (y_dot - t4) + p.cy * (y - t5);
+    let t7 = p.by * (t4 + y_dot) + p.cy * (t5 + y);
+    let t8 = p.omega - psi_dot;
+    let q_x = -(t2 + t3);
+    let q_y = -(t6 + t7);
+    let q_theta = -(p.yc * (t3 - t2) + p.xc * (t7 - t6));
+    let zero = S::ZERO;
+    let q_psi = t8 * p.k2 / (t8 * (t8 * p.k0) + p.k1);
+    [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero, q_psi]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let psi = q[9];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let psi_dot = v[9];
+    let t0 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = cos_phi2 * s2;
+    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t3 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = cos_phi1 * s1;
+    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t6 = t5 * sin_phi1 + t3 * t4;
+    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
+    let t8 = t7 * p.m2 + t6 * p.m1;
+    let t9 = theta_dot * theta_dot;
+    let t10 = t9 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t11 = t9 * p.y0;
+    let t12 = psi_dot * (psi_dot * p.e);
+    let (sin_psi, cos_psi) = psi.sin_cos();
+    let t13 = t12 * cos_psi + (t10 * cos_theta - t11 * sin_theta);
+    let t14 = theta_dot * p.yc;
+    let t15 = p.yc * theta;
+    let t16 = p.bx * (x_dot - t14) + p.cx * (x - t15);
+    let t17 = p.bx * (t14 + x_dot) + p.cx * (t15 + x);
+    let t18 = sin_phi2 * s2;
+    let t19 = sin_phi1 * s1;
+    let t20 = t3 * t19 - t5 * cos_phi1;
+    let t21 = t0 * t18 - t2 * cos_phi2 + t20;
+    let t22 = p.m2 * t21 + p.m1 * t20;
+    let t23 = t12 * sin_psi + (sin_theta * t10 + t11 * cos_theta);
+    let t24 = theta_dot * p.xc;
+    let t25 = theta * p.xc;
+    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
+    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
+    let t28 = cos_theta * (t13 * p.k9 - t23 * p.k10);
+    let t29 = sin_theta * (t23 * p.k9 + t13 * p.k10) + t28;
+    let t30 = p.omega - psi_dot;
+    let t31 = t30 * p.k2 / (t30 * (t30 * p.k0) + p.k1);
+    let f_x = t13 * p.m0 + t8 - (t16 + t17);
+    let f_y = p.m0 * t23 + t22 - (t26 + t27);
+    let f_theta = -(t29 + (p.yc * (t17 - t16) + p.xc * (t27 - t26)));
+    let f_s1 = cos_phi1 * t8 + sin_phi1 * t22;
+    let f_phi1 = t4 * t22 - t8 * t19;
+    let zero = S::ZERO;
+    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t21);
+    let f_phi2 = p.m2 * (t1 * t21 - t7 * t18);
+    let f_psi = (cos_psi * t23 - t13 * sin_psi) * p.k8 + t31;
+    [
+        f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero, f_psi,
+    ]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> Result<[S; 10], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let psi = q[9];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let psi_dot = v[9];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = sin_theta * p.x0;
+    let t1 = cos_theta * p.y0;
+    let t2 = t0 + t1;
+    let (sin_psi, cos_psi) = psi.sin_cos();
+    let t3 = p.x0 * cos_theta;
+    let t4 = sin_theta * p.y0;
+    let t5 = t3 - t4;
+    let t6 = sin_psi * t2 + cos_psi * t5;
+    let t7 = p.k17 * t6;
+    let t8 = t5 - cos_psi * t7;
+    let t9 = p.k16 - cos_psi * (cos_psi * p.k14);
+    let t10 = S::ONE / t9;
+    let t11 = t10 * t8;
+    let t12 = sin_psi * cos_psi;
+    let t13 = t12 * p.k14;
+    let t14 = t2 + t11 * t13 - sin_psi * t7;
+    let t15 = p.k16 - sin_psi * (sin_psi * p.k14) - t10 * p.k18 * (t12 * t12);
+    let t16 = S::ONE / t15;
+    let t17 = t2 * p.m0;
+    let t18 = t5 * p.m0;
+    let t19 = t5 * t18 + p.J + (t2 * t17 - t6 * (p.k14 * t6));
+    let t20 = t19 - (t14 * p.k19 * (t16 * t14) + t11 * (t8 * p.k19));
+    let t21 = theta_dot * theta_dot;
+    let t22 = psi_dot * (psi_dot * p.e);
+    let t23 = sin_psi * t22 + (t0 * t21 + t1 * t21);
+    let t24 = cos_psi * p.k8;
+    let t25 = p.omega - psi_dot;
+    let t26 = cos_psi * t22 + t3 * t21 - t4 * t21;
+    let t27 = sin_psi * p.k8;
+    let t28 = t24 * t23 + t25 * p.k2 / (t25 * (t25 * p.k0) + p.k1) - t27 * t26;
+    let t29 = p.k15 * t28;
+    let t30 = theta_dot * p.yc;
+    let t31 = theta * p.yc;
+    let t32 = p.bx * (x_dot - t30) + p.cx * (x - t31);
+    let t33 = p.bx * (t30 + x_dot) + p.cx * (t31 + x);
+    let t34 = theta_dot * p.xc;
+    let t35 = theta * p.xc;
+    let t36 = p.by * (y_dot - t34) + p.cy * (y - t35);
+    let t37 = p.by * (t34 + y_dot) + p.cy * (t35 + y);
+    let t38 = t36 + t37 + (cos_psi * t29 - p.m0 * t23);
+    let t39 = t32 + t33 - (sin_psi * t29 + p.m0 * t26) - t38 * (t10 * t13);
+    let t40 = t14 * p.m0;
+    let t41 = t39 * (t16 * t40) - p.xc * t36 - (t18 * t23 + p.yc * t32);
+    let t42 = p.yc * t33 + p.xc * t37 + (t6 * t29 + t17 * t26) + t41;
+    let t43 = S::ONE / t20 * (t42 - t38 * (t11 * p.m0));
+    let t44 = t16 * (t39 + t40 * t43);
+    let t45 = t10 * (t38 - t13 * t44 - t43 * (t8 * p.m0));
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t46 = phi1_dot * (S::from_f64(2.0) * s1_dot) + t44 * sin_phi1 - t45 * cos_phi1;
+    let t47 = s2 * (s2 * p.m2);
+    if vanishes(t47, t47, 8.881784197001252e-15) {
+        return Err(singular(7, t47, t47));
+    }
+    let t48 = s1 * s1;
+    let t49 = t48 * p.m1;
+    let t50 = t48 * p.k7;
+    if vanishes(t49, t50, 8.881784197001252e-15) {
+        return Err(singular(4, t49, t50));
+    }
+    if vanishes(t9, p.k11, 8.881784197001252e-15) {
+        return Err(singular(1, t9, p.k11));
+    }
+    if vanishes(t15, p.k11, 8.881784197001252e-15) {
+        return Err(singular(0, t15, p.k11));
+    }
+    if vanishes(t20, p.k13, 8.881784197001252e-15) {
+        return Err(singular(2, t20, p.k13));
+    }
+    let x_ddot = -t44;
+    let y_ddot = -t45;
+    let theta_ddot = -t43;
+    let s1_ddot = t45 * sin_phi1 + (t44 * cos_phi1 + phi1_dot * (phi1_dot * s1));
+    let phi1_ddot = -(t46 / s1);
+    let zero = S::ZERO;
+    let s2_ddot = phi2_dot * (phi2_dot * s2);
+    let phi2_ddot = -(phi2_dot * (S::from_f64(2.0) * s2_dot) / s2);
+    let psi_ddot = p.k20 * (t28 + t24 * t45 + (t43 * (t6 * p.k8) - t27 * t44));
+    let accelerations = [
+        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero, psi_ddot,
+    ];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*der(x)^2 + 1/2*m*der(y)^2 + 1/2*J*der(theta)^2 + 1/2*J1*der(theta1)^2
+///     + 1/2*J2*der(theta2)^2 + 1/2*J0*der(psi)^2 + 1/2*m0*(((der(x) - y0*cos(theta)*der(theta) -
+///     x0*sin(theta)*der(theta)) - e*sin(psi)*der(psi))^2 + (e*cos(psi)*der(psi) + (der(y) +
+///     x0*cos(theta)*der(theta) - y0*sin(theta)*der(theta)))^2) + 1/2*m1*((der(x) +
+///     (cos(phi1)*der(s1) - s1*sin(phi1)*der(phi1)))^2 + (der(y) + (sin(phi1)*der(s1) +
+///     s1*cos(phi1)*der(phi1)))^2) + 1/2*m2*(((der(x) + (cos(phi1)*der(s1) -
+///     s1*sin(phi1)*der(phi1))) + (cos(phi2)*der(s2) - s2*sin(phi2)*der(phi2)))^2 + ((der(y) +
+///     (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) + (sin(phi2)*der(s2) +
+///     s2*cos(phi2)*der(phi2)))^2)
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> S {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let psi = q[9];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let theta1_dot = v[5];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let theta2_dot = v[8];
+    let psi_dot = v[9];
+    let t0 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
+    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
+    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
+    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
+    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t7 = theta_dot * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t8 = theta_dot * p.y0;
+    let t9 = psi_dot * p.e;
+    let (sin_psi, cos_psi) = psi.sin_cos();
+    let t10 = t9 * cos_psi + (y_dot + t7 * cos_theta - t8 * sin_theta);
+    let t11 = x_dot - t7 * sin_theta - cos_theta * t8 - t9 * sin_psi;
+    let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t13 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
+    let t14 = (t10 * t10 + t11 * t11) * p.m0 + psi_dot * (psi_dot * p.J0) + t12 + t13;
+    t14 * S::from_f64(0.5)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> S {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let t0 = theta * p.yc;
+    let t1 = t0 + x;
+    let t2 = x - t0;
+    let t3 = theta * p.xc;
+    let t4 = t3 + y;
+    let t5 = y - t3;
+    let t6 = t4 * (p.k4 * t4) + t5 * (p.k4 * t5);
+    t1 * (p.k3 * t1) + t2 * (p.k3 * t2) + t6
+}
+
+/// Dissipation function `D`, in W.
+///
+/// ```text
+/// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = theta_dot * p.xc;
+    let t4 = t3 + y_dot;
+    let t5 = y_dot - t3;
+    let t6 = t4 * (p.k6 * t4) + t5 * (p.k6 * t5);
+    t1 * (p.k5 * t1) + t2 * (p.k5 * t2) + t6
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+    let psi_dot = v[9];
+    let t0 = p.omega - psi_dot;
+    t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
+}
+
+/// Power that dampers take out, in W.
+///
+/// ```text
+/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = theta_dot * p.xc;
+    let t4 = t3 + y_dot;
+    let t5 = y_dot - t3;
+    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
+    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+}
+
+/// Speed of the debalance. Unit: rad/s.
+///
+/// ```text
+/// speed = der(psi)
+/// ```
+pub fn output_speed<S: ::lagrangian::Scalar>(v: &[S; 10]) -> S {
+    let psi_dot = v[9];
+    psi_dot
+}
+
+/// Torque of the motor. Unit: N*m.
+///
+/// ```text
+/// motor_torque = 2*Mk*sk*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
+/// ```
+pub fn output_motor_torque<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+    let psi_dot = v[9];
+    let t0 = p.omega - psi_dot;
+    t0 * p.k2 / (t0 * (t0 * p.k0) + p.k1)
+}
+
+/// Power of the motor. Unit: W.
+///
+/// ```text
+/// motor_power = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
+/// ```
+pub fn output_motor_power<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+    let psi_dot = v[9];
+    let t0 = p.omega - psi_dot;
+    t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
+}
+
+/// Distance of the platform's centre from where it rests. Unit: m.
+///
+/// ```text
+/// amplitude = sqrt(x^2 + y^2)
+/// ```
+pub fn output_amplitude<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+    let x = q[0];
+    let y = q[1];
+    (y * y + x * x).sqrt()
+}
+
+/// By how much `s1 > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+    let s1 = q[3];
+    s1
+}
+
+/// By how much `s2 > 0` holds.
+pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+    let s2 = q[6];
+    s2
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> Outputs<S> {
+    Outputs {
+        speed: output_speed(v),
+        motor_torque: output_motor_torque(p, v),
+        motor_power: output_motor_power(p, v),
+        amplitude: output_amplitude(q),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 24] = [
+    ("m", "kg"),
+    ("m0", "kg"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("J", "kg*m^2"),
+    ("J0", "kg*m^2"),
+    ("J1", "kg*m^2"),
+    ("J2", "kg*m^2"),
+    ("e", "m"),
+    ("x0", "m"),
+    ("y0", "m"),
+    ("omega", "rad/s"),
+    ("cx", "N/m"),
+    ("cy", "N/m"),
+    ("bx", "N*s/m"),
+    ("by", "N*s/m"),
+    ("xc", "m"),
+    ("yc", "m"),
+    ("Mk", "N*m"),
+    ("sk", "1"),
+    ("R", "m"),
+    ("r1", "m"),
+    ("rho", "m"),
+    ("r2", "m"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 10] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("theta", "rad"),
+    ("s1", "m"),
+    ("phi1", "rad"),
+    ("theta1", "rad"),
+    ("s2", "m"),
+    ("phi2", "rad"),
+    ("theta2", "rad"),
+    ("psi", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 4] = [
+    ("speed", "rad/s"),
+    ("motor_torque", "N*m"),
+    ("motor_power", "W"),
+    ("amplitude", "m"),
+];
+
+impl ::lagrangian::Machine for MotorCrusher {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "MotorCrusher"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
+            self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.Mk,
+            self.sk, self.R, self.r1, self.rho, self.r2,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 10];
+    type Matrix = [f64; 100];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 10]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 10] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 10],
+        v: &[f64; 10],
+        _: &Inputs,
+        result: &mut [f64; 10],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 10], matrix: &mut [f64; 100]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 10], v: &[f64; 10], result: &mut [f64; 10]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 10], v: &[f64; 10], _: &Inputs, result: &mut [f64; 10]) {
+        *result = applied(self, q, v);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 10], v: &[f64; 10], _: &Inputs, result: &mut [f64; 10]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 10], v: &[f64; 10]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 10], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 10], v: &[f64; 10], _: &Inputs) -> f64 {
+        dissipation(self, v)
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 10], v: &[f64; 10], _: &[f64; 10], _: &Inputs) -> f64 {
+        work_rate(self, v)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 10], v: &[f64; 10], _: &Inputs) -> f64 {
+        dissipation_rate(self, v)
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            outputs.speed,
+            outputs.motor_torque,
+            outputs.motor_power,
+            outputs.amplitude,
+        ];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 10], v: &[f64; 10], _: &[f64; 10], _: &Inputs) -> Outputs {
+        outputs(self, q, v)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 10],
+        _: &[f64; 10],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [
+            assumption("s1 > 0", true, assumption_0(q)),
+            assumption("s2 > 0", true, assumption_1(q)),
+        ];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,1165 @@
+// @generated from machines/paper_crusher.machine by `cargo xtask generate`; edits are lost.
+
+//! The crusher of «Dynamical simulation of a vibrating crush machine, part I», as the paper models
+//! it, and every formula of its §3 as it is printed: `lagrangian check` tells which are wrong, and
+//! docs/errata.md why.
+//! The suspension is the single pair that the paper prints: the springs act at (xc, yc) of the
+//! platform, the dampers at (xb, yb). Two squares cannot hold three coordinates: the stiffness
+//! matrix has the null vector (yc, -xc, 1), so that turning about the joint of the springs is free,
+//! and the dampers leave turning about theirs. Shaken, the platform turns away, by a radian in the
+//! first second, and the angle is no longer small: two pairs on opposite sides, as in
+//! `frozen_crusher.machine`, hold it. In velocities the angle is frozen, as in the paper.
+//!
+//! 9 coordinates, 20 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 24 | 8 | 2 | 0 | 0 | 34 |
+//! | `mass_matrix` | 28 | 6 | 0 | 2 | 0 | 38 |
+//! | `bias` | 73 | 56 | 0 | 3 | 0 | 135 |
+//! | `applied` | 12 | 11 | 0 | 0 | 0 | 23 |
+//! | `forces` | 85 | 67 | 0 | 3 | 0 | 158 |
+//! | `accelerations` | 191 | 133 | 5 | 3 | 0 | 335 |
+//! | `kinetic_energy` | 34 | 23 | 0 | 3 | 0 | 63 |
+//! | `potential_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
+//! | `dissipation` | 6 | 3 | 0 | 0 | 0 | 9 |
+//! | `work_rate` | 17 | 13 | 0 | 1 | 0 | 32 |
+//! | `dissipation_rate` | 6 | 3 | 0 | 0 | 0 | 9 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// The crusher of «Dynamical simulation of a vibrating crush machine, part I», as the paper models
+/// it, and every formula of its §3 as it is printed: `lagrangian check` tells which are wrong, and
+/// docs/errata.md why.
+/// The suspension is the single pair that the paper prints: the springs act at (xc, yc) of the
+/// platform, the dampers at (xb, yb). Two squares cannot hold three coordinates: the stiffness
+/// matrix has the null vector (yc, -xc, 1), so that turning about the joint of the springs is free,
+/// and the dampers leave turning about theirs. Shaken, the platform turns away, by a radian in the
+/// first second, and the angle is no longer small: two pairs on opposite sides, as in
+/// `frozen_crusher.machine`, hold it. In velocities the angle is frozen, as in the paper.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PaperCrusher<S = f64> {
+    /// Mass of the platform. Unit: kg. Default: 600.
+    pub m: S,
+    /// Mass of the debalance. Unit: kg. Default: 40.
+    pub m0: S,
+    /// `m1`. Unit: kg. Default: 180.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 120.
+    pub m2: S,
+    /// `J`. Unit: kg*m^2. Default: 60.
+    pub J: S,
+    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    pub J0: S,
+    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    pub J1: S,
+    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    pub J2: S,
+    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    pub e: S,
+    /// `x0`. Unit: m. Default: 0.05.
+    pub x0: S,
+    /// `y0`. Unit: m. Default: 0.03.
+    pub y0: S,
+    /// `omega`. Unit: rad/s. Default: 50*pi.
+    pub omega: S,
+    /// Stiffness and damping of the one pair, which carries what two pairs carry elsewhere. Unit:
+    /// N/m. Default: 600000.
+    pub cx: S,
+    /// `cy`. Unit: N/m. Default: 600000.
+    pub cy: S,
+    /// `bx`. Unit: N*s/m. Default: 3000.
+    pub bx: S,
+    /// `by`. Unit: N*s/m. Default: 3000.
+    pub by: S,
+    /// Where the springs meet the platform. Unit: m. Default: 0.4.
+    pub xc: S,
+    /// `yc`. Unit: m. Default: 0.3.
+    pub yc: S,
+    /// Where the dampers meet the platform. Unit: m. Default: 0.4.
+    pub xb: S,
+    /// `yb`. Unit: m. Default: 0.3.
+    pub yb: S,
+}
+
+impl Default for PaperCrusher {
+    fn default() -> Self {
+        Self {
+            m: 600.0,
+            m0: 40.0,
+            m1: 180.0,
+            m2: 120.0,
+            J: 60.0,
+            J0: 0.2,
+            J1: 9.225,
+            J2: 1.536,
+            e: 0.1,
+            x0: 0.05,
+            y0: 0.03,
+            omega: 157.07963267948966,
+            cx: 600000.0,
+            cy: 600000.0,
+            bx: 3000.0,
+            by: 3000.0,
+            xc: 0.4,
+            yc: 0.3,
+            xb: 0.4,
+            yb: 0.3,
+        }
+    }
+}
+
+impl<S> PaperCrusher<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> PaperCrusher<R> {
+        PaperCrusher {
+            m: f(self.m),
+            m0: f(self.m0),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            J: f(self.J),
+            J0: f(self.J0),
+            J1: f(self.J1),
+            J2: f(self.J2),
+            e: f(self.e),
+            x0: f(self.x0),
+            y0: f(self.y0),
+            omega: f(self.omega),
+            cx: f(self.cx),
+            cy: f(self.cy),
+            bx: f(self.bx),
+            by: f(self.by),
+            xc: f(self.xc),
+            yc: f(self.yc),
+            xb: f(self.xb),
+            yb: f(self.yb),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> PaperCrusher<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.omega * self.e;
+        let k2 = self.m1 + self.m2;
+        let k14 = self.omega * k0;
+        let k11 = k2 + (self.m + self.m0);
+        let k12 = self.m0 * self.x0;
+        let t0 = self.m0 * self.y0;
+        let k13 = self.y0 * t0 + (self.J + self.x0 * k12);
+        let k22 = S::ONE / k13;
+        let k19 = t0 * k22;
+        let k20 = k12 * k22;
+        let k1 = self.omega * (self.omega * self.J0);
+        let k3 = self.cx * self.yc;
+        let k4 = self.bx * self.yb;
+        let k5 = self.cy * self.xc;
+        let k6 = self.m0 * k14;
+        let k7 = self.cx * S::from_f64(0.5);
+        let k8 = self.cy * S::from_f64(0.5);
+        let k9 = self.bx * S::from_f64(0.5);
+        let k10 = self.by * S::from_f64(0.5);
+        let k15 = k14 * k12;
+        let k16 = k14 * t0;
+        let k17 = self.by * self.xb;
+        let k18 = -t0;
+        let k21 = k12 * k19;
+        let k23 = S::ONE / k2;
+        let k24 = k11 - t0 * k19;
+        let k25 = k11 - k12 * k20;
+        let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
+            Some(singular(5, self.J1, self.J1))
+        } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
+            Some(singular(8, self.J2, self.J2))
+        } else if vanishes(k13, k13, 7.993605777301127e-15) {
+            Some(singular(2, k13, k13))
+        } else if vanishes(k2, k2, 7.993605777301127e-15) {
+            Some(singular(3, k2, k2))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            m0: self.m0,
+            m1: self.m1,
+            m2: self.m2,
+            J: self.J,
+            J1: self.J1,
+            J2: self.J2,
+            x0: self.x0,
+            y0: self.y0,
+            omega: self.omega,
+            cx: self.cx,
+            cy: self.cy,
+            bx: self.bx,
+            by: self.by,
+            xc: self.xc,
+            yc: self.yc,
+            xb: self.xb,
+            yb: self.yb,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            k20,
+            k21,
+            k22,
+            k23,
+            k24,
+            k25,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let s1 = S::from_ratio(1, 50);
+        let s2 = S::from_ratio(3, 100);
+        let q = [zero, zero, zero, s1, zero, zero, s2, S::from_f64(0.5), zero];
+        let v = [S::ZERO; 9];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`PaperCrusher`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `x`. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `theta`. Unit: rad.
+    pub theta: S,
+    /// `s1`. Unit: m.
+    pub s1: S,
+    /// `phi1`. Unit: rad.
+    pub phi1: S,
+    /// `theta1`. Unit: rad.
+    pub theta1: S,
+    /// `s2`. Unit: m.
+    pub s2: S,
+    /// `phi2`. Unit: rad.
+    pub phi2: S,
+    /// `theta2`. Unit: rad.
+    pub theta2: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 9] {
+        [
+            self.x,
+            self.y,
+            self.theta,
+            self.s1,
+            self.phi1,
+            self.theta1,
+            self.s2,
+            self.phi2,
+            self.theta2,
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 9]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            theta: q[2],
+            s1: q[3],
+            phi1: q[4],
+            theta1: q[5],
+            s2: q[6],
+            phi2: q[7],
+            theta2: q[8],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            theta: f(self.theta),
+            s1: f(self.s1),
+            phi1: f(self.phi1),
+            theta1: f(self.theta1),
+            s2: f(self.s2),
+            phi2: f(self.phi2),
+            theta2: f(self.theta2),
+        }
+    }
+}
+
+/// What can be set while a [`PaperCrusher`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`PaperCrusher`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`PaperCrusher`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `m0`
+    m0: S,
+    /// `m1`
+    m1: S,
+    /// `m2`
+    m2: S,
+    /// `J`
+    J: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `x0`
+    x0: S,
+    /// `y0`
+    y0: S,
+    /// `omega`
+    omega: S,
+    /// `cx`
+    cx: S,
+    /// `cy`
+    cy: S,
+    /// `bx`
+    bx: S,
+    /// `by`
+    by: S,
+    /// `xc`
+    xc: S,
+    /// `yc`
+    yc: S,
+    /// `xb`
+    xb: S,
+    /// `yb`
+    yb: S,
+    /// `e*omega`
+    k0: S,
+    /// `J0*omega^2`
+    k1: S,
+    /// `m1 + m2`
+    k2: S,
+    /// `cx*yc`
+    k3: S,
+    /// `bx*yb`
+    k4: S,
+    /// `cy*xc`
+    k5: S,
+    /// `m0*e*omega^2`
+    k6: S,
+    /// `0.5*cx`
+    k7: S,
+    /// `0.5*cy`
+    k8: S,
+    /// `0.5*bx`
+    k9: S,
+    /// `0.5*by`
+    k10: S,
+    /// `m + m0 + m1 + m2`
+    k11: S,
+    /// `m0*x0`
+    k12: S,
+    /// `J + m0*x0^2 + m0*y0^2`
+    k13: S,
+    /// `e*omega^2`
+    k14: S,
+    /// `m0*e*x0*omega^2`
+    k15: S,
+    /// `m0*e*y0*omega^2`
+    k16: S,
+    /// `by*xb`
+    k17: S,
+    /// `-m0*y0`
+    k18: S,
+    /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
+    k19: S,
+    /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
+    k20: S,
+    /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
+    k21: S,
+    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    k22: S,
+    /// `1/(m1 + m2)`
+    k23: S,
+    /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
+    k24: S,
+    /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
+    k25: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m + m0 + m1 + m2
+/// M[y, y] = m + m0 + m1 + m2
+/// M[theta, x] = -m0*y0
+/// M[theta, y] = m0*x0
+/// M[theta, theta] = m0*x0^2 + m0*y0^2 + J
+/// M[s1, x] = (m1 + m2)*cos(phi1)
+/// M[s1, y] = (m1 + m2)*sin(phi1)
+/// M[s1, s1] = m1 + m2
+/// M[phi1, x] = -(m1 + m2)*s1*sin(phi1)
+/// M[phi1, y] = (m1 + m2)*s1*cos(phi1)
+/// M[phi1, phi1] = (m1 + m2)*s1^2
+/// M[theta1, theta1] = J1
+/// M[s2, x] = m2*cos(phi2)
+/// M[s2, y] = m2*sin(phi2)
+/// M[s2, s1] = m2*cos(phi2 - phi1)
+/// M[s2, phi1] = m2*s1*sin(phi2 - phi1)
+/// M[s2, s2] = m2
+/// M[phi2, x] = -m2*s2*sin(phi2)
+/// M[phi2, y] = m2*s2*cos(phi2)
+/// M[phi2, s1] = -m2*s2*sin(phi2 - phi1)
+/// M[phi2, phi1] = m2*s1*s2*cos(phi2 - phi1)
+/// M[phi2, phi2] = m2*s2^2
+/// M[theta2, theta2] = J2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t0 = sin_phi1 * s1;
+    let t1 = cos_phi1 * s1;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t2 = p.m2 * s2;
+    let t3 = cos_phi2 * s2;
+    let t4 = sin_phi2 * s2;
+    let zero = S::ZERO;
+    let m41 = p.k2 * cos_phi1;
+    let m42 = p.k2 * sin_phi1;
+    let m51 = -(p.k2 * t0);
+    let m52 = p.k2 * t1;
+    let m55 = s1 * (p.k2 * s1);
+    let m71 = cos_phi2 * p.m2;
+    let m72 = p.m2 * sin_phi2;
+    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
+    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
+    let m81 = -(sin_phi2 * t2);
+    let m82 = cos_phi2 * t2;
+    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
+    let m85 = p.m2 * (t0 * t4 + t1 * t3);
+    let m88 = s2 * t2;
+    [
+        [p.k11, zero, p.k18, m41, m51, zero, m71, m81, zero],
+        [zero, p.k11, p.k12, m42, m52, zero, m72, m82, zero],
+        [p.k18, p.k12, p.k13, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.k2, zero, zero, m74, m84, zero],
+        [m51, m52, zero, zero, m55, zero, m75, m85, zero],
+        [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
+        [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
+        [m81, m82, zero, m84, m85, zero, zero, m88, zero],
+        [zero, zero, zero, zero, zero, zero, zero, zero, p.J2],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[x] = -2*(m1 + m2)*sin(phi1)*der(s1)*der(phi1) - (m1 + m2)*s1*cos(phi1)*der(phi1)^2
+///     - 2*m2*sin(phi2)*der(s2)*der(phi2) - m2*s2*cos(phi2)*der(phi2)^2 - m0*e*omega^2*cos(omega*t)
+/// h[y] = 2*(m1 + m2)*cos(phi1)*der(s1)*der(phi1) - (m1 + m2)*s1*sin(phi1)*der(phi1)^2
+///     + 2*m2*cos(phi2)*der(s2)*der(phi2) - m2*s2*sin(phi2)*der(phi2)^2 - m0*e*omega^2*sin(omega*t)
+/// h[theta] = m0*e*y0*omega^2*cos(omega*t) - m0*e*x0*omega^2*sin(omega*t)
+/// h[s1] = …
+/// h[phi1] = …
+/// h[s2] = …
+/// h[phi2] = …
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t0 = sin_phi2 * s2_dot;
+    let t1 = t0 * phi2_dot;
+    let t2 = phi2_dot * s2;
+    let t3 = t2 * cos_phi2;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = sin_phi1 * s1_dot;
+    let t5 = t4 * phi1_dot;
+    let t6 = phi1_dot * s1;
+    let t7 = t6 * cos_phi1;
+    let t8 = t5 + (t5 + phi1_dot * t7);
+    let t9 = t1 + (t1 + phi2_dot * t3) + t8;
+    let t10 = t9 * p.m2 + t8 * p.m1;
+    let t11 = p.omega * t;
+    let (sin_t11, cos_t11) = t11.sin_cos();
+    let t12 = s2_dot * cos_phi2;
+    let t13 = phi2_dot * t12;
+    let t14 = sin_phi2 * t2;
+    let t15 = s1_dot * cos_phi1;
+    let t16 = phi1_dot * t15;
+    let t17 = sin_phi1 * t6;
+    let t18 = t16 + (t16 - phi1_dot * t17);
+    let t19 = t13 + (t13 - phi2_dot * t14) + t18;
+    let t20 = p.m2 * t19 + p.m1 * t18;
+    let t21 = t4 + t7 + y_dot;
+    let t22 = t0 + t3 + t21;
+    let t23 = p.m2 * t22 + p.m1 * t21;
+    let t24 = t23 * (phi1_dot * cos_phi1);
+    let t25 = t15 - t17 + x_dot;
+    let t26 = t12 - t14 + t25;
+    let t27 = p.m2 * t26 + p.m1 * t25;
+    let t28 = t27 * (sin_phi1 * phi1_dot);
+    let t29 = t20 * (s1 * cos_phi1) + t15 * t23 - t17 * t23;
+    let t30 = cos_phi1 * (s1_dot * t23 - t6 * t27);
+    let t31 = t29 - (t7 * t27 + t4 * t27 - t10 * (sin_phi1 * s1));
+    let t32 = t22 * (phi2_dot * cos_phi2);
+    let t33 = t26 * (sin_phi2 * phi2_dot);
+    let t34 = sin_phi2 * (s2_dot * t26 + t2 * t22);
+    let t35 = t19 * (s2 * cos_phi2) + t12 * t22 - t14 * t22;
+    let t36 = t35 - (t3 * t26 + t0 * t26 - t9 * (sin_phi2 * s2));
+    let h_x = -(p.k6 * cos_t11 + t10);
+    let h_y = t20 - p.k6 * sin_t11;
+    let h_theta = cos_t11 * p.k16 - sin_t11 * p.k15;
+    let h_s1 = t24 + sin_phi1 * t20 - (t28 + cos_phi1 * t10) - (t24 - t28);
+    let h_phi1 = t31 + (sin_phi1 * (s1_dot * t27 + t6 * t23) - t30);
+    let zero = S::ZERO;
+    let h_s2 = -(p.m2 * (t32 - t33 - (t32 + sin_phi2 * t19 - (t33 + cos_phi2 * t9))));
+    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t22 - t2 * t26) - t34 - t36));
+    [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[x] = bx*yb*der(theta) - bx*der(x) - cx*x + cx*yc*theta
+/// Q[y] = -by*der(y) - by*xb*der(theta) - cy*y - cy*xc*theta
+/// Q[theta] = bx*yb*(der(x) - yb*der(theta)) - by*xb*(der(y) + xb*der(theta))
+///     + cx*yc*(x - yc*theta) - cy*xc*(y + xc*theta)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = x_dot - theta_dot * p.yb;
+    let t1 = x - theta * p.yc;
+    let t2 = theta_dot * p.xb + y_dot;
+    let t3 = theta * p.xc + y;
+    let q_x = -(t0 * p.bx + t1 * p.cx);
+    let q_y = -(t2 * p.by + t3 * p.cy);
+    let q_theta = t0 * p.k4 - t2 * p.k17 + (t1 * p.k3 - t3 * p.k5);
+    let zero = S::ZERO;
+    [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t0 = sin_phi2 * s2_dot;
+    let t1 = t0 * phi2_dot;
+    let t2 = phi2_dot * s2;
+    let t3 = t2 * cos_phi2;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = sin_phi1 * s1_dot;
+    let t5 = t4 * phi1_dot;
+    let t6 = phi1_dot * s1;
+    let t7 = t6 * cos_phi1;
+    let t8 = t5 + (t5 + phi1_dot * t7);
+    let t9 = t1 + (t1 + phi2_dot * t3) + t8;
+    let t10 = t9 * p.m2 + t8 * p.m1;
+    let t11 = p.omega * t;
+    let (sin_t11, cos_t11) = t11.sin_cos();
+    let t12 = x_dot - theta_dot * p.yb;
+    let t13 = x - theta * p.yc;
+    let t14 = s2_dot * cos_phi2;
+    let t15 = phi2_dot * t14;
+    let t16 = sin_phi2 * t2;
+    let t17 = s1_dot * cos_phi1;
+    let t18 = phi1_dot * t17;
+    let t19 = sin_phi1 * t6;
+    let t20 = t18 + (t18 - phi1_dot * t19);
+    let t21 = t15 + (t15 - phi2_dot * t16) + t20;
+    let t22 = p.m2 * t21 + p.m1 * t20;
+    let t23 = y_dot + theta_dot * p.xb;
+    let t24 = theta * p.xc + y;
+    let t25 = t12 * p.k4 - t23 * p.k17 + (t13 * p.k3 - t24 * p.k5);
+    let t26 = y_dot + (t4 + t7);
+    let t27 = t0 + t3 + t26;
+    let t28 = p.m2 * t27 + p.m1 * t26;
+    let t29 = t28 * (phi1_dot * cos_phi1);
+    let t30 = x_dot + (t17 - t19);
+    let t31 = t14 - t16 + t30;
+    let t32 = p.m2 * t31 + p.m1 * t30;
+    let t33 = t32 * (sin_phi1 * phi1_dot);
+    let t34 = t22 * (s1 * cos_phi1) + t17 * t28 - t19 * t28;
+    let t35 = cos_phi1 * (s1_dot * t28 - t6 * t32);
+    let t36 = t34 - (t7 * t32 + t4 * t32 - t10 * (sin_phi1 * s1));
+    let t37 = t27 * (phi2_dot * cos_phi2);
+    let t38 = t31 * (sin_phi2 * phi2_dot);
+    let t39 = sin_phi2 * (s2_dot * t31 + t2 * t27);
+    let t40 = t21 * (s2 * cos_phi2) + t14 * t27 - t16 * t27;
+    let t41 = t40 - (t3 * t31 + t0 * t31 - t9 * (sin_phi2 * s2));
+    let f_x = p.k6 * cos_t11 + t10 - (t12 * p.bx + t13 * p.cx);
+    let f_y = -(t22 - p.k6 * sin_t11 + (t23 * p.by + t24 * p.cy));
+    let f_theta = t25 - (cos_t11 * p.k16 - sin_t11 * p.k15);
+    let f_s1 = t29 - t33 - (t29 + sin_phi1 * t22 - (t33 + cos_phi1 * t10));
+    let f_phi1 = -(t36 + (sin_phi1 * (s1_dot * t32 + t6 * t28) - t35));
+    let zero = S::ZERO;
+    let f_s2 = p.m2 * (t37 - t38 - (t37 + sin_phi2 * t21 - (t38 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t27 - t2 * t31) - t39 - t41);
+    [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> Result<[S; 9], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t0 = sin_phi2 * s2_dot;
+    let t1 = s2 * phi2_dot;
+    let t2 = cos_phi2 * t1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t3 = sin_phi1 * s1_dot;
+    let t4 = s1 * phi1_dot;
+    let t5 = cos_phi1 * t4;
+    let t6 = y_dot + (t3 + t5);
+    let t7 = t0 + t2 + t6;
+    let t8 = p.m2 * t7 + p.m1 * t6;
+    let t9 = t8 * (cos_phi1 * phi1_dot);
+    let t10 = cos_phi2 * s2_dot;
+    let t11 = phi2_dot * t10;
+    let t12 = sin_phi2 * t1;
+    let t13 = cos_phi1 * s1_dot;
+    let t14 = phi1_dot * t13;
+    let t15 = sin_phi1 * t4;
+    let t16 = t14 + (t14 - phi1_dot * t15);
+    let t17 = t11 + (t11 - phi2_dot * t12) + t16;
+    let t18 = p.m2 * t17 + p.m1 * t16;
+    let t19 = x_dot + (t13 - t15);
+    let t20 = t10 - t12 + t19;
+    let t21 = p.m2 * t20 + t19 * p.m1;
+    let t22 = t21 * (sin_phi1 * phi1_dot);
+    let t23 = phi2_dot * t0;
+    let t24 = phi1_dot * t3;
+    let t25 = t24 + (t24 + phi1_dot * t5);
+    let t26 = t23 + (t23 + phi2_dot * t2) + t25;
+    let t27 = p.m2 * t26 + p.m1 * t25;
+    let t28 = t9 - t22 - (t9 + sin_phi1 * t18 - (t22 + cos_phi1 * t27));
+    let t29 = p.k2 * sin_phi1;
+    let t30 = p.k23 * t29;
+    let t31 = p.omega * t;
+    let (sin_t31, cos_t31) = t31.sin_cos();
+    let t32 = y_dot + theta_dot * p.xb;
+    let t33 = theta * p.xc + y;
+    let t34 = p.k2 * cos_phi1;
+    let t35 = p.k23 * t34;
+    let t36 = x_dot - theta_dot * p.yb;
+    let t37 = x - theta * p.yc;
+    let t38 = t36 * p.k4 - t32 * p.k17 + (t37 * p.k3 - t33 * p.k5);
+    let t39 = cos_t31 * p.k16 - sin_t31 * p.k15 - t38;
+    let t40 = t35 * t28 + (t36 * p.bx + t37 * p.cx - (t27 + cos_t31 * p.k6));
+    let t41 = t39 * p.k19 + t40;
+    let t42 = t34 * t35;
+    let t43 = S::ONE / (t42 - p.k24);
+    let t44 = p.k21 - t34 * t30;
+    let t45 = t43 * t44;
+    let t46 = t30 * t28 + (t18 - sin_t31 * p.k6 + (t32 * p.by + t33 * p.cy));
+    let t47 = t46 + (t45 * t41 - p.k20 * t39);
+    let t48 = t44 * t45;
+    let t49 = t29 * t30 - p.k25;
+    let t50 = S::ONE / (t49 - t48);
+    let t51 = sin_phi1 * s1;
+    let t52 = p.k2 * t51;
+    let t53 = t43 * t52;
+    let t54 = cos_phi1 * s1;
+    let t55 = p.k2 * t54 - t44 * t53;
+    let t56 = t50 * t55;
+    let t57 = cos_phi1 * (s1_dot * t8 - t4 * t21);
+    let t58 = t54 * t18 + t13 * t8 - t15 * t8 - (t21 * t5 + t21 * t3 - t51 * t27);
+    let t59 = t56 * t47 + (t58 + (sin_phi1 * (s1_dot * t21 + t4 * t8) - t57));
+    let t60 = t59 - t53 * t41;
+    let t61 = s1 * (p.k2 * s1);
+    let t62 = t55 * t56 + (t52 * t53 + t61);
+    let t63 = S::ONE / t62;
+    let t64 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
+    let t65 = p.k23 * t64;
+    let t66 = p.m2 * cos_phi2 - t34 * t65;
+    let t67 = t43 * t66;
+    let t68 = t44 * t67 + p.m2 * sin_phi2 - t29 * t65;
+    let t69 = t50 * t68;
+    let t70 = t55 * t69 + p.m2 * (t54 * sin_phi2 - t51 * cos_phi2) - t52 * t67;
+    let t71 = t63 * t70;
+    let t72 = t7 * (cos_phi2 * phi2_dot);
+    let t73 = t20 * (sin_phi2 * phi2_dot);
+    let t74 = p.m2 * (t72 - t73 - (t72 + sin_phi2 * t17 - (t73 + cos_phi2 * t26)));
+    let t75 = t71 * t60 + t74 - (t67 * t41 + t65 * t28) - t69 * t47;
+    let t76 = p.m2 + t66 * t67 + (t68 * t69 - t64 * t65) - t70 * t71;
+    let t77 = S::ONE / t76;
+    let t78 = cos_phi2 * s2;
+    let t79 = sin_phi2 * s2;
+    let t80 = p.m2 * (sin_phi1 * t78 - cos_phi1 * t79);
+    let t81 = p.k23 * t80;
+    let t82 = t34 * t81 + p.m2 * t79;
+    let t83 = t43 * t82;
+    let t84 = p.m2 * t78 - t29 * t81 - t44 * t83;
+    let t85 = t50 * t84;
+    let t86 = t55 * t85 + (t52 * t83 + p.m2 * (t51 * t79 + t54 * t78));
+    let t87 = t63 * t86;
+    let t88 = t66 * t83 + t64 * t81 + (t70 * t87 - t68 * t85);
+    let t89 = t77 * t88;
+    let t90 = sin_phi2 * (s2_dot * t20 + t1 * t7);
+    let t91 = t78 * t17 + t10 * t7 - t12 * t7 - (t20 * t2 + t20 * t0 - t79 * t26);
+    let t92 = t83 * t41 + p.m2 * (cos_phi2 * (s2_dot * t7 - t1 * t20) - t90 - t91);
+    let t93 = s2 * (p.m2 * s2);
+    let t94 = t82 * t83 + t93 + (t84 * t85 - t80 * t81) - (t88 * t89 + t86 * t87);
+    let phi2_ddot = (t92 + (t89 * t75 + t87 * t60) - (t85 * t47 + t81 * t28)) / t94;
+    let s2_ddot = t89 * phi2_ddot + t77 * t75;
+    let t95 = t87 * phi2_ddot + (t71 * s2_ddot + t63 * t60);
+    let y_ddot = t69 * s2_ddot + t50 * t47 + (t85 * phi2_ddot - t56 * t95);
+    let x_ddot = t45 * y_ddot + t43 * t41 + (t67 * s2_ddot + t53 * t95) - t83 * phi2_ddot;
+    let t96 = t30 * y_ddot + t35 * x_ddot + (t81 * phi2_ddot + t65 * s2_ddot);
+    let t97 = p.k24 - t42;
+    if vanishes(t97, p.k11, 7.993605777301127e-15) {
+        return Err(singular(0, t97, p.k11));
+    }
+    let t98 = t48 - t49;
+    if vanishes(t98, p.k11, 7.993605777301127e-15) {
+        return Err(singular(1, t98, p.k11));
+    }
+    if vanishes(t62, t61, 7.993605777301127e-15) {
+        return Err(singular(4, t62, t61));
+    }
+    if vanishes(t76, p.m2, 7.993605777301127e-15) {
+        return Err(singular(6, t76, p.m2));
+    }
+    if vanishes(t94, t93, 7.993605777301127e-15) {
+        return Err(singular(7, t94, t93));
+    }
+    let theta_ddot = p.k19 * x_ddot - (p.k20 * y_ddot + t39 * p.k22);
+    let s1_ddot = p.k23 * t28 - t96;
+    let phi1_ddot = -t95;
+    let zero = S::ZERO;
+    let accelerations = [
+        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
+    ];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*der(x)^2 + 1/2*m*der(y)^2 + 1/2*J*der(theta)^2 + 1/2*J1*der(theta1)^2
+///     + 1/2*J2*der(theta2)^2 + 1/2*m0*(((der(x) - y0*der(theta)) - e*omega*sin(omega*t))^2 +
+///     ((der(y) + x0*der(theta)) + e*omega*cos(omega*t))^2) + 1/2*m1*((der(y) + (sin(phi1)*der(s1)
+///     + s1*cos(phi1)*der(phi1)))^2 + (der(x) + (cos(phi1)*der(s1) - s1*sin(phi1)*der(phi1)))^2) +
+///     1/2*m2*(((der(x) + (cos(phi1)*der(s1) - s1*sin(phi1)*der(phi1))) + (cos(phi2)*der(s2) -
+///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
+///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2) + 1/2*J0*omega^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let theta1_dot = v[5];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let theta2_dot = v[8];
+    let t0 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
+    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
+    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
+    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
+    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t7 = p.omega * t;
+    let (sin_t7, cos_t7) = t7.sin_cos();
+    let t8 = p.k0 * cos_t7 + (y_dot + theta_dot * p.x0);
+    let t9 = x_dot - theta_dot * p.y0 - p.k0 * sin_t7;
+    let t10 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
+    let t11 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
+    ((t8 * t8 + t9 * t9) * p.m0 + p.k1 + t10 + t11) * S::from_f64(0.5)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = 1/2*cx*(x - yc*theta)^2 + 1/2*cy*(y + xc*theta)^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let t0 = theta * p.xc + y;
+    let t1 = x - theta * p.yc;
+    t0 * (t0 * p.k8) + t1 * (t1 * p.k7)
+}
+
+/// Dissipation function `D`, in W.
+///
+/// ```text
+/// D = 1/2*bx*(der(x) - yb*der(theta))^2 + 1/2*by*(der(y) + xb*der(theta))^2
+/// ```
+pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.xb + y_dot;
+    let t1 = x_dot - theta_dot * p.yb;
+    t0 * (t0 * p.k10) + t1 * (t1 * p.k9)
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
+///     + m0*e*x0*omega*cos(omega*t)*der(der(theta)) + m0*e*y0*omega*sin(omega*t)*der(der(theta))
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, v: &[S; 9], a: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let x_ddot = a[0];
+    let y_ddot = a[1];
+    let theta_ddot = a[2];
+    let t0 = p.omega * t;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t1 = p.k0 * cos_t0;
+    let t2 = t1 + (p.x0 * theta_dot + y_dot);
+    let t3 = p.k14 * sin_t0;
+    let t4 = cos_t0 * p.k14;
+    let t5 = p.k0 * sin_t0;
+    let t6 = x_dot - theta_dot * p.y0 - t5;
+    let t7 = t5 * (x_ddot - theta_ddot * p.y0 - t4) + t4 * t6;
+    let t8 = (t3 * t2 - t1 * (theta_ddot * p.x0 + y_ddot - t3) + t7) * p.m0;
+    (sin_t0 * t2 + cos_t0 * t6) * p.k6 - t8
+}
+
+/// Power that dampers take out, in W.
+///
+/// ```text
+/// P = bx*(der(x) - yb*der(theta))^2 + by*(der(y) + xb*der(theta))^2
+/// ```
+pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.xb + y_dot;
+    let t1 = x_dot - theta_dot * p.yb;
+    t0 * (t0 * p.by) + t1 * (t1 * p.bx)
+}
+
+/// By how much `s1 > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s1 = q[3];
+    s1
+}
+
+/// By how much `s2 > 0` holds.
+pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s2 = q[6];
+    s2
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 20] = [
+    ("m", "kg"),
+    ("m0", "kg"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("J", "kg*m^2"),
+    ("J0", "kg*m^2"),
+    ("J1", "kg*m^2"),
+    ("J2", "kg*m^2"),
+    ("e", "m"),
+    ("x0", "m"),
+    ("y0", "m"),
+    ("omega", "rad/s"),
+    ("cx", "N/m"),
+    ("cy", "N/m"),
+    ("bx", "N*s/m"),
+    ("by", "N*s/m"),
+    ("xc", "m"),
+    ("yc", "m"),
+    ("xb", "m"),
+    ("yb", "m"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 9] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("theta", "rad"),
+    ("s1", "m"),
+    ("phi1", "rad"),
+    ("theta1", "rad"),
+    ("s2", "m"),
+    ("phi2", "rad"),
+    ("theta2", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+impl ::lagrangian::Machine for PaperCrusher {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "PaperCrusher"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
+            self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.xb,
+            self.yb,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 9];
+    type Matrix = [f64; 81];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 9],
+        v: &[f64; 9],
+        _: &Inputs,
+        result: &mut [f64; 9],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, t, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
+        *result = bias(self, t, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = applied(self, q, v);
+    }
+
+    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = forces(self, t, q, v);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
+        kinetic_energy(self, t, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation(self, v)
+    }
+
+    fn work_rate(&self, t: f64, _: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
+        work_rate(self, t, v, a)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation_rate(self, v)
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 9], _: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 9],
+        _: &[f64; 9],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [
+            assumption("s1 > 0", true, assumption_0(q)),
+            assumption("s2 > 0", true, assumption_1(q)),
+        ];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

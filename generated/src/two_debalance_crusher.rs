@@ -1,0 +1,1107 @@
+// @generated from machines/two_debalance_crusher.machine by `cargo xtask generate`; edits are lost.
+
+//! A crusher that shakes along a line: two equal debalances turn against each other, with their
+//! axes
+//! on opposite sides of the line, the x axis of the platform.
+//! Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
+//! their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
+//! lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
+//! remain zero, exactly. Without contact the platform is then one oscillator, whose closed form a
+//! test holds it against:
+//! (m + 2 m0) x″ + 2 bx x′ + 2 cx x = 2 m0 e ω² cos ωt
+//!
+//! 9 coordinates, 22 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 22 | 6 | 2 | 0 | 0 | 30 |
+//! | `mass_matrix` | 30 | 7 | 0 | 3 | 0 | 43 |
+//! | `bias` | 52 | 35 | 0 | 4 | 0 | 95 |
+//! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
+//! | `forces` | 66 | 51 | 0 | 4 | 0 | 125 |
+//! | `accelerations` | 68 | 47 | 2 | 3 | 0 | 123 |
+//! | `kinetic_energy` | 41 | 32 | 0 | 4 | 0 | 81 |
+//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `work_rate` | 17 | 15 | 0 | 2 | 0 | 36 |
+//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A crusher that shakes along a line: two equal debalances turn against each other, with their
+/// axes
+/// on opposite sides of the line, the x axis of the platform.
+/// Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
+/// their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
+/// lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
+/// remain zero, exactly. Without contact the platform is then one oscillator, whose closed form a
+/// test holds it against:
+/// (m + 2 m0) x″ + 2 bx x′ + 2 cx x = 2 m0 e ω² cos ωt
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoDebalanceCrusher<S = f64> {
+    /// Mass of the platform. Unit: kg. Default: 600.
+    pub m: S,
+    /// Mass of each debalance: half of the one that it takes the place of. Unit: kg. Default: 20.
+    pub m0: S,
+    /// `m1`. Unit: kg. Default: 180.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 120.
+    pub m2: S,
+    /// `J`. Unit: kg*m^2. Default: 60.
+    pub J: S,
+    /// `J0`. Unit: kg*m^2. Default: 0.1.
+    pub J0: S,
+    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    pub J1: S,
+    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    pub J2: S,
+    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    pub e: S,
+    /// `x0`. Unit: m. Default: 0.05.
+    pub x0: S,
+    /// `y0`. Unit: m. Default: 0.03.
+    pub y0: S,
+    /// `omega`. Unit: rad/s. Default: 50*pi.
+    pub omega: S,
+    /// `cx`. Unit: N/m. Default: 300000.
+    pub cx: S,
+    /// `cy`. Unit: N/m. Default: 300000.
+    pub cy: S,
+    /// `bx`. Unit: N*s/m. Default: 1500.
+    pub bx: S,
+    /// `by`. Unit: N*s/m. Default: 1500.
+    pub by: S,
+    /// `xc`. Unit: m. Default: 0.4.
+    pub xc: S,
+    /// `yc`. Unit: m. Default: 0.3.
+    pub yc: S,
+    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of the pestle.
+    /// Unit: m. Default: 0.27.
+    pub R: S,
+    /// `r1`. Unit: m. Default: 0.25.
+    pub r1: S,
+    /// `rho`. Unit: m. Default: 0.2.
+    pub rho: S,
+    /// `r2`. Unit: m. Default: 0.17.
+    pub r2: S,
+}
+
+impl Default for TwoDebalanceCrusher {
+    fn default() -> Self {
+        Self {
+            m: 600.0,
+            m0: 20.0,
+            m1: 180.0,
+            m2: 120.0,
+            J: 60.0,
+            J0: 0.1,
+            J1: 9.225,
+            J2: 1.536,
+            e: 0.1,
+            x0: 0.05,
+            y0: 0.03,
+            omega: 157.07963267948966,
+            cx: 300000.0,
+            cy: 300000.0,
+            bx: 1500.0,
+            by: 1500.0,
+            xc: 0.4,
+            yc: 0.3,
+            R: 0.27,
+            r1: 0.25,
+            rho: 0.2,
+            r2: 0.17,
+        }
+    }
+}
+
+impl<S> TwoDebalanceCrusher<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> TwoDebalanceCrusher<R> {
+        TwoDebalanceCrusher {
+            m: f(self.m),
+            m0: f(self.m0),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            J: f(self.J),
+            J0: f(self.J0),
+            J1: f(self.J1),
+            J2: f(self.J2),
+            e: f(self.e),
+            x0: f(self.x0),
+            y0: f(self.y0),
+            omega: f(self.omega),
+            cx: f(self.cx),
+            cy: f(self.cy),
+            bx: f(self.bx),
+            by: f(self.by),
+            xc: f(self.xc),
+            yc: f(self.yc),
+            R: f(self.R),
+            r1: f(self.r1),
+            rho: f(self.rho),
+            r2: f(self.r2),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> TwoDebalanceCrusher<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.omega * self.e;
+        let k6 = self.omega * k0;
+        let k7 = self.m1 + self.m2;
+        let k8 = self.m0 * self.x0;
+        let k9 = k8 * S::from_f64(2.0);
+        let t0 = self.m0 * S::from_f64(2.0);
+        let pivot_1 = self.m + t0;
+        let k10 = k7 + pivot_1;
+        let k13 = self.J + (t0 * (self.y0 * self.y0) + self.x0 * k9);
+        let k18 = S::ONE / pivot_1;
+        let pivot_2 = k13 - k8 * k8 * (k18 * S::from_f64(4.0));
+        let k16 = S::ONE / pivot_2;
+        let k1 = self.omega * (self.omega * self.J0);
+        let k2 = self.cx * S::from_f64(0.5);
+        let k3 = self.cy * S::from_f64(0.5);
+        let k4 = self.bx * S::from_f64(0.5);
+        let k5 = self.by * S::from_f64(0.5);
+        let k11 = self.m0 * self.y0;
+        let k12 = self.m0 * k0;
+        let k14 = k6 * t0;
+        let k15 = k9 * k18;
+        let k17 = k9 * k16;
+        let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
+            Some(singular(5, self.J1, self.J1))
+        } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
+            Some(singular(8, self.J2, self.J2))
+        } else if vanishes(self.m2, self.m2, 7.993605777301127e-15) {
+            Some(singular(6, self.m2, self.m2))
+        } else if vanishes(self.m1, k7, 7.993605777301127e-15) {
+            Some(singular(3, self.m1, k7))
+        } else if vanishes(pivot_1, k10, 7.993605777301127e-15) {
+            Some(singular(1, pivot_1, k10))
+        } else if vanishes(pivot_1, k10, 7.993605777301127e-15) {
+            Some(singular(0, pivot_1, k10))
+        } else if vanishes(pivot_2, k13, 7.993605777301127e-15) {
+            Some(singular(2, pivot_2, k13))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            m0: self.m0,
+            m1: self.m1,
+            m2: self.m2,
+            J: self.J,
+            J1: self.J1,
+            J2: self.J2,
+            x0: self.x0,
+            y0: self.y0,
+            omega: self.omega,
+            cx: self.cx,
+            cy: self.cy,
+            bx: self.bx,
+            by: self.by,
+            xc: self.xc,
+            yc: self.yc,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let s1 = S::from_ratio(1, 50);
+        let s2 = S::from_ratio(3, 100);
+        let q = [zero, zero, zero, s1, zero, zero, s2, zero, zero];
+        let v = [S::ZERO; 9];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`TwoDebalanceCrusher`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `x`. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `theta`. Unit: rad.
+    pub theta: S,
+    /// On the line, where the platform does not reach it: |x| stays below s1. Unit: m.
+    pub s1: S,
+    /// `phi1`. Unit: rad.
+    pub phi1: S,
+    /// `theta1`. Unit: rad.
+    pub theta1: S,
+    /// `s2`. Unit: m.
+    pub s2: S,
+    /// `phi2`. Unit: rad.
+    pub phi2: S,
+    /// `theta2`. Unit: rad.
+    pub theta2: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 9] {
+        [
+            self.x,
+            self.y,
+            self.theta,
+            self.s1,
+            self.phi1,
+            self.theta1,
+            self.s2,
+            self.phi2,
+            self.theta2,
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 9]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            theta: q[2],
+            s1: q[3],
+            phi1: q[4],
+            theta1: q[5],
+            s2: q[6],
+            phi2: q[7],
+            theta2: q[8],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            theta: f(self.theta),
+            s1: f(self.s1),
+            phi1: f(self.phi1),
+            theta1: f(self.theta1),
+            s2: f(self.s2),
+            phi2: f(self.phi2),
+            theta2: f(self.theta2),
+        }
+    }
+}
+
+/// What can be set while a [`TwoDebalanceCrusher`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`TwoDebalanceCrusher`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`TwoDebalanceCrusher`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `m0`
+    m0: S,
+    /// `m1`
+    m1: S,
+    /// `m2`
+    m2: S,
+    /// `J`
+    J: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `x0`
+    x0: S,
+    /// `y0`
+    y0: S,
+    /// `omega`
+    omega: S,
+    /// `cx`
+    cx: S,
+    /// `cy`
+    cy: S,
+    /// `bx`
+    bx: S,
+    /// `by`
+    by: S,
+    /// `xc`
+    xc: S,
+    /// `yc`
+    yc: S,
+    /// `e*omega`
+    k0: S,
+    /// `J0*omega^2`
+    k1: S,
+    /// `0.5*cx`
+    k2: S,
+    /// `0.5*cy`
+    k3: S,
+    /// `0.5*bx`
+    k4: S,
+    /// `0.5*by`
+    k5: S,
+    /// `e*omega^2`
+    k6: S,
+    /// `m1 + m2`
+    k7: S,
+    /// `m0*x0`
+    k8: S,
+    /// `2*m0*x0`
+    k9: S,
+    /// `m + m1 + m2 + 2*m0`
+    k10: S,
+    /// `m0*y0`
+    k11: S,
+    /// `m0*e*omega`
+    k12: S,
+    /// `J + 2*m0*x0^2 + 2*m0*y0^2`
+    k13: S,
+    /// `2*m0*e*omega^2`
+    k14: S,
+    /// `2*m0*x0/(m + 2*m0)`
+    k15: S,
+    /// `1/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    k16: S,
+    /// `2*m0*x0/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    k17: S,
+    /// `1/(m + 2*m0)`
+    k18: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m + 2*m0 + m1 + m2
+/// M[y, y] = m + 2*m0 + m1 + m2
+/// M[theta, x] = -2*m0*x0*sin(theta)
+/// M[theta, y] = 2*m0*x0*cos(theta)
+/// M[theta, theta] = 2*m0*x0^2 + 2*m0*y0^2 + J
+/// M[s1, x] = (m1 + m2)*cos(phi1)
+/// M[s1, y] = (m1 + m2)*sin(phi1)
+/// M[s1, s1] = m1 + m2
+/// M[phi1, x] = -(m1 + m2)*s1*sin(phi1)
+/// M[phi1, y] = (m1 + m2)*s1*cos(phi1)
+/// M[phi1, phi1] = (m1 + m2)*s1^2
+/// M[theta1, theta1] = J1
+/// M[s2, x] = m2*cos(phi2)
+/// M[s2, y] = m2*sin(phi2)
+/// M[s2, s1] = m2*cos(phi2 - phi1)
+/// M[s2, phi1] = m2*s1*sin(phi2 - phi1)
+/// M[s2, s2] = m2
+/// M[phi2, x] = -m2*s2*sin(phi2)
+/// M[phi2, y] = m2*s2*cos(phi2)
+/// M[phi2, s1] = -m2*s2*sin(phi2 - phi1)
+/// M[phi2, phi1] = m2*s1*s2*cos(phi2 - phi1)
+/// M[phi2, phi2] = m2*s2^2
+/// M[theta2, theta2] = J2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t0 = sin_phi1 * s1;
+    let t1 = cos_phi1 * s1;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t2 = p.m2 * s2;
+    let t3 = cos_phi2 * s2;
+    let t4 = sin_phi2 * s2;
+    let zero = S::ZERO;
+    let m31 = -(p.k9 * sin_theta);
+    let m32 = p.k9 * cos_theta;
+    let m41 = p.k7 * cos_phi1;
+    let m42 = p.k7 * sin_phi1;
+    let m51 = -(p.k7 * t0);
+    let m52 = p.k7 * t1;
+    let m55 = s1 * (p.k7 * s1);
+    let m71 = cos_phi2 * p.m2;
+    let m72 = p.m2 * sin_phi2;
+    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
+    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
+    let m81 = -(sin_phi2 * t2);
+    let m82 = cos_phi2 * t2;
+    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
+    let m85 = p.m2 * (t0 * t4 + t1 * t3);
+    let m88 = s2 * t2;
+    [
+        [p.k10, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k10, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k13, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.k7, zero, zero, m74, m84, zero],
+        [m51, m52, zero, zero, m55, zero, m75, m85, zero],
+        [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
+        [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
+        [m81, m82, zero, m84, m85, zero, zero, m88, zero],
+        [zero, zero, zero, zero, zero, zero, zero, zero, p.J2],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[x] = -2*m0*x0*cos(theta)*der(theta)^2 - 2*(m1 + m2)*sin(phi1)*der(s1)*der(phi1)
+///     - (m1 + m2)*s1*cos(phi1)*der(phi1)^2 - 2*m2*sin(phi2)*der(s2)*der(phi2)
+///     - m2*s2*cos(phi2)*der(phi2)^2 - 2*m0*e*omega^2*cos(omega*t)
+/// h[y] = 2*(m1 + m2)*cos(phi1)*der(s1)*der(phi1) - 2*m0*x0*sin(theta)*der(theta)^2
+///     - (m1 + m2)*s1*sin(phi1)*der(phi1)^2 + 2*m2*cos(phi2)*der(s2)*der(phi2)
+///     - m2*s2*sin(phi2)*der(phi2)^2
+/// h[theta] = …
+/// h[s1] = -(m1 + m2)*s1*der(phi1)^2 - 2*m2*sin(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s2*cos(phi2 - phi1)*der(phi2)^2
+/// h[phi1] = 2*(m1 + m2)*s1*der(s1)*der(phi1) + 2*m2*s1*cos(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s1*s2*sin(phi2 - phi1)*der(phi2)^2
+/// h[s2] = 2*m2*sin(phi2 - phi1)*der(s1)*der(phi1) - m2*s1*cos(phi2 - phi1)*der(phi1)^2
+///     - m2*s2*der(phi2)^2
+/// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
+///     + 2*m2*s2*der(s2)*der(phi2)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let t0 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = cos_phi2 * s2;
+    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t3 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = cos_phi1 * s1;
+    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t6 = t5 * sin_phi1 + t3 * t4;
+    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
+    let t8 = t7 * p.m2 + t6 * p.m1;
+    let t9 = theta_dot * theta_dot;
+    let t10 = t9 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t11 = t10 * cos_theta;
+    let t12 = t9 * p.y0;
+    let t13 = t12 * sin_theta;
+    let t14 = p.omega * t;
+    let (sin_t14, cos_t14) = t14.sin_cos();
+    let t15 = p.k6 * cos_t14;
+    let t16 = t15 + (t11 - t13);
+    let t17 = t15 + (t13 + t11);
+    let t18 = sin_phi2 * s2;
+    let t19 = sin_phi1 * s1;
+    let t20 = t3 * t19 - t5 * cos_phi1;
+    let t21 = t0 * t18 - t2 * cos_phi2 + t20;
+    let t22 = p.m2 * t21 + p.m1 * t20;
+    let t23 = sin_theta * t10;
+    let t24 = t12 * cos_theta;
+    let t25 = p.k6 * sin_t14;
+    let t26 = t25 + (t23 + t24);
+    let t27 = t25 + (t24 - t23);
+    let t28 = cos_theta * (p.k8 * (t26 - t27) - p.k11 * (t16 - t17));
+    let h_x = -(p.m0 * t17 + (p.m0 * t16 + t8));
+    let h_y = p.m0 * t27 - (p.m0 * t26 + t22);
+    let h_theta = sin_theta * (p.k8 * (t17 + t16) + p.k11 * (t27 + t26)) - t28;
+    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t22);
+    let h_phi1 = t8 * t19 - t4 * t22;
+    let zero = S::ZERO;
+    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t21));
+    let h_phi2 = -(p.m2 * (t1 * t21 - t7 * t18));
+    [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[x] = -2*bx*der(x) - 2*cx*x
+/// Q[y] = -2*by*der(y) - 2*cy*y
+/// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = p.yc * theta;
+    let t2 = p.bx * (x_dot - t0) + p.cx * (x - t1);
+    let t3 = p.bx * (t0 + x_dot) + p.cx * (t1 + x);
+    let t4 = theta_dot * p.xc;
+    let t5 = theta * p.xc;
+    let t6 = p.by * (y_dot - t4) + p.cy * (y - t5);
+    let t7 = p.by * (t4 + y_dot) + p.cy * (t5 + y);
+    let q_x = -(t2 + t3);
+    let q_y = -(t6 + t7);
+    let q_theta = -(p.yc * (t3 - t2) + p.xc * (t7 - t6));
+    let zero = S::ZERO;
+    [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let t0 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = cos_phi2 * s2;
+    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t3 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t4 = cos_phi1 * s1;
+    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t6 = t5 * sin_phi1 + t3 * t4;
+    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
+    let t8 = t7 * p.m2 + t6 * p.m1;
+    let t9 = theta_dot * theta_dot;
+    let t10 = t9 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t11 = t10 * cos_theta;
+    let t12 = t9 * p.y0;
+    let t13 = t12 * sin_theta;
+    let t14 = p.omega * t;
+    let (sin_t14, cos_t14) = t14.sin_cos();
+    let t15 = p.k6 * cos_t14;
+    let t16 = t15 + (t11 - t13);
+    let t17 = t15 + (t13 + t11);
+    let t18 = theta_dot * p.yc;
+    let t19 = p.yc * theta;
+    let t20 = p.bx * (t18 + x_dot) + p.cx * (t19 + x);
+    let t21 = p.bx * (x_dot - t18) + p.cx * (x - t19);
+    let t22 = sin_phi2 * s2;
+    let t23 = sin_phi1 * s1;
+    let t24 = t3 * t23 - t5 * cos_phi1;
+    let t25 = t0 * t22 - t2 * cos_phi2 + t24;
+    let t26 = p.m2 * t25 + p.m1 * t24;
+    let t27 = sin_theta * t10;
+    let t28 = t12 * cos_theta;
+    let t29 = p.k6 * sin_t14;
+    let t30 = t29 + (t27 + t28);
+    let t31 = theta_dot * p.xc;
+    let t32 = theta * p.xc;
+    let t33 = p.by * (t31 + y_dot) + p.cy * (t32 + y);
+    let t34 = t29 + (t28 - t27);
+    let t35 = p.by * (y_dot - t31) + p.cy * (y - t32);
+    let t36 = sin_theta * (p.k8 * (t17 + t16) + p.k11 * (t34 + t30));
+    let t37 = cos_theta * (p.k8 * (t30 - t34) - p.k11 * (t16 - t17)) - t36;
+    let f_x = p.m0 * t16 + t8 + (p.m0 * t17 - t20) - t21;
+    let f_y = p.m0 * t30 + t26 - (t33 + p.m0 * t34) - t35;
+    let f_theta = t37 - (p.yc * (t20 - t21) + p.xc * (t33 - t35));
+    let f_s1 = cos_phi1 * t8 + sin_phi1 * t26;
+    let f_phi1 = t4 * t26 - t8 * t23;
+    let zero = S::ZERO;
+    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t25);
+    let f_phi2 = p.m2 * (t1 * t25 - t7 * t22);
+    [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> Result<[S; 9], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let t0 = p.omega * t;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t1 = theta_dot * theta_dot;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t2 = t1 * cos_theta;
+    let t3 = cos_t0 * p.k6 + t2 * p.x0;
+    let t4 = sin_theta * t1;
+    let t5 = t4 * p.y0;
+    let t6 = sin_theta * p.x0;
+    let t7 = cos_theta * p.y0;
+    let t8 = p.k6 * sin_t0 + t2 * p.y0;
+    let t9 = p.x0 * t4;
+    let t10 = sin_theta * p.y0;
+    let t11 = cos_theta * p.x0;
+    let t12 = theta_dot * p.yc;
+    let t13 = theta * p.yc;
+    let t14 = p.bx * (t12 + x_dot) + p.cx * (t13 + x);
+    let t15 = theta_dot * p.xc;
+    let t16 = theta * p.xc;
+    let t17 = p.by * (t15 + y_dot) + p.cy * (t16 + y);
+    let t18 = (t3 - t5) * (p.m0 * (t6 + t7)) + (t8 - t9) * (p.m0 * (t10 + t11));
+    let t19 = p.bx * (x_dot - t12) + p.cx * (x - t13);
+    let t20 = t19 + t14 - (t2 * p.k9 + cos_t0 * p.k14);
+    let t21 = p.by * (y_dot - t15) + p.cy * (y - t16);
+    let t22 = (t8 + t9) * (p.m0 * (t11 - t10)) + p.yc * t19;
+    let t23 = t20 * (p.k15 * sin_theta) - p.xc * t21 - t22;
+    let t24 = t21 + t17 - p.k9 * t4;
+    let t25 = (t3 + t5) * (p.m0 * (t7 - t6)) + t24 * (p.k15 * cos_theta);
+    let t26 = p.yc * t14 + p.xc * t17 + t18 + t23 - t25;
+    let t27 = p.k17 * t26;
+    let t28 = p.k18 * (t20 + sin_theta * t27);
+    let t29 = p.k18 * (t24 - cos_theta * t27);
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t30 = t28 * sin_phi1 + phi1_dot * (S::from_f64(2.0) * s1_dot) - t29 * cos_phi1;
+    let t31 = s2 * (s2 * p.m2);
+    if vanishes(t31, t31, 7.993605777301127e-15) {
+        return Err(singular(7, t31, t31));
+    }
+    let t32 = s1 * s1;
+    let t33 = t32 * p.m1;
+    let t34 = t32 * p.k7;
+    if vanishes(t33, t34, 7.993605777301127e-15) {
+        return Err(singular(4, t33, t34));
+    }
+    let x_ddot = -t28;
+    let y_ddot = -t29;
+    let theta_ddot = -(t26 * p.k16);
+    let s1_ddot = t29 * sin_phi1 + (t28 * cos_phi1 + phi1_dot * (phi1_dot * s1));
+    let phi1_ddot = -(t30 / s1);
+    let zero = S::ZERO;
+    let s2_ddot = phi2_dot * (phi2_dot * s2);
+    let phi2_ddot = -(phi2_dot * (S::from_f64(2.0) * s2_dot) / s2);
+    let accelerations = [
+        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
+    ];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = …
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let theta1_dot = v[5];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let theta2_dot = v[8];
+    let t0 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t1 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
+    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
+    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
+    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
+    let t6 = theta_dot * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t7 = t6 * cos_theta + y_dot;
+    let t8 = theta_dot * p.y0;
+    let t9 = t8 * sin_theta;
+    let t10 = p.omega * t;
+    let (sin_t10, cos_t10) = t10.sin_cos();
+    let t11 = p.k0 * cos_t10;
+    let t12 = t11 + (t7 - t9);
+    let t13 = x_dot - t6 * sin_theta;
+    let t14 = cos_theta * t8;
+    let t15 = p.k0 * sin_t10;
+    let t16 = t13 - t14 - t15;
+    let t17 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
+    let t18 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t19 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t18;
+    let t20 = t11 - (t7 + t9);
+    let t21 = t15 - (t13 + t14);
+    let t22 = t19 + (p.k1 + p.m0 * (t12 * t12 + t16 * t16) + t17);
+    (p.k1 + p.m0 * (t20 * t20 + t21 * t21) + t22) * S::from_f64(0.5)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let t0 = theta * p.yc;
+    let t1 = t0 + x;
+    let t2 = x - t0;
+    let t3 = theta * p.xc;
+    let t4 = t3 + y;
+    let t5 = y - t3;
+    let t6 = t4 * (p.k3 * t4) + t5 * (p.k3 * t5);
+    t1 * (p.k2 * t1) + t2 * (p.k2 * t2) + t6
+}
+
+/// Dissipation function `D`, in W.
+///
+/// ```text
+/// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = theta_dot * p.xc;
+    let t4 = t3 + y_dot;
+    let t5 = y_dot - t3;
+    let t6 = t4 * (p.k5 * t4) + t5 * (p.k5 * t5);
+    t1 * (p.k4 * t1) + t2 * (p.k4 * t2) + t6
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = …
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+    a: &[S; 9],
+) -> S {
+    let theta = q[2];
+    let theta_dot = v[2];
+    let x_ddot = a[0];
+    let y_ddot = a[1];
+    let theta_ddot = a[2];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = theta_dot * theta_dot;
+    let t1 = theta_ddot * sin_theta + cos_theta * t0;
+    let t2 = x_ddot - p.x0 * t1;
+    let t3 = t0 * sin_theta - cos_theta * theta_ddot;
+    let t4 = t3 * p.y0;
+    let t5 = p.omega * t;
+    let (sin_t5, cos_t5) = t5.sin_cos();
+    let t6 = cos_t5 * p.k6;
+    let t7 = y_ddot - t3 * p.x0;
+    let t8 = t1 * p.y0;
+    let t9 = p.k6 * sin_t5;
+    let t10 = cos_t5 * (t9 + (t7 + t8)) + cos_t5 * (t9 - (t7 - t8));
+    (sin_t5 * (t6 - (t2 - t4)) + sin_t5 * (t6 - (t2 + t4)) - t10) * p.k12
+}
+
+/// Power that dampers take out, in W.
+///
+/// ```text
+/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = theta_dot * p.xc;
+    let t4 = t3 + y_dot;
+    let t5 = y_dot - t3;
+    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
+    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+}
+
+/// By how much `s1 > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s1 = q[3];
+    s1
+}
+
+/// By how much `s2 > 0` holds.
+pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s2 = q[6];
+    s2
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 22] = [
+    ("m", "kg"),
+    ("m0", "kg"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("J", "kg*m^2"),
+    ("J0", "kg*m^2"),
+    ("J1", "kg*m^2"),
+    ("J2", "kg*m^2"),
+    ("e", "m"),
+    ("x0", "m"),
+    ("y0", "m"),
+    ("omega", "rad/s"),
+    ("cx", "N/m"),
+    ("cy", "N/m"),
+    ("bx", "N*s/m"),
+    ("by", "N*s/m"),
+    ("xc", "m"),
+    ("yc", "m"),
+    ("R", "m"),
+    ("r1", "m"),
+    ("rho", "m"),
+    ("r2", "m"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 9] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("theta", "rad"),
+    ("s1", "m"),
+    ("phi1", "rad"),
+    ("theta1", "rad"),
+    ("s2", "m"),
+    ("phi2", "rad"),
+    ("theta2", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+impl ::lagrangian::Machine for TwoDebalanceCrusher {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "TwoDebalanceCrusher"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
+            self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.R,
+            self.r1, self.rho, self.r2,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 9];
+    type Matrix = [f64; 81];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 9],
+        v: &[f64; 9],
+        _: &Inputs,
+        result: &mut [f64; 9],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, t, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
+        *result = bias(self, t, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = applied(self, q, v);
+    }
+
+    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = forces(self, t, q, v);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
+        kinetic_energy(self, t, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation(self, v)
+    }
+
+    fn work_rate(&self, t: f64, q: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
+        work_rate(self, t, q, v, a)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation_rate(self, v)
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 9], _: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 9],
+        _: &[f64; 9],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [
+            assumption("s1 > 0", true, assumption_0(q)),
+            assumption("s2 > 0", true, assumption_1(q)),
+        ];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}
