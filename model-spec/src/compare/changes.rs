@@ -51,10 +51,13 @@ pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> 
     joined.filter(|&(_, j)| j < add.len()).collect()
 }
 
+/// A power.
+type Factor<'d> = (Expr<'d>, i32);
+
 /// A product, factor by factor.
 struct Term<'d> {
     coefficient: Rational,
-    factors: Vec<(Expr<'d>, i32)>,
+    factors: Vec<Factor<'d>>,
 }
 
 impl<'d> Term<'d> {
@@ -82,12 +85,11 @@ impl<'d> Term<'d> {
         let mut slips = 0;
         slips += u64::from(self.coefficient.is_negative() != other.coefficient.is_negative());
         slips += u64::from(self.coefficient.abs() != other.coefficient.abs());
-        let mut here: Vec<(Expr<'d>, i32)> = self.factors.clone();
-        let mut there: Vec<(Expr<'d>, i32)> = other.factors.clone();
+        let (mut here, mut there) = (self.factors.clone(), other.factors.clone());
         let (mut common, mut moving) = (0, 0);
-        let moves = |factor: &(Expr<'d>, i32)| u64::from(factor.0.stage() > stage::PARAMETER);
+        let moves = |factor: &Factor<'d>| u64::from(factor.0.stage() > stage::PARAMETER);
         // The same factors first, then those that differ by their power alone, then by a slip.
-        let alike: [fn(&(Expr<'d>, i32), &(Expr<'d>, i32)) -> bool; 3] = [
+        let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 3] = [
             |a, b| a == b,
             |a, b| a.0 == b.0,
             |a, b| a.1 == b.1 && differ_by_a_slip(a.0, b.0),

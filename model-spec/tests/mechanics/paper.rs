@@ -414,9 +414,8 @@ fn three_models_of_the_suspension_accelerate_as_computed_elsewhere() {
             };
             let entries = evaluate(model.dag, equations.mass_matrix.lower(), value);
             let forces = evaluate(model.dag, &equations.forces, value);
-            for i in 0..n {
-                let mut left = -forces[i];
-                let mut size = forces[i].abs();
+            for (i, &force) in forces.iter().enumerate() {
+                let (mut left, mut size) = (-force, force.abs());
                 for (j, digits) in accelerations.iter().enumerate() {
                     let (low, high) = (i.min(j), i.max(j));
                     let part = entries[high * (high + 1) / 2 + low] * decimal(digits);
