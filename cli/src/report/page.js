@@ -100,7 +100,8 @@ class Player {
   layOut() {
     this.drawing.resize();
     this.plots.forEach((plot) => plot.build());
-    this.dirty = true;
+    // At once: a canvas that was resized is empty.
+    this.show(performance.now());
   }
 
   connect() {

@@ -1,4 +1,5 @@
 //! Running the command, and taking apart the page that it writes.
+#![allow(dead_code, reason = "no test uses all of it")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
