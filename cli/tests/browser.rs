@@ -9,10 +9,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Machine, Simulation};
+use lagrangian::{Machine, Simulation, Solution};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Expr, Symbol, evaluate};
 use serde_json::Value;
@@ -152,9 +153,15 @@ fn check(spec: &str, options: &[&str]) {
 
 /// Where the bodies are, by the expressions of the model in double-double, and how far the page may be from that.
 struct Truth {
-    /// For each instant asked for, each body and component: the position, and the error by the roundoff of what is stored
-    /// and by interpolation.
-    at: Box<dyn Fn(f64, bool) -> Vec<Vec<(f64, f64)>>>,
+    model: Model<'static>,
+    run: Solution<InterpretedMachine>,
+    parameters: Vec<f64>,
+    coordinates: Vec<Symbol>,
+    /// The mass centres of all bodies, component by component; and their derivatives by the coordinates.
+    components: Vec<Expr<'static>>,
+    slopes: Vec<Vec<Expr<'static>>>,
+    /// Between what each coordinate stays.
+    extremes: Vec<(f64, f64)>,
 }
 
 impl Truth {
@@ -162,10 +169,11 @@ impl Truth {
         let path = root().join(spec);
         let path = path.to_str().expect("text");
         let (_, text) = Disk.read(path, None).expect("a spec");
+        // It lives as long as the test does.
         let dag: &'static Dag = Box::leak(Box::default());
         let (mut sources, mut report) = (Sources::new(), Report::new());
-        let model =
-            lagrangian_spec::model(dag, path, &text, &[], &mut Disk, &mut sources, &mut report);
+        let files = &mut Disk;
+        let model = lagrangian_spec::model(dag, path, &text, &[], files, &mut sources, &mut report);
         let compiled = Compiled::new(model.expect("a good spec"), &mut report).expect("derivable");
         let machine = InterpretedMachine::new(compiled.program.clone());
         let run = Simulation::new(&machine)
@@ -173,25 +181,20 @@ impl Truth {
             .until(until)
             .run(machine.start())
             .expect("the run");
-        let parameters = machine.parameter_values().to_vec();
         let model = compiled.model;
-        let symbols: Vec<Symbol> = model
+        let coordinates: Vec<Symbol> = model
             .coordinates
             .iter()
             .map(|coordinate| coordinate.q.as_symbol().expect("a symbol"))
             .collect();
-        let components: Vec<Expr<'static>> = model
-            .bodies
+        let bodies = model.bodies.iter();
+        let components: Vec<Expr<'static>> = bodies.flat_map(|body| body.at.clone()).collect();
+        let slopes = components
             .iter()
-            .flat_map(|body| body.at.clone())
+            .map(|x| coordinates.iter().map(|symbol| x.diff(*symbol)).collect())
             .collect();
-        let slopes: Vec<Vec<Expr<'static>>> = components
-            .iter()
-            .map(|x| symbols.iter().map(|symbol| x.diff(*symbol)).collect())
-            .collect();
-        // What each coordinate spans and how large it gets, from closely set instants.
         let instants = run.every(until.abs() / 4000.0).expect("instants");
-        let extremes: Vec<(f64, f64)> = (0..symbols.len())
+        let extremes = (0..coordinates.len())
             .map(|i| {
                 let values = instants.iter().map(|state| state.q.values[i]);
                 values.fold((f64::MAX, f64::MIN), |(low, high), x| {
@@ -199,57 +202,63 @@ impl Truth {
                 })
             })
             .collect();
-        let at = move |t: f64, interpolated: bool| {
-            let q = run.at(t).expect("within the run").q.values;
-            let value = |symbol: Symbol| {
-                let of = |expression: Expr<'_>| expression.as_symbol() == Some(symbol);
-                if of(model.time) {
-                    return DoubleDouble::from_f64(t);
-                }
-                if let Some(i) = symbols.iter().position(|other| *other == symbol) {
-                    return DoubleDouble::from_f64(q[i]);
-                }
-                let place = model
-                    .parameters
-                    .iter()
-                    .position(|parameter| of(parameter.symbol));
-                DoubleDouble::from_f64(parameters[place.expect("a parameter")])
-            };
-            let positions = evaluate(dag, &components, value);
-            let components: Vec<(f64, f64)> = positions
-                .iter()
-                .zip(&slopes)
-                .map(|(position, slopes)| {
-                    let slopes = evaluate(dag, slopes, value);
-                    let errors = slopes.iter().enumerate().map(|(i, slope)| {
-                        let (low, high) = extremes[i];
-                        // Half a unit in the last of 24 digits.
-                        let stored = low.abs().max(high.abs()) * 2.0_f64.powi(-24);
-                        let between = match (interpolated, model.coordinates[i].unit_text.as_str())
-                        {
-                            (false, _) => 0.0,
-                            (true, "rad") => (INTERPOLATION * (high - low)).min(INTERPOLATION),
-                            (true, _) => INTERPOLATION * (high - low),
-                        };
-                        slope.hi().abs() * (stored + between)
-                    });
-                    // Slopes change a little over such errors; and a browser's own sine is within units in the last
-                    // place of 53.
-                    let error = 1.05 * errors.sum::<f64>() + 1e-13 * (1.0 + position.hi().abs());
-                    (position.hi(), error)
-                })
-                .collect();
-            let dimension = model.space.dimension();
-            components
-                .chunks(dimension)
-                .map(<[(f64, f64)]>::to_vec)
-                .collect()
-        };
-        Truth { at: Box::new(at) }
+        Truth {
+            parameters: machine.parameter_values().to_vec(),
+            model,
+            run,
+            coordinates,
+            components,
+            slopes,
+            extremes,
+        }
     }
 
+    /// For each body and component the position at time `t`, and the error that is allowed: by the roundoff of what is
+    /// stored, and by interpolation.
     fn at(&self, t: f64, interpolated: bool) -> Vec<Vec<(f64, f64)>> {
-        (self.at)(t, interpolated)
+        let q = self.run.at(t).expect("within the run").q.values;
+        let value = |symbol: Symbol| {
+            let is = |expression: Expr<'_>| expression.as_symbol() == Some(symbol);
+            if is(self.model.time) {
+                return DoubleDouble::from_f64(t);
+            }
+            if let Some(i) = self.coordinates.iter().position(|other| *other == symbol) {
+                return DoubleDouble::from_f64(q[i]);
+            }
+            let mut parameters = self.model.parameters.iter();
+            let place = parameters.position(|parameter| is(parameter.symbol));
+            DoubleDouble::from_f64(self.parameters[place.expect("a parameter")])
+        };
+        let allowed = |i: usize| {
+            let (low, high) = self.extremes[i];
+            // Half a unit in the last of 24 binary digits.
+            let stored = low.abs().max(high.abs()) * 2.0_f64.powi(-24);
+            let between = INTERPOLATION * (high - low);
+            match (interpolated, self.model.coordinates[i].unit_text.as_str()) {
+                (false, _) => stored,
+                (true, "rad") => stored + between.min(INTERPOLATION),
+                (true, _) => stored + between,
+            }
+        };
+        let positions = evaluate(self.model.dag, &self.components, value);
+        let with_errors: Vec<(f64, f64)> = positions
+            .iter()
+            .zip(&self.slopes)
+            .map(|(position, slopes)| {
+                let slopes = evaluate(self.model.dag, slopes, value);
+                let slopes = slopes.iter().enumerate();
+                let error: f64 = slopes.map(|(i, slope)| slope.hi().abs() * allowed(i)).sum();
+                // Slopes change a little over such errors; the functions of a browser are exact to a few units in the
+                // last of 53 binary digits.
+                let error = 1.05 * error + 1e-13 * (1.0 + position.hi().abs());
+                (position.hi(), error)
+            })
+            .collect();
+        let dimension = self.model.space.dimension();
+        with_errors
+            .chunks(dimension)
+            .map(<[(f64, f64)]>::to_vec)
+            .collect()
     }
 }
 
