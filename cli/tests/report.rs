@@ -337,14 +337,14 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
             "{index} is held by springs only"
         );
     }
-    // m R²/2 = J.
-    for (index, (mass, inertia)) in [(600.0, 60.0), (40.0, 0.2), (180.0, 9.225), (120.0, 1.536)]
-        .iter()
-        .enumerate()
-    {
-        let radius: f64 = 2.0 * inertia / mass;
-        assert_near(&bodies[index]["solid"]["radius"], radius.sqrt());
+    // The circles are the outlines of what has some; the debalance is a disc with m R²/2 = J.
+    for index in [0, 2, 3] {
+        assert_eq!(bodies[index]["solid"], Value::Null);
     }
+    assert_near(&bodies[1]["solid"]["radius"], (2.0 * 0.2 / 40.0_f64).sqrt());
+    let circles = picture["circles"].as_array().expect("circles");
+    let owners: Vec<&Value> = circles.iter().map(|circle| &circle["body"]).collect();
+    assert_eq!(owners, [&Value::from(0), &2.into(), &2.into(), &3.into()]);
     let element = |name: &str, damper: bool| {
         let elements = picture["elements"].as_array().expect("elements");
         let found = elements
@@ -377,6 +377,20 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
         );
     }
     assert_eq!(picture["omitted"], serde_json::json!([]));
+}
+
+/// A uniform disc has m R²/2 = J.
+#[test]
+fn bodies_without_outlines_are_discs_of_their_inertia() {
+    let page = library("vibrating_crusher", &[]);
+    let bodies = page.picture()["bodies"].as_array().expect("bodies");
+    let known = [(600.0, 60.0), (40.0, 0.2), (180.0, 9.225), (120.0, 1.536)];
+    for (body, (mass, inertia)) in bodies.iter().zip(known) {
+        let squared: f64 = 2.0 * inertia / mass;
+        assert_eq!(body["solid"]["form"], "disc");
+        assert_near(&body["solid"]["radius"], squared.sqrt());
+        assert_near(&body["mass"], mass);
+    }
 }
 
 #[test]

@@ -258,7 +258,7 @@ class Drawing {
     const c = this.context;
     c.globalAlpha = alpha;
     c.fillStyle = colour;
-    c.fill();
+    c.fill('evenodd');
     c.globalAlpha = 1;
   }
 
@@ -340,7 +340,7 @@ class Drawing {
     const start = Math.max(0, end - this.trail * this.pathSteps);
     if (!(end > start)) return;
     const c = this.context;
-    const most = Math.max(60, 24_000 / Math.max(picture.bodies.length, 1));
+    const most = Math.max(60, 12_000 / Math.max(picture.bodies.length, 1));
     const stride = Math.max(1, Math.ceil((end - start) / most));
     const x = motion.x;
     const fades = 6;
@@ -375,22 +375,30 @@ class Drawing {
 
   drawCircles(x, parts) {
     const { picture, view, palette } = this;
-    for (const circle of picture.circles) {
-      const center = this.vector(x, circle.center);
-      const [px, py, depth] = view.project(center);
-      const radius = Math.abs(x[circle.radius]) * view.scale;
-      const colour = circle.body === null ? palette.muted : this.colours[circle.body];
-      const mark = view.project(along(center, Math.abs(x[circle.radius]), this.axis(x, circle.axes, 0)));
+    const radiusOf = (circle) => Math.abs(x[circle.radius]);
+    // Two about one centre are a ring, as a bored cylinder is.
+    const rings = Map.groupBy(picture.circles, (circle) => `${circle.body} ${circle.center}`);
+    for (const circles of rings.values()) {
+      const [outer, inner] = circles.toSorted((a, b) => radiusOf(b) - radiusOf(a));
+      const [px, py, depth] = view.project(this.vector(x, outer.center));
+      const colour = outer.body === null ? palette.muted : this.colours[outer.body];
       parts.push({
         depth,
         draw: () => {
-          this.disc([px, py], radius, null, colour, 2);
-          this.context.globalAlpha = 0.07;
-          this.disc([px, py], radius, colour, null);
-          this.context.globalAlpha = 1;
-          // Shows how it is turned.
-          const inner = [px + 0.86 * (mark[0] - px), py + 0.86 * (mark[1] - py)];
-          this.line(inner, mark, colour, 2);
+          const c = this.context;
+          c.beginPath();
+          for (const circle of inner ? [outer, inner] : [outer]) {
+            c.moveTo(px + radiusOf(circle) * view.scale, py);
+            c.arc(px, py, radiusOf(circle) * view.scale, 0, 2 * Math.PI);
+          }
+          this.fill(colour, inner ? 0.22 : 0.08);
+          for (const circle of circles) {
+            this.disc([px, py], radiusOf(circle) * view.scale, null, colour, 1.6);
+            // Shows how it is turned.
+            const center = this.vector(x, circle.center);
+            const at = (share) => view.project(along(center, share * radiusOf(circle), this.axis(x, circle.axes, 0)));
+            this.line(at(0.88), at(1), colour, 2.4);
+          }
         },
       });
     }
