@@ -4,23 +4,30 @@
 //! cargo run --release --example balance
 //! ```
 
-use lagrangian::Simulation;
+use lagrangian::{Error, Simulation};
 
 lagrangian::machine!(file = "machines/cart_pole.machine");
 
-fn main() -> Result<(), lagrangian::Error> {
+/// Place of the cart, in m, and angle of the pole, in rad, second by second.
+pub fn balance(angle: f64) -> Result<Vec<[f64; 2]>, Error> {
     let cart_pole = CartPole::default();
     let mut start = cart_pole.start();
-    start.q.theta = 0.2;
-
+    start.q.theta = angle;
     let run = Simulation::new(&cart_pole)
         .until(10.0)
         .inputs(|_t, q, v, u| u.push = 40.0 * q.theta + 8.0 * v.theta + 1.5 * q.x + 3.0 * v.x)
         .run(start)?;
+    let states = run.every(1.0)?;
+    Ok(states
+        .iter()
+        .map(|state| [state.q.x, state.q.theta])
+        .collect())
+}
 
-    println!("    t       x   theta");
-    for state in run.every(1.0)? {
-        println!("{:5.1} {:7.4} {:7.4}", state.t, state.q.x, state.q.theta);
+pub fn main() -> Result<(), Error> {
+    println!("  t       x   theta");
+    for (t, [x, theta]) in balance(0.2)?.into_iter().enumerate() {
+        println!("{t:3} {x:7.4} {theta:7.4}");
     }
     Ok(())
 }

@@ -1,0 +1,51 @@
+//! How do I stop at an event, and go on behind it? A ball that bounces until it has come to rest, nearly.
+//!
+//! ```sh
+//! cargo run --release --example bounce
+//! ```
+
+use lagrangian::{Crossing, Error, Simulation};
+
+lagrangian::machine! {
+    /// A ball above a floor at y = 0.
+    machine Ball in plane {
+        parameters { m: kg = 1, g: m/s^2 = 9.81 }
+        coordinates { y: m = 1 }
+        bodies { ball { mass: m, at: (0, y) } }
+        gravity (0, -g);
+    }
+}
+
+/// When the ball meets the floor, `count` times, in s.
+pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
+    let ball = Ball::default();
+    let mut state = ball.start();
+    let mut times = Vec::new();
+    for _ in 0..count {
+        let run = Simulation::new(&ball)
+            .tolerance(1e-12)
+            .until(state.t + 10.0)
+            .until_event("the floor", Crossing::Falling, |state| state.q.y)
+            .run(state)?;
+        state = *run.end();
+        times.push(state.t);
+        // The impact: the next run starts where this one ended, with another velocity.
+        state.q.y = 0.0;
+        state.v.y *= -restitution;
+    }
+    Ok(times)
+}
+
+pub fn main() -> Result<(), Error> {
+    let (restitution, count) = (0.8, 20);
+    let times = bounces(restitution, count)?;
+    // It falls for √(2h/g), and every flight is shorter than the one before it by the restitution.
+    let ball = Ball::default();
+    let fall = (2.0 * ball.start().q.y / ball.g).sqrt();
+    let mut exact = fall;
+    for (number, time) in (1..).zip(times) {
+        println!("{number:2}: {time:.12} s, off by {:8.1e} s", time - exact);
+        exact += 2.0 * restitution.powi(number) * fall;
+    }
+    Ok(())
+}
