@@ -24,6 +24,7 @@ pub fn balance(angle: f64) -> Result<Vec<[f64; 2]>, Error> {
         .collect())
 }
 
+/// Prints ten seconds of it.
 pub fn main() -> Result<(), Error> {
     println!("  t       x   theta");
     for (t, [x, theta]) in balance(0.2)?.into_iter().enumerate() {

@@ -36,6 +36,7 @@ pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
     Ok(times)
 }
 
+/// Prints when the ball is on the floor, and by how much that is wrong.
 pub fn main() -> Result<(), Error> {
     let (restitution, count) = (0.8, 20);
     let times = bounces(restitution, count)?;

@@ -27,7 +27,7 @@ const GOAL: [f64; 2] = [0.5, 1.0];
 /// How fast the arm reaches its goal, in 1/s.
 const RATE: f64 = 4.0;
 
-/// What is left of the way to the goal after `t` seconds, relative to the whole way, for each joint.
+/// What is left of each joint's way to the goal after `t` seconds, relative to the whole way.
 pub fn left(t: f64) -> Result<[f64; 2], Error> {
     let arm = Arm::default();
     let system = arm.prepare();
@@ -42,14 +42,15 @@ pub fn left(t: f64) -> Result<[f64; 2], Error> {
             system.bias(t, &q, &v, &mut h);
             system.applied(t, &q, &v, &system.default_inputs(), &mut rest);
             let a = [0, 1].map(|i| -2.0 * RATE * v[i] - RATE * RATE * (q[i] - GOAL[i]));
-            let torque = [0, 1].map(|i| m[2 * i] * a[0] + m[2 * i + 1] * a[1] + h[i] - rest[i]);
-            [u.tau1, u.tau2] = torque;
+            [u.tau1, u.tau2] =
+                [0, 1].map(|i| m[2 * i] * a[0] + m[2 * i + 1] * a[1] + h[i] - rest[i]);
         })
         .run(arm.start())?;
-    let (start, end) = (run.start().q.to_array(), run.end().q.to_array());
+    let [start, end] = [run.start(), run.end()].map(|state| state.q.to_array());
     Ok([0, 1].map(|i| (end[i] - GOAL[i]) / (start[i] - GOAL[i])))
 }
 
+/// Prints how far the joints are from their goal, and what the law says.
 pub fn main() -> Result<(), Error> {
     println!("  t  shoulder     elbow        (1 + kt) exp(-kt)");
     for t in [0.5, 1.0, 2.0] {

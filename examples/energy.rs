@@ -45,6 +45,7 @@ pub fn balance(tolerance: f64) -> Result<(EnergyBalance, f64), Error> {
     Ok((run.energy_balance().unwrap_or_default(), work))
 }
 
+/// Prints the balance for three tolerances.
 pub fn main() -> Result<(), Error> {
     println!("tolerance  work [J]        exactly         dissipated      left over");
     for tolerance in [1e-4, 1e-7, 1e-10] {

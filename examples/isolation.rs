@@ -41,6 +41,7 @@ pub fn transmitted(damping: f64) -> Result<[f64; 2], Error> {
     Ok([simulated, exact])
 }
 
+/// Prints what four dampers let through.
 pub fn main() -> Result<(), Error> {
     println!("damping [N s/m]  transmitted  exactly");
     for damping in [200.0, 400.0, 800.0, 1600.0] {

@@ -31,6 +31,7 @@ pub fn by_length() -> Result<Dual<f64>, Singular> {
     acceleration(machine)
 }
 
+/// Prints one acceleration in several numbers.
 pub fn main() -> Result<(), Singular> {
     let machine = Pendulum::default();
     println!(

@@ -39,6 +39,7 @@ pub fn period(amplitude: f64) -> Result<[f64; 2], Error> {
     Ok([second.state.t - first.state.t, exact])
 }
 
+/// Prints the periods of four swings.
 pub fn main() -> Result<(), Error> {
     for degrees in [1.0, 30.0, 90.0, 150.0] {
         let [simulated, exact] = period(f64::to_radians(degrees))?;

@@ -41,6 +41,7 @@ pub fn steps(until: f64, mut seen: impl FnMut(f64, f64)) -> Result<usize, StepEr
     Ok(stepper.work().steps)
 }
 
+/// Prints the motion at every tenth of a second.
 pub fn main() -> Result<(), StepError> {
     let coordinates = Oscillator::default().prepare();
     let unit = coordinates.coordinates().next().map_or("", |x| x.unit);

@@ -45,6 +45,7 @@ pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Failure> {
     Ok(greatest)
 }
 
+/// Prints the greatest force for four speeds.
 pub fn main() -> Result<(), Failure> {
     let mut crusher = read("machines/cushioned_crusher.machine")?;
     println!("omega [rad/s]  greatest crushing force [kN]");
