@@ -106,42 +106,24 @@ class Drawing {
 
   /** How large the motion is: what the view shows, and how high the ground lies. */
   measure() {
-    const { motion, picture, view } = this;
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
+    const { motion, view } = this;
     const instants = Math.min(600, Math.max(2, motion.count));
-    const grow = (point, radius) => {
-      for (let k = 0; k < 3; k++) {
-        low[k] = Math.min(low[k], point[k] - radius);
-        high[k] = Math.max(high[k], point[k] + radius);
-      }
-    };
+    const shown = [];
     for (let i = 0; i <= instants; i++) {
-      const x = motion.values(motion.from + (motion.duration * i) / instants);
-      this.extent(x).forEach(([point, radius]) => grow(point, radius));
+      shown.push(...this.extent(motion.values(motion.from + (motion.duration * i) / instants)));
     }
-    if (!(low[0] <= high[0])) [low, high].forEach((corner) => corner.fill(0));
-    let reach = Math.max(...high.map((h, k) => h - low[k]));
-    if (!(reach > 0)) reach = 1;
-    this.reach = reach;
-    this.sketches(low, high, grow);
-    const center = low.map((l, k) => (l + high[k]) / 2);
-    const size = [high[0] - low[0], high[1] - low[1], high[2] - low[2]];
-    if (picture.dimension === 2) {
-      view.home = { center, size: [Math.max(size[0], 0.02 * reach), Math.max(size[1], 0.02 * reach)] };
-    } else {
-      // What is turned must not be cut off: a ball around it.
-      const ball = Math.hypot(...size) || reach;
-      view.home = { center, size: [0.8 * ball, 0.8 * ball] };
-    }
+    const range = (direction) => rangeOf(shown, direction);
+    const spans = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(range).map(([low, high]) => high - low);
+    this.reach = Math.max(...spans, 0) || 1;
+    shown.push(...this.sketches());
+    view.reset(shown);
     // The ground plane: through the origin, or below what hangs from it.
-    const heights = [low, high].map((corner) => dot(corner, view.up));
-    this.floor = Math.min(0, ...heights);
-    if (this.floor > -0.02 * reach) this.floor = 0;
+    const [lowest] = range(view.up);
+    this.floor = lowest < -0.02 * this.reach ? lowest : 0;
   }
 
   /** Springs and dampers of which only the line of action is known get a stand on the ground, at some distance. */
-  sketches(low, high, grow) {
+  sketches() {
     const { picture, motion } = this;
     const elements = picture.elements.filter((element) => element.placed === 'sketch');
     const x = motion.values(motion.from);
@@ -162,8 +144,8 @@ class Drawing {
       element.edgeLocal = this.toBody(x, body, element.edge);
       const foot = this.inBody(x, body, element.foot.map((f, k) => f + element.edgeLocal[k]));
       element.stand = along(foot, 0.4 * radius + 0.14 * this.reach, [...away, 0]);
-      grow(element.stand, 0);
     }
+    return elements.map((element) => [element.stand, 0]);
   }
 
   /** A vector in the ground's axes, in those of a body. */

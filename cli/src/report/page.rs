@@ -39,7 +39,7 @@ pub fn text(
     let name = safe(&model.name);
     html::fill(PAGE, |part| match part {
         "name" => name.clone(),
-        "docs" => paragraphs(&model.docs),
+        "docs" => introduction(&model.docs),
         "alert" => alert(report),
         "omitted" => omitted(&scene.picture.omitted),
         "parameters" => parameters(report),
@@ -57,11 +57,50 @@ pub fn text(
     })
 }
 
+/// What the spec says about the machine: its first words at once, a long text on demand.
+fn introduction(docs: &str) -> String {
+    /// Longer texts would push the machine off the screen.
+    const SHORT: usize = 300;
+    let all = paragraphs(docs);
+    if docs.len() <= SHORT {
+        return all;
+    }
+    let first: String = docs.split_whitespace().collect::<Vec<_>>().join(" ");
+    let end = first.find(". ").map_or(first.len(), |at| at + 1);
+    let first = first.get(..end).unwrap_or_default();
+    format!(
+        "<details class=\"docs\"><summary>{}</summary>\n{all}</details>\n",
+        safe(first)
+    )
+}
+
+/// Documentation: what is indented by four spaces stays as it is, as in Markdown.
 fn paragraphs(docs: &str) -> String {
-    let paragraphs = docs.split("\n\n").filter(|part| !part.trim().is_empty());
-    let paragraphs =
-        paragraphs.map(|part| format!("<p class=\"docs\">{}</p>\n", safe(part.trim())));
-    paragraphs.collect()
+    let mut html = String::new();
+    let mut open = "";
+    for line in docs.lines() {
+        let kind = match line {
+            _ if line.trim().is_empty() => "",
+            _ if line.starts_with("    ") => "pre",
+            _ => "p",
+        };
+        if kind != open {
+            if !open.is_empty() {
+                html.push_str(&format!("</{open}>\n"));
+            }
+            if !kind.is_empty() {
+                html.push_str(&format!("<{kind} class=\"docs\">"));
+            }
+            open = kind;
+        } else if !kind.is_empty() {
+            html.push('\n');
+        }
+        html.push_str(&safe(line.trim()));
+    }
+    if !open.is_empty() {
+        html.push_str(&format!("</{open}>\n"));
+    }
+    html
 }
 
 fn words(docs: &str) -> Cell {
@@ -258,8 +297,10 @@ fn start(report: &Report<'_, '_>) -> String {
     html::table("Coordinates at the start and at the end", &head, &rows)
 }
 
+/// In seven digits.
 fn joules(x: f64) -> Cell {
-    Cell::Figure(format!("{x:.6e}").replace('-', "−"))
+    let rounded = format!("{x:.6e}").parse().unwrap_or(x);
+    Cell::Figure(shortest(rounded).replace('-', "−"))
 }
 
 fn energy(report: &Report<'_, '_>) -> String {

@@ -9,6 +9,17 @@ const cross = (a, b) => [
   a[0] * b[1] - a[1] * b[0],
 ];
 
+/** From where to where points reach along a direction, each with the room around it. */
+function rangeOf(points, direction) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const [point, radius] of points) {
+    const place = dot(point, direction);
+    if (place - radius < low) low = place - radius;
+    if (place + radius > high) high = place + radius;
+  }
+  return [low, high];
+}
+
 class View {
   /** `up` is the direction that stays upright in space. */
   constructor(dimension, up) {
@@ -20,16 +31,28 @@ class View {
     this.width = 1;
     this.height = 1;
     this.home = { center: [0, 0, 0], size: [1, 1] };
-    this.reset();
+    this.reset([]);
   }
 
-  /** Shows everything that `home` holds. */
-  reset() {
+  /** Takes the first point of view, and shows these points with the room that each needs around it. */
+  reset(points = this.shown) {
+    this.shown = points;
     this.azimuth = -1.05;
     this.elevation = 0.38;
     this.zoom = 1;
     this.shift = [0, 0];
     this.turn(0, 0);
+    if (points.length === 0) return;
+    const directions = [this.right, this.above, this.toward];
+    const ranges = directions.map((direction) => rangeOf(points, direction));
+    const center = ranges.reduce(
+      (sum, [low, high], k) => along(sum, (low + high) / 2, directions[k]),
+      [0, 0, 0],
+    );
+    const sizes = ranges.map(([low, high]) => high - low);
+    // A motion along a line gets some room across it, and one that stands still some at all.
+    const least = 0.02 * Math.max(...sizes) || 1;
+    this.home = { center, size: [Math.max(sizes[0], least), Math.max(sizes[1], least)] };
   }
 
   /** Turns the view about the upright direction, and up or down, by angles. */
