@@ -132,8 +132,55 @@ fn a_wrong_print_is_mended_and_a_right_one_agrees() {
     assert_eq!(published[1]["item"], "equation y");
     assert_eq!(published[1]["drop"].as_array().expect("a list").len(), 1);
     assert_eq!(published[1]["add"].as_array().expect("a list").len(), 1);
+    // The sign is a slip, and its two terms stand in both lists.
+    let change = &published[1]["change"][0];
+    assert_eq!(change["from"], published[1]["drop"][0]);
+    assert_eq!(change["to"], published[1]["add"][0]);
+    assert_eq!(published[0]["change"], Value::Array(Vec::new()));
+    assert_eq!(published[1]["remarks"], Value::Array(Vec::new()));
     // A misprint is a result, not a mistake of the spec.
     assert_eq!(status(&lagrangian(&["check", spec.path()])), 0);
+}
+
+#[test]
+fn a_print_is_mended_line_by_line() {
+    let spec = Scratch::new(
+        "mended.machine",
+        "machine Ball in plane {\n    parameters { m: kg = 1, M: kg = 2, g: m/s^2 = 9.81 }\n    coordinates { x: m, y: m }\n    \
+         bodies { ball { mass: m, at: (x, y) } }\n    gravity (0, -g);\n    \
+         published \"Book\" {\n        kinetic_energy = 1/2*m*(der(x)^2 + y^2) + M*g*x,\n        \
+         potential_energy = m*g*y,\n    }\n}\n",
+    );
+    let output = lagrangian(&["check", spec.path()]);
+    let text = out(&output);
+    let said: Vec<&str> = text.lines().skip(1).collect();
+    let [differs, change, drop, units, agrees, sum] = said.as_slice() else {
+        panic!("{text}");
+    };
+    assert_eq!(*differs, "Book: kinetic_energy: differs");
+    assert_eq!(*change, "    change 1/2*m*y^2 to 1/2*m*der(y)^2");
+    assert_eq!(*drop, "    drop M*g*x");
+    assert!(
+        units.starts_with("    units: ") && units.contains(".machine:7:"),
+        "{units}"
+    );
+    assert!(
+        units.contains("m^2/s^2") && units.ends_with("m^2"),
+        "{units}"
+    );
+    assert_eq!(*agrees, "Book: potential_energy: agrees");
+    assert_eq!(*sum, "Book: 1 of 2 formulas differs");
+}
+
+#[test]
+fn the_papers_misprints_are_told() {
+    let text = out(&lagrangian(&["check", "machines/paper_crusher.machine"]));
+    assert!(
+        text.ends_with("Part I: 16 of 31 formulas differ\n"),
+        "{text}"
+    );
+    let line = "    change -m*y0*der(x)*der(theta) to -m0*y0*der(x)*der(theta)\n";
+    assert!(text.contains(line), "{text}");
 }
 
 #[test]

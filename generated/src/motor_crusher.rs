@@ -2,18 +2,18 @@
 
 //! A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
 //! coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
-//! the torque that M. Kloss gave in 1909,
-//! M = 2 Mk / (s/sk + sk/s), slip s = (ω − ψ′)/ω,
-//! written below without the division by s: it is greatest, Mk, at the slip sk, and zero at the
+//! the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
+//! torque = 2 Mk / (s/sk + sk/s),
+//! written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 //! synchronous speed ω.
-//! The faster it turns, the more the dampers of the shaken platform take: in steady motion the mean
-//! power of the motor is the mean power dissipated. With the debalance's axis at the centre of a
-//! platform on equal springs, k = 2 cx = 2 cy and b = 2 bx = 2 by, the centre runs round a circle
-//! of
-//! radius X, speed and torque are constant, and for M = m + m0
-//! torque = b ψ′ X², X = m0 e ψ′² / √((k − M ψ′²)² + (b ψ′)²)
-//! This load has a peak at resonance, ψ′² ≈ k/M. A motor whose torque does not clear the peak hangs
-//! there, and shakes the platform instead of gaining speed: the Sommerfeld effect. With a large Mk
+//! The faster the debalance turns, the more the dampers of the shaken platform take. In steady
+//! motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
+//! the
+//! centre of the platform, on springs and dampers that are in total c and b along both axes, the
+//! centre runs round a circle of radius X, and speed and torque are constant:
+//! torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
+//! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor that does not clear it hangs there,
+//! and shakes the platform harder instead of turning faster: the Sommerfeld effect. With a large Mk
 //! the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
 //!
 //! 10 coordinates, 24 parameters, 4 outputs. Arithmetic of one call:
@@ -52,18 +52,18 @@
 
 /// A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
 /// coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
-/// the torque that M. Kloss gave in 1909,
-/// M = 2 Mk / (s/sk + sk/s), slip s = (ω − ψ′)/ω,
-/// written below without the division by s: it is greatest, Mk, at the slip sk, and zero at the
+/// the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
+/// torque = 2 Mk / (s/sk + sk/s),
+/// written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 /// synchronous speed ω.
-/// The faster it turns, the more the dampers of the shaken platform take: in steady motion the mean
-/// power of the motor is the mean power dissipated. With the debalance's axis at the centre of a
-/// platform on equal springs, k = 2 cx = 2 cy and b = 2 bx = 2 by, the centre runs round a circle
-/// of
-/// radius X, speed and torque are constant, and for M = m + m0
-/// torque = b ψ′ X², X = m0 e ψ′² / √((k − M ψ′²)² + (b ψ′)²)
-/// This load has a peak at resonance, ψ′² ≈ k/M. A motor whose torque does not clear the peak hangs
-/// there, and shakes the platform instead of gaining speed: the Sommerfeld effect. With a large Mk
+/// The faster the debalance turns, the more the dampers of the shaken platform take. In steady
+/// motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
+/// the
+/// centre of the platform, on springs and dampers that are in total c and b along both axes, the
+/// centre runs round a circle of radius X, and speed and torque are constant:
+/// torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
+/// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor that does not clear it hangs there,
+/// and shakes the platform harder instead of turning faster: the Sommerfeld effect. With a large Mk
 /// the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorCrusher<S = f64> {

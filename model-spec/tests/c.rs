@@ -189,14 +189,18 @@ fn check(machine: &str, size: Option<i64>) {
         .call(Role::KineticEnergy, arguments, energy)
         .expect("nothing but accelerations can fail");
     assert_eq!(printed.len(), n + 1);
-    // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix: that of a uniform chain grows with
-    // the cube of its links, and no other machine here is worse conditioned than 10⁴.
+    // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix at this state.
+    let entries = n * (n + 1) / 2;
+    let mut matrix = vec![DoubleDouble::ZERO; entries];
+    interpreter
+        .call(Role::MassMatrix, arguments, &mut matrix)
+        .expect("nothing but accelerations can fail");
+    let condition = condition(n, &matrix);
     let counts = program
         .function(Role::Accelerations)
         .map_or_else(Default::default, |function| function.counts());
     let operations =
         counts.multiplications + counts.additions + counts.divisions + 2 * counts.sincos;
-    let condition = 1e4;
     let share = operations as f64 * condition * f64::EPSILON / 2.0;
     let largest = expected
         .iter()
@@ -209,6 +213,45 @@ fn check(machine: &str, size: Option<i64>) {
             "{machine}, result {i}: {x:e} is off by {error:e}"
         );
     }
+}
+
+/// `‖M‖ ‖M⁻¹‖` in Frobenius' norm, of a positive definite matrix given row by row up to its diagonal.
+fn condition(n: usize, lower: &[DoubleDouble]) -> f64 {
+    let entry = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+    let matrix: Vec<Vec<DoubleDouble>> = (0..n)
+        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+        .collect();
+    norm(&matrix) * norm(&inverse(matrix.clone()))
+}
+
+fn norm(matrix: &[Vec<DoubleDouble>]) -> f64 {
+    let squares = matrix.iter().flatten().map(|x| x.to_f64().powi(2));
+    squares.sum::<f64>().sqrt()
+}
+
+/// By Gauß and Jordan; a positive definite matrix needs no pivots.
+fn inverse(mut matrix: Vec<Vec<DoubleDouble>>) -> Vec<Vec<DoubleDouble>> {
+    for k in 0..matrix.len() {
+        let pivot = std::mem::replace(&mut matrix[k][k], DoubleDouble::ONE);
+        matrix[k]
+            .iter_mut()
+            .for_each(|entry| *entry = *entry / pivot);
+        let row = matrix[k].clone();
+        for (_, other) in matrix.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+            let factor = std::mem::replace(&mut other[k], DoubleDouble::ZERO);
+            for (entry, above) in other.iter_mut().zip(&row) {
+                *entry = *entry - factor * *above;
+            }
+        }
+    }
+    matrix
+}
+
+#[test]
+fn a_matrix_that_is_known_has_the_condition_that_is_known() {
+    // [[4, 2], [2, 2]]: ‖M‖² = 28, M⁻¹ = [[2, −2], [−2, 4]]/4, ‖M⁻¹‖² = 28/16.
+    let lower = [4.0, 2.0, 2.0].map(DoubleDouble::from_f64);
+    assert!((condition(2, &lower) - 7.0).abs() < 1e-15 * 100.0);
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Frozen and small coordinates, against what a textbook or a paper writes.
 
+use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::compare::compare;
 use lagrangian_spec::mechanics::Route;
+use lagrangian_symbolic::evaluate;
 
-use crate::harness::derived;
+use crate::harness::{derived, text_of};
 
 /// Everything that the machine publishes is right.
 fn assert_agreement(text: &str) {
@@ -122,4 +124,79 @@ fn gravity_and_springs_know_nothing_of_freezing() {
             published \"by hand\" { equation theta: l*der(der(theta)) + g*sin(theta) = 0 }
         }",
     );
+}
+
+/// T, V and D of a machine of the library where its platform is turned by `epsilon` of an angle at `epsilon` of a rate, the
+/// other coordinates and rates being what they are.
+fn energies(machine: &str, epsilon: f64) -> [DoubleDouble; 3] {
+    derived(&text_of(machine), |model, equations| {
+        let number = DoubleDouble::from_f64;
+        let mut known = vec![(model.time, number(0.3))];
+        for (k, c) in model.coordinates.iter().enumerate() {
+            let scale = if c.name.base == "theta" { epsilon } else { 1.0 };
+            known.push((c.q, number(scale * (0.3 + 0.05 * k as f64))));
+            known.push((c.v, number(scale * (2.0 - 0.3 * k as f64))));
+        }
+        for p in &model.parameters {
+            let default = p.default.expect("every parameter has one");
+            known.push((
+                p.symbol,
+                evaluate(model.dag, &[default], |_| DoubleDouble::ZERO)[0],
+            ));
+        }
+        let value = |symbol| {
+            let found = known.iter().find(|(e, _)| e.as_symbol() == Some(symbol));
+            found.expect("all symbols are known").1
+        };
+        let energies = [
+            equations.kinetic_energy,
+            equations.potential_energy,
+            equations.dissipation,
+        ];
+        let values = evaluate(model.dag, &energies, value);
+        [values[0], values[1], values[2]]
+    })
+}
+
+#[test]
+fn what_a_small_angle_leaves_out_is_its_cube() {
+    let mut differences = Vec::new();
+    for k in 4..14 {
+        let epsilon = 0.5_f64.powi(k);
+        let exact = energies("vibrating_crusher", epsilon);
+        let small = energies("small_angle_crusher", epsilon);
+        // Springs and dampers are of second order as they are.
+        for e in 1..3 {
+            let limit = DoubleDouble::from_f64(1e-29) * exact[e].abs();
+            assert!(!(exact[e] - small[e]).abs().exceeds(limit));
+        }
+        differences.push((epsilon, (exact[0] - small[0]).to_f64()));
+    }
+    for pair in differences.windows(2) {
+        let [(epsilon, full), (_, half)] = *pair else {
+            continue;
+        };
+        // full/half = 8 (1 + ½ ε c₄/c₃ + …) for ε³ c₃ + ε⁴ c₄ + …. With (a, b) the velocity of the debalance but for θ̇ the
+        // series is θ̇ [½ θ² (a y₀ − b x₀) + ⅙ θ³ (a x₀ + b y₀) + …]: c₄/c₃ is −0.06 at this state.
+        assert!(
+            (full / half - 8.0).abs() <= 8.0 * epsilon,
+            "{epsilon}: {}",
+            full / half
+        );
+    }
+}
+
+#[test]
+fn what_freezing_leaves_out_is_of_second_order() {
+    // −θ̇ [θ (a x₀ + b y₀) − ½ θ² (a y₀ − b x₀) + …]: the cube is 0.5 ε of the square at this state.
+    let off = |epsilon: f64| {
+        let [exact, frozen] =
+            ["vibrating_crusher", "frozen_crusher"].map(|m| energies(m, epsilon)[0]);
+        (exact - frozen).to_f64()
+    };
+    for k in 4..14 {
+        let epsilon = 0.5_f64.powi(k);
+        let ratio = off(epsilon) / off(epsilon / 2.0);
+        assert!((ratio - 4.0).abs() <= 4.0 * epsilon, "{epsilon}: {ratio}");
+    }
 }

@@ -1,0 +1,222 @@
+//! Crushers of other builds: two debalances that shake along a line, and a motor whose speed is its own.
+#![cfg(feature = "std")]
+
+use lagrangian::{Coordinates, Machine, Simulation, Solution, State};
+use lagrangian_machines::{MotorCrusher, TwoDebalanceCrusher, VibratingCrusher};
+
+const TOLERANCE: f64 = 1e-10;
+
+fn run<M: Machine>(machine: &M, start: State<Coordinates<M>>, until: f64) -> Solution<M> {
+    Simulation::new(machine)
+        .tolerance(TOLERANCE)
+        .energy_balance(true)
+        .until(until)
+        .run(start)
+        .unwrap()
+}
+
+/// What the steps of a run may have erred by, all together: each by the tolerance at most, and the oscillators are damped.
+fn drift<M: Machine>(run: &Solution<M>) -> f64 {
+    run.statistics().steps as f64 * TOLERANCE
+}
+
+/// `x` at `t` of `M x″ + B x′ + K x = F cos ωt`, from rest at 0: the steady oscillation less the free one that starts like it.
+fn oscillator([mass, damping, stiffness, force, omega]: [f64; 5], t: f64) -> f64 {
+    let detuned = stiffness - mass * omega * omega;
+    let lossy = damping * omega;
+    let squared = detuned * detuned + lossy * lossy;
+    let (cosine, sine) = (force * detuned / squared, force * lossy / squared);
+    let decay = damping / (2.0 * mass);
+    let free = (stiffness / mass - decay * decay).sqrt();
+    let steady = cosine * (omega * t).cos() + sine * (omega * t).sin();
+    let amplitude = (decay * cosine + omega * sine) / free;
+    steady - (-decay * t).exp() * (cosine * (free * t).cos() + amplitude * (free * t).sin())
+}
+
+#[test]
+fn two_debalances_shake_along_their_line_and_nowhere_else() {
+    let crusher = TwoDebalanceCrusher::default();
+    let start = crusher.start();
+    let run = run(&crusher, start, 3.0);
+    let force = 2.0 * crusher.m0 * crusher.e * crusher.omega.powi(2);
+    let line = [
+        crusher.m + 2.0 * crusher.m0,
+        2.0 * crusher.bx,
+        2.0 * crusher.cx,
+        force,
+        crusher.omega,
+    ];
+    // The rounding of two forces that cancel, as a displacement by springs, and as a turn about the centre.
+    let rounding = 10.0 * f64::EPSILON;
+    let across = rounding * force / (2.0 * crusher.cy);
+    let spring = 2.0 * (crusher.cx * crusher.yc.powi(2) + crusher.cy * crusher.xc.powi(2));
+    let turned = rounding * force * crusher.x0.hypot(crusher.y0) / spring;
+    let mut farthest = 0.0_f64;
+    for state in run.every(0.01).unwrap() {
+        let exact = oscillator(line, state.t);
+        farthest = farthest.max(exact.abs());
+        let q = state.q;
+        assert!((q.x - exact).abs() <= drift(&run), "{}: {}", state.t, q.x);
+        // Mortar and pestle stay where they are.
+        assert!((q.s1 + q.x - start.q.s1).abs() <= drift(&run));
+        assert!((q.s2 - start.q.s2).abs() <= drift(&run));
+        assert!(q.y.abs() <= across && q.theta.abs() <= turned);
+        assert!((q.s1 * q.phi1).abs() <= across && (q.s2 * q.phi2).abs() <= across);
+    }
+    assert!(farthest > 6e-3 && farthest < start.q.s1);
+}
+
+#[test]
+fn two_debalances_turn_the_platform_unless_they_lie_alike() {
+    // Turned out of the line, the machine is not its own mirror image.
+    let crusher = TwoDebalanceCrusher::default();
+    let mut start = crusher.start();
+    start.q.theta = 0.01;
+    let run = run(&crusher, start, 1.0);
+    let states = run.every(0.01).unwrap();
+    assert!(states.iter().any(|state| state.q.y.abs() > 1e-6));
+}
+
+/// A motor crusher whose debalance sits at the centre; the mortar is out of the platform's way.
+fn centred(breakdown: f64) -> (MotorCrusher, State<Coordinates<MotorCrusher>>) {
+    let crusher = MotorCrusher {
+        x0: 0.0,
+        y0: 0.0,
+        Mk: breakdown,
+        ..Default::default()
+    };
+    let mut start = crusher.start();
+    start.q.s1 = 0.2;
+    (crusher, start)
+}
+
+/// Kloss's torque as he wrote it.
+fn torque(crusher: &MotorCrusher, speed: f64) -> f64 {
+    let slip = (crusher.omega - speed) / crusher.omega;
+    2.0 * crusher.Mk / (slip / crusher.sk + crusher.sk / slip)
+}
+
+/// The radius of the circle on which a debalance at the centre, of constant speed, drives the platform.
+fn radius(crusher: &MotorCrusher, speed: f64) -> f64 {
+    let detuned = 2.0 * crusher.cx - (crusher.m + crusher.m0) * speed * speed;
+    crusher.m0 * crusher.e * speed * speed / detuned.hypot(2.0 * crusher.bx * speed)
+}
+
+/// The torque that this takes.
+fn load(crusher: &MotorCrusher, speed: f64) -> f64 {
+    2.0 * crusher.bx * speed * radius(crusher, speed).powi(2)
+}
+
+/// The lowest speed at which the motor no longer has more torque than the load takes.
+fn steady_speed(crusher: &MotorCrusher) -> f64 {
+    let spare = |speed: f64| torque(crusher, speed) - load(crusher, speed);
+    let speeds = (1..10_000).map(|k| crusher.omega * f64::from(k) * 1e-4);
+    let mut above = speeds
+        .clone()
+        .find(|&speed| spare(speed) <= 0.0)
+        .expect("it has no torque at the synchronous speed");
+    let mut below = above - crusher.omega * 1e-4;
+    while above - below > 4.0 * f64::EPSILON * above {
+        let middle = 0.5 * (below + above);
+        if spare(middle) > 0.0 {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+    above
+}
+
+/// Runs up, and compares with the steady motion: the mean speed, and the distance of the platform's centre from its rest.
+fn check_steady(breakdown: f64) -> f64 {
+    let (crusher, start) = centred(breakdown);
+    let run = run(&crusher, start, 20.0);
+    let speed = steady_speed(&crusher);
+    let mean = |from: f64, to: f64| {
+        let [a, b] = [from, to].map(|t| run.at(t).unwrap().q.psi);
+        (b - a) / (to - from)
+    };
+    // What is left of running up falls by the same share in each second.
+    let (before, last) = (mean(18.0, 19.0), mean(19.0, 20.0));
+    let limit = 2.0 * (before - last).abs() + drift(&run);
+    assert!(
+        (last - speed).abs() <= limit,
+        "{last} instead of {speed}, {limit:e}"
+    );
+    assert!(limit < 1e-5 * speed, "not steady yet: {limit:e}");
+    let end = run.end().q;
+    let circle = radius(&crusher, speed);
+    assert!((end.x.hypot(end.y) - circle).abs() <= circle * limit);
+    speed / crusher.omega
+}
+
+#[test]
+fn a_motor_runs_at_the_speed_where_its_torque_is_the_load() {
+    assert!(check_steady(400.0) > 0.9);
+}
+
+#[test]
+fn a_weak_motor_hangs_at_resonance() {
+    // It would do at full speed, where the load is lower than at resonance.
+    let (weak, _) = centred(120.0);
+    assert!(load(&weak, 0.95 * weak.omega) < torque(&weak, 0.95 * weak.omega));
+    assert!(check_steady(120.0) < 0.25);
+}
+
+#[test]
+fn what_the_motor_gives_is_what_the_machine_gets() {
+    // The debalance off the centre, so that speed and torque vary within each revolution.
+    let crusher = MotorCrusher::default();
+    let run = run(&crusher, crusher.start(), 5.0);
+    let balance = run.energy_balance().unwrap();
+    assert!(balance.relative().abs() <= 1e-8, "{balance:?}");
+    // The work once more, by Simpson's rule over each hundredth of a revolution.
+    let power = |t: f64| {
+        let speed = run.at(t).unwrap().v.psi;
+        torque(&crusher, speed) * speed
+    };
+    const INTERVALS: u32 = 12_500;
+    let width = 5.0 / f64::from(INTERVALS);
+    let work: f64 = (0..INTERVALS)
+        .map(|k| {
+            let t = f64::from(k) * width;
+            width / 6.0 * (power(t) + 4.0 * power(t + 0.5 * width) + power(t + width))
+        })
+        .sum();
+    assert!(balance.dissipated > 1e3);
+    // Simpson errs by (width/2)⁴/180 of the fourth derivative: as rarely as (ω width/2)⁴ of the power that varies, and the
+    // second harmonic of the debalance's force 16 times that.
+    let share = 16.0 * (0.5 * crusher.omega * width).powi(4) / 180.0;
+    assert!((work - balance.work).abs() <= share * balance.work + drift(&run) * balance.work);
+}
+
+#[test]
+fn a_strong_motor_turns_as_told() {
+    const FINE: f64 = 1e-13;
+    const UNTIL: f64 = 0.5;
+    let told = VibratingCrusher::default();
+    let simulation = Simulation::new(&told).tolerance(FINE).until(UNTIL);
+    let told = simulation.run(told.start()).unwrap();
+    // By how far the platform's centre is off, by which angle the debalance, and by how much that may be wrong.
+    let off = |breakdown: f64| {
+        let crusher = MotorCrusher {
+            Mk: breakdown,
+            ..Default::default()
+        };
+        let mut start = crusher.start();
+        start.v.psi = crusher.omega;
+        let simulation = Simulation::new(&crusher).tolerance(FINE).until(UNTIL);
+        let run = simulation.run(start).unwrap();
+        let (motor, told) = (run.end().q, told.end().q);
+        let distance = (motor.x - told.x).hypot(motor.y - told.y);
+        let error = run.statistics().steps as f64 * FINE;
+        (distance, (motor.psi - crusher.omega * UNTIL).abs(), error)
+    };
+    // The load turns the debalance back by an angle that falls as the torque rises: ten times the torque, a tenth of the
+    // distance, but for the square of the angle.
+    let ((near, angle, _), (nearer, _, error)) = (off(1e5), off(1e6));
+    let limit = 10.0 * (angle + 2.0 * error / nearer);
+    assert!(limit < 1.0 && nearer > 0.0);
+    let ratio = near / nearer;
+    assert!((ratio - 10.0).abs() <= limit, "{ratio}, {limit}");
+}
