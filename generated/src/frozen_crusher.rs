@@ -3,9 +3,9 @@
 //! The crusher as the paper treats its platform: «taking sin θ ≈ 0, cos θ ≈ 1» in the velocities.
 //! The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 //! the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
-//! contact
-//! they are those of a linear, forced oscillator of three coordinates. The suspension is the two
-//! pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's accelerations
+//! contact they are those of a linear, forced oscillator of three coordinates. The suspension is
+//! the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's
+//! accelerations
 //! differ from the exact ones by 0.003 m/s² of 158, and by 0.7 rad/s² of 24.
 //!
 //! 9 coordinates, 18 parameters. Arithmetic of one call:
@@ -42,9 +42,9 @@
 /// The crusher as the paper treats its platform: «taking sin θ ≈ 0, cos θ ≈ 1» in the velocities.
 /// The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 /// the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
-/// contact
-/// they are those of a linear, forced oscillator of three coordinates. The suspension is the two
-/// pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's accelerations
+/// contact they are those of a linear, forced oscillator of three coordinates. The suspension is
+/// the two pairs of the exact machine. Turned by 0.04 rad at 0.9 rad/s, the platform's
+/// accelerations
 /// differ from the exact ones by 0.003 m/s² of 158, and by 0.7 rad/s² of 24.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrozenCrusher<S = f64> {

@@ -8,13 +8,13 @@
 //! synchronous speed ω.
 //! The faster the debalance turns, the more the dampers of the shaken platform take. In steady
 //! motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
-//! the
-//! centre of the platform, on springs and dampers that are in total c and b along both axes, the
-//! centre runs round a circle of radius X, and speed and torque are constant:
+//! the centre of the platform, on springs and dampers that are in total c and b along both axes,
+//! the centre runs round a circle of radius X, and speed and torque are constant:
 //! torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
-//! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor that does not clear it hangs there,
-//! and shakes the platform harder instead of turning faster: the Sommerfeld effect. With a large Mk
-//! the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
+//! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
+//! there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
+//! Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of
+//! `vibrating_crusher.machine`.
 //!
 //! 10 coordinates, 24 parameters, 4 outputs. Arithmetic of one call:
 //!
@@ -58,13 +58,13 @@
 /// synchronous speed ω.
 /// The faster the debalance turns, the more the dampers of the shaken platform take. In steady
 /// motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
-/// the
-/// centre of the platform, on springs and dampers that are in total c and b along both axes, the
-/// centre runs round a circle of radius X, and speed and torque are constant:
+/// the centre of the platform, on springs and dampers that are in total c and b along both axes,
+/// the centre runs round a circle of radius X, and speed and torque are constant:
 /// torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
-/// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor that does not clear it hangs there,
-/// and shakes the platform harder instead of turning faster: the Sommerfeld effect. With a large Mk
-/// the slip vanishes, and the motion is that of `vibrating_crusher.machine`.
+/// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
+/// there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
+/// Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of
+/// `vibrating_crusher.machine`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorCrusher<S = f64> {
     /// Mass of the platform. Unit: kg. Default: 600.
@@ -107,8 +107,8 @@ pub struct MotorCrusher<S = f64> {
     pub Mk: S,
     /// Slip at which it breaks down. Unit: 1. Default: 0.2.
     pub sk: S,
-    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of the pestle.
-    /// Unit: m. Default: 0.27.
+    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of pestle. Unit:
+    /// m. Default: 0.27.
     pub R: S,
     /// `r1`. Unit: m. Default: 0.25.
     pub r1: S,

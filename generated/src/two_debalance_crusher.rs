@@ -1,8 +1,7 @@
 // @generated from machines/two_debalance_crusher.machine by `cargo xtask generate`; edits are lost.
 
 //! A crusher that shakes along a line: two equal debalances turn against each other, with their
-//! axes
-//! on opposite sides of the line, the x axis of the platform.
+//! axes on opposite sides of the line, the x axis of the platform.
 //! Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
 //! their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
 //! lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
@@ -42,8 +41,7 @@
 #![allow(rustdoc::all)]
 
 /// A crusher that shakes along a line: two equal debalances turn against each other, with their
-/// axes
-/// on opposite sides of the line, the x axis of the platform.
+/// axes on opposite sides of the line, the x axis of the platform.
 /// Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
 /// their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
 /// lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
@@ -88,8 +86,8 @@ pub struct TwoDebalanceCrusher<S = f64> {
     pub xc: S,
     /// `yc`. Unit: m. Default: 0.3.
     pub yc: S,
-    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of the pestle.
-    /// Unit: m. Default: 0.27.
+    /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of pestle. Unit:
+    /// m. Default: 0.27.
     pub R: S,
     /// `r1`. Unit: m. Default: 0.25.
     pub r1: S,
