@@ -39,6 +39,7 @@ class Drawing {
     this.frames = false;
     this.trail = 0;
     this.follow = null;
+    this.stamp = '';
     const gravity = picture.gravity === null ? null : this.vector(motion.values(motion.from), picture.gravity);
     const down = gravity && Math.hypot(...gravity) > 0 ? unit(gravity) : null;
     this.view = new View(picture.dimension, down ? down.map((x) => -x) : [0, 0, 1]);
@@ -186,11 +187,11 @@ class Drawing {
     }
   }
 
-  /** Fits the canvas to its place on the page; `sharpness` is in canvas pixels for each pixel of the page. */
-  resize(sharpness = window.devicePixelRatio || 1) {
+  /** Fits the drawing to the canvas, or to a sheet; `sharpness` is in pixels of the picture for each of the page. */
+  resize(sharpness = window.devicePixelRatio || 1, width = this.canvas.clientWidth, height = this.canvas.clientHeight) {
     const { canvas, view } = this;
-    view.width = canvas.clientWidth || 640;
-    view.height = canvas.clientHeight || 480;
+    view.width = width || 640;
+    view.height = height || 480;
     canvas.width = Math.round(view.width * sharpness);
     canvas.height = Math.round(view.height * sharpness);
     this.sharpness = sharpness;
@@ -222,6 +223,8 @@ class Drawing {
     if (this.names) this.drawNames(x);
     this.drawScale();
     this.drawGravity(x);
+    // On paper, where no clock stands beside it.
+    this.text(this.stamp, 14, 18, palette.ink);
   }
 
   polyline(points) {

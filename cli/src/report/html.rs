@@ -58,13 +58,19 @@ pub enum Cell {
     Raw(String),
 }
 
-/// A table with a caption for those who cannot see where it stands.
+/// A table with a caption for those who cannot see where it stands. A last column of which nothing is known is left out.
 pub fn table(caption: &str, head: &[&str], rows: &[Vec<Cell>]) -> String {
+    let known =
+        |row: &Vec<Cell>| !matches!(row.last(), Some(Cell::Words(words)) if words.is_empty());
+    let columns = head
+        .len()
+        .saturating_sub(usize::from(!rows.iter().any(known)));
+    let (head, has_head) = (&head[..columns], head.iter().any(|title| !title.is_empty()));
     let mut html = format!(
         "<div class=\"scroll\"><table><caption>{}</caption>",
         text(caption)
     );
-    if head.iter().any(|title| !title.is_empty()) {
+    if has_head {
         html.push_str("<thead><tr>");
         for title in head {
             let _ = write!(html, "<th scope=\"col\">{}</th>", text(title));
@@ -74,7 +80,9 @@ pub fn table(caption: &str, head: &[&str], rows: &[Vec<Cell>]) -> String {
     html.push_str("<tbody>\n");
     for row in rows {
         html.push_str("<tr>");
-        for (index, cell) in row.iter().enumerate() {
+        // A table without heads has as many columns as it has.
+        let columns = if has_head { columns } else { row.len() };
+        for (index, cell) in row.iter().take(columns).enumerate() {
             let (class, body) = match cell {
                 Cell::Words(words) => ("", text(words)),
                 Cell::Figure(figure) => (" class=\"figure\"", text(figure)),

@@ -241,10 +241,14 @@ class Player {
       theme = root.dataset.theme;
       root.dataset.theme = 'light';
       this.drawing.recolour();
-      this.drawing.resize(3);
+      this.drawing.resize(3, 700, 440);
+      this.drawing.stamp = byId('clock').textContent;
       this.drawing.draw(this.t);
+      // In two columns.
+      this.plots.forEach((plot) => plot.build(340));
     });
     window.addEventListener('afterprint', () => {
+      this.drawing.stamp = '';
       if (theme === undefined) delete root.dataset.theme; else root.dataset.theme = theme;
       repaint();
       this.layOut();
