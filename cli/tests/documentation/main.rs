@@ -13,6 +13,8 @@
 //!
 //! The pages share nothing: each is a reader who begins with an empty folder and the library of machines.
 
+mod errors;
+mod json;
 mod links;
 mod page;
 mod reader;

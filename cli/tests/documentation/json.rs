@@ -1,0 +1,49 @@
+//! The JSON on the page of the command line is what the command reads and writes.
+
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use crate::page::{Page, root};
+
+/// The blocks of JSON of the page, where `…` stands for anything.
+fn blocks() -> Vec<Value> {
+    let page = Page::open("docs/command-line.md");
+    let blocks = page.blocks().into_iter();
+    let blocks = blocks.filter(|block| block.language == "json");
+    let text = blocks.map(|block| block.text.replace("{…}", "{}").replace('…', "null"));
+    text.map(|text| serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}")))
+        .collect()
+}
+
+/// What the command prints.
+fn printed(arguments: &[&str]) -> Value {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+    let command = command.current_dir(root()).args(arguments);
+    let output = command.stdin(Stdio::null()).output();
+    let output = output.expect("the command runs").stdout;
+    serde_json::from_slice(&output).expect("JSON")
+}
+
+fn keys(value: &Value) -> Vec<&String> {
+    value.as_object().expect("an object").keys().collect()
+}
+
+#[test]
+fn results_have_the_keys_that_the_page_prints() {
+    let [point, evaluated, simulated] = &blocks()[..] else {
+        panic!("the page has other blocks of JSON");
+    };
+    let spec = "machines/double_pendulum.machine";
+
+    let name = format!("lagrangian-{}-points.json", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    std::fs::write(&path, format!("[{point}]")).expect("a temporary file");
+    let results = printed(&["evaluate", spec, "--at", &path.to_string_lossy()]);
+    let _ = std::fs::remove_file(&path); // a file that stays does no harm
+    assert_eq!(keys(&results[0]), keys(evaluated));
+    assert!(results[0]["accelerations"][1].is_f64());
+
+    let summary = printed(&["simulate", spec, "--until", "0.1", "--json"]);
+    assert_eq!(keys(&summary), keys(simulated));
+}
