@@ -44,6 +44,7 @@ class Drawing {
     const down = gravity && Math.hypot(...gravity) > 0 ? unit(gravity) : null;
     this.view = new View(picture.dimension, down ? down.map((x) => -x) : [0, 0, 1]);
     this.arrangeElements();
+    this.arrangeBodies();
     this.measure();
     this.tracePaths();
     this.recolour();
@@ -83,6 +84,18 @@ class Drawing {
     for (const group of groups.values()) {
       group.forEach((element, index) => { element.beside = index - (group.length - 1) / 2; });
     }
+  }
+
+  /** What stands about the centre of something smaller, as a gimbal about its rotor, is drawn as a wire; and which bodies have
+   * no outline at all. */
+  arrangeBodies() {
+    const { bodies, circles } = this.picture;
+    const size = ({ solid }) => Math.hypot(solid.radius ?? 0, ...[solid.half ?? 0].flat());
+    bodies.forEach((body, index) => {
+      const others = bodies.filter((other) => other !== body && other.solid && other.at === body.at);
+      body.hollow = body.solid !== null && others.some((other) => size(other) < size(body));
+      body.bare = body.solid === null && !circles.some((circle) => circle.body === index);
+    });
   }
 
   /** The points that a picture must show, with the room that each needs around it. */
@@ -446,7 +459,7 @@ class Drawing {
   }
 
   /** A flat face; lighter the more it faces the viewer. */
-  face(points, normal, colour, parts) {
+  face(points, normal, colour, parts, hollow) {
     const projected = points.map((point) => this.view.project(point));
     const depth = projected.reduce((sum, p) => sum + p[2], 0) / projected.length;
     const facing = Math.abs(dot(normal, this.view.toward));
@@ -455,8 +468,10 @@ class Drawing {
       draw: () => {
         this.polyline(projected);
         this.context.closePath();
-        this.fill(this.palette.paper, 0.55);
-        this.fill(colour, 0.25 + 0.3 * (1 - facing));
+        if (!hollow) {
+          this.fill(this.palette.paper, 0.55);
+          this.fill(colour, 0.25 + 0.3 * (1 - facing));
+        }
         this.stroke(colour, 1.1);
       },
     });
@@ -476,7 +491,7 @@ class Drawing {
           [signs[k], signs[i], signs[j]] = [side, a, b];
           return corner(signs);
         });
-        this.face(points, axes[k], colour, parts);
+        this.face(points, axes[k], colour, parts, body.hollow);
       }
     }
   }
@@ -499,7 +514,14 @@ class Drawing {
       return along(along(center, solid.radius * Math.cos(angle), first), solid.radius * Math.sin(angle), second);
     };
     const ring = (side) => Array.from({ length: count }, (_, i) => rim(side, i));
-    for (const side of [-1, 1]) this.face(ring(side), axis, colour, parts);
+    for (const side of [-1, 1]) this.face(ring(side), axis, colour, parts, body.hollow);
+    if (body.hollow) {
+      for (let i = 0; i < count; i += count / 4) {
+        const [a, b] = [rim(-1, i), rim(1, i)].map((p) => this.view.project(p));
+        parts.push({ depth: (a[2] + b[2]) / 2, draw: () => this.line(a, b, colour, 1.1) });
+      }
+      return;
+    }
     // The mantle, in strips without edges: their depth keeps them between the ends.
     for (let i = 0; i < count; i += 2) {
       const points = [rim(-1, i), rim(-1, i + 2), rim(1, i + 2), rim(1, i)].map((p) => this.view.project(p));
@@ -544,6 +566,10 @@ class Drawing {
       if (body.rod !== null) join(body.rod, body.at, this.colours[index], 2.4);
       if (body.solid?.form === 'bar') pins.set(body.solid.end, view.project(this.vector(x, body.solid.end)));
     });
+    for (const element of picture.elements) {
+      if (!element.ends?.includes(picture.ground)) continue;
+      pins.set(picture.ground, view.project(this.vector(x, picture.ground)));
+    }
     const small = picture.bodies.length > 24 ? 1.6 : 3;
     for (const [place, at] of pins) {
       if (place === picture.ground) this.drawStand(at, parts);
@@ -611,7 +637,9 @@ class Drawing {
     const length = Math.hypot(dx, dy);
     if (length < 2) return;
     const [ex, ey] = [dx / length, dy / length];
-    const aside = 15 * element.beside;
+    // What is short is thin, too.
+    const thin = Math.min(1, length / 40);
+    const aside = 15 * thin * element.beside;
     // Along the element, and across it.
     const at = (s, w) => [a[0] + s * ex - (w + aside) * ey, a[1] + s * ey + (w + aside) * ex];
     if (aside) {
@@ -625,19 +653,19 @@ class Drawing {
       const pot = Math.min(26, 0.5 * length);
       const start = 0.5 * (length - pot);
       this.line(at(0, 0), at(start, 0), colour, 1.3);
-      this.polyline([at(start + pot, -5), at(start, -5), at(start, 5), at(start + pot, 5)]);
+      this.polyline([[start + pot, -5], [start, -5], [start, 5], [start + pot, 5]].map(([s, w]) => at(s, w * thin)));
       this.stroke(colour, 1.5);
       const piston = start + 0.55 * pot;
-      this.line(at(piston, -3.6), at(piston, 3.6), colour, 2);
+      this.line(at(piston, -3.6 * thin), at(piston, 3.6 * thin), colour, 2 * thin);
       this.line(at(piston, 0), at(length, 0), colour, 1.3);
       return;
     }
     const lead = Math.min(10, 0.15 * length);
-    const coils = 8;
+    const coils = Math.max(3, Math.round(8 * thin));
     const points = [at(0, 0), at(lead, 0)];
     for (let i = 0; i < 2 * coils; i++) {
       const s = lead + ((length - 2 * lead) * (i + 0.5)) / (2 * coils);
-      points.push(at(s, i % 2 ? 5.5 : -5.5));
+      points.push(at(s, (i % 2 ? 5.5 : -5.5) * thin));
     }
     points.push(at(length - lead, 0), at(length, 0));
     this.polyline(points);
@@ -668,7 +696,7 @@ class Drawing {
       if (!Number.isFinite(at[0] + at[1])) return;
       const share = body.mass > 0 && heaviest > 0 ? Math.cbrt(body.mass / heaviest) : 0;
       const size = base * (0.45 + 0.75 * share) * Math.max(crowd, 0.3);
-      if (body.solid === null && body.axes === null) {
+      if (body.bare) {
         this.disc(at, 1.25 * size, this.colours[index], palette.ink, 1);
         return;
       }

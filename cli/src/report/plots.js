@@ -166,7 +166,7 @@ class Plot {
     });
     ticks(this.early, this.late, Math.max(2, (right - left) / 45), (t, label) => {
       this.svg.append(svg('line', { class: 'tick', x1: this.x(t), x2: this.x(t), y1: top, y2: bottom }));
-      if (this.x(t) < right - 24) {
+      if (this.x(t) < right - 36) {
         this.svg.append(svg('text', { x: this.x(t), y: height - 6, 'text-anchor': 'middle' }, label));
       }
     });
