@@ -96,7 +96,10 @@ fn every_error_has_a_row_and_every_row_is_an_error() {
             let code_only =
                 |help: &str| Some(help.strip_prefix("`` ")?.strip_suffix(" ``")?.to_owned());
             let help = code_only(help).unwrap_or_else(|| help.clone());
-            assert!(told.contains(&help), "{code}: not told: {help}\n{told}");
+            assert!(
+                told.contains(&format!("help: {help}\n")),
+                "{code}: not told: {help}\n{told}"
+            );
         }
     }
 }
