@@ -60,7 +60,10 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let recorded = call.out.is_some() || call.plot.is_some() || call.report.is_some();
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
     let finer = match call.report {
-        Some(_) => report::finer(start.q.values.len(), call.until.abs(), interval),
+        Some(_) => {
+            let shared = call.out.is_some() || call.plot.is_some();
+            report::finer(start.q.values.len(), call.until, interval, shared)
+        }
         None => 1,
     };
     let bar = progress_bar(call.spec.json);

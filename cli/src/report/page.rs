@@ -40,7 +40,7 @@ pub fn text(
     html::fill(PAGE, |part| match part {
         "name" => name.clone(),
         "docs" => introduction(&model.docs),
-        "alert" => alert(report),
+        "alert" => alert(report, samples),
         "omitted" => omitted(&scene.picture.omitted),
         "parameters" => parameters(report),
         "start" => start(report),
@@ -153,13 +153,23 @@ fn changed(value: f64, otherwise: Option<f64>) -> Cell {
 }
 
 /// Why the run ended early, and what else its reader must know.
-fn alert(report: &Report<'_, '_>) -> String {
+fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
+    /// What one begins to see.
+    const COARSE: f64 = 0.01;
     let mut alert = String::new();
     if let Some(error) = report.error {
         alert.push_str(&format!(
             "<p class=\"alert\" role=\"alert\"><strong>The run ended early, at t = {} s:</strong> {}</p>\n",
             shortest(report.run.end().t),
             safe(&error.to_string())
+        ));
+    }
+    if samples.error > COARSE {
+        alert.push_str(&format!(
+            "<p class=\"alert\"><strong>The run is long for one page:</strong> between the {} states that it holds, \
+             coordinates are interpolated to {:.0} % of what they span.</p>\n",
+            samples.count,
+            (100.0 * samples.error).ceil()
         ));
     }
     for warning in report.run.warnings() {
@@ -390,7 +400,7 @@ fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
         ),
         row("states on this page", samples.count.to_string()),
         row(
-            "their interpolation, greatest error as a part of a coordinate's span",
+            "interpolation between them, greatest error as a part of what a coordinate spans",
             format!("{:.0e}", samples.error).replace('-', "−"),
         ),
         row(

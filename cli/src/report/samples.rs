@@ -11,7 +11,7 @@ use crate::recording::{Column, Kind, Recording};
 const STATE_BYTES: usize = 1_050_000;
 
 /// More states than this show nothing more.
-const MOST: usize = 16_384;
+const MOST: usize = 65_536;
 
 /// As few as this would make curves of straight lines.
 const FEWEST: usize = 256;
@@ -29,15 +29,13 @@ pub fn most(coordinates: usize) -> usize {
     (STATE_BYTES / (8 * coordinates.max(1))).clamp(2, MOST)
 }
 
-/// How much more often than every `interval` a run of that length is to be recorded for a page. A power of two: then the
-/// instants of the coarser record are among those of the finer one to the last bit.
-pub fn finer(coordinates: usize, length: f64, interval: f64) -> u32 {
-    let most = most(coordinates) as f64;
-    let mut finer = 1;
-    while finer < 1 << 20 && length / interval.abs() * f64::from(2 * finer) <= most {
-        finer *= 2;
-    }
-    finer
+/// How many times more often than every `interval` a run of that length is to be recorded for a page. A power of two where
+/// others read the record, too: then the instants of the coarser one are among those of the finer to the last bit.
+pub fn finer(coordinates: usize, length: f64, interval: f64, shared: bool) -> u32 {
+    let fits = (most(coordinates) as f64 * (interval / length).abs()).min(1e6) as u32;
+    // At least the record itself, however fine.
+    let fits = fits.max(1);
+    if shared { 1 << fits.ilog2() } else { fits }
 }
 
 /// The states of a page.
@@ -46,7 +44,7 @@ pub struct Samples {
     pub stride: usize,
     /// Their number.
     pub count: usize,
-    /// The greatest error of the cubic at what was left out, as a part of what each coordinate spans.
+    /// The greatest error of the cubic between them, as a part of what a coordinate spans.
     pub error: f64,
     /// `q` and `v` of one instant after the other, as 32-bit numbers in little-endian order, in base 64.
     pub states: String,
@@ -139,8 +137,12 @@ impl<'a> Motion<'a> {
         })
     }
 
-    /// The greatest error in a middle.
+    /// The greatest error in a middle, as a part of what the coordinate spans. Where nothing is left out it is estimated from
+    /// every other instant: the cubic is of order 4.
     fn error(&self, stride: usize) -> f64 {
+        if stride < 2 {
+            return self.error(2) / 16.0;
+        }
         let of = |quantity: &Quantity| {
             let errors = self.middles(stride).map(|[a, m, b]| {
                 let (q, _) = quantity.middle([a, b], self.times);
@@ -277,6 +279,21 @@ mod tests {
         }
     }
 
+    /// Where there is no room for more, the error is told: (ωh)⁴/384 of the amplitude, half of the span.
+    #[test]
+    fn what_is_stored_too_coarsely_is_estimated() {
+        let recording = vibration(400.0, 4000);
+        let samples = Samples::new(&recording);
+        assert_eq!(samples.stride, 1);
+        let step = std::f64::consts::TAU * 400.0 / 4000.0;
+        let truth = step.powi(4) / 768.0;
+        assert!(
+            (samples.error / truth - 1.0).abs() < 0.25,
+            "{} {truth}",
+            samples.error
+        );
+    }
+
     #[test]
     fn no_run_fills_more_than_its_share() {
         let recording = vibration(3000.0, 100_000);
@@ -285,10 +302,13 @@ mod tests {
     }
 
     #[test]
-    fn a_page_is_recorded_by_powers_of_two_more_often() {
-        assert_eq!(finer(2, 5.0, 0.005), 16);
-        assert_eq!(finer(64, 60.0, 0.06), 2);
-        assert_eq!(finer(2, 5.0, 1e-6), 1);
-        assert!(finer(2, 1.0, 1e300) <= 1 << 20);
+    fn a_page_is_recorded_as_often_as_it_has_room_for() {
+        assert_eq!(finer(2, 5.0, 0.005, true), 64);
+        assert_eq!(finer(9, 60.0, 0.06, true), 8);
+        assert_eq!(finer(9, 60.0, 0.06, false), 14);
+        assert_eq!(finer(2, 5.0, 1e-6, true), 1);
+        for interval in [1e300, f64::INFINITY, f64::NAN] {
+            assert!((1..=1_000_000).contains(&finer(2, 1.0, interval, true)));
+        }
     }
 }
