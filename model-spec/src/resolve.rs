@@ -28,7 +28,9 @@ mod work;
 
 pub use names::MEMBER_LIMIT;
 
-use lagrangian_symbolic::{Dag, Expr, Rational, Tangent};
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::{Dag, Expr, Rational, Symbol, Tangent};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, nearest};
@@ -100,6 +102,8 @@ struct Resolver<'a, 'd, 'r> {
 
     time: Expr<'d>,
     tangent: Option<Tangent<'d>>,
+    /// What is assumed not to be negative, with the symbols in it.
+    facts: Vec<(Expr<'d>, BTreeSet<Symbol>)>,
     poses: Vec<Pose<'d>>,
     pose_of: FxHashMap<PoseKey, PoseId>,
 
@@ -135,6 +139,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             first_node: dag.len(),
             time: dag.symbol("t", stage::TIME),
             tangent: None,
+            facts: Vec::new(),
             poses: Vec::new(),
             pose_of: FxHashMap::default(),
             steps: 0,
@@ -167,10 +172,12 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let bodies = self.each(Bodies, |resolver, member| {
             resolver.body(member).map(|body| (member, body))
         });
+        let assumptions = self.assumptions(layers);
+        let facts = assumptions.iter().map(|fact| fact.excess);
+        self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
         let mut springs = self.each(Springs, Self::spring);
         springs.extend(self.each(TorsionSprings, Self::torsion_spring));
         let gravity = self.gravity(layers);
-        let assumptions = self.assumptions(layers);
         let dampers = self.each(Dampers, Self::damper);
         let potentials = self.each(Potentials, Self::potential);
         let dissipations = self.each(Dissipations, Self::dissipation);

@@ -656,6 +656,34 @@ fn springs_between_points_stretch_by_their_distance() {
     assert!(model.springs[1].ends.is_some() && model.springs[0].ends.is_none());
 }
 
+#[test]
+fn a_distance_that_is_assumed_to_be_positive_has_no_root() {
+    let dag = Dag::new();
+    let model = sound(
+        &dag,
+        "machine Test in plane {
+            parameters { k: N/m = 1, b: N*s/m = 1, l: m = 3 }
+            coordinates { r: m = 1, phi: rad, x: m, y: m = 2, z: m }
+            assume { r > 0, x < y, der(x) >= 0, l + z - x > 0 }
+            bodies { one { mass: 1, at: polar(r, phi) }, two { mass: 1, at: (x, y) } }
+            springs {
+                radial { stiffness: k, from: (0, 0), to: one.at, length: l },
+                back { stiffness: k, from: (y, 1), to: (x, 1) },
+                train { stiffness: k, from: (x, 1), to: (l + z, 1), length: l },
+                other { stiffness: k, from: (0, 0), to: (x, 0) },
+            }
+            dampers { radial { damping: b, from: one.at, to: (0, 0) } }
+        }",
+    );
+    let [r, x, y, z] = [0, 2, 3, 4].map(|i| model.coordinates[i].q);
+    let l = model.parameters[2].symbol;
+    let stretches: Vec<Expr> = model.springs.iter().map(|spring| spring.stretch).collect();
+    assert_eq!(stretches[..3], [r - l, -(x - y), z - x]);
+    assert_eq!(model.dampers[0].stretch, r);
+    // Nothing says which side of 0 it is on.
+    close(&numbers(&dag, &stretches[3..], &[("x", -2.0)]), &[2.0]);
+}
+
 /// The examples of the language's reference.
 const EXAMPLES: [(&str, &str); 5] = [
     (
@@ -708,6 +736,9 @@ fn the_machines_of_the_library_resolve() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../machines");
     for entry in std::fs::read_dir(folder).expect("the library is there") {
         let path = entry.expect("it can be read").path();
+        if path.extension().is_none_or(|ending| ending != "machine") {
+            continue;
+        }
         let text = std::fs::read_to_string(&path).expect("it is text");
         let (mut report, name) = (Report::new(), path.to_string_lossy());
         let disk = &mut lagrangian_spec::source::Disk;

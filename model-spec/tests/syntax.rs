@@ -318,16 +318,16 @@ fn units_are_products_of_powers() {
 fn documentation_of_a_macro_is_that_of_a_file() {
     // As the compiler hands `///` and `/** … */` to a macro.
     let spec = sound(
-        "#[doc = r\" First.\"] #[doc = \" Second.\"] #![doc = \"no\"] machine T in plane { parameters { \
-         #[doc = \"\\n * Mass.\\n *  - of it\\n \"] m: kg, /// Length.\n l: m } }",
+        "#[doc = r\" First.\"] #[doc = \"\"] #[doc = \" Second.\"] #![doc = \"no\"] machine T in plane { parameters { \
+         #[doc = \"\\n * Mass.\\n *  - of it\\n \"] m: kg, /// Length.\n///\n/// Of it.\n l: m } }",
     );
-    assert_eq!(spec.docs, "First.\nSecond.");
+    assert_eq!(spec.docs, "First.\n\nSecond.");
     let docs: Vec<&str> = spec
         .parameters
         .iter()
         .map(|item| item.docs.as_str())
         .collect();
-    assert_eq!(docs, ["Mass.\n - of it", "Length."]);
+    assert_eq!(docs, ["Mass.\n - of it", "Length.\n\nOf it."]);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Items: what a machine is made of, each field in its unit and of its kind.
 
-use lagrangian_symbolic::{Expr, evaluate, nearest};
+use lagrangian_symbolic::{Expr, Id, Node, Rational, evaluate, nearest};
 use rustc_hash::FxHashMap;
 
 use super::Resolver;
@@ -9,6 +9,7 @@ use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
 use super::value::{Limit, MemberId, Scalar, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::mechanics::experiment;
 use crate::model::{
     Action, Approximation, ApproximationKind, Body, Circle, Constant, Constraint, Contact,
     ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Name, Output,
@@ -535,7 +536,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                             .collect();
                         ends = Some([from_end, to_end]);
                         let stretch = Scalar {
-                            expr: self.length(&line) - length,
+                            expr: self.stretch(&line, length),
                             unit: Some(Unit::METRE),
                             number: None,
                         };
@@ -571,6 +572,28 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             torsional: false,
             span: self.span(member),
         })
+    }
+
+    /// How far apart two points are, less a free length: √(u·u), or what is assumed not to be
+    /// negative and has that square.
+    ///
+    /// So the ends of a spring in polar coordinates are `r` apart, and points of one line `b − a`: no
+    /// root is left, and no quotient by it in the force. The run checks what is assumed.
+    fn stretch(&self, line: &[Expr<'d>], free: Expr<'d>) -> Expr<'d> {
+        let length = self.length(line);
+        let (square, symbols) = (length.square(), length.symbols());
+        let known = self.facts.iter().find(|(fact, of)| {
+            of.is_subset(&symbols) && experiment::equal(fact.square(), square) == Some(true)
+        });
+        match known.map(|&(fact, _)| (fact, self.dag.node(fact.id()))) {
+            // Added up as one sum, so that a free length in it cancels.
+            Some((_, Node::Sum(terms))) => {
+                let term = |(id, factor): &(Id, Rational)| self.dag.expr(*id) * factor.clone();
+                self.dag.sum(terms.iter().map(term).chain([-free]))
+            }
+            Some((fact, _)) => fact - free,
+            None => length - free,
+        }
     }
 
     /// A point of the machine, in m.

@@ -111,8 +111,34 @@ impl Writer<'_, '_> {
         }
         if let Some(index) = &reference.index {
             self.text.push('[');
-            self.expression(index, Strength::Sum);
+            match self.whole(index) {
+                // Writing to a String cannot fail.
+                Some(index) => {
+                    let _ = write!(self.text, "{index}");
+                }
+                None => self.expression(index, Strength::Sum),
+            }
             self.text.push(']');
+        }
+    }
+
+    /// The value of an index such as `i + 1`, which is shown as the member that it means.
+    fn whole(&self, index: &Expression) -> Option<i64> {
+        match &index.kind {
+            ExpressionKind::Number(number) => number.parse().ok(),
+            ExpressionKind::Name(name) => {
+                let (variable, value) = self.index?;
+                (variable == name.base.text && name.index.is_none()).then_some(value)
+            }
+            ExpressionKind::Sum(terms) => terms.iter().try_fold(0_i64, |sum, term| {
+                let value = self.whole(&term.value)?;
+                if term.negative {
+                    sum.checked_sub(value)
+                } else {
+                    sum.checked_add(value)
+                }
+            }),
+            _ => None,
         }
     }
 

@@ -422,6 +422,10 @@ impl<'t> Parser<'t> {
 
 /// The lines of one documentation comment, without the space or the asterisk that begins each.
 fn doc_lines(text: &str) -> Vec<String> {
+    // `///` alone parts two paragraphs.
+    if text.is_empty() {
+        return vec![String::new()];
+    }
     let stars = text
         .lines()
         .skip(1)

@@ -45,11 +45,13 @@ impl Emitter<'_> {
         let mut inner = Writer::indented(8);
         body(&mut inner);
         let inner = inner.finish();
-        let is_used = |name: &str| {
-            inner
-                .split(|c: char| !c.is_alphanumeric() && c != '_')
-                .any(|word| word == name)
-        };
+        // What stands between quotes, the text of a fact, uses nothing; no quote stands in it.
+        let words: Vec<&str> = inner
+            .split('"')
+            .step_by(2)
+            .flat_map(|code| code.split(|c: char| !c.is_alphanumeric() && c != '_'))
+            .collect();
+        let is_used = |name: &str| words.contains(&name);
         let mut list = vec!["&self".to_owned()];
         list.extend(arguments.iter().map(|&name| {
             let shown = if is_used(name) { name } else { "_" };
