@@ -15,6 +15,7 @@ use support::library::{self, machine};
 use support::limits::{conserves, follows_with};
 use support::references::{Row, greatest, table};
 use support::sampling::accurate;
+use support::special::agm;
 use support::states::{accelerations, energy, numbers, state};
 
 /// A run of the default settings, unless they are changed.
@@ -581,11 +582,7 @@ fn an_angle_that_may_not_reach_zero_ends_the_run() {
 /// and the arithmetic-geometric mean M.
 fn pendulum_fall(angle: f64, square: f64) -> f64 {
     let amplitude = PI - angle;
-    let (mut a, mut b) = (1.0, (amplitude / 2.0).cos());
-    while (a - b).abs() > 1e-15 {
-        (a, b) = ((a + b) / 2.0, f64::sqrt(a * b));
-    }
-    PI / (2.0 * square.sqrt() * a)
+    PI / (2.0 * square.sqrt() * agm(1.0, (amplitude / 2.0).cos()))
 }
 
 // Settings that ask for the impossible.

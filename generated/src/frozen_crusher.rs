@@ -1,6 +1,7 @@
 // @generated from machines/frozen_crusher.machine by `cargo xtask generate`; edits are lost.
 
 //! The crusher as the paper treats its platform: «taking sin θ ≈ 0, cos θ ≈ 1» in the velocities.
+//!
 //! The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 //! the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
 //! contact they are those of a linear, forced oscillator of three coordinates. The suspension is
@@ -40,6 +41,7 @@
 #![allow(rustdoc::all)]
 
 /// The crusher as the paper treats its platform: «taking sin θ ≈ 0, cos θ ≈ 1» in the velocities.
+///
 /// The axis of the debalance then moves as if the platform were not turned, so that all inertia of
 /// the platform is constant: no products θ θ″ and θ′² are left in its equations, and without
 /// contact they are those of a linear, forced oscillator of three coordinates. The suspension is

@@ -5,6 +5,8 @@
 //! Beside each module, in `programs/`, stands the plain text of its arithmetic, for review.
 #![no_std]
 
+/// The machine of [`AsymmetricTop`].
+pub mod asymmetric_top;
 /// The machine of [`CartPole`].
 pub mod cart_pole;
 /// The machine of [`Chain`].
@@ -17,34 +19,59 @@ pub mod crusher9;
 pub mod cushioned_crusher;
 /// The machine of [`DoublePendulum`].
 pub mod double_pendulum;
+/// The machine of [`ElasticPendulum`].
+pub mod elastic_pendulum;
 /// The machine of [`FrozenCrusher`].
 pub mod frozen_crusher;
+/// The machine of [`GyroscopeInGimbals`].
+pub mod gyroscope_in_gimbals;
 /// The machine of [`HeavyTop`].
 pub mod heavy_top;
+/// The machine of [`KapitzaPendulum`].
+pub mod kapitza_pendulum;
 /// The machine of [`MotorCrusher`].
 pub mod motor_crusher;
 /// The machine of [`PaperCrusher`].
 pub mod paper_crusher;
+/// The machine of [`SimplePendulum`].
+pub mod simple_pendulum;
 /// The machine of [`SixJointArm`].
 pub mod six_joint_arm;
 /// The machine of [`SmallAngleCrusher`].
 pub mod small_angle_crusher;
+/// The machine of [`SphericalPendulum`].
+pub mod spherical_pendulum;
+/// The machine of [`SpringMassTrain`].
+pub mod spring_mass_train;
+/// The machine of [`TwoBodyOrbit`].
+pub mod two_body_orbit;
 /// The machine of [`TwoDebalanceCrusher`].
 pub mod two_debalance_crusher;
+/// The machine of [`TwoJointArm`].
+pub mod two_joint_arm;
 /// The machine of [`VibratingCrusher`].
 pub mod vibrating_crusher;
 
+pub use asymmetric_top::AsymmetricTop;
 pub use cart_pole::CartPole;
 pub use chain::Chain;
 pub use chain_relative::ChainRelative;
 pub use crusher9::Crusher9;
 pub use cushioned_crusher::CushionedCrusher;
 pub use double_pendulum::DoublePendulum;
+pub use elastic_pendulum::ElasticPendulum;
 pub use frozen_crusher::FrozenCrusher;
+pub use gyroscope_in_gimbals::GyroscopeInGimbals;
 pub use heavy_top::HeavyTop;
+pub use kapitza_pendulum::KapitzaPendulum;
 pub use motor_crusher::MotorCrusher;
 pub use paper_crusher::PaperCrusher;
+pub use simple_pendulum::SimplePendulum;
 pub use six_joint_arm::SixJointArm;
 pub use small_angle_crusher::SmallAngleCrusher;
+pub use spherical_pendulum::SphericalPendulum;
+pub use spring_mass_train::SpringMassTrain;
+pub use two_body_orbit::TwoBodyOrbit;
 pub use two_debalance_crusher::TwoDebalanceCrusher;
+pub use two_joint_arm::TwoJointArm;
 pub use vibrating_crusher::VibratingCrusher;

@@ -3,14 +3,19 @@
 //! A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
 //! coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
 //! the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
+//!
 //! torque = 2 Mk / (s/sk + sk/s),
+//!
 //! written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 //! synchronous speed ω.
+//!
 //! The faster the debalance turns, the more the dampers of the shaken platform take. In steady
 //! motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
 //! the centre of the platform, on springs and dampers that are in total c and b along both axes,
 //! the centre runs round a circle of radius X, and speed and torque are constant:
+//!
 //! torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
+//!
 //! This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
 //! there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
 //! Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of
@@ -53,14 +58,19 @@
 /// A crusher whose debalance does not turn as told but as its motor can: its angle psi is a
 /// coordinate. The motor, an induction machine on the foundation, turns it by a cardan shaft, with
 /// the torque that M. Kloss gave in 1909 for a slip s = (ω − ψ′)/ω,
+///
 /// torque = 2 Mk / (s/sk + sk/s),
+///
 /// written below without a division by s: it is greatest, Mk, at the slip sk, and zero at the
 /// synchronous speed ω.
+///
 /// The faster the debalance turns, the more the dampers of the shaken platform take. In steady
 /// motion the mean power of the motor is the mean power dissipated. With the debalance's axis at
 /// the centre of the platform, on springs and dampers that are in total c and b along both axes,
 /// the centre runs round a circle of radius X, and speed and torque are constant:
+///
 /// torque = b ψ′ X², X = m0 e ψ′² / √((c − (m + m0) ψ′²)² + (b ψ′)²)
+///
 /// This load has a peak at resonance, (m + m0) ψ′² ≈ c. A motor too weak to run through it hangs
 /// there, and shakes the platform harder instead of turning faster: the Sommerfeld effect (here for
 /// Mk below some 165 N·m). With a large Mk the slip vanishes, and the motion is that of

@@ -3,6 +3,7 @@
 //! The crusher of «Dynamical simulation of a vibrating crush machine, part I», as the paper models
 //! it, and every formula of its §3 as it is printed: `lagrangian check` tells which are wrong, and
 //! docs/errata.md why.
+//!
 //! The suspension is the single pair that the paper prints: the springs act at (xc, yc) of the
 //! platform, the dampers at (xb, yb). Two squares cannot hold three coordinates: the stiffness
 //! matrix has the null vector (yc, -xc, 1), so that turning about the joint of the springs is free,
@@ -44,6 +45,7 @@
 /// The crusher of «Dynamical simulation of a vibrating crush machine, part I», as the paper models
 /// it, and every formula of its §3 as it is printed: `lagrangian check` tells which are wrong, and
 /// docs/errata.md why.
+///
 /// The suspension is the single pair that the paper prints: the springs act at (xc, yc) of the
 /// platform, the dampers at (xb, yb). Two squares cannot hold three coordinates: the stiffness
 /// matrix has the null vector (yc, -xc, 1), so that turning about the joint of the springs is free,

@@ -1,6 +1,7 @@
 // @generated from machines/small_angle_crusher.machine by `cargo xtask generate`; edits are lost.
 
 //! The crusher with its energies to second order in the platform's angle and angular rate together.
+//!
 //! What is left out of the energies is of third order: half the angle, an eighth of the error.
 //! Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
 //! debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.
@@ -37,6 +38,7 @@
 #![allow(rustdoc::all)]
 
 /// The crusher with its energies to second order in the platform's angle and angular rate together.
+///
 /// What is left out of the energies is of third order: half the angle, an eighth of the error.
 /// Unlike the frozen machine it keeps how the turn of the platform displaces the axis of the
 /// debalance, x0 cos θ ≈ x0 and y0 sin θ ≈ y0 θ, and with it the product of angle and rate.

@@ -2,11 +2,13 @@
 
 //! A crusher that shakes along a line: two equal debalances turn against each other, with their
 //! axes on opposite sides of the line, the x axis of the platform.
+//!
 //! Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
 //! their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
 //! lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
 //! remain zero, exactly. Without contact the platform is then one oscillator, whose closed form a
 //! test holds it against:
+//!
 //! (m + 2 m0) x″ + 2 bx x′ + 2 cx x = 2 m0 e ω² cos ωt
 //!
 //! 9 coordinates, 22 parameters. Arithmetic of one call:
@@ -42,11 +44,13 @@
 
 /// A crusher that shakes along a line: two equal debalances turn against each other, with their
 /// axes on opposite sides of the line, the x axis of the platform.
+///
 /// Across the line their centrifugal forces cancel, along it they add up to 2 m0 e ω² cos ωt, and
 /// their moments about the platform's centre are opposite. Platform, suspension, mortar and pestle
 /// lie as mirrored in the line, so whatever starts on the line stays on it: y, theta, phi1 and phi2
 /// remain zero, exactly. Without contact the platform is then one oscillator, whose closed form a
 /// test holds it against:
+///
 /// (m + 2 m0) x″ + 2 bx x′ + 2 cx x = 2 m0 e ω² cos ωt
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoDebalanceCrusher<S = f64> {

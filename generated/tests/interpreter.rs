@@ -355,3 +355,44 @@ fn the_arm_is_the_program_to_the_last_bit() {
 fn the_crusher_of_the_paper_is_the_program_to_the_last_bit() {
     agrees_in_f64::<machines::Crusher9>("crusher9", |_| Default::default());
 }
+
+#[test]
+fn the_pendulums_are_the_program_to_the_last_bit() {
+    agrees_in_f64::<machines::SimplePendulum>("simple_pendulum", |_| Default::default());
+    agrees_in_f64::<machines::ElasticPendulum>("elastic_pendulum", |_| Default::default());
+    agrees_in_f64::<machines::SphericalPendulum>("spherical_pendulum", |_| Default::default());
+    agrees_in_f64::<machines::KapitzaPendulum>("kapitza_pendulum", |_| Default::default());
+    agrees_over_every_number!(KapitzaPendulum, "kapitza_pendulum", |p, t, q, _v| {
+        machines::kapitza_pendulum::accelerations(p, t, q)
+    });
+}
+
+#[test]
+fn the_train_is_the_program_to_the_last_bit() {
+    let inputs = |u: &[f64]| machines::spring_mass_train::Inputs { pull: u[0] };
+    agrees_in_f64::<machines::SpringMassTrain>("spring_mass_train", inputs);
+}
+
+#[test]
+fn the_orbit_is_the_program_to_the_last_bit() {
+    agrees_in_f64::<machines::TwoBodyOrbit>("two_body_orbit", |_| Default::default());
+}
+
+#[test]
+fn free_top_and_gyroscope_are_the_program_to_the_last_bit() {
+    agrees_in_f64::<machines::AsymmetricTop>("asymmetric_top", |_| Default::default());
+    let gyroscope = "gyroscope_in_gimbals";
+    agrees_in_f64::<machines::GyroscopeInGimbals>(gyroscope, |_| Default::default());
+    agrees_over_every_number!(AsymmetricTop, "asymmetric_top", |p, _t, q, v| {
+        machines::asymmetric_top::accelerations(p, q, v)
+    });
+}
+
+#[test]
+fn the_two_joint_arm_is_the_program_to_the_last_bit() {
+    let inputs = |u: &[f64]| machines::two_joint_arm::Inputs {
+        tau1: u[0],
+        tau2: u[1],
+    };
+    agrees_in_f64::<machines::TwoJointArm>("two_joint_arm", inputs);
+}

@@ -9,20 +9,29 @@ use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// The file names of all machines.
-pub const MACHINES: [&str; 14] = [
+pub const MACHINES: [&str; 23] = [
+    "asymmetric_top",
     "cart_pole",
     "chain",
     "chain_relative",
     "crusher9",
     "cushioned_crusher",
     "double_pendulum",
+    "elastic_pendulum",
     "frozen_crusher",
+    "gyroscope_in_gimbals",
     "heavy_top",
+    "kapitza_pendulum",
     "motor_crusher",
     "paper_crusher",
+    "simple_pendulum",
     "six_joint_arm",
     "small_angle_crusher",
+    "spherical_pendulum",
+    "spring_mass_train",
+    "two_body_orbit",
     "two_debalance_crusher",
+    "two_joint_arm",
     "vibrating_crusher",
 ];
 
@@ -31,19 +40,28 @@ pub const MACHINES: [&str; 14] = [
 #[macro_export]
 macro_rules! for_each_machine {
     ($do:ident) => {
+        $do!(AsymmetricTop, "asymmetric_top");
         $do!(CartPole, "cart_pole");
         $do!(Chain, "chain");
         $do!(ChainRelative, "chain_relative");
         $do!(Crusher9, "crusher9");
         $do!(CushionedCrusher, "cushioned_crusher");
         $do!(DoublePendulum, "double_pendulum");
+        $do!(ElasticPendulum, "elastic_pendulum");
         $do!(FrozenCrusher, "frozen_crusher");
+        $do!(GyroscopeInGimbals, "gyroscope_in_gimbals");
         $do!(HeavyTop, "heavy_top");
+        $do!(KapitzaPendulum, "kapitza_pendulum");
         $do!(MotorCrusher, "motor_crusher");
         $do!(PaperCrusher, "paper_crusher");
+        $do!(SimplePendulum, "simple_pendulum");
         $do!(SixJointArm, "six_joint_arm");
         $do!(SmallAngleCrusher, "small_angle_crusher");
+        $do!(SphericalPendulum, "spherical_pendulum");
+        $do!(SpringMassTrain, "spring_mass_train");
+        $do!(TwoBodyOrbit, "two_body_orbit");
         $do!(TwoDebalanceCrusher, "two_debalance_crusher");
+        $do!(TwoJointArm, "two_joint_arm");
         $do!(VibratingCrusher, "vibrating_crusher");
     };
 }

@@ -110,13 +110,23 @@ pub fn follows_with<'a, M: Machine>(
             .run(start.clone())
             .unwrap_or_else(|error| panic!("{}: {error}", machine.name()))
     };
-    let (fine, coarse) = (run(tolerance), run(100.0 * tolerance));
+    let (name, runs) = (machine.name(), [run(tolerance), run(100.0 * tolerance)]);
+    holds(name, &runs, (rows, scales, bound), view);
+}
+
+/// As [`follows`], of two runs that were made already, the second of them a hundred times coarser.
+pub fn holds<M: Machine, L: InputLaw<M::System>>(
+    name: &str,
+    [fine, coarse]: &[Solution<M, L>; 2],
+    (rows, scales, bound): (&[Row], &[f64], f64),
+    view: impl Fn(&[f64]) -> Vec<f64>,
+) {
     for row in rows {
-        let [fine, coarse] = [&fine, &coarse].map(|run| view(&numbers_at(run, row.t)));
+        let [fine, coarse] = [fine, coarse].map(|run| view(&numbers_at(run, row.t)));
         let distances = fine.iter().zip(&coarse).zip(scales);
         let limit = greatest(distances.map(|((a, b), s)| (a - b).abs() / (s + a.abs())));
         let error = error(&fine, row, scales);
-        let (name, t) = (machine.name(), row.t);
+        let t = row.t;
         assert!(
             limit <= bound,
             "{name} at {t} s: a limit of {limit:e} says nothing"

@@ -8,4 +8,5 @@ pub mod limits;
 pub mod random;
 pub mod references;
 pub mod sampling;
+pub mod special;
 pub mod states;

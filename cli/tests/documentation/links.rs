@@ -7,7 +7,7 @@ use crate::page::{Page, root};
 /// Every page of the repository.
 fn pages() -> Vec<String> {
     let mut pages = vec![];
-    for folder in ["", "docs"] {
+    for folder in ["", "docs", "machines"] {
         for entry in std::fs::read_dir(root().join(folder)).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.extension().is_some_and(|extension| extension == "md") {

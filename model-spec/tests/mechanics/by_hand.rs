@@ -159,7 +159,8 @@ fn every_wrong_sign_and_coefficient_is_found() {
     }
 }
 
-fn assert_agreement(text: &str, items: usize) {
+/// Everything that a machine publishes agrees.
+pub fn assert_agreement(text: &str, items: usize) {
     derived(text, |model, equations| {
         let comparisons = compare(model, equations);
         let wrong: Vec<_> = comparisons
@@ -173,7 +174,7 @@ fn assert_agreement(text: &str, items: usize) {
 }
 
 /// Makes one mistake after the other in what a machine publishes. How many, and those that nobody noticed.
-fn mutate(text: &str) -> (usize, Vec<String>) {
+pub fn mutate(text: &str) -> (usize, Vec<String>) {
     derived(text, |model, equations| {
         let mut wrong: Model = model.clone();
         let (mut made, mut survivors) = (0, Vec::new());

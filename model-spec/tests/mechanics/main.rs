@@ -9,3 +9,4 @@ mod paper;
 mod published;
 mod refusals;
 mod shape;
+mod textbooks;

@@ -1,0 +1,696 @@
+// @generated from machines/asymmetric_top.machine by `cargo xtask generate`; edits are lost.
+
+//! A rigid body with three different moments of inertia, on which nothing acts: a book thrown
+//! into the air, seen from its mass centre.
+//!
+//! Conserved: energy, and the angular momentum as a vector of the ground. Its components along
+//! the body's own axes obey Euler's equations, which Jacobi's elliptic functions solve (L. D.
+//! Landau, E. M. Lifshitz, Mechanics, section 37). Turning about the axis of the least moment
+//! and about that of the greatest is steady. About the middle one, here z, it is not (L.
+//! Poinsot, 1834): a body spun about z tumbles over, again and again after the same time (V.
+//! Dzhanibekov, 1985), and the smaller the first wobble the longer that takes.
+//!
+//! The angles are yaw, pitch and roll. They fail where pitch is a right angle: there the body's
+//! x axis is vertical, and yaw and roll turn about one line. A body spun about the vertical
+//! that starts with its z axis or its y axis near to it never gets there, however it tumbles:
+//! its x axis would have to carry all of the angular momentum. Give it a rate, such as der(yaw)
+//! = 10.
+//!
+//! 3 coordinates, 4 parameters, 4 outputs. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 2 | 4 | 0 | 0 | 0 | 6 |
+//! | `mass_matrix` | 9 | 4 | 0 | 2 | 0 | 17 |
+//! | `bias` | 35 | 13 | 0 | 2 | 0 | 52 |
+//! | `forces` | 35 | 12 | 0 | 2 | 0 | 51 |
+//! | `accelerations` | 47 | 22 | 3 | 2 | 0 | 76 |
+//! | `kinetic_energy` | 13 | 5 | 0 | 2 | 0 | 22 |
+//! | `output_momentum_x` | 18 | 7 | 0 | 3 | 0 | 31 |
+//! | `output_momentum_y` | 18 | 7 | 0 | 3 | 0 | 31 |
+//! | `output_momentum_z` | 13 | 5 | 0 | 2 | 0 | 22 |
+//! | `output_upright` | 1 | 0 | 0 | 2 | 0 | 3 |
+//! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A rigid body with three different moments of inertia, on which nothing acts: a book thrown
+/// into the air, seen from its mass centre.
+///
+/// Conserved: energy, and the angular momentum as a vector of the ground. Its components along
+/// the body's own axes obey Euler's equations, which Jacobi's elliptic functions solve (L. D.
+/// Landau, E. M. Lifshitz, Mechanics, section 37). Turning about the axis of the least moment
+/// and about that of the greatest is steady. About the middle one, here z, it is not (L.
+/// Poinsot, 1834): a body spun about z tumbles over, again and again after the same time (V.
+/// Dzhanibekov, 1985), and the smaller the first wobble the longer that takes.
+///
+/// The angles are yaw, pitch and roll. They fail where pitch is a right angle: there the body's
+/// x axis is vertical, and yaw and roll turn about one line. A body spun about the vertical
+/// that starts with its z axis or its y axis near to it never gets there, however it tumbles:
+/// its x axis would have to carry all of the angular momentum. Give it a rate, such as der(yaw)
+/// = 10.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AsymmetricTop<S = f64> {
+    /// Mass. Nothing depends on it, since nothing weighs. Unit: kg. Default: 2.
+    pub m: S,
+    /// Moments of inertia about the body's x, y and z axes: the least, the greatest, the
+    /// middle one. Unit: kg*m^2. Default: 0.02.
+    pub A: S,
+    /// `B`. Unit: kg*m^2. Default: 0.04.
+    pub B: S,
+    /// `C`. Unit: kg*m^2. Default: 0.03.
+    pub C: S,
+}
+
+impl Default for AsymmetricTop {
+    fn default() -> Self {
+        Self {
+            m: 2.0,
+            A: 0.02,
+            B: 0.04,
+            C: 0.03,
+        }
+    }
+}
+
+impl<S> AsymmetricTop<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> AsymmetricTop<R> {
+        AsymmetricTop {
+            m: f(self.m),
+            A: f(self.A),
+            B: f(self.B),
+            C: f(self.C),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.B - self.C;
+        let k2 = self.A - self.B;
+        let k1 = self.A + k0;
+        let k3 = k0 * S::from_f64(2.0);
+        let k4 = k2 * S::from_f64(2.0);
+        let k5 = self.A - k0;
+        Prepared {
+            A: self.A,
+            B: self.B,
+            C: self.C,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let roll = S::from_ratio(1, 100);
+        let q = [zero, zero, roll];
+        let v = [S::ZERO; 3];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`AsymmetricTop`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Turn about the vertical, then about the body's y axis, then about its x axis. Unit: rad.
+    pub yaw: S,
+    /// `pitch`. Unit: rad.
+    pub pitch: S,
+    /// `roll`. Unit: rad.
+    pub roll: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 3] {
+        [self.yaw, self.pitch, self.roll]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 3]) -> Self {
+        Self {
+            yaw: q[0],
+            pitch: q[1],
+            roll: q[2],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            yaw: f(self.yaw),
+            pitch: f(self.pitch),
+            roll: f(self.roll),
+        }
+    }
+}
+
+/// What can be set while a [`AsymmetricTop`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`AsymmetricTop`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Angular momentum along the ground's axes: conserved. Unit: J*s.
+    pub momentum_x: S,
+    /// `momentum_y`. Unit: J*s.
+    pub momentum_y: S,
+    /// `momentum_z`. Unit: J*s.
+    pub momentum_z: S,
+    /// Cosine of the angle between the body's z axis and the vertical: -1 where it stands
+    /// on its head. Unit: 1.
+    pub upright: S,
+}
+
+/// The parameters of a [`AsymmetricTop`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `A`
+    A: S,
+    /// `B`
+    B: S,
+    /// `C`
+    C: S,
+    /// `B - C`
+    k0: S,
+    /// `A + B - C`
+    k1: S,
+    /// `A - B`
+    k2: S,
+    /// `2*(B - C)`
+    k3: S,
+    /// `2*(A - B)`
+    k4: S,
+    /// `A - B + C`
+    k5: S,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[yaw, yaw] = (C - B)*cos(roll)^2*cos(pitch)^2 - (A - B)*cos(pitch)^2 + A
+/// M[pitch, yaw] = -(C - B)*cos(roll)*sin(roll)*cos(pitch)
+/// M[pitch, pitch] = (B - C)*cos(roll)^2 + C
+/// M[roll, yaw] = -A*sin(pitch)
+/// M[roll, roll] = A
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+    let pitch = q[1];
+    let roll = q[2];
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t0 = cos_pitch * cos_roll;
+    let t1 = t0 * p.k0;
+    let m11 = p.A - t0 * t1 - cos_pitch * (cos_pitch * p.k2);
+    let m21 = t1 * sin_roll;
+    let m22 = cos_roll * (cos_roll * p.k0) + p.C;
+    let m31 = -(p.A * sin_pitch);
+    let zero = S::ZERO;
+    [[m11, m21, m31], [m21, m22, zero], [m31, zero, p.A]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[yaw] = 2*(A - B)*sin(pitch)*cos(pitch)*der(yaw)*der(pitch)
+///     - 2*(C - B)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)*der(pitch)
+///     - 2*(C - B)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)*der(roll)
+///     - (B - C)*sin(pitch)*cos(roll)*sin(roll)*der(pitch)^2
+///     - 2*(C - B)*cos(roll)^2*cos(pitch)*der(pitch)*der(roll)
+///     - (A + B - C)*cos(pitch)*der(pitch)*der(roll)
+/// h[pitch] = 2*(B - C)*cos(roll)^2*cos(pitch)*der(yaw)*der(roll)
+///     - (B - C)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)^2
+///     - (A - B)*sin(pitch)*cos(pitch)*der(yaw)^2 + (A - B + C)*cos(pitch)*der(yaw)*der(roll)
+///     + 2*(C - B)*cos(roll)*sin(roll)*der(pitch)*der(roll)
+/// h[roll] = (B - C)*cos(roll)*sin(roll)*der(pitch)^2
+///     - (B - C)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)^2
+///     - (B - C)*cos(pitch)*cos(2*roll)*der(yaw)*der(pitch) - A*cos(pitch)*der(yaw)*der(pitch)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t0 = p.k3 * cos_roll;
+    let t1 = pitch_dot * cos_roll;
+    let t2 = t0 * t1;
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t3 = cos_pitch * yaw_dot;
+    let t4 = t3 * sin_pitch;
+    let t5 = t0 * roll_dot;
+    let t6 = t5 * sin_roll;
+    let t7 = t4 * (pitch_dot * p.k4) + t5 * (cos_pitch * t1);
+    let t8 = p.k0 * sin_roll;
+    let t9 = pitch_dot * t1 * t8;
+    let t10 = cos_pitch * p.k1 * (pitch_dot * roll_dot) + sin_pitch * t9;
+    let t11 = yaw_dot * t4;
+    let t12 = t3 * p.k5;
+    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t6;
+    let t14 = t3 * cos_roll;
+    let h_yaw = t4 * t2 + t6 * (cos_pitch * t3) + t7 - t10;
+    let h_pitch = t5 * t14 - (t13 + (t11 * p.k2 - roll_dot * t12));
+    let h_roll = -(t3 * t2 + t14 * (t3 * t8) + (pitch_dot * t12 - t9));
+    [h_yaw, h_pitch, h_roll]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t0 = p.k3 * cos_roll;
+    let t1 = pitch_dot * cos_roll;
+    let t2 = t0 * t1;
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t3 = cos_pitch * yaw_dot;
+    let t4 = t3 * sin_pitch;
+    let t5 = t0 * roll_dot;
+    let t6 = t5 * sin_roll;
+    let t7 = t4 * (pitch_dot * p.k4) + t5 * (cos_pitch * t1);
+    let t8 = p.k0 * sin_roll;
+    let t9 = pitch_dot * t1 * t8;
+    let t10 = cos_pitch * p.k1 * (pitch_dot * roll_dot) + sin_pitch * t9;
+    let t11 = yaw_dot * t4;
+    let t12 = t3 * p.k5;
+    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t6;
+    let t14 = t3 * cos_roll;
+    let f_yaw = t10 - (t4 * t2 + t6 * (cos_pitch * t3) + t7);
+    let f_pitch = t13 + (t11 * p.k2 - roll_dot * t12) - t5 * t14;
+    let f_roll = t3 * t2 + t14 * (t3 * t8) + (pitch_dot * t12 - t9);
+    [f_yaw, f_pitch, f_roll]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Result<[S; 3], ::lagrangian::Singular> {
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t0 = cos_pitch * yaw_dot;
+    let t1 = sin_pitch * yaw_dot * t0;
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t2 = cos_roll * cos_roll;
+    let t3 = t2 * p.k0;
+    let t4 = cos_roll * sin_roll;
+    let t5 = t4 * p.k3;
+    let t6 = roll_dot * pitch_dot;
+    let t7 = t0 * roll_dot;
+    let t8 = t2 * p.k3;
+    let t9 = t3 * t1 + t5 * t6 + (p.k2 * t1 - t7 * p.k5) - t7 * t8;
+    let t10 = t3 + p.C;
+    if vanishes(t10, t10, 2.6645352591003757e-15) {
+        return Err(singular(1, t10, t10));
+    }
+    let t11 = S::ONE / t10;
+    let t12 = p.k0 * t4;
+    let t13 = t12 * cos_pitch;
+    let t14 = t11 * t13;
+    let t15 = t0 * pitch_dot;
+    let t16 = sin_pitch * t15;
+    let t17 = cos_pitch * t6;
+    let t18 = t12 * (pitch_dot * pitch_dot);
+    let t19 = t8 * t16 + t7 * (cos_pitch * t5) + (t16 * p.k4 + t8 * t17);
+    let t20 = t14 * t9 + (t19 - (t17 * p.k1 + sin_pitch * t18));
+    let t21 = cos_pitch * cos_pitch;
+    let t22 = p.A - t3 * t21 - t21 * p.k2;
+    let t23 = t22 - t13 * t14;
+    if vanishes(t23, t22, 2.6645352591003757e-15) {
+        return Err(singular(0, t23, t22));
+    }
+    let t24 = S::ONE / t23;
+    let t25 = p.A * sin_pitch;
+    let t26 = t24 * t25;
+    let t27 = p.A - t25 * t26;
+    if vanishes(t27, p.A, 2.6645352591003757e-15) {
+        return Err(singular(2, t27, p.A));
+    }
+    let roll_ddot = (t8 * t15 + t0 * (t12 * t0) + (p.k5 * t15 - t18) - t26 * t20) / t27;
+    let t28 = t26 * roll_ddot;
+    let t29 = t24 * t20;
+    let yaw_ddot = t28 - t29;
+    let pitch_ddot = t14 * (t29 - t28) + t11 * t9;
+    let accelerations = [yaw_ddot, pitch_ddot, roll_ddot];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*A*(der(roll) - sin(pitch)*der(yaw))^2
+///     + 1/2*B*(sin(roll)*cos(pitch)*der(yaw) + cos(roll)*der(pitch))^2
+///     + 1/2*C*(cos(roll)*cos(pitch)*der(yaw) - sin(roll)*der(pitch))^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t0 = cos_pitch * yaw_dot;
+    let t1 = sin_roll * pitch_dot - t0 * cos_roll;
+    let t2 = t0 * sin_roll + cos_roll * pitch_dot;
+    let t3 = roll_dot - yaw_dot * sin_pitch;
+    let t4 = t1 * (t1 * p.C) + (t2 * (t2 * p.B) + t3 * (t3 * p.A));
+    S::from_f64(0.5) * t4
+}
+
+/// Angular momentum along the ground's axes: conserved. Unit: J*s.
+///
+/// ```text
+/// momentum_x = A*cos(pitch)*cos(yaw)*(der(roll) - sin(pitch)*der(yaw)) +
+///     B*(sin(pitch)*sin(roll)*cos(yaw) - cos(roll)*sin(yaw))*(sin(roll)*cos(pitch)*der(yaw) +
+///     cos(roll)*der(pitch)) + C*(sin(pitch)*cos(roll)*cos(yaw) +
+///     sin(roll)*sin(yaw))*(cos(roll)*cos(pitch)*der(yaw) - sin(roll)*der(pitch))
+/// ```
+pub fn output_momentum_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let yaw = q[0];
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t0 = cos_pitch * yaw_dot;
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let t1 = cos_yaw * sin_pitch;
+    let t2 = (sin_yaw * cos_roll - sin_roll * t1) * p.B;
+    let t3 = cos_pitch * p.A * (cos_yaw * (roll_dot - sin_pitch * yaw_dot));
+    let t4 = (sin_yaw * sin_roll + t1 * cos_roll) * p.C;
+    let t5 = t3 - (sin_roll * t0 + cos_roll * pitch_dot) * t2;
+    t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
+}
+
+/// `momentum_y`. Unit: J*s.
+///
+/// ```text
+/// momentum_y = A*cos(pitch)*sin(yaw)*(der(roll) - sin(pitch)*der(yaw)) +
+///     B*(sin(pitch)*sin(roll)*sin(yaw) + cos(roll)*cos(yaw))*(sin(roll)*cos(pitch)*der(yaw) +
+///     cos(roll)*der(pitch)) + C*(sin(pitch)*cos(roll)*sin(yaw) -
+///     sin(roll)*cos(yaw))*(cos(roll)*cos(pitch)*der(yaw) - sin(roll)*der(pitch))
+/// ```
+pub fn output_momentum_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let yaw = q[0];
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t0 = cos_pitch * yaw_dot;
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let t1 = sin_yaw * sin_pitch;
+    let t2 = (sin_roll * t1 + cos_yaw * cos_roll) * p.B;
+    let t3 = cos_pitch * p.A * (sin_yaw * (roll_dot - sin_pitch * yaw_dot));
+    let t4 = (t1 * cos_roll - cos_yaw * sin_roll) * p.C;
+    let t5 = (sin_roll * t0 + cos_roll * pitch_dot) * t2 + t3;
+    t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
+}
+
+/// `momentum_z`. Unit: J*s.
+///
+/// ```text
+/// momentum_z = A*sin(pitch)^2*der(yaw) + C*cos(roll)^2*cos(pitch)^2*der(yaw)
+///     + B*sin(roll)^2*cos(pitch)^2*der(yaw) + (B - C)*cos(roll)*sin(roll)*cos(pitch)*der(pitch)
+///     - A*sin(pitch)*der(roll)
+/// ```
+pub fn output_momentum_z<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let pitch = q[1];
+    let roll = q[2];
+    let yaw_dot = v[0];
+    let pitch_dot = v[1];
+    let roll_dot = v[2];
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let (sin_pitch, cos_pitch) = pitch.sin_cos();
+    let t0 = cos_pitch * cos_roll;
+    let t1 = (roll_dot - yaw_dot * sin_pitch) * (sin_pitch * p.A);
+    let t2 = cos_pitch * sin_roll;
+    let t3 = (sin_roll * pitch_dot - t0 * yaw_dot) * (t0 * p.C) + t1;
+    (yaw_dot * t2 + cos_roll * pitch_dot) * (t2 * p.B) - t3
+}
+
+/// Cosine of the angle between the body's z axis and the vertical: -1 where it stands
+/// on its head. Unit: 1.
+///
+/// ```text
+/// upright = cos(roll)*cos(pitch)
+/// ```
+pub fn output_upright<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+    let pitch = q[1];
+    let roll = q[2];
+    let cos_pitch = pitch.cos();
+    let cos_roll = roll.cos();
+    cos_pitch * cos_roll
+}
+
+/// By how much `cos(pitch) > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+    let pitch = q[1];
+    let cos_pitch = pitch.cos();
+    cos_pitch
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
+    Outputs {
+        momentum_x: output_momentum_x(p, q, v),
+        momentum_y: output_momentum_y(p, q, v),
+        momentum_z: output_momentum_z(p, q, v),
+        upright: output_upright(q),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 4] = [
+    ("m", "kg"),
+    ("A", "kg*m^2"),
+    ("B", "kg*m^2"),
+    ("C", "kg*m^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 3] = [("yaw", "rad"), ("pitch", "rad"), ("roll", "rad")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 4] = [
+    ("momentum_x", "J*s"),
+    ("momentum_y", "J*s"),
+    ("momentum_z", "J*s"),
+    ("upright", "1"),
+];
+
+impl ::lagrangian::Machine for AsymmetricTop {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "AsymmetricTop"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.A, self.B, self.C];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 3];
+    type Matrix = [f64; 9];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        _: &Inputs,
+        result: &mut [f64; 3],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = [0.0; 3];
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            outputs.momentum_x,
+            outputs.momentum_y,
+            outputs.momentum_z,
+            outputs.upright,
+        ];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
+        outputs(self, q, v)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        _: &[f64; 3],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [assumption("cos(pitch) > 0", true, assumption_0(q))];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

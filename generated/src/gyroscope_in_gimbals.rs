@@ -1,0 +1,650 @@
+// @generated from machines/gyroscope_in_gimbals.machine by `cargo xtask generate`; edits are lost.
+
+//! A rotor in two gimbals: the outer turns about the vertical, the inner in it about a
+//! horizontal axis, the rotor in that about its own axis. A weight hangs on the inner gimbal,
+//! on the rotor's axis. Gimbals have inertia.
+//!
+//! alpha and gamma are cyclic. Conserved: energy, the rotor's angular momentum about its axis
+//! H, and the angular momentum about the vertical. With its axis level the gyroscope precesses
+//! steadily at exactly der(alpha) = w g d/H, whatever its gimbals are; inclined, at the roots of
+//! a quadratic equation, of which the slow one tends to w g d/H as the rotor gets faster.
+//! Disturbed it nods, without gravity at H cos(beta)/sqrt(I J), where I and J are all that
+//! turns about the outer and the inner axis: gimbals slow that down. And they make it drift: as
+//! it nods by b to either side of beta, the outer gimbal goes round at
+//! -H b^2 sin(beta) (A1 + B2)/(2 I^2) on the average, which would be 0 without the gimbals'
+//! inertia (B. T. Plymale, R. Goodstein, J. Appl. Mech. 22 (1955) 365; K. Magnus, Kreisel,
+//! 1971).
+//!
+//! These angles are the joints of a device, so nothing fails where beta is a right angle but
+//! the device itself: gimbal lock, in which rotor and outer gimbal turn about one line. Give
+//! the rotor a rate, such as der(gamma) = 300.
+//!
+//! 3 coordinates, 12 parameters, 2 outputs. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 6 | 6 | 1 | 0 | 0 | 13 |
+//! | `mass_matrix` | 3 | 1 | 0 | 1 | 0 | 6 |
+//! | `bias` | 12 | 3 | 0 | 1 | 0 | 17 |
+//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `forces` | 13 | 5 | 0 | 1 | 0 | 20 |
+//! | `accelerations` | 22 | 8 | 2 | 1 | 0 | 34 |
+//! | `kinetic_energy` | 17 | 9 | 0 | 1 | 0 | 28 |
+//! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `output_rotor_momentum` | 2 | 1 | 0 | 1 | 0 | 4 |
+//! | `output_vertical_momentum` | 8 | 4 | 0 | 1 | 0 | 14 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A rotor in two gimbals: the outer turns about the vertical, the inner in it about a
+/// horizontal axis, the rotor in that about its own axis. A weight hangs on the inner gimbal,
+/// on the rotor's axis. Gimbals have inertia.
+///
+/// alpha and gamma are cyclic. Conserved: energy, the rotor's angular momentum about its axis
+/// H, and the angular momentum about the vertical. With its axis level the gyroscope precesses
+/// steadily at exactly der(alpha) = w g d/H, whatever its gimbals are; inclined, at the roots of
+/// a quadratic equation, of which the slow one tends to w g d/H as the rotor gets faster.
+/// Disturbed it nods, without gravity at H cos(beta)/sqrt(I J), where I and J are all that
+/// turns about the outer and the inner axis: gimbals slow that down. And they make it drift: as
+/// it nods by b to either side of beta, the outer gimbal goes round at
+/// -H b^2 sin(beta) (A1 + B2)/(2 I^2) on the average, which would be 0 without the gimbals'
+/// inertia (B. T. Plymale, R. Goodstein, J. Appl. Mech. 22 (1955) 365; K. Magnus, Kreisel,
+/// 1971).
+///
+/// These angles are the joints of a device, so nothing fails where beta is a right angle but
+/// the device itself: gimbal lock, in which rotor and outer gimbal turn about one line. Give
+/// the rotor a rate, such as der(gamma) = 300.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GyroscopeInGimbals<S = f64> {
+    /// Inertia of the outer gimbal about its axis, the vertical. Unit: kg*m^2. Default: 0.002.
+    pub A1: S,
+    /// Inertia of the inner gimbal: about its axis, about the rotor's, about the third. Unit:
+    /// kg*m^2. Default: 0.0012.
+    pub A2: S,
+    /// `B2`. Unit: kg*m^2. Default: 0.0008.
+    pub B2: S,
+    /// `C2`. Unit: kg*m^2. Default: 0.0008.
+    pub C2: S,
+    /// Inertia of the rotor: across its axis, and about it. Unit: kg*m^2. Default: 0.0015.
+    pub A3: S,
+    /// `C3`. Unit: kg*m^2. Default: 0.0025.
+    pub C3: S,
+    /// Masses of the gimbals and of the rotor. Their centres rest, so nothing depends on
+    /// them. Unit: kg. Default: 0.5.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 0.4.
+    pub m2: S,
+    /// `m3`. Unit: kg. Default: 1.2.
+    pub m3: S,
+    /// Mass of the weight, and its distance from the centre. Unit: kg. Default: 0.05.
+    pub w: S,
+    /// `d`. Unit: m. Default: 0.12.
+    pub d: S,
+    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for GyroscopeInGimbals {
+    fn default() -> Self {
+        Self {
+            A1: 0.002,
+            A2: 0.0012,
+            B2: 0.0008,
+            C2: 0.0008,
+            A3: 0.0015,
+            C3: 0.0025,
+            m1: 0.5,
+            m2: 0.4,
+            m3: 1.2,
+            w: 0.05,
+            d: 0.12,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> GyroscopeInGimbals<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> GyroscopeInGimbals<R> {
+        GyroscopeInGimbals {
+            A1: f(self.A1),
+            A2: f(self.A2),
+            B2: f(self.B2),
+            C2: f(self.C2),
+            A3: f(self.A3),
+            C3: f(self.C3),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            m3: f(self.m3),
+            w: f(self.w),
+            d: f(self.d),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.d * self.w;
+        let t1 = self.d * t0;
+        let t2 = self.A3 + t1;
+        let k0 = self.C2 + t2;
+        let k2 = self.A2 + t2;
+        let t3 = self.B2 + self.C3;
+        let k5 = t3 - k0;
+        let k1 = t0 * self.g;
+        let k3 = self.A1 * S::from_f64(0.5);
+        let k4 = t1 * S::from_f64(0.5);
+        let k6 = k5 * S::from_f64(2.0);
+        let k7 = self.A1 + t3;
+        let k8 = S::ONE / k2;
+        let singular = if vanishes(k2, k2, 2.6645352591003757e-15) {
+            Some(singular(1, k2, k2))
+        } else {
+            None
+        };
+        Prepared {
+            A1: self.A1,
+            A2: self.A2,
+            B2: self.B2,
+            C2: self.C2,
+            A3: self.A3,
+            C3: self.C3,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let beta = S::from_ratio(1, 5);
+        let q = [zero, beta, zero];
+        let v = [S::ZERO; 3];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`GyroscopeInGimbals`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Turn of the outer gimbal about the vertical. Unit: rad.
+    pub alpha: S,
+    /// Inclination of the rotor's axis, upwards from the horizontal. Unit: rad.
+    pub beta: S,
+    /// Turn of the rotor in the inner gimbal. Unit: rad.
+    pub gamma: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 3] {
+        [self.alpha, self.beta, self.gamma]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 3]) -> Self {
+        Self {
+            alpha: q[0],
+            beta: q[1],
+            gamma: q[2],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            alpha: f(self.alpha),
+            beta: f(self.beta),
+            gamma: f(self.gamma),
+        }
+    }
+}
+
+/// What can be set while a [`GyroscopeInGimbals`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`GyroscopeInGimbals`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Angular momentum of the rotor about its axis, H: conserved. Unit: J*s.
+    pub rotor_momentum: S,
+    /// Angular momentum of everything about the vertical: conserved. Unit: J*s.
+    pub vertical_momentum: S,
+}
+
+/// The parameters of a [`GyroscopeInGimbals`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `A1`
+    A1: S,
+    /// `A2`
+    A2: S,
+    /// `B2`
+    B2: S,
+    /// `C2`
+    C2: S,
+    /// `A3`
+    A3: S,
+    /// `C3`
+    C3: S,
+    /// `C2 + A3 + w*d^2`
+    k0: S,
+    /// `w*d*g`
+    k1: S,
+    /// `A2 + A3 + w*d^2`
+    k2: S,
+    /// `0.5*A1`
+    k3: S,
+    /// `0.5*w*d^2`
+    k4: S,
+    /// `B2 - C2 - A3 + C3 - w*d^2`
+    k5: S,
+    /// `2*(B2 - C2 - A3 + C3 - w*d^2)`
+    k6: S,
+    /// `A1 + B2 + C3`
+    k7: S,
+    /// `1/(A2 + A3 + w*d^2)`
+    k8: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[alpha, alpha] = (C2 - B2 + A3 - C3 + w*d^2)*cos(beta)^2 + A1 + B2 + C3
+/// M[beta, beta] = A2 + A3 + w*d^2
+/// M[gamma, alpha] = C3*sin(beta)
+/// M[gamma, gamma] = C3
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+    let beta = q[1];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let m11 = p.k7 - cos_beta * (cos_beta * p.k5);
+    let zero = S::ZERO;
+    let m31 = sin_beta * p.C3;
+    [[m11, zero, m31], [zero, p.k2, zero], [m31, zero, p.C3]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[alpha] = C3*cos(beta)*der(beta)*der(gamma)
+///     - 2*(C2 - B2 + A3 - C3 + w*d^2)*sin(beta)*cos(beta)*der(alpha)*der(beta)
+/// h[beta] = (C2 - B2 + A3 - C3 + w*d^2)*sin(beta)*cos(beta)*der(alpha)^2
+///     - C3*cos(beta)*der(alpha)*der(gamma)
+/// h[gamma] = C3*cos(beta)*der(alpha)*der(beta)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let beta_dot = v[1];
+    let gamma_dot = v[2];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = cos_beta * alpha_dot;
+    let t1 = t0 * sin_beta;
+    let t2 = beta_dot * p.C3;
+    let h_alpha = t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot);
+    let h_beta = -(t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot));
+    let h_gamma = t0 * t2;
+    [h_alpha, h_beta, h_gamma]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[beta] = -w*d*g*cos(beta)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+    let beta = q[1];
+    let cos_beta = beta.cos();
+    let zero = S::ZERO;
+    let q_beta = -(p.k1 * cos_beta);
+    [zero, q_beta, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let beta_dot = v[1];
+    let gamma_dot = v[2];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = cos_beta * alpha_dot;
+    let t1 = t0 * sin_beta;
+    let t2 = beta_dot * p.C3;
+    let f_alpha = -(t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot));
+    let f_beta = t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot) - cos_beta * p.k1;
+    let f_gamma = -(t0 * t2);
+    [f_alpha, f_beta, f_gamma]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Result<[S; 3], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let beta_dot = v[1];
+    let gamma_dot = v[2];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = cos_beta * alpha_dot;
+    let t1 = sin_beta * t0;
+    let t2 = p.C3 * beta_dot;
+    let t3 = t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot);
+    let t4 = p.k7 - cos_beta * (p.k5 * cos_beta);
+    if vanishes(t4, t4, 2.6645352591003757e-15) {
+        return Err(singular(0, t4, t4));
+    }
+    let t5 = S::ONE / t4;
+    let t6 = sin_beta * p.C3;
+    let t7 = t5 * t6;
+    let t8 = p.C3 - t6 * t7;
+    if vanishes(t8, p.C3, 2.6645352591003757e-15) {
+        return Err(singular(2, t8, p.C3));
+    }
+    let t9 = (t0 * t2 - t7 * t3) / t8;
+    let t10 = t1 * (p.k5 * alpha_dot) + t0 * (p.C3 * gamma_dot) - cos_beta * p.k1;
+    let alpha_ddot = t7 * t9 - t5 * t3;
+    let beta_ddot = p.k8 * t10;
+    let gamma_ddot = -t9;
+    let accelerations = [alpha_ddot, beta_ddot, gamma_ddot];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*B2*sin(beta)^2*der(alpha)^2 + 1/2*(C2 + A3 + w*d^2)*cos(beta)^2*der(alpha)^2
+///     + 1/2*A1*der(alpha)^2 + 1/2*(A2 + A3 + w*d^2)*der(beta)^2
+///     + 1/2*C3*(sin(beta)*der(alpha) + der(gamma))^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let beta_dot = v[1];
+    let gamma_dot = v[2];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = alpha_dot * cos_beta;
+    let t1 = t0 * t0;
+    let t2 = sin_beta * alpha_dot;
+    let t3 = beta_dot * beta_dot;
+    let t4 = S::from_f64(0.5) * (t1 * p.C2 + (t2 * (t2 * p.B2) + t3 * p.A2));
+    let t5 = t2 + gamma_dot;
+    let t6 = S::from_f64(0.5) * (t5 * (t5 * p.C3) + (t1 * p.A3 + p.A3 * t3));
+    t4 + alpha_dot * (alpha_dot * p.k3) + (t6 + p.k4 * (t1 + t3))
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = w*d*g*sin(beta)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+    let beta = q[1];
+    let sin_beta = beta.sin();
+    p.k1 * sin_beta
+}
+
+/// Angular momentum of the rotor about its axis, H: conserved. Unit: J*s.
+///
+/// ```text
+/// rotor_momentum = C3*(sin(beta)*der(alpha) + der(gamma))
+/// ```
+pub fn output_rotor_momentum<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let gamma_dot = v[2];
+    let sin_beta = beta.sin();
+    (sin_beta * alpha_dot + gamma_dot) * p.C3
+}
+
+/// Angular momentum of everything about the vertical: conserved. Unit: J*s.
+///
+/// ```text
+/// vertical_momentum = (B2 + C3)*sin(beta)^2*der(alpha) + (C2 + A3 + w*d^2)*cos(beta)^2*der(alpha)
+///     + A1*der(alpha) + C3*sin(beta)*der(gamma)
+/// ```
+pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
+    let beta = q[1];
+    let alpha_dot = v[0];
+    let gamma_dot = v[2];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = cos_beta * (cos_beta * p.k0) + (sin_beta * (sin_beta * p.B2) + p.A1);
+    (sin_beta * alpha_dot + gamma_dot) * (sin_beta * p.C3) + alpha_dot * t0
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
+    Outputs {
+        rotor_momentum: output_rotor_momentum(p, q, v),
+        vertical_momentum: output_vertical_momentum(p, q, v),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 12] = [
+    ("A1", "kg*m^2"),
+    ("A2", "kg*m^2"),
+    ("B2", "kg*m^2"),
+    ("C2", "kg*m^2"),
+    ("A3", "kg*m^2"),
+    ("C3", "kg*m^2"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("m3", "kg"),
+    ("w", "kg"),
+    ("d", "m"),
+    ("g", "m/s^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 3] = [("alpha", "rad"), ("beta", "rad"), ("gamma", "rad")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 2] = [("rotor_momentum", "J*s"), ("vertical_momentum", "J*s")];
+
+impl ::lagrangian::Machine for GyroscopeInGimbals {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "GyroscopeInGimbals"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.A1, self.A2, self.B2, self.C2, self.A3, self.C3, self.m1, self.m2, self.m3,
+            self.w, self.d, self.g,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 3];
+    type Matrix = [f64; 9];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        _: &Inputs,
+        result: &mut [f64; 3],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [outputs.rotor_momentum, outputs.vertical_momentum];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
+        outputs(self, q, v)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 3],
+        _: &[f64; 3],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

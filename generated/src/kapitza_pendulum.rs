@@ -1,0 +1,553 @@
+// @generated from machines/kapitza_pendulum.machine by `cargo xtask generate`; edits are lost.
+
+//! A pendulum whose pivot is shaken up and down, and which therefore can stand upside down.
+//!
+//! The angle is measured from the upward vertical. Shaken fast by little (a much less than l,
+//! omega much more than sqrt(g/l)), the pendulum stands upright where a^2 omega^2 > 2 g l, and
+//! sways there slowly, with the frequency sqrt(a^2 omega^2/(2 l^2) - g/l) (P. L. Kapitza, Zh.
+//! Eksp. Teor. Fiz. 21 (1951) 588; L. D. Landau, E. M. Lifshitz, Mechanics, section 30). Small
+//! motion about the vertical obeys Mathieu's equation y'' + (A - 2 Q cos 2x) y = 0 with x =
+//! omega t/2, A = -4 g/(l omega^2), Q = 2 a/l: upright is stable exactly where A lies between
+//! the characteristic values a_0(Q) and b_1(Q). Beyond the second, shaken too hard, the
+//! pendulum swings with half the frequency of its pivot.
+//!
+//! 1 coordinate, 5 parameters, 1 output. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 10 | 0 | 1 | 0 | 0 | 11 |
+//! | `bias` | 9 | 2 | 0 | 2 | 0 | 14 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 9 | 3 | 0 | 2 | 0 | 15 |
+//! | `accelerations` | 4 | 1 | 0 | 2 | 0 | 7 |
+//! | `kinetic_energy` | 9 | 2 | 0 | 2 | 0 | 14 |
+//! | `potential_energy` | 4 | 1 | 0 | 2 | 0 | 7 |
+//! | `work_rate` | 9 | 3 | 0 | 2 | 0 | 16 |
+//! | `output_force` | 7 | 3 | 0 | 2 | 0 | 13 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A pendulum whose pivot is shaken up and down, and which therefore can stand upside down.
+///
+/// The angle is measured from the upward vertical. Shaken fast by little (a much less than l,
+/// omega much more than sqrt(g/l)), the pendulum stands upright where a^2 omega^2 > 2 g l, and
+/// sways there slowly, with the frequency sqrt(a^2 omega^2/(2 l^2) - g/l) (P. L. Kapitza, Zh.
+/// Eksp. Teor. Fiz. 21 (1951) 588; L. D. Landau, E. M. Lifshitz, Mechanics, section 30). Small
+/// motion about the vertical obeys Mathieu's equation y'' + (A - 2 Q cos 2x) y = 0 with x =
+/// omega t/2, A = -4 g/(l omega^2), Q = 2 a/l: upright is stable exactly where A lies between
+/// the characteristic values a_0(Q) and b_1(Q). Beyond the second, shaken too hard, the
+/// pendulum swings with half the frequency of its pivot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct KapitzaPendulum<S = f64> {
+    /// Mass of the bob. It cancels. Unit: kg. Default: 1.
+    pub m: S,
+    /// Length of the rod. Unit: m. Default: 1.
+    pub l: S,
+    /// Amplitude of the pivot. Unit: m. Default: 0.1.
+    pub a: S,
+    /// Frequency of the pivot: it shakes with twice the least that holds the pendulum up. Unit:
+    /// rad/s. Default: 88.
+    pub omega: S,
+    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for KapitzaPendulum {
+    fn default() -> Self {
+        Self {
+            m: 1.0,
+            l: 1.0,
+            a: 0.1,
+            omega: 88.0,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> KapitzaPendulum<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> KapitzaPendulum<R> {
+        KapitzaPendulum {
+            m: f(self.m),
+            l: f(self.l),
+            a: f(self.a),
+            omega: f(self.omega),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.a * self.omega;
+        let k4 = self.m * self.g;
+        let k6 = self.m * self.l;
+        let k5 = self.l * k6;
+        let k1 = self.omega * k0;
+        let k2 = self.l * self.l;
+        let k3 = self.m * S::from_f64(0.5);
+        let k7 = self.g * k6;
+        let k8 = k0 * k4;
+        let k9 = self.m * k0;
+        let k10 = S::ONE / self.l;
+        let singular = if vanishes(k5, k5, 8.881784197001252e-16) {
+            Some(singular(0, k5, k5))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            l: self.l,
+            a: self.a,
+            omega: self.omega,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let theta = S::from_ratio(3, 10);
+        let q = [theta];
+        let v = [S::ZERO; 1];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`KapitzaPendulum`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Angle of the rod from the upward vertical. Unit: rad.
+    pub theta: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 1] {
+        [self.theta]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 1]) -> Self {
+        Self { theta: q[0] }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            theta: f(self.theta),
+        }
+    }
+}
+
+/// What can be set while a [`KapitzaPendulum`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`KapitzaPendulum`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Force that shakes the pivot, upwards. Unit: N.
+    pub force: S,
+}
+
+/// The parameters of a [`KapitzaPendulum`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `l`
+    l: S,
+    /// `a`
+    a: S,
+    /// `omega`
+    omega: S,
+    /// `g`
+    g: S,
+    /// `a*omega`
+    k0: S,
+    /// `a*omega^2`
+    k1: S,
+    /// `l^2`
+    k2: S,
+    /// `0.5*m`
+    k3: S,
+    /// `m*g`
+    k4: S,
+    /// `m*l^2`
+    k5: S,
+    /// `m*l`
+    k6: S,
+    /// `m*l*g`
+    k7: S,
+    /// `m*a*omega*g`
+    k8: S,
+    /// `m*a*omega`
+    k9: S,
+    /// `1/l`
+    k10: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[theta, theta] = m*l^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+    [[p.k5]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[theta] = m*l*a*omega^2*cos(omega*t)*sin(theta)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = theta_dot * theta_dot * cos_theta;
+    let t1 = p.omega * t;
+    let cos_t1 = t1.cos();
+    let t2 = (t0 * p.l + p.k1 * cos_t1) * (sin_theta * p.k6);
+    let h_theta = t2 - t0 * (sin_theta * p.k5);
+    [h_theta]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = m*l*g*sin(theta)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let sin_theta = theta.sin();
+    let q_theta = p.k7 * sin_theta;
+    [q_theta]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = theta_dot * theta_dot * cos_theta;
+    let t1 = p.omega * t;
+    let cos_t1 = t1.cos();
+    let t2 = (p.g - (t0 * p.l + p.k1 * cos_t1)) * (sin_theta * p.k6);
+    let f_theta = t2 + t0 * (sin_theta * p.k5);
+    [f_theta]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+) -> Result<[S; 1], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let theta = q[0];
+    let t0 = p.omega * t;
+    let cos_t0 = t0.cos();
+    let sin_theta = theta.sin();
+    let theta_ddot = sin_theta * (p.k10 * (p.g - p.k1 * cos_t0));
+    let accelerations = [theta_ddot];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*(l^2*cos(theta)^2*der(theta)^2 + (-l*sin(theta)*der(theta) - a*omega*sin(omega*t))^2)
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = p.omega * t;
+    let sin_t0 = t0.sin();
+    let t1 = theta_dot * (sin_theta * p.l) + p.k0 * sin_t0;
+    let t2 = cos_theta * theta_dot;
+    p.k3 * (t2 * (t2 * p.k2) + t1 * t1)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = m*g*(l*cos(theta) + a*cos(omega*t))
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
+    let theta = q[0];
+    let cos_theta = theta.cos();
+    let t0 = p.omega * t;
+    let cos_t0 = t0.cos();
+    p.k4 * (cos_theta * p.l + cos_t0 * p.a)
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = -m*a*omega*sin(omega*t)*(l*(-sin(theta)*der(der(theta)) - cos(theta)*der(theta)^2) -
+///     a*omega^2*cos(omega*t)) - m*a*omega*g*sin(omega*t)
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+    a: &[S; 1],
+) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let theta_ddot = a[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = p.omega * t;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t1 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
+    (t1 + p.k1 * cos_t0) * (sin_t0 * p.k9) - sin_t0 * p.k8
+}
+
+/// Force that shakes the pivot, upwards. Unit: N.
+///
+/// ```text
+/// force = m*((-(l*sin(theta)*der(der(theta)) + l*cos(theta)*der(theta)^2) -
+///     a*omega^2*cos(omega*t)) + g)
+/// ```
+pub fn output_force<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+    a: &[S; 1],
+) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let theta_ddot = a[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = p.omega * t;
+    let cos_t0 = t0.cos();
+    let t1 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
+    (p.g - (t1 + p.k1 * cos_t0)) * p.m
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+    a: &[S; 1],
+) -> Outputs<S> {
+    Outputs {
+        force: output_force(p, t, q, v, a),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 5] = [
+    ("m", "kg"),
+    ("l", "m"),
+    ("a", "m"),
+    ("omega", "rad/s"),
+    ("g", "m/s^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 1] = [("theta", "rad")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 1] = [("force", "N")];
+
+impl ::lagrangian::Machine for KapitzaPendulum {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "KapitzaPendulum"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.l, self.a, self.omega, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 1];
+    type Matrix = [f64; 1];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 1]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 1] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 1],
+        _: &[f64; 1],
+        _: &Inputs,
+        result: &mut [f64; 1],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, t, q)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
+        let rows = mass_matrix(self);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, t: f64, q: &[f64; 1], v: &[f64; 1], result: &mut [f64; 1]) {
+        *result = bias(self, t, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, t: f64, q: &[f64; 1], v: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = forces(self, t, q, v);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &[f64; 1], v: &[f64; 1]) -> f64 {
+        kinetic_energy(self, t, q, v)
+    }
+
+    fn potential_energy(&self, t: f64, q: &[f64; 1], _: &Inputs) -> f64 {
+        potential_energy(self, t, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, t: f64, q: &[f64; 1], v: &[f64; 1], a: &[f64; 1], _: &Inputs) -> f64 {
+        work_rate(self, t, q, v, a)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [outputs.force];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, t: f64, q: &[f64; 1], v: &[f64; 1], a: &[f64; 1], _: &Inputs) -> Outputs {
+        outputs(self, t, q, v, a)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 1],
+        _: &[f64; 1],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,434 @@
+// @generated from machines/simple_pendulum.machine by `cargo xtask generate`; edits are lost.
+
+//! A point mass on a massless rod that turns on a fixed pivot, in a vertical plane.
+//!
+//! Energy is conserved. With w = sqrt(g/l) a swing of amplitude A has the period 4 K(k)/w,
+//! where K is the complete elliptic integral of modulus k = sin(A/2), and from rest it moves as
+//! sin(theta/2) = k cd(w t). Small swings take 2 pi/w, all of one length (C. Huygens, 1673); a
+//! swing of 90 degrees takes 18 % longer, and at 180 degrees the period is infinite: the
+//! pendulum that comes to rest upside down moves as theta = 4 atan(exp(w t)) - pi. Faster ones
+//! turn over and over. E. T. Whittaker, Analytical Dynamics, 4th ed. 1937, section 44.
+//!
+//! 1 coordinate, 3 parameters, 1 output. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 4 | 0 | 1 | 0 | 0 | 5 |
+//! | `start` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `forces` | 7 | 2 | 0 | 1 | 0 | 11 |
+//! | `accelerations` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `kinetic_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
+//! | `potential_energy` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `output_tension` | 4 | 1 | 0 | 1 | 0 | 6 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A point mass on a massless rod that turns on a fixed pivot, in a vertical plane.
+///
+/// Energy is conserved. With w = sqrt(g/l) a swing of amplitude A has the period 4 K(k)/w,
+/// where K is the complete elliptic integral of modulus k = sin(A/2), and from rest it moves as
+/// sin(theta/2) = k cd(w t). Small swings take 2 pi/w, all of one length (C. Huygens, 1673); a
+/// swing of 90 degrees takes 18 % longer, and at 180 degrees the period is infinite: the
+/// pendulum that comes to rest upside down moves as theta = 4 atan(exp(w t)) - pi. Faster ones
+/// turn over and over. E. T. Whittaker, Analytical Dynamics, 4th ed. 1937, section 44.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SimplePendulum<S = f64> {
+    /// Mass of the bob. It cancels: light and heavy bobs swing alike. Unit: kg. Default: 1.
+    pub m: S,
+    /// Length of the rod. Unit: m. Default: 1.
+    pub l: S,
+    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for SimplePendulum {
+    fn default() -> Self {
+        Self {
+            m: 1.0,
+            l: 1.0,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> SimplePendulum<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> SimplePendulum<R> {
+        SimplePendulum {
+            m: f(self.m),
+            l: f(self.l),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> SimplePendulum<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k3 = self.m * self.l;
+        let k0 = self.l * k3;
+        let k1 = k0 * S::from_f64(0.5);
+        let k2 = self.g * k3;
+        let k4 = self.g / self.l;
+        let singular = if vanishes(k0, k0, 8.881784197001252e-16) {
+            Some(singular(0, k0, k0))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            l: self.l,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let theta = S::pi() * S::from_f64(0.5);
+        let q = [theta];
+        let v = [S::ZERO; 1];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`SimplePendulum`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Angle of the rod from the downward vertical. Unit: rad.
+    pub theta: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 1] {
+        [self.theta]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 1]) -> Self {
+        Self { theta: q[0] }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            theta: f(self.theta),
+        }
+    }
+}
+
+/// What can be set while a [`SimplePendulum`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`SimplePendulum`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
+    /// of a swing from 90 degrees. Unit: N.
+    pub tension: S,
+}
+
+/// The parameters of a [`SimplePendulum`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `l`
+    l: S,
+    /// `g`
+    g: S,
+    /// `m*l^2`
+    k0: S,
+    /// `0.5*m*l^2`
+    k1: S,
+    /// `m*l*g`
+    k2: S,
+    /// `m*l`
+    k3: S,
+    /// `g/l`
+    k4: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[theta, theta] = m*l^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+    [[p.k0]]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = -m*l*g*sin(theta)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let sin_theta = theta.sin();
+    let q_theta = -(p.k2 * sin_theta);
+    [q_theta]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = theta_dot * theta_dot * cos_theta;
+    let f_theta = t0 * (sin_theta * p.k0) - (t0 * p.l + p.g) * (sin_theta * p.k3);
+    [f_theta]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 1],
+) -> Result<[S; 1], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let theta = q[0];
+    let sin_theta = theta.sin();
+    let theta_ddot = -(p.k4 * sin_theta);
+    let accelerations = [theta_ddot];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*l^2*der(theta)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
+    let theta_dot = v[0];
+    theta_dot * (theta_dot * p.k1)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -m*l*g*cos(theta)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
+    let theta = q[0];
+    let cos_theta = theta.cos();
+    -(p.k2 * cos_theta)
+}
+
+/// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
+/// of a swing from 90 degrees. Unit: N.
+///
+/// ```text
+/// tension = m*l*der(theta)^2 + m*g*cos(theta)
+/// ```
+pub fn output_tension<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) -> S {
+    let theta = q[0];
+    let theta_dot = v[0];
+    let cos_theta = theta.cos();
+    (theta_dot * (theta_dot * p.l) + cos_theta * p.g) * p.m
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) -> Outputs<S> {
+    Outputs {
+        tension: output_tension(p, q, v),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("l", "m"), ("g", "m/s^2")];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 1] = [("theta", "rad")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 1] = [("tension", "N")];
+
+impl ::lagrangian::Machine for SimplePendulum {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "SimplePendulum"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.l, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 1];
+    type Matrix = [f64; 1];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 1]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 1] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 1],
+        _: &[f64; 1],
+        _: &Inputs,
+        result: &mut [f64; 1],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
+        let rows = mass_matrix(self);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, _: &[f64; 1], _: &[f64; 1], result: &mut [f64; 1]) {
+        *result = [0.0; 1];
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 1], v: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, _: &[f64; 1], v: &[f64; 1]) -> f64 {
+        kinetic_energy(self, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 1], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 1], _: &[f64; 1], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [outputs.tension];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 1], v: &[f64; 1], _: &[f64; 1], _: &Inputs) -> Outputs {
+        outputs(self, q, v)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 1],
+        _: &[f64; 1],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

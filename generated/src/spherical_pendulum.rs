@@ -1,0 +1,550 @@
+// @generated from machines/spherical_pendulum.machine by `cargo xtask generate`; edits are lost.
+
+//! A point mass on a massless rod that swings from a fixed point in every direction.
+//!
+//! Conserved: energy, and the angular momentum about the vertical, since phi is cyclic. At the
+//! angle theta the pendulum runs in a circle if der(phi)^2 = g/(l cos(theta)), the conical
+//! pendulum (C. Huygens, 1673); beside that it nods with the frequency sqrt(g (1 + 3
+//! cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function of time: z = z1
+//! + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics, 4th ed. 1937,
+//! section 55). From one highest point to the next, the plane of the swing turns by more than
+//! pi and less than 2 pi.
+//!
+//! The angles fail where the rod is vertical: der(phi) has no meaning there. A pendulum with
+//! angular momentum never gets there; one without it is the simple pendulum.
+//!
+//! 2 coordinates, 3 parameters, 3 outputs. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 5 | 0 | 1 | 0 | 0 | 6 |
+//! | `start` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `mass_matrix` | 2 | 0 | 0 | 1 | 0 | 3 |
+//! | `bias` | 6 | 1 | 0 | 1 | 0 | 9 |
+//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `forces` | 8 | 3 | 0 | 1 | 0 | 13 |
+//! | `accelerations` | 9 | 3 | 1 | 1 | 0 | 15 |
+//! | `kinetic_energy` | 4 | 1 | 0 | 1 | 0 | 6 |
+//! | `potential_energy` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `output_vertical_momentum` | 3 | 0 | 0 | 1 | 0 | 4 |
+//! | `output_height` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `output_tension` | 6 | 2 | 0 | 1 | 0 | 10 |
+//! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A point mass on a massless rod that swings from a fixed point in every direction.
+///
+/// Conserved: energy, and the angular momentum about the vertical, since phi is cyclic. At the
+/// angle theta the pendulum runs in a circle if der(phi)^2 = g/(l cos(theta)), the conical
+/// pendulum (C. Huygens, 1673); beside that it nods with the frequency sqrt(g (1 + 3
+/// cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function of time: z = z1
+/// + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics, 4th ed. 1937,
+/// section 55). From one highest point to the next, the plane of the swing turns by more than
+/// pi and less than 2 pi.
+///
+/// The angles fail where the rod is vertical: der(phi) has no meaning there. A pendulum with
+/// angular momentum never gets there; one without it is the simple pendulum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SphericalPendulum<S = f64> {
+    /// Mass of the bob. Unit: kg. Default: 1.
+    pub m: S,
+    /// Length of the rod. Unit: m. Default: 1.
+    pub l: S,
+    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for SphericalPendulum {
+    fn default() -> Self {
+        Self {
+            m: 1.0,
+            l: 1.0,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> SphericalPendulum<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> SphericalPendulum<R> {
+        SphericalPendulum {
+            m: f(self.m),
+            l: f(self.l),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k4 = self.m * self.l;
+        let k0 = self.l * k4;
+        let k1 = k0 * S::from_f64(0.5);
+        let k2 = self.g * k4;
+        let k3 = k0 * S::from_f64(2.0);
+        let k5 = S::ONE / self.l;
+        let singular = if vanishes(k0, k0, 1.7763568394002505e-15) {
+            Some(singular(1, k0, k0))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            l: self.l,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let theta = S::from_ratio(1, 3) * S::pi();
+        let q = [zero, theta];
+        let v = [S::ZERO; 2];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`SphericalPendulum`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Direction in which the pendulum hangs, about the upward vertical. Unit: rad.
+    pub phi: S,
+    /// Angle of the rod from the downward vertical. Unit: rad.
+    pub theta: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 2] {
+        [self.phi, self.theta]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 2]) -> Self {
+        Self {
+            phi: q[0],
+            theta: q[1],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            phi: f(self.phi),
+            theta: f(self.theta),
+        }
+    }
+}
+
+/// What can be set while a [`SphericalPendulum`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`SphericalPendulum`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Angular momentum about the vertical: conserved. Unit: J*s.
+    pub vertical_momentum: S,
+    /// Height of the bob above the fixed point. Unit: m.
+    pub height: S,
+    /// Tension of the rod. Unit: N.
+    pub tension: S,
+}
+
+/// The parameters of a [`SphericalPendulum`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `l`
+    l: S,
+    /// `g`
+    g: S,
+    /// `m*l^2`
+    k0: S,
+    /// `0.5*m*l^2`
+    k1: S,
+    /// `m*l*g`
+    k2: S,
+    /// `2*m*l^2`
+    k3: S,
+    /// `m*l`
+    k4: S,
+    /// `1/l`
+    k5: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[phi, phi] = m*l^2*sin(theta)^2
+/// M[theta, theta] = m*l^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
+    let theta = q[1];
+    let sin_theta = theta.sin();
+    let m11 = sin_theta * (sin_theta * p.k0);
+    let zero = S::ZERO;
+    [[m11, zero], [zero, p.k0]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[phi] = 2*m*l^2*cos(theta)*sin(theta)*der(phi)*der(theta)
+/// h[theta] = -m*l^2*cos(theta)*sin(theta)*der(phi)^2
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+    let theta = q[1];
+    let phi_dot = v[0];
+    let theta_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = sin_theta * cos_theta * phi_dot;
+    let h_phi = t0 * (p.k3 * theta_dot);
+    let h_theta = -(t0 * (phi_dot * p.k0));
+    [h_phi, h_theta]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = -m*l*g*sin(theta)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
+    let theta = q[1];
+    let sin_theta = theta.sin();
+    let zero = S::ZERO;
+    let q_theta = -(p.k2 * sin_theta);
+    [zero, q_theta]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+    let theta = q[1];
+    let phi_dot = v[0];
+    let theta_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = sin_theta * cos_theta * phi_dot;
+    let f_phi = -(t0 * (p.k3 * theta_dot));
+    let f_theta = -(p.k4 * (sin_theta * p.g - t0 * (phi_dot * p.l)));
+    [f_phi, f_theta]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> Result<[S; 2], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let theta = q[1];
+    let phi_dot = v[0];
+    let theta_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = cos_theta * phi_dot;
+    let t1 = sin_theta * (sin_theta * p.k0);
+    if vanishes(t1, t1, 1.7763568394002505e-15) {
+        return Err(singular(0, t1, t1));
+    }
+    let phi_ddot = -(t0 * (S::from_f64(2.0) * theta_dot) / sin_theta);
+    let theta_ddot = -((p.g - t0 * (phi_dot * p.l)) * (sin_theta * p.k5));
+    let accelerations = [phi_ddot, theta_ddot];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*l^2*sin(theta)^2*der(phi)^2 + 1/2*m*l^2*der(theta)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+    let theta = q[1];
+    let phi_dot = v[0];
+    let theta_dot = v[1];
+    let sin_theta = theta.sin();
+    let t0 = sin_theta * phi_dot;
+    p.k1 * (t0 * t0 + theta_dot * theta_dot)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -m*l*g*cos(theta)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+    let theta = q[1];
+    let cos_theta = theta.cos();
+    -(p.k2 * cos_theta)
+}
+
+/// Angular momentum about the vertical: conserved. Unit: J*s.
+///
+/// ```text
+/// vertical_momentum = m*l^2*sin(theta)^2*der(phi)
+/// ```
+pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
+    let theta = q[1];
+    let phi_dot = v[0];
+    let sin_theta = theta.sin();
+    sin_theta * p.k0 * (sin_theta * phi_dot)
+}
+
+/// Height of the bob above the fixed point. Unit: m.
+///
+/// ```text
+/// height = -l*cos(theta)
+/// ```
+pub fn output_height<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+    let theta = q[1];
+    let cos_theta = theta.cos();
+    -(cos_theta * p.l)
+}
+
+/// Tension of the rod. Unit: N.
+///
+/// ```text
+/// tension = m*(l*(sin(theta)^2*der(phi)^2 + der(theta)^2) + g*cos(theta))
+/// ```
+pub fn output_tension<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+    let theta = q[1];
+    let phi_dot = v[0];
+    let theta_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = sin_theta * phi_dot;
+    ((t0 * t0 + theta_dot * theta_dot) * p.l + cos_theta * p.g) * p.m
+}
+
+/// By how much `sin(theta) > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 2]) -> S {
+    let theta = q[1];
+    let sin_theta = theta.sin();
+    sin_theta
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> Outputs<S> {
+    Outputs {
+        vertical_momentum: output_vertical_momentum(p, q, v),
+        height: output_height(p, q),
+        tension: output_tension(p, q, v),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("l", "m"), ("g", "m/s^2")];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 2] = [("phi", "rad"), ("theta", "rad")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 3] = [
+    ("vertical_momentum", "J*s"),
+    ("height", "m"),
+    ("tension", "N"),
+];
+
+impl ::lagrangian::Machine for SphericalPendulum {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "SphericalPendulum"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.l, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 2];
+    type Matrix = [f64; 4];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 2],
+        v: &[f64; 2],
+        _: &Inputs,
+        result: &mut [f64; 2],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q, v)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 2], v: &[f64; 2], result: &mut [f64; 2]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 2], v: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 2], v: &[f64; 2]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [outputs.vertical_momentum, outputs.height, outputs.tension];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 2], v: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
+        outputs(self, q, v)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 2],
+        _: &[f64; 2],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [assumption("sin(theta) > 0", true, assumption_0(q))];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,666 @@
+// @generated from machines/spring_mass_train.machine by `cargo xtask generate`; edits are lost.
+
+//! A train of N equal cars on a level track, coupled by springs; the last one is the engine.
+//!
+//! The coordinates say how far each car is from its place in a train at rest, so the machine is
+//! linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), i the car and j = 0 …
+//! N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of them, 0, is the
+//! ride of the train as a whole, whose momentum only the engine changes. Long waves all travel
+//! with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m) (L. Brillouin, Wave Propagation
+//! in Periodic Structures, 1946, ch. 3). A constant pull F stretches the coupling in front of
+//! car i by (i/N) F/k in the mean: it draws i of the N cars.
+//!
+//! 8 coordinates, 3 parameters, 1 input, 1 output. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 3 | 0 | 1 | 0 | 0 | 4 |
+//! | `applied` | 8 | 15 | 0 | 0 | 0 | 23 |
+//! | `forces` | 8 | 15 | 0 | 0 | 0 | 23 |
+//! | `accelerations` | 9 | 15 | 0 | 0 | 0 | 24 |
+//! | `kinetic_energy` | 9 | 7 | 0 | 0 | 0 | 16 |
+//! | `potential_energy` | 8 | 13 | 0 | 0 | 0 | 21 |
+//! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `output_drawbar` | 1 | 2 | 0 | 0 | 0 | 3 |
+//! | `assumption_0` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_1` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_2` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_3` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_4` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_5` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `assumption_6` | 0 | 2 | 0 | 0 | 0 | 2 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A train of N equal cars on a level track, coupled by springs; the last one is the engine.
+///
+/// The coordinates say how far each car is from its place in a train at rest, so the machine is
+/// linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), i the car and j = 0 …
+/// N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of them, 0, is the
+/// ride of the train as a whole, whose momentum only the engine changes. Long waves all travel
+/// with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m) (L. Brillouin, Wave Propagation
+/// in Periodic Structures, 1946, ch. 3). A constant pull F stretches the coupling in front of
+/// car i by (i/N) F/k in the mean: it draws i of the N cars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringMassTrain<S = f64> {
+    /// Mass of a car. Unit: kg. Default: 20.
+    pub m: S,
+    /// Stiffness of a coupling. Unit: N/m. Default: 8000.
+    pub k: S,
+    /// Distance of two cars at rest. Unit: m. Default: 0.5.
+    pub d: S,
+}
+
+impl Default for SpringMassTrain {
+    fn default() -> Self {
+        Self {
+            m: 20.0,
+            k: 8000.0,
+            d: 0.5,
+        }
+    }
+}
+
+impl<S> SpringMassTrain<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> SpringMassTrain<R> {
+        SpringMassTrain {
+            m: f(self.m),
+            k: f(self.k),
+            d: f(self.d),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k2 = S::ONE / self.m;
+        let k0 = self.k * S::from_f64(0.5);
+        let k1 = self.m * S::from_f64(0.5);
+        let k3 = self.k * k2;
+        let singular = if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(7, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(6, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(5, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(4, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(3, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(2, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(0, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
+            Some(singular(1, self.m, self.m))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            k: self.k,
+            d: self.d,
+            k0,
+            k1,
+            k2,
+            k3,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let q = [zero, zero, zero, zero, zero, zero, zero, zero];
+        let v = [S::ZERO; 8];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`SpringMassTrain`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Way of each car from its place. Unit: m. Members: `u[1]` to `u[8]`.
+    pub u: [S; 8],
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 8] {
+        [
+            self.u[0], self.u[1], self.u[2], self.u[3], self.u[4], self.u[5], self.u[6], self.u[7],
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 8]) -> Self {
+        Self {
+            u: [q[0], q[1], q[2], q[3], q[4], q[5], q[6], q[7]],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates { u: self.u.map(&f) }
+    }
+}
+
+/// What can be set while a [`SpringMassTrain`] runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs<S = f64> {
+    /// Pull of the engine. Unit: N. Default: 200.
+    pub pull: S,
+}
+
+impl Default for Inputs {
+    fn default() -> Self {
+        Self { pull: 200.0 }
+    }
+}
+
+impl<S> Inputs<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
+        Inputs { pull: f(self.pull) }
+    }
+}
+
+/// What can be observed of a [`SpringMassTrain`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outputs<S = f64> {
+    /// Tension of the coupling behind the engine. Unit: N.
+    pub drawbar: S,
+}
+
+/// The parameters of a [`SpringMassTrain`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `k`
+    k: S,
+    /// `d`
+    d: S,
+    /// `0.5*k`
+    k0: S,
+    /// `0.5*m`
+    k1: S,
+    /// `1/m`
+    k2: S,
+    /// `k/m`
+    k3: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[u[1], u[1]] = m
+/// M[u[2], u[2]] = m
+/// M[u[3], u[3]] = m
+/// M[u[4], u[4]] = m
+/// M[u[5], u[5]] = m
+/// M[u[6], u[6]] = m
+/// M[u[7], u[7]] = m
+/// M[u[8], u[8]] = m
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 8]; 8] {
+    let zero = S::ZERO;
+    [
+        [p.m, zero, zero, zero, zero, zero, zero, zero],
+        [zero, p.m, zero, zero, zero, zero, zero, zero],
+        [zero, zero, p.m, zero, zero, zero, zero, zero],
+        [zero, zero, zero, p.m, zero, zero, zero, zero],
+        [zero, zero, zero, zero, p.m, zero, zero, zero],
+        [zero, zero, zero, zero, zero, p.m, zero, zero],
+        [zero, zero, zero, zero, zero, zero, p.m, zero],
+        [zero, zero, zero, zero, zero, zero, zero, p.m],
+    ]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[u[1]] = k*(u[2] - u[1])
+/// Q[u[2]] = k*u[1] - 2*k*u[2] + k*u[3]
+/// Q[u[3]] = k*u[2] - 2*k*u[3] + k*u[4]
+/// Q[u[4]] = k*u[3] - 2*k*u[4] + k*u[5]
+/// Q[u[5]] = k*u[4] - 2*k*u[5] + k*u[6]
+/// Q[u[6]] = k*u[5] - 2*k*u[6] + k*u[7]
+/// Q[u[7]] = k*u[6] - 2*k*u[7] + k*u[8]
+/// Q[u[8]] = pull - k*(u[8] - u[7])
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S>) -> [S; 8] {
+    let u_1 = q[0];
+    let u_2 = q[1];
+    let u_3 = q[2];
+    let u_4 = q[3];
+    let u_5 = q[4];
+    let u_6 = q[5];
+    let u_7 = q[6];
+    let u_8 = q[7];
+    let t0 = u_1 - u_2;
+    let t1 = u_2 - u_3;
+    let t2 = u_3 - u_4;
+    let t3 = u_4 - u_5;
+    let t4 = u_5 - u_6;
+    let t5 = u_6 - u_7;
+    let t6 = u_7 - u_8;
+    let q_u_1 = -(p.k * t0);
+    let q_u_2 = p.k * (t0 - t1);
+    let q_u_3 = p.k * (t1 - t2);
+    let q_u_4 = p.k * (t2 - t3);
+    let q_u_5 = p.k * (t3 - t4);
+    let q_u_6 = p.k * (t4 - t5);
+    let q_u_7 = p.k * (t5 - t6);
+    let q_u_8 = p.k * t6 + u.pull;
+    [q_u_1, q_u_2, q_u_3, q_u_4, q_u_5, q_u_6, q_u_7, q_u_8]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S>) -> [S; 8] {
+    let u_1 = q[0];
+    let u_2 = q[1];
+    let u_3 = q[2];
+    let u_4 = q[3];
+    let u_5 = q[4];
+    let u_6 = q[5];
+    let u_7 = q[6];
+    let u_8 = q[7];
+    let t0 = u_1 - u_2;
+    let t1 = u_2 - u_3;
+    let t2 = u_3 - u_4;
+    let t3 = u_4 - u_5;
+    let t4 = u_5 - u_6;
+    let t5 = u_6 - u_7;
+    let t6 = u_7 - u_8;
+    let f_u_1 = -(p.k * t0);
+    let f_u_2 = p.k * (t0 - t1);
+    let f_u_3 = p.k * (t1 - t2);
+    let f_u_4 = p.k * (t2 - t3);
+    let f_u_5 = p.k * (t3 - t4);
+    let f_u_6 = p.k * (t4 - t5);
+    let f_u_7 = p.k * (t5 - t6);
+    let f_u_8 = p.k * t6 + u.pull;
+    [f_u_1, f_u_2, f_u_3, f_u_4, f_u_5, f_u_6, f_u_7, f_u_8]
+}
+
+/// Accelerations `a`, the solution of `M a = f`.
+///
+/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
+/// error.
+pub fn accelerations<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 8],
+    u: &Inputs<S>,
+) -> Result<[S; 8], ::lagrangian::Singular> {
+    if let Some(singular) = p.singular {
+        return Err(singular);
+    }
+    let u_1 = q[0];
+    let u_2 = q[1];
+    let u_3 = q[2];
+    let u_4 = q[3];
+    let u_5 = q[4];
+    let u_6 = q[5];
+    let u_7 = q[6];
+    let u_8 = q[7];
+    let t0 = u_1 - u_2;
+    let t1 = u_2 - u_3;
+    let t2 = u_3 - u_4;
+    let t3 = u_4 - u_5;
+    let t4 = u_5 - u_6;
+    let t5 = u_6 - u_7;
+    let t6 = u_7 - u_8;
+    let u_1_ddot = -(p.k3 * t0);
+    let u_2_ddot = p.k3 * (t0 - t1);
+    let u_3_ddot = p.k3 * (t1 - t2);
+    let u_4_ddot = p.k3 * (t2 - t3);
+    let u_5_ddot = p.k3 * (t3 - t4);
+    let u_6_ddot = p.k3 * (t4 - t5);
+    let u_7_ddot = p.k3 * (t5 - t6);
+    let u_8_ddot = p.k2 * (t6 * p.k + u.pull);
+    let accelerations = [
+        u_1_ddot, u_2_ddot, u_3_ddot, u_4_ddot, u_5_ddot, u_6_ddot, u_7_ddot, u_8_ddot,
+    ];
+    Ok(accelerations)
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*der(u[1])^2 + 1/2*m*der(u[2])^2 + 1/2*m*der(u[3])^2 + 1/2*m*der(u[4])^2
+///     + 1/2*m*der(u[5])^2 + 1/2*m*der(u[6])^2 + 1/2*m*der(u[7])^2 + 1/2*m*der(u[8])^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 8]) -> S {
+    let u_1_dot = v[0];
+    let u_2_dot = v[1];
+    let u_3_dot = v[2];
+    let u_4_dot = v[3];
+    let u_5_dot = v[4];
+    let u_6_dot = v[5];
+    let u_7_dot = v[6];
+    let u_8_dot = v[7];
+    let t0 = u_4_dot * u_4_dot + u_3_dot * u_3_dot;
+    let t1 = u_8_dot * u_8_dot + u_7_dot * u_7_dot;
+    let t2 = u_6_dot * u_6_dot + u_5_dot * u_5_dot + t1;
+    (u_2_dot * u_2_dot + u_1_dot * u_1_dot + t0 + t2) * p.k1
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = 1/2*k*(u[2] - u[1])^2 + 1/2*k*(u[3] - u[2])^2 + 1/2*k*(u[4] - u[3])^2
+///     + 1/2*k*(u[5] - u[4])^2 + 1/2*k*(u[6] - u[5])^2 + 1/2*k*(u[7] - u[6])^2
+///     + 1/2*k*(u[8] - u[7])^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_1 = q[0];
+    let u_2 = q[1];
+    let u_3 = q[2];
+    let u_4 = q[3];
+    let u_5 = q[4];
+    let u_6 = q[5];
+    let u_7 = q[6];
+    let u_8 = q[7];
+    let t0 = u_2 - u_3;
+    let t1 = u_1 - u_2;
+    let t2 = u_4 - u_5;
+    let t3 = u_3 - u_4;
+    let t4 = u_6 - u_7;
+    let t5 = u_5 - u_6;
+    let t6 = u_7 - u_8;
+    let t7 = t0 * t0 + t1 * t1 + (t2 * t2 + t3 * t3);
+    (t7 + (t6 * t6 + (t4 * t4 + t5 * t5))) * p.k0
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = der(u[8])*pull
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
+    let u_8_dot = v[7];
+    u.pull * u_8_dot
+}
+
+/// Tension of the coupling behind the engine. Unit: N.
+///
+/// ```text
+/// drawbar = k*(u[8] - u[7])
+/// ```
+pub fn output_drawbar<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_7 = q[6];
+    let u_8 = q[7];
+    -((u_7 - u_8) * p.k)
+}
+
+/// By how much `d + u[2] - u[1] > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_1 = q[0];
+    let u_2 = q[1];
+    u_2 + p.d - u_1
+}
+
+/// By how much `d + u[3] - u[2] > 0` holds.
+pub fn assumption_1<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_2 = q[1];
+    let u_3 = q[2];
+    u_3 + p.d - u_2
+}
+
+/// By how much `d + u[4] - u[3] > 0` holds.
+pub fn assumption_2<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_3 = q[2];
+    let u_4 = q[3];
+    u_4 + p.d - u_3
+}
+
+/// By how much `d + u[5] - u[4] > 0` holds.
+pub fn assumption_3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_4 = q[3];
+    let u_5 = q[4];
+    u_5 + p.d - u_4
+}
+
+/// By how much `d + u[6] - u[5] > 0` holds.
+pub fn assumption_4<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_5 = q[4];
+    let u_6 = q[5];
+    u_6 + p.d - u_5
+}
+
+/// By how much `d + u[7] - u[6] > 0` holds.
+pub fn assumption_5<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_6 = q[5];
+    let u_7 = q[6];
+    u_7 + p.d - u_6
+}
+
+/// By how much `d + u[8] - u[7] > 0` holds.
+pub fn assumption_6<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+    let u_7 = q[6];
+    let u_8 = q[7];
+    u_8 + p.d - u_7
+}
+
+/// Everything that the description asks to observe.
+pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> Outputs<S> {
+    Outputs {
+        drawbar: output_drawbar(p, q),
+    }
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 3] = [("m", "kg"), ("k", "N/m"), ("d", "m")];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 8] = [
+    ("u[1]", "m"),
+    ("u[2]", "m"),
+    ("u[3]", "m"),
+    ("u[4]", "m"),
+    ("u[5]", "m"),
+    ("u[6]", "m"),
+    ("u[7]", "m"),
+    ("u[8]", "m"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 1] = [("pull", "N")];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 1] = [("drawbar", "N")];
+
+impl ::lagrangian::Machine for SpringMassTrain {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "SpringMassTrain"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.k, self.d];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 8];
+    type Matrix = [f64; 64];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 8]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 8] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 8],
+        _: &[f64; 8],
+        u: &Inputs,
+        result: &mut [f64; 8],
+    ) -> Result<(), ::lagrangian::Singular> {
+        *result = accelerations(self, q, u)?;
+        Ok(())
+    }
+
+    fn mass_matrix(&self, _: f64, _: &[f64; 8], matrix: &mut [f64; 64]) {
+        let rows = mass_matrix(self);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, _: &[f64; 8], _: &[f64; 8], result: &mut [f64; 8]) {
+        *result = [0.0; 8];
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 8], _: &[f64; 8], u: &Inputs, result: &mut [f64; 8]) {
+        *result = applied(self, q, u);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 8], _: &[f64; 8], u: &Inputs, result: &mut [f64; 8]) {
+        *result = forces(self, q, u);
+    }
+
+    fn kinetic_energy(&self, _: f64, _: &[f64; 8], v: &[f64; 8]) -> f64 {
+        kinetic_energy(self, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 8], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 8], v: &[f64; 8], _: &[f64; 8], u: &Inputs) -> f64 {
+        work_rate(v, u)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        inputs: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [inputs.pull];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [outputs.drawbar];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, q: &[f64; 8], _: &[f64; 8], _: &[f64; 8], _: &Inputs) -> Outputs {
+        outputs(self, q)
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 8],
+        _: &[f64; 8],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [
+            assumption("d + u[2] - u[1] > 0", true, assumption_0(self, q)),
+            assumption("d + u[3] - u[2] > 0", true, assumption_1(self, q)),
+            assumption("d + u[4] - u[3] > 0", true, assumption_2(self, q)),
+            assumption("d + u[5] - u[4] > 0", true, assumption_3(self, q)),
+            assumption("d + u[6] - u[5] > 0", true, assumption_4(self, q)),
+            assumption("d + u[7] - u[6] > 0", true, assumption_5(self, q)),
+            assumption("d + u[8] - u[7] > 0", true, assumption_6(self, q)),
+        ];
+        facts.into_iter()
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    !pivot.exceeds(S::from_f64(share) * diagonal)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}
