@@ -848,7 +848,7 @@ fn long_nonsense_takes_linear_time() {
 fn the_reference_prints_what_the_parser_reads() {
     let page = include_str!("../../docs/spec-language.md");
     let mut machines = 0;
-    for block in page.split("```text\n").skip(1) {
+    for block in page.split("```machine\n").skip(1) {
         let text = block.split("```").next().unwrap_or("");
         // The page draws published equations without what stands in them.
         if !text.contains('…') {
