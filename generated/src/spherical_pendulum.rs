@@ -4,11 +4,11 @@
 //!
 //! Conserved: energy, and the angular momentum about the vertical, since phi is cyclic. At the
 //! angle theta the pendulum runs in a circle if der(phi)^2 = g/(l cos(theta)), the conical
-//! pendulum (C. Huygens, 1673); beside that it nods with the frequency sqrt(g (1 + 3
-//! cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function of time: z = z1
-//! + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics, 4th ed. 1937,
-//! section 55). From one highest point to the next, the plane of the swing turns by more than
-//! pi and less than 2 pi.
+//! pendulum (C. Huygens, 1673); beside that it nods with the frequency
+//! sqrt(g (1 + 3 cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function
+//! of time, z = z1 + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics,
+//! 4th ed. 1937, section 55). From one lowest point to the next, the plane of the swing turns
+//! by more than pi and less than 2 pi.
 //!
 //! The angles fail where the rod is vertical: der(phi) has no meaning there. A pendulum with
 //! angular momentum never gets there; one without it is the simple pendulum.
@@ -50,11 +50,11 @@
 ///
 /// Conserved: energy, and the angular momentum about the vertical, since phi is cyclic. At the
 /// angle theta the pendulum runs in a circle if der(phi)^2 = g/(l cos(theta)), the conical
-/// pendulum (C. Huygens, 1673); beside that it nods with the frequency sqrt(g (1 + 3
-/// cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function of time: z = z1
-/// + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics, 4th ed. 1937,
-/// section 55). From one highest point to the next, the plane of the swing turns by more than
-/// pi and less than 2 pi.
+/// pendulum (C. Huygens, 1673); beside that it nods with the frequency
+/// sqrt(g (1 + 3 cos(theta)^2)/(l cos(theta))). In general the height is an elliptic function
+/// of time, z = z1 + (z2 - z1) sn^2, between two levels (E. T. Whittaker, Analytical Dynamics,
+/// 4th ed. 1937, section 55). From one lowest point to the next, the plane of the swing turns
+/// by more than pi and less than 2 pi.
 ///
 /// The angles fail where the rod is vertical: der(phi) has no meaning there. A pendulum with
 /// angular momentum never gets there; one without it is the simple pendulum.

@@ -3,12 +3,12 @@
 //! A train of N equal cars on a level track, coupled by springs; the last one is the engine.
 //!
 //! The coordinates say how far each car is from its place in a train at rest, so the machine is
-//! linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), i the car and j = 0 …
-//! N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of them, 0, is the
-//! ride of the train as a whole, whose momentum only the engine changes. Long waves all travel
-//! with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m) (L. Brillouin, Wave Propagation
-//! in Periodic Structures, 1946, ch. 3). A constant pull F stretches the coupling in front of
-//! car i by (i/N) F/k in the mean: it draws i of the N cars.
+//! linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), where i is the car
+//! and j = 0 … N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of
+//! them, 0, is the ride of the train as a whole, whose momentum only the engine changes. Long
+//! waves all travel with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m)
+//! (L. Brillouin, Wave Propagation in Periodic Structures, 1946). A constant pull F stretches
+//! the coupling in front of car i by (i/N) F/k in the mean: it draws i of the N cars.
 //!
 //! 8 coordinates, 3 parameters, 1 input, 1 output. Arithmetic of one call:
 //!
@@ -48,12 +48,12 @@
 /// A train of N equal cars on a level track, coupled by springs; the last one is the engine.
 ///
 /// The coordinates say how far each car is from its place in a train at rest, so the machine is
-/// linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), i the car and j = 0 …
-/// N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of them, 0, is the
-/// ride of the train as a whole, whose momentum only the engine changes. Long waves all travel
-/// with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m) (L. Brillouin, Wave Propagation
-/// in Periodic Structures, 1946, ch. 3). A constant pull F stretches the coupling in front of
-/// car i by (i/N) F/k in the mean: it draws i of the N cars.
+/// linear. Free at both ends it moves in the modes cos(pi j (i - 1/2)/N), where i is the car
+/// and j = 0 … N-1 the mode, with the frequencies 2 sqrt(k/m) sin(pi j/(2 N)): the first of
+/// them, 0, is the ride of the train as a whole, whose momentum only the engine changes. Long
+/// waves all travel with d sqrt(k/m), and none has a frequency above 2 sqrt(k/m)
+/// (L. Brillouin, Wave Propagation in Periodic Structures, 1946). A constant pull F stretches
+/// the coupling in front of car i by (i/N) F/k in the mean: it draws i of the N cars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringMassTrain<S = f64> {
     /// Mass of a car. Unit: kg. Default: 20.

@@ -4,7 +4,7 @@
 //!
 //! The first angle is measured from the horizontal, the second from the first link. The
 //! equations are every textbook's, M(q) a + C(q, v) v + g(q) = tau (M. W. Spong, S. Hutchinson,
-//! M. Vidyasagar, Robot Modeling and Control, 2006, section 7.4). M depends on q2 alone. With
+//! M. Vidyasagar, Robot Modeling and Control, 2006, ch. 7). M depends on q2 alone. With
 //! the C of Christoffel's symbols dM/dt - 2 C is skew, so that motors put in exactly the power
 //! tau . v: the arm is passive. Motors that give tau = M(q) (what is wanted) + C v + g make
 //! each joint move as if it were alone: computed torque. Without motors it is a double
@@ -47,7 +47,7 @@
 ///
 /// The first angle is measured from the horizontal, the second from the first link. The
 /// equations are every textbook's, M(q) a + C(q, v) v + g(q) = tau (M. W. Spong, S. Hutchinson,
-/// M. Vidyasagar, Robot Modeling and Control, 2006, section 7.4). M depends on q2 alone. With
+/// M. Vidyasagar, Robot Modeling and Control, 2006, ch. 7). M depends on q2 alone. With
 /// the C of Christoffel's symbols dM/dt - 2 C is skew, so that motors put in exactly the power
 /// tau . v: the arm is passive. Motors that give tau = M(q) (what is wanted) + C v + g make
 /// each joint move as if it were alone: computed torque. Without motors it is a double
