@@ -91,12 +91,8 @@ fn keeps<M: Machine>(
 
 /// The same of its energy.
 fn keeps_energy<M: Machine>(machine: &M, (q, v): (&[f64], &[f64]), until: f64) {
-    conserves(
-        machine,
-        state(machine, 0.0, q, v),
-        (until, 1e-12),
-        |system, t, y| energy(system, t, y),
-    );
+    let start = state(machine, 0.0, q, v);
+    conserves(machine, start, (until, 1e-12), energy);
 }
 
 /// How much the distance of a motion from its linear form shrinks when what moves is halved, twice.

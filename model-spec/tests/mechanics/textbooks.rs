@@ -186,13 +186,12 @@ fn a_mistake_in_a_textbook_is_found() {
 #[test]
 fn the_arms_bias_is_that_of_christoffels_symbols() {
     derived(&text_of("two_joint_arm"), |model, equations| {
-        let christoffel = christoffel(model, equations);
-        for i in 0..2 {
-            let v = |j: usize| model.coordinates[j].v;
-            let bias = model.dag.sum((0..2).map(|j| christoffel[i][j] * v(j)));
-            let both = [bias, equations.bias[i]];
+        for (row, &exact) in christoffel(model, equations).iter().zip(&equations.bias) {
+            let rates = model.coordinates.iter().map(|coordinate| coordinate.v);
+            let bias = row.iter().zip(rates).map(|(&c, v)| c * v);
+            let both = [model.dag.sum(bias), exact];
             for values in residues(model, equations, &both, false) {
-                assert_eq!(values[0], values[1], "row {i}");
+                assert_eq!(values[0], values[1]);
             }
         }
     });
