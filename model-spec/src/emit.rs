@@ -13,6 +13,7 @@ pub mod markdown;
 pub mod rust;
 
 mod body;
+mod chapter;
 mod cut;
 mod names;
 

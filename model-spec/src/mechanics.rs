@@ -17,6 +17,8 @@
 mod approximation;
 mod energy;
 pub(crate) mod experiment;
+pub mod groups;
+pub mod integrals;
 mod kinematics;
 mod lagrange;
 mod power;
@@ -26,6 +28,7 @@ mod symmetric;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
+pub use kinematics::angular_velocities;
 pub use lagrange::Oracle;
 pub use refusal::MOST_COORDINATES;
 pub use symmetric::Symmetric;

@@ -300,6 +300,58 @@ pub fn readable(expression: Expr<'_>, budget: usize) -> Expr<'_> {
     best
 }
 
+/// What all terms of a sum have in common, before the sum: `−m a − m b` becomes `−m (a + b)`.
+///
+/// The value is the same. What is no sum, has nothing in common, or has more terms than the budget stays as it is.
+///
+/// ```
+/// use lagrangian_symbolic::{Dag, Stage, normal, text};
+///
+/// let dag = Dag::new();
+/// let [m, n, l] = ["m", "n", "l"].map(|name| dag.symbol(name, Stage::PARAMETER));
+/// let q = dag.symbol("q", Stage(3));
+/// let e = dag.sum([-m * l.square() * q.sin(), -n * l * q.cos()]);
+/// assert_eq!(text(normal::factored(e, 10), &dag), "-l*(m*l*sin(q) + n*cos(q))");
+/// ```
+pub fn factored(expression: Expr<'_>, budget: usize) -> Expr<'_> {
+    let dag = expression.dag();
+    let terms = flat_terms(&dag.arena.borrow(), expression.id(), budget);
+    let Some(terms) = terms.filter(|terms| terms.len() > 1) else {
+        return expression;
+    };
+    let factors = |id: Id| match dag.node(id) {
+        Node::Product(factors) => factors.to_vec(),
+        _ if id == Arena::ONE => Vec::new(),
+        _ => vec![(id, 1)],
+    };
+    let mut common = factors(terms[0].0);
+    common.retain(|&(_, power)| power > 0);
+    for &(id, _) in &terms[1..] {
+        let other = factors(id);
+        common.retain_mut(|(factor, power)| {
+            let found = other.iter().find(|(id, _)| id == factor);
+            *power = found.map_or(0, |&(_, n)| n.min(*power));
+            *power > 0
+        });
+    }
+    let negative = terms
+        .iter()
+        .all(|(_, coefficient)| coefficient.is_negative());
+    if common.is_empty() && !negative {
+        return expression;
+    }
+    let common = dag.product(common.iter().map(|&(id, power)| dag.expr(id).powi(power)));
+    let sign = if negative {
+        Rational::MINUS_ONE
+    } else {
+        Rational::ONE
+    };
+    let rest = terms
+        .iter()
+        .map(|(id, coefficient)| dag.expr(*id) / common * (coefficient * &sign));
+    dag.sum(rest) * common * sign.clone()
+}
+
 /// How long an expression is on paper: symbols, functions and signs, parentheses around sums.
 /// Numbers weigh nothing: ½ a + ½ b is as good as ½ (a + b).
 fn length(expression: Expr<'_>) -> u64 {

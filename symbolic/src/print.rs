@@ -101,7 +101,7 @@ pub fn latex(expression: Expr<'_>, names: &dyn Names) -> String {
 ///
 /// let dag = Dag::new();
 /// let (m, v) = (dag.symbol("m", Stage::PARAMETER), dag.symbol("der(x)", Stage(4)));
-/// let momentum = "<math><mi>m</mi><mo>&#x2062;</mo><mover accent=\"true\"><mi>x</mi><mo>˙</mo></mover></math>";
+/// let momentum = "<math><mi>m</mi><mo>&#x2062;</mo><mover><mi>x</mi><mo>˙</mo></mover></math>";
 /// assert_eq!(mathml(m * v, &dag), momentum);
 /// ```
 pub fn mathml(expression: Expr<'_>, names: &dyn Names) -> String {

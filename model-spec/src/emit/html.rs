@@ -17,7 +17,9 @@ pub const STYLE: &str = r#".derivation { --ink: #1b1f24; --faint: #5c6672; --lin
 .derivation .formula math { display: block math; width: fit-content; margin: 0 0 0 1.5em; font-size: 1.1em; }
 .derivation .formula mtd { text-align: left; padding: .28em 0; }
 .derivation .formula mtable mtable mtd { text-align: center; padding: .3em .6em; }
-.derivation .formula mtd.more { padding-left: 2em; }
+.derivation .formula mtd.in1 { padding-left: 1em; }
+.derivation .formula mtd.in2 { padding-left: 2em; }
+.derivation .formula mtd.in3 { padding-left: 3em; }
 .derivation .formula mtd.note { padding-left: 2.5em; color: var(--faint); font-size: .85em; font-style: italic; font-family: inherit; }
 .derivation .table { overflow-x: auto; margin: .8em 0; }
 .derivation table { border-collapse: collapse; }
@@ -112,7 +114,10 @@ fn formula(rows: &[Row]) -> String {
         [only] if !has_notes => only.math.mathml_row(),
         rows => {
             let row = |row: &Row| {
-                let class = if row.continues { " class=\"more\"" } else { "" };
+                let class = match row.indent {
+                    0 => String::new(),
+                    steps => format!(" class=\"in{}\"", steps.min(3)),
+                };
                 let note = match (has_notes, row.note.is_empty()) {
                     (false, _) => String::new(),
                     (true, true) => "<mtd></mtd>".to_owned(),

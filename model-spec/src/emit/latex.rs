@@ -14,8 +14,17 @@ pub fn text(document: &Document) -> String {
             "\n\\subsection*{{{}}}\n",
             latex_words(&section.title)
         ));
+        let mut before: Option<&Block> = None;
         for block in &section.blocks {
-            body.push('\n');
+            // A formula belongs to the paragraph before it; right below a heading there is none, nor the line it would take.
+            match (block, before) {
+                (Block::Formula(_), Some(Block::Heading(_))) => {
+                    body.push_str("\\leavevmode\\vspace{-2\\baselineskip}\n");
+                }
+                (Block::Formula(_), _) => {}
+                _ => body.push('\n'),
+            }
+            before = Some(block);
             match block {
                 Block::Heading(heading) => {
                     body.push_str(&format!("\\subsubsection*{{{}}}\n", words(heading)));
@@ -67,7 +76,7 @@ fn preamble(body: &str) -> String {
 /// The lines of a formula, the first at the left, notes at the right margin. A page may end between two of them.
 fn formula(rows: &[Row]) -> String {
     let line = |row: &Row| {
-        let indent = if row.continues { r"\quad {}" } else { "" };
+        let indent = indent(row.indent);
         let note = match row.note.as_str() {
             "" => String::new(),
             note => format!(r" \tag*{{\footnotesize {}}}", latex_words(note)),
@@ -79,6 +88,14 @@ fn formula(rows: &[Row]) -> String {
         "\\begin{{align*}}\n{}\n\\end{{align*}}\n",
         lines.join(" \\\\\n")
     )
+}
+
+/// The space before a line, and what makes a sign after it one between terms.
+pub(super) fn indent(steps: usize) -> String {
+    match steps {
+        0 => String::new(),
+        _ => format!("{} {{}}", r"\quad".repeat(steps)),
+    }
 }
 
 fn table(head: &[Words], rows: &[Vec<Words>]) -> String {

@@ -1,6 +1,7 @@
 //! A derivation as Markdown; formulas between `$` and `$$`.
 
 use super::document::{Block, Document, Row, Run, Words};
+use super::latex::indent;
 
 /// The document as Markdown.
 pub fn text(document: &Document) -> String {
@@ -49,7 +50,7 @@ fn aligned(rows: &[Row]) -> String {
 }
 
 fn line(row: &Row) -> String {
-    let indent = if row.continues { r"\quad {}" } else { "" };
+    let indent = indent(row.indent);
     let note = match row.note.as_str() {
         "" => String::new(),
         note => format!(

@@ -2,7 +2,7 @@
 
 use lagrangian_symbolic::{Expr, Symbol, Tangent};
 
-use crate::model::{Body, Inertia, Model, Pose, PoseId, Rotation, Step};
+use crate::model::{Body, Inertia, Model, Pose, PoseId, Rotation, Space, Step};
 
 /// The independent variables: `t`, and `q`, `v` (with `a`) in the order of the coordinates.
 pub(super) struct Variables<'d> {
@@ -119,6 +119,33 @@ pub(super) fn literal_motion<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> V
         Motion { linear, angular }
     };
     model.bodies.iter().map(motion).collect()
+}
+
+/// The angular velocity of every body that has an orientation: in the plane one number, in space its components about the
+/// axes of the body's own frame, eq. (E10). Empty where the spec says no orientation.
+pub fn angular_velocities<'d>(model: &Model<'d>) -> Vec<Vec<Expr<'d>>> {
+    let rate = &mut Variables::of(model).coasting(model);
+    let frame = |body: &Body<'d>| match body.rotation {
+        Rotation::Frame(pose) => Some(pose),
+        Rotation::Angle(_) | Rotation::Unspecified => None,
+    };
+    let twists = match model.space {
+        Space::Plane => Vec::new(),
+        Space::Space => {
+            let turning = model.bodies.iter().filter_map(frame);
+            Chains::to(model, turning, std::iter::empty()).velocities(model, rate)
+        }
+    };
+    let of_body = |body: &Body<'d>| match model.space {
+        Space::Plane => {
+            let angle = planar_angle(model, body).into_iter();
+            angle.map(|angle| rate.of(angle)).collect()
+        }
+        Space::Space => {
+            frame(body).map_or_else(Vec::new, |pose| twists[pose.index()].angular.to_vec())
+        }
+    };
+    model.bodies.iter().map(of_body).collect()
 }
 
 /// The angle of a body in the plane.

@@ -35,7 +35,7 @@ use super::kinematics::{
 };
 use super::refusal;
 use super::symmetric::Symmetric;
-use crate::model::{Action, Body, Inertia, Model, PoseId, Rotation, Space};
+use crate::model::{Action, Body, Force, Inertia, Model, PoseId, Rotation, Space, Torque};
 
 /// What carries a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
@@ -197,19 +197,14 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds `Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ + Fᵢ`: the virtual work of applied forces and torques.
     pub fn add_forces(&self, loads: &mut Loads<'d>) {
-        for force in &self.model.forces {
-            match &force.action {
-                Action::Point { at, force } => {
-                    loads
-                        .on_positions
-                        .extend(at.iter().copied().zip(force.iter().copied()));
-                }
-                Action::Coordinate { coordinate, value } => {
-                    loads.on_coordinates.push((*coordinate, *value));
-                }
-            }
-        }
-        if self.model.torques.is_empty() {
+        let forces = self.model.forces.iter();
+        forces.for_each(|force| loads.on_force(force));
+        self.add_torques(&self.model.torques, loads);
+    }
+
+    /// Adds `Σ M·∂ω/∂vᵢ` of some torques.
+    pub fn add_torques(&self, torques: &[Torque<'d>], loads: &mut Loads<'d>) {
+        if torques.is_empty() {
             return;
         }
         let twists = match self.model.space {
@@ -218,7 +213,7 @@ impl<'a, 'd> Projection<'a, 'd> {
                 .chains
                 .velocities(self.model, &mut self.x.coasting(self.model)),
         };
-        for torque in &self.model.torques {
+        for torque in torques {
             let body = &self.model.bodies[torque.body];
             match self.model.space {
                 Space::Plane => {
@@ -516,6 +511,19 @@ impl<'d> Loads<'d> {
                     .flatten()
                     .zip(load.into_iter().flatten()),
             );
+        }
+    }
+
+    /// An applied force.
+    pub fn on_force(&mut self, force: &Force<'d>) {
+        match &force.action {
+            Action::Point { at, force } => {
+                let components = at.iter().copied().zip(force.iter().copied());
+                self.on_positions.extend(components);
+            }
+            Action::Coordinate { coordinate, value } => {
+                self.on_coordinates.push((*coordinate, *value));
+            }
         }
     }
 

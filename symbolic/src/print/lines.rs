@@ -34,10 +34,13 @@ impl Math {
                 if filled > 1.0 && best.is_some() {
                     break;
                 }
+                let is_equals = self.marks[place.mark] == Mark::Sign(Sign::Equals);
                 let score = match place.depth {
                     _ if filled > 1.0 => -filled,
+                    // Not right after the name of what is given.
+                    0 if is_equals && filled < 0.25 => filled - 1.0,
                     0 => filled,
-                    depth => filled - 0.3 - 0.1 * depth as f32,
+                    depth => filled - 0.5 * depth as f32,
                 };
                 if best.is_none_or(|(other, _)| score >= other) {
                     best = Some((score, place));

@@ -266,10 +266,14 @@ impl Math {
     }
 }
 
-/// `self + right`.
+/// `self + right`; where the right side begins with a sign, that sign alone: a + −b is a − b.
 impl std::ops::Add for Math {
     type Output = Math;
-    fn add(self, right: Math) -> Math {
+    fn add(self, mut right: Math) -> Math {
+        if right.marks.first() == Some(&Mark::Sign(Sign::Negative)) {
+            right.marks.remove(0);
+            return self.then(Sign::Minus, right);
+        }
         self.then(Sign::Plus, right)
     }
 }

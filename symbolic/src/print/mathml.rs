@@ -7,6 +7,7 @@ use crate::print::math::{Form, Mark, Sign};
 /// The elements, written front to back.
 pub(super) fn write(marks: &[Mark]) -> String {
     let counts = elements_of_arguments(marks);
+    let tall = tall(marks);
     let mut out = String::new();
     let mut open: Vec<Level> = Vec::new();
     let mut argument = 0;
@@ -46,7 +47,10 @@ pub(super) fn write(marks: &[Mark]) -> String {
                     done: 0,
                     row: !single,
                 };
-                out.push_str(opening(*form));
+                out.push_str(match (form, tall[index]) {
+                    (Form::Parentheses, true) => "<mrow><mo>(</mo>",
+                    _ => opening(*form),
+                });
                 level.start(&mut out);
                 open.push(level);
             }
@@ -70,7 +74,10 @@ pub(super) fn write(marks: &[Mark]) -> String {
             Mark::Close => {
                 if let Some(level) = open.pop() {
                     level.end(&mut out);
-                    out.push_str(&closing(level.form));
+                    out.push_str(match (level.form, tall[index]) {
+                        (Form::Parentheses, true) => "<mo>)</mo></mrow>",
+                        _ => closing(level.form),
+                    });
                 }
             }
         }
@@ -143,6 +150,34 @@ fn elements_of_arguments(marks: &[Mark]) -> Vec<usize> {
     counts
 }
 
+/// For each mark that opens or closes a form whether something taller than a line is in it: what stretches around less than
+/// that is set with too much space by browsers.
+fn tall(marks: &[Mark]) -> Vec<bool> {
+    let mut tall = vec![false; marks.len()];
+    let mut open: Vec<usize> = Vec::new();
+    for (index, mark) in marks.iter().enumerate() {
+        match mark {
+            Mark::Open(form) => {
+                open.push(index);
+                tall[index] = matches!(
+                    form,
+                    Form::Fraction | Form::Root | Form::Matrix(_) | Form::Under
+                );
+            }
+            Mark::Close => {
+                if let Some(opened) = open.pop() {
+                    tall[index] = tall[opened];
+                    if let Some(&around) = open.last() {
+                        tall[around] |= tall[opened];
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    tall
+}
+
 fn starts_with_function(marks: &[Mark]) -> bool {
     matches!(
         marks,
@@ -158,14 +193,15 @@ fn opening(form: Form) -> &'static str {
         Form::IndexAndPower => "<msubsup>",
         Form::Under => "<munder>",
         Form::Root => "<msqrt>",
-        Form::Dots(_) => "<mover accent=\"true\">",
-        Form::Parentheses => "<mrow><mo>(</mo>",
+        // Not marked as an accent: browsers would set the dots large, and into the letter.
+        Form::Dots(_) => "<mover>",
+        Form::Parentheses => "<mrow><mo stretchy=\"false\">(</mo>",
         Form::Bars => "<mrow><mo fence=\"true\" form=\"prefix\">|</mo>",
         Form::Matrix(_) => "<mrow><mo>(</mo><mtable><mtr><mtd>",
     }
 }
 
-fn closing(form: Form) -> String {
+fn closing(form: Form) -> &'static str {
     match form {
         Form::Fraction => "</mfrac>",
         Form::Power => "</msup>",
@@ -173,19 +209,13 @@ fn closing(form: Form) -> String {
         Form::IndexAndPower => "</msubsup>",
         Form::Under => "</munder>",
         Form::Root => "</msqrt>",
-        Form::Dots(dots) => {
-            let dots = match dots {
-                0 | 1 => '\u{2d9}',
-                2 => '\u{a8}',
-                _ => '\u{20db}',
-            };
-            return format!("<mo>{dots}</mo></mover>");
-        }
-        Form::Parentheses => "<mo>)</mo></mrow>",
+        Form::Dots(0 | 1) => "<mo>\u{2d9}</mo></mover>",
+        Form::Dots(2) => "<mo>\u{a8}</mo></mover>",
+        Form::Dots(_) => "<mo>\u{20db}</mo></mover>",
+        Form::Parentheses => "<mo stretchy=\"false\">)</mo></mrow>",
         Form::Bars => "<mo fence=\"true\" form=\"postfix\">|</mo></mrow>",
         Form::Matrix(_) => "</mtd></mtr></mtable><mo>)</mo></mrow>",
     }
-    .to_owned()
 }
 
 fn sign(sign: Sign, first: bool) -> &'static str {

@@ -7,6 +7,9 @@ use crate::print::math::{Form, Mark, Math, Sign};
 use crate::print::number::{Shape, shape};
 use crate::rational::Rational;
 
+/// The most terms of a sum that is written above a bar.
+const LONGEST_SUM_ABOVE: usize = 3;
+
 /// The place that an expression stands in.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Place {
@@ -126,9 +129,15 @@ impl<'a> Writer<'a> {
             let power = |&(id, n): &(Id, u32)| vec![Piece::Power(id, n)];
             factors.iter().map(power).collect()
         };
-        let mut above = factors(&fraction.above);
+        let is_fraction = !fraction.below.is_empty();
+        // A long sum stands after the fraction, where a line may end in it.
+        let is_long = |&(id, _): &(Id, u32)| match self.arena.node(id) {
+            Node::Sum(terms) => is_fraction && terms.len() > LONGEST_SUM_ABOVE,
+            _ => false,
+        };
+        let (long, short): (Vec<_>, Vec<_>) = fraction.above.iter().copied().partition(is_long);
+        let mut above = factors(&short);
         let mut below = factors(&fraction.below);
-        let is_fraction = !below.is_empty();
         if !scale.is_one() || above.is_empty() {
             match shape(scale) {
                 Shape::Fraction(p, q) if is_fraction => {
@@ -142,6 +151,10 @@ impl<'a> Writer<'a> {
         }
         if is_fraction {
             form(Form::Fraction, [product(above), product(below)], next);
+            for factor in factors(&long) {
+                next.push(sign(Sign::Times));
+                next.extend(factor);
+            }
         } else {
             next.extend(product(above));
         }

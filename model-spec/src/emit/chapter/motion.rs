@@ -1,0 +1,257 @@
+//! The equations of motion in groups, and the mass matrix.
+
+use lagrangian_symbolic::print::{Form, Sign};
+use lagrangian_symbolic::{Expr, Math, Node, math_as_built};
+
+use super::{Chapter, READABLE, Shown, code, paragraph, shown, words};
+use crate::emit::document::{Block, LINE, Row};
+use crate::mechanics::Route;
+use crate::mechanics::groups::{self, Group, Kind, Term};
+use crate::model::stage;
+
+/// The most rows of a mass matrix that is written out.
+const LARGEST_MATRIX: usize = 9;
+
+/// The most entries that are named and written below the matrix; more of them are found in the equations as well.
+const MOST_NAMES: usize = 24;
+
+/// The widest entry that stands in a matrix of names by itself, in em.
+const SHORT_ENTRY: f32 = 3.5;
+
+impl<'d> Chapter<'_, 'd> {
+    pub(super) fn motion(&self) -> Vec<Block> {
+        let model = self.model;
+        let begin = match self.compiled.equations.route {
+            Route::Projected => "Lagrange's equations of the second kind",
+            Route::Lagrange => {
+                "Lagrange's equations of the second kind, of the approximated energies,"
+            }
+        };
+        let mut blocks = vec![
+            Block::Paragraph(words![
+                begin,
+                " (J. L. Lagrange, Mécanique analytique, 1788; H. Goldstein, C. Poole, J. Safko, Classical Mechanics, \
+                 3rd ed. 2002, ch. 1)",
+            ]),
+            Block::formula(&self.lagrange()),
+            Block::Paragraph(words![
+                "give one equation for each coordinate; notes say what its terms come from."
+            ]),
+        ];
+        for shown in shown(model.coordinates.iter().map(|coordinate| &coordinate.name)) {
+            match shown {
+                Shown::Item(index) => blocks.extend(self.equation(index)),
+                Shown::LeftOut(from, count) => {
+                    let base = &model.coordinates[from].name.base;
+                    let text = format!(
+                        "{count} more equations, of the family {base}, are left out here; "
+                    );
+                    let words = words![
+                        text,
+                        code("derive --as program"),
+                        " has all that is computed."
+                    ];
+                    blocks.push(Block::Paragraph(words));
+                }
+            }
+        }
+        blocks
+    }
+
+    /// d/dt ∂T/∂q̇ᵢ − ∂T/∂qᵢ + ∂V/∂qᵢ + ∂D/∂q̇ᵢ = Fᵢ, without what the machine lacks.
+    fn lagrange(&self) -> Math {
+        let letter = Math::letter;
+        let i = || letter('i');
+        let q = || letter('q').with_index(i());
+        let v = || letter('q').dotted().with_index(i());
+        let partial =
+            |of: char, by: Math| Math::fraction(letter('∂') * letter(of), letter('∂') * by);
+        let rate = Math::fraction(letter('d'), letter('d') * letter('t'));
+        let mut left = rate * partial('T', v()) - partial('T', q());
+        if !self.compiled.equations.potential_energy.is_zero() {
+            left = left + partial('V', q());
+        }
+        if !self.compiled.equations.dissipation.is_zero() {
+            left = left + partial('D', v());
+        }
+        left.equals(match self.model.forces.len() + self.model.torques.len() {
+            0 => Math::number(0),
+            _ => letter('F').with_index(i()),
+        })
+    }
+
+    fn equation(&self, index: usize) -> Vec<Block> {
+        let coordinate = &self.model.coordinates[index];
+        let heading = Block::Heading(words!["Equation of ", self.name(coordinate.q)]);
+        let groups = groups::equation(
+            self.model,
+            &self.compiled.equations,
+            &self.contributions,
+            index,
+        );
+        let terms = groups.iter().flat_map(|group| &group.terms);
+        let size = terms.fold(0, |size: u64, term| {
+            size.saturating_add(term.value().size())
+        });
+        if size > READABLE {
+            let text =
+                format!("Written out it has {size} symbols, too many to read: it is not shown. ");
+            let program = words![
+                text,
+                code("derive --as program"),
+                " has how it is computed."
+            ];
+            return vec![heading, Block::Paragraph(program)];
+        }
+        vec![heading, Block::Formula(self.rows(&groups))]
+    }
+
+    /// Group by group, the right side last.
+    fn rows(&self, groups: &[Group<'d>]) -> Vec<Row> {
+        let (left, right): (Vec<_>, Vec<_>) =
+            groups.iter().partition(|group| group.kind != Kind::Applied);
+        let zero = right.is_empty().then(|| Math::number(0));
+        let mut rows = Vec::new();
+        let last = left.len().saturating_sub(1);
+        for (position, group) in left.iter().enumerate() {
+            let mut math = self.sum(group);
+            if position > 0 {
+                math = Math::default() + math;
+            }
+            if let Some(zero) = zero.clone().filter(|_| position == last) {
+                math = math.equals(zero);
+            }
+            rows.extend(Row::lines(
+                &math,
+                usize::from(position > 0),
+                self.title(group.kind),
+            ));
+        }
+        if left.is_empty() {
+            rows.extend(Row::lines(&Math::number(0), 0, ""));
+        }
+        for group in right {
+            let math = Math::default().equals(self.sum(group));
+            rows.extend(Row::lines(&math, 1, self.title(group.kind)));
+        }
+        rows
+    }
+
+    fn sum(&self, group: &Group<'d>) -> Math {
+        let mut sum = Math::default();
+        for (position, term) in group.terms.iter().enumerate() {
+            let term = self.term(term);
+            sum = if position == 0 { term } else { sum + term };
+        }
+        sum
+    }
+
+    /// A coefficient and its factor; a sum that varies keeps its parentheses and stands first.
+    pub(super) fn term(&self, term: &Term<'d>) -> Math {
+        let dag = self.model.dag;
+        let (coefficient, factor) = (term.coefficient, term.factor);
+        let before = || math_as_built(coefficient, dag);
+        if factor.is_one() || coefficient.stage() <= stage::PARAMETER {
+            return math_as_built(term.value(), dag);
+        }
+        match coefficient.node() {
+            Node::Sum(terms) if terms.len() > 1 => {
+                before().in_parentheses() * math_as_built(factor, dag)
+            }
+            Node::Sum(terms) if ends_in_a_sum(dag.expr(terms[0].0)) => {
+                before() * math_as_built(factor, dag)
+            }
+            _ if ends_in_a_sum(coefficient) => before() * math_as_built(factor, dag),
+            _ => math_as_built(term.value(), dag),
+        }
+    }
+
+    fn title(&self, kind: Kind) -> &'static str {
+        match kind {
+            Kind::Inertia => "inertia",
+            Kind::Centrifugal => "centrifugal",
+            Kind::Coriolis => "Coriolis",
+            Kind::Velocity if self.facts.autonomous => "velocity terms",
+            Kind::Velocity => "velocity terms, drive",
+            Kind::Drive => "drive",
+            Kind::Gravity => "gravity",
+            Kind::Springs => "springs",
+            Kind::Potentials => "potentials",
+            Kind::Dissipation => "damping",
+            Kind::Applied => "applied",
+        }
+    }
+
+    pub(super) fn mass_matrix(&self) -> Vec<Block> {
+        let matrix = &self.compiled.equations.mass_matrix;
+        let n = matrix.dimension();
+        if n < 2 || n > LARGEST_MATRIX {
+            return Vec::new();
+        }
+        if matrix.lower().iter().any(|entry| entry.size() > READABLE) {
+            let text =
+                "The equations of motion hold its entries; some of them are too long to be shown.";
+            return vec![Block::Paragraph(words![text])];
+        }
+        let places = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let all = |cell: &dyn Fn(usize, usize) -> Math| {
+            let cells = places().map(|(i, j)| cell(i, j));
+            Math::bold('M').equals(Math::form(Form::Matrix(n), cells))
+        };
+        let written = matrix.map(|&entry| math_as_built(groups::compact(entry), self.model.dag));
+        let whole = all(&|i, j| written.get(i, j).clone());
+        let order = self.model.coordinates.iter().map(|c| self.name(c.q));
+        let order = Math::joined(order, Sign::Comma);
+        let intro = words![
+            "The coefficients of the accelerations, rows and columns in the order of ",
+            order,
+            ":"
+        ];
+        if whole.width() <= LINE {
+            return vec![Block::Paragraph(intro), Block::formula(&whole)];
+        }
+        // Long entries by name.
+        let named = |i: usize, j: usize| {
+            let (i, j) = (i.min(j) as i64 + 1, i.max(j) as i64 + 1);
+            Math::letter('M').with_index(Math::row([Math::number(i), Math::number(j)]))
+        };
+        let is_short = |i: usize, j: usize| written.get(i, j).width() <= SHORT_ENTRY;
+        let short = all(&|i, j| match is_short(i, j) {
+            true => written.get(i, j).clone(),
+            false => named(i, j),
+        });
+        let long: Vec<_> = places()
+            .filter(|&(i, j)| i <= j && !is_short(i, j))
+            .collect();
+        if long.len() > MOST_NAMES {
+            return Vec::new();
+        }
+        let rows = long
+            .into_iter()
+            .map(|(i, j)| named(i, j).equals(written.get(i, j).clone()));
+        let rows = rows
+            .flat_map(|formula| Row::lines(&formula, 0, ""))
+            .collect();
+        vec![
+            paragraph([intro]),
+            Block::formula(&short),
+            Block::Paragraph(words!["where the matrix is symmetric and"]),
+            Block::Formula(rows),
+        ]
+    }
+}
+
+/// Whether a product is written with a varying sum at its end: then nothing after it is taken for an argument.
+fn ends_in_a_sum(product: Expr<'_>) -> bool {
+    let dag = product.dag();
+    let Node::Product(factors) = product.node() else {
+        return false;
+    };
+    let is = |wanted: &dyn Fn(&Node) -> bool| {
+        let mut factors = factors.iter();
+        factors.any(|&(id, power)| {
+            power > 0 && wanted(&dag.node(id)) && dag.expr(id).stage() > stage::PARAMETER
+        })
+    };
+    is(&|node| matches!(node, Node::Sum(_))) && !is(&|node| matches!(node, Node::Function(..)))
+}
