@@ -4,14 +4,19 @@
 //! in it are values, not texts in one of these languages.
 
 use lagrangian_symbolic::Math;
+use lagrangian_symbolic::print::{Mark, Sign};
 
 use crate::compile::Compiled;
 
-/// The width of a line of a formula, in the size of its font (em): that of A4 paper with margins of 2 cm.
-pub(super) const LINE: f32 = 44.0;
+/// The width of a line of a formula, in the size of its font (em): less than the 47 of A4 paper with margins of 2 cm, since
+/// [`Math::width`] is an estimate.
+pub(super) const LINE: f32 = 43.0;
 
 /// What each step of an indent takes, in em.
 pub(super) const INDENT: f32 = 1.0;
+
+/// How much wider a line may be where nothing can be broken: less than the margin of the page.
+const TOLERANCE: f32 = 2.0;
 
 /// What a note at the right margin takes, in em.
 const NOTE: f32 = 8.0;
@@ -104,10 +109,17 @@ impl Document {
 
 impl Row {
     /// A formula in lines: the first is indented by so many steps, the others by two more; the note stands at the first.
+    ///
+    /// What does not fit the page even so, such as a very long fraction, is left out: the line says so.
     pub fn lines(math: &Math, indent: usize, note: &str) -> Vec<Row> {
         let room = LINE - if note.is_empty() { 0.0 } else { NOTE };
         let room = |steps: usize| room - INDENT * steps as f32;
-        let lines = math.lines(room(indent), room(indent + 2)).into_iter();
+        let mut lines = math.lines(room(indent), room(indent + 2));
+        let margin = LINE + TOLERANCE - INDENT * (indent + 2) as f32;
+        if lines.iter().any(|line| line.width() > margin) {
+            lines = vec![left_out(math)];
+        }
+        let lines = lines.into_iter();
         let row = |(index, math)| Row {
             math,
             indent: if index == 0 { indent } else { indent + 2 },
@@ -119,6 +131,21 @@ impl Row {
         };
         lines.enumerate().map(row).collect()
     }
+}
+
+/// A formula without what stands on its right side, or without all but its sign.
+fn left_out(math: &Math) -> Math {
+    let marks = math.marks();
+    let equals = marks
+        .iter()
+        .position(|mark| *mark == Mark::Sign(Sign::Equals));
+    let begin = match (equals, marks.first()) {
+        (Some(equals), _) => &marks[..=equals],
+        (None, Some(Mark::Sign(Sign::Plus | Sign::Minus))) => &[Mark::Sign(Sign::Plus)],
+        (None, _) => &[],
+    };
+    let begin = begin.iter().cloned().map(Math::mark);
+    Math::row(begin.chain([Math::text("(too wide for a page, not shown)")]))
 }
 
 impl Block {

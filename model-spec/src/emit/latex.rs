@@ -55,6 +55,7 @@ fn preamble(body: &str) -> String {
         "\\usepackage{longtable}\n",
         "\\usepackage[margin=2cm]{geometry}\n",
         "\\allowdisplaybreaks\n",
+        "\\setlength{\\mathindent}{1em}\n",
         "\\setlength{\\parindent}{0pt}\n",
         "\\setlength{\\parskip}{4pt}\n",
         "\\setlength{\\LTleft}{0pt}\n",

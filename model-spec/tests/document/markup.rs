@@ -213,6 +213,7 @@ const COMMANDS: &[&str] = &[
     "baselineskip",
     "AtBeginDocument",
     "abovedisplayskip",
+    "mathindent",
     "belowdisplayskip",
     "abovedisplayshortskip",
     "belowdisplayshortskip",

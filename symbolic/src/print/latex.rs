@@ -105,6 +105,7 @@ fn sign(sign: Sign) -> &'static str {
         Sign::Equals => " = ",
         Sign::Times | Sign::Apply => " ",
         Sign::Dot => r" \cdot ",
+        Sign::To => r" \to ",
         Sign::Comma => ", ",
         Sign::Sum => r"\sum",
         Sign::Dots => r"\dots",

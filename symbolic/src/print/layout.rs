@@ -34,6 +34,18 @@ pub(super) fn terms(arena: &Arena, terms: &[(Id, Rational)], flat: bool) -> Vec<
             _ => shown.push((id, coefficient)),
         }
     }
+    if flat {
+        // What was apart in the sums that were opened may be alike.
+        shown.sort_by_key(|(id, _)| *id);
+        shown.dedup_by(|(id, coefficient), (kept, sum)| {
+            let same = id == kept;
+            if same {
+                *sum = &*sum + &*coefficient;
+            }
+            same
+        });
+        shown.retain(|(_, coefficient)| !coefficient.is_zero());
+    }
     shown.sort_by_cached_key(|(id, _)| (term_key(arena, *id), *id));
     // 1 − cos x rather than −cos x + 1.
     if let Some(first) = shown

@@ -161,7 +161,7 @@ fn measure(marks: &[Mark]) -> (f32, Vec<Break>) {
                 Some(level) => level.width(),
                 None => 0.0,
             },
-            Mark::Sign(Sign::Plus | Sign::Minus | Sign::Equals) if clear && x > 0.0 => {
+            Mark::Sign(Sign::Plus | Sign::Minus | Sign::Equals | Sign::To) if clear && x > 0.0 => {
                 let depth = open.iter().filter(|l| l.form == Form::Parentheses).count();
                 breaks.push(Break {
                     mark: index,
@@ -236,6 +236,7 @@ fn width_of(mark: &Mark) -> f32 {
         Mark::Sign(sign) => match sign {
             Sign::Plus | Sign::Minus => 1.22,
             Sign::Equals => 1.33,
+            Sign::To => 1.56,
             Sign::Negative => 0.78,
             Sign::Times => 0.0,
             Sign::Dot => 0.72,

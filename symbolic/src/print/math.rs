@@ -65,6 +65,8 @@ pub enum Sign {
     Dot,
     /// Between a function and its argument: nothing to see.
     Apply,
+    /// Between what is and what it becomes.
+    To,
     /// Between arguments.
     Comma,
     /// Sum.

@@ -230,6 +230,7 @@ fn sign(sign: Sign, first: bool) -> &'static str {
         (Sign::Times, _) => "<mo>&#x2062;</mo>",
         (Sign::Dot, _) => "<mo>\u{22c5}</mo>",
         (Sign::Apply, _) => "<mo>&#x2061;</mo>",
+        (Sign::To, _) => "<mo>\u{2192}</mo>",
         (Sign::Comma, _) => "<mo>,</mo>",
         (Sign::Sum, _) => "<mo>\u{2211}</mo>",
         (Sign::Dots, _) => "<mo>\u{2026}</mo>",

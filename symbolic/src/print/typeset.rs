@@ -99,6 +99,9 @@ impl<'a> Writer<'a> {
             }
             Node::Sum(terms) => {
                 let terms = layout::terms(self.arena, terms, true);
+                if terms.is_empty() {
+                    next.extend(marks(Math::number(0)));
+                }
                 for (
                     index,
                     Term {

@@ -9,6 +9,12 @@ use crate::mechanics::Route;
 use crate::mechanics::groups::{self, Group, Kind, Term};
 use crate::model::stage;
 
+/// In an equation that is too long to be read, groups of a greater size get a name or are left out.
+const LONG_GROUP: u64 = 750;
+
+/// And entries of the mass matrix of a greater size get a name.
+const LONG_ENTRY: u64 = 100;
+
 /// The most rows of a mass matrix that is written out.
 const LARGEST_MATRIX: usize = 9;
 
@@ -35,7 +41,14 @@ impl<'d> Chapter<'_, 'd> {
             ]),
             Block::formula(&self.lagrange()),
             Block::Paragraph(words![
-                "give one equation for each coordinate; notes say what its terms come from."
+                "give one equation for each coordinate; notes say what its terms come from. Where an equation is too \
+                 long to be read, ",
+                entry_name(0, 1),
+                " stands for an entry of the mass matrix and ",
+                Math::letter('h').with_index(Math::number(1)),
+                " for all terms of the velocities and of explicit time; ",
+                code("derive --as program"),
+                " has how they are computed.",
             ]),
         ];
         for shown in shown(model.coordinates.iter().map(|coordinate| &coordinate.name)) {
@@ -89,52 +102,80 @@ impl<'d> Chapter<'_, 'd> {
             &self.contributions,
             index,
         );
-        let terms = groups.iter().flat_map(|group| &group.terms);
-        let size = terms.fold(0, |size: u64, term| {
-            size.saturating_add(term.value().size())
-        });
-        if size > READABLE {
-            let text =
-                format!("Written out it has {size} symbols, too many to read: it is not shown. ");
-            let program = words![
-                text,
-                code("derive --as program"),
-                " has how it is computed."
-            ];
-            return vec![heading, Block::Paragraph(program)];
+        let size = groups
+            .iter()
+            .fold(0, |size: u64, group| size.saturating_add(size_of(group)));
+        let rows = if size > READABLE {
+            self.long_rows(index, &groups)
+        } else {
+            self.rows(&groups)
+        };
+        vec![heading, Block::Formula(rows)]
+    }
+
+    /// Group by group, with names for what is long: entries of the mass matrix and the bias.
+    fn long_rows(&self, index: usize, groups: &[Group<'d>]) -> Vec<Row> {
+        let is_velocity = |group: &&Group<'d>| {
+            use Kind::{Centrifugal, Coriolis, Drive, Velocity};
+            matches!(group.kind, Centrifugal | Coriolis | Drive | Velocity)
+        };
+        let velocity = groups.iter().filter(is_velocity);
+        let velocity = velocity.fold(0, |size: u64, group| size.saturating_add(size_of(group)));
+        let mut named = Vec::new();
+        let mut has_bias = false;
+        for group in groups {
+            if is_velocity(&group) && velocity > LONG_GROUP {
+                if !has_bias {
+                    let bias = Math::letter('h').with_index(Math::number(index as i64 + 1));
+                    named.push((bias, "velocity terms"));
+                }
+                has_bias = true;
+                continue;
+            }
+            let math = match group.kind {
+                Kind::Inertia => self.inertia_terms(index, group),
+                _ if size_of(group) > LONG_GROUP => {
+                    Math::text(format!("({} symbols, not shown)", size_of(group)))
+                }
+                _ => self.sum(group),
+            };
+            named.push((math, self.title(group.kind)));
         }
-        vec![heading, Block::Formula(self.rows(&groups))]
+        let is_applied = groups
+            .last()
+            .is_some_and(|group| group.kind == Kind::Applied);
+        arranged(named, is_applied)
+    }
+
+    /// The terms of inertia, long entries of the mass matrix by their names.
+    fn inertia_terms(&self, index: usize, group: &Group<'d>) -> Math {
+        let mut sum = Math::default();
+        for (position, term) in group.terms.iter().enumerate() {
+            let column = self
+                .model
+                .coordinates
+                .iter()
+                .position(|c| c.a == term.factor);
+            let term = match column {
+                Some(column) if term.coefficient.size() > LONG_ENTRY => {
+                    entry_name(index, column) * self.name(term.factor)
+                }
+                _ => self.term(term),
+            };
+            sum = if position == 0 { term } else { sum + term };
+        }
+        sum
     }
 
     /// Group by group, the right side last.
     fn rows(&self, groups: &[Group<'d>]) -> Vec<Row> {
-        let (left, right): (Vec<_>, Vec<_>) =
-            groups.iter().partition(|group| group.kind != Kind::Applied);
-        let zero = right.is_empty().then(|| Math::number(0));
-        let mut rows = Vec::new();
-        let last = left.len().saturating_sub(1);
-        for (position, group) in left.iter().enumerate() {
-            let mut math = self.sum(group);
-            if position > 0 {
-                math = Math::default() + math;
-            }
-            if let Some(zero) = zero.clone().filter(|_| position == last) {
-                math = math.equals(zero);
-            }
-            rows.extend(Row::lines(
-                &math,
-                usize::from(position > 0),
-                self.title(group.kind),
-            ));
-        }
-        if left.is_empty() {
-            rows.extend(Row::lines(&Math::number(0), 0, ""));
-        }
-        for group in right {
-            let math = Math::default().equals(self.sum(group));
-            rows.extend(Row::lines(&math, 1, self.title(group.kind)));
-        }
-        rows
+        let is_applied = groups
+            .last()
+            .is_some_and(|group| group.kind == Kind::Applied);
+        let sums = groups
+            .iter()
+            .map(|group| (self.sum(group), self.title(group.kind)));
+        arranged(sums.collect(), is_applied)
     }
 
     fn sum(&self, group: &Group<'d>) -> Math {
@@ -185,20 +226,18 @@ impl<'d> Chapter<'_, 'd> {
     pub(super) fn mass_matrix(&self) -> Vec<Block> {
         let matrix = &self.compiled.equations.mass_matrix;
         let n = matrix.dimension();
-        if n < 2 || n > LARGEST_MATRIX {
+        if !(2..=LARGEST_MATRIX).contains(&n) {
             return Vec::new();
-        }
-        if matrix.lower().iter().any(|entry| entry.size() > READABLE) {
-            let text =
-                "The equations of motion hold its entries; some of them are too long to be shown.";
-            return vec![Block::Paragraph(words![text])];
         }
         let places = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let all = |cell: &dyn Fn(usize, usize) -> Math| {
             let cells = places().map(|(i, j)| cell(i, j));
             Math::bold('M').equals(Math::form(Form::Matrix(n), cells))
         };
-        let written = matrix.map(|&entry| math_as_built(groups::compact(entry), self.model.dag));
+        let written = matrix.map(|&entry| match entry.size() {
+            0..=READABLE => math_as_built(groups::compact(entry), self.model.dag),
+            size => Math::text(format!("{size} symbols, not shown")),
+        });
         let whole = all(&|i, j| written.get(i, j).clone());
         let order = self.model.coordinates.iter().map(|c| self.name(c.q));
         let order = Math::joined(order, Sign::Comma);
@@ -210,15 +249,10 @@ impl<'d> Chapter<'_, 'd> {
         if whole.width() <= LINE {
             return vec![Block::Paragraph(intro), Block::formula(&whole)];
         }
-        // Long entries by name.
-        let named = |i: usize, j: usize| {
-            let (i, j) = (i.min(j) as i64 + 1, i.max(j) as i64 + 1);
-            Math::letter('M').with_index(Math::row([Math::number(i), Math::number(j)]))
-        };
         let is_short = |i: usize, j: usize| written.get(i, j).width() <= SHORT_ENTRY;
         let short = all(&|i, j| match is_short(i, j) {
             true => written.get(i, j).clone(),
-            false => named(i, j),
+            false => entry_name(i, j),
         });
         let long: Vec<_> = places()
             .filter(|&(i, j)| i <= j && !is_short(i, j))
@@ -228,7 +262,7 @@ impl<'d> Chapter<'_, 'd> {
         }
         let rows = long
             .into_iter()
-            .map(|(i, j)| named(i, j).equals(written.get(i, j).clone()));
+            .map(|(i, j)| entry_name(i, j).equals(written.get(i, j).clone()));
         let rows = rows
             .flat_map(|formula| Row::lines(&formula, 0, ""))
             .collect();
@@ -239,6 +273,46 @@ impl<'d> Chapter<'_, 'd> {
             Block::Formula(rows),
         ]
     }
+}
+
+/// The groups one below the other, the last one on the right side if it `is_applied`.
+fn arranged(mut groups: Vec<(Math, &str)>, is_applied: bool) -> Vec<Row> {
+    let applied = groups.pop_if(|_| is_applied);
+    if groups.is_empty() {
+        groups.push((Math::number(0), ""));
+    }
+    let last = groups.len() - 1;
+    let mut rows = Vec::new();
+    for (position, (mut math, note)) in groups.into_iter().enumerate() {
+        if position > 0 {
+            math = Math::default() + math;
+        }
+        if position == last && applied.is_none() {
+            math = math.equals(Math::number(0));
+        }
+        rows.extend(Row::lines(&math, usize::from(position > 0), note));
+    }
+    if let Some((math, note)) = applied {
+        rows.extend(Row::lines(&Math::default().equals(math), 1, note));
+    }
+    rows
+}
+
+/// An entry of the mass matrix, by its place above the diagonal.
+fn entry_name(i: usize, j: usize) -> Math {
+    let place = [i.min(j), i.max(j)].map(|k| Math::number(k as i64 + 1));
+    Math::letter('M').with_index(match i.max(j) {
+        0..9 => Math::row(place),
+        _ => Math::joined(place, Sign::Comma),
+    })
+}
+
+/// How many symbols a group has written out.
+fn size_of(group: &Group<'_>) -> u64 {
+    let terms = group.terms.iter();
+    terms.fold(0, |size: u64, term| {
+        size.saturating_add(term.value().size())
+    })
 }
 
 /// Whether a product is written with a varying sum at its end: then nothing after it is taken for an argument.

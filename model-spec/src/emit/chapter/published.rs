@@ -1,6 +1,7 @@
 //! Equations that somebody printed, held against the derived ones.
 
-use lagrangian_symbolic::Math;
+use lagrangian_symbolic::print::Sign;
+use lagrangian_symbolic::{Expr, Math, math_as_built};
 
 use super::{Chapter, READABLE, capital, code, counted, listed, paragraph, words};
 use crate::compare::{Comparison, compare};
@@ -43,27 +44,42 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// Terms to add and to drop, component by component.
+    /// Terms to change, to add and to drop.
     fn changes(&self, comparison: &Comparison<'d>) -> Vec<Row> {
-        let axes = ['x', 'y', 'z'];
-        let mut rows = Vec::new();
+        // Terms with the axis that they belong to, in the order in which the comparison counts them.
+        let (mut drop, mut add) = (Vec::new(), Vec::new());
         for (k, mend) in comparison.mend.iter().enumerate() {
-            for (terms, note) in [(&mend.add, "add"), (&mend.drop, "drop")] {
-                let size = terms
-                    .iter()
-                    .fold(0, |size: u64, term| size.saturating_add(term.size()));
-                let sum = match size {
-                    _ if terms.is_empty() => continue,
-                    0..=READABLE => self.math(self.model.dag.sum(terms.iter().copied())),
-                    _ => Math::text(format!("{size} symbols, not shown")),
-                };
-                let note = match comparison.mend.len() {
-                    1 => note.to_owned(),
-                    _ => format!("{note}, {}", axes[k % 3]),
-                };
-                rows.extend(Row::lines(&sum, 0, &note));
-            }
+            let axis = match comparison.mend.len() {
+                1 => "",
+                _ => [", x", ", y", ", z"][k % 3],
+            };
+            drop.extend(mend.drop.iter().map(|&term| (term, axis)));
+            add.extend(mend.add.iter().map(|&term| (term, axis)));
         }
+        let changes = comparison.changes();
+        let mut rows = Vec::new();
+        for &(from, to) in &changes {
+            let change = self
+                .shown(drop[from].0)
+                .then(Sign::To, self.shown(add[to].0));
+            rows.extend(Row::lines(&change, 0, &format!("change{}", drop[from].1)));
+        }
+        let mut alone = |note: &str, terms: &[(Expr<'d>, &str)], changed: &[usize]| {
+            let left = (0..terms.len()).filter(|k| !changed.contains(k));
+            for (term, axis) in left.map(|k| terms[k]) {
+                rows.extend(Row::lines(&self.shown(term), 0, &format!("{note}{axis}")));
+            }
+        };
+        let (from, to): (Vec<usize>, Vec<usize>) = changes.iter().copied().unzip();
+        alone("add", &add, &to);
+        alone("drop", &drop, &from);
         rows
+    }
+
+    fn shown(&self, term: Expr<'d>) -> Math {
+        match term.size() {
+            0..=READABLE => math_as_built(term, self.model.dag),
+            size => Math::text(format!("{size} symbols, not shown")),
+        }
     }
 }
