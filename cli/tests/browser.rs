@@ -82,6 +82,38 @@ fn text_of(html: &str, tag: &str, id: &str) -> Option<String> {
     Some(plain.replace("&nbsp;", "\u{a0}").replace("&amp;", "&"))
 }
 
+/// What scripts that are added to a page write into it.
+fn verdict(page: &Page, scripts: &str) -> Value {
+    let watch = include_str!("browser/watch.js");
+    let html = page
+        .html
+        .replacen("<head>", &format!("<head><script>{watch}</script>"), 1);
+    let html = html.replacen("</body>", &format!("{scripts}</body>"), 1);
+    let file = Scratch::new("watched.html", &html);
+    let verdict = text_of(&loaded(&file.0), "pre", "verdict").expect("a verdict");
+    serde_json::from_str(&verdict).expect("JSON")
+}
+
+/// Looks at the page of a machine: nothing goes wrong, everything has a place, something is drawn.
+fn look(spec: &str, options: &[&str]) {
+    let page = Page::of(spec, options);
+    let script = include_str!("browser/look.js");
+    let verdict = verdict(&page, &format!("<script type=\"module\">{script}</script>"));
+    assert_eq!(verdict["wrong"], serde_json::json!([]), "{spec}");
+    assert_eq!(verdict["finite"], true, "{spec}");
+    let coloured = verdict["coloured"].as_array().expect("numbers").iter();
+    assert!(
+        coloured.clone().all(|count| count.as_u64() > Some(30)),
+        "{spec}: {verdict}"
+    );
+    let curves = verdict["curves"].as_array().expect("numbers").iter();
+    assert!(
+        curves.clone().all(|length| length.as_u64() > Some(5)),
+        "{spec}: {verdict}"
+    );
+    assert!(verdict["formulas"].as_u64() > Some(3), "{spec}: {verdict}");
+}
+
 /// Presses every control of the page of a machine, and compares its positions.
 fn check(spec: &str, options: &[&str]) {
     let until: f64 = options[0].parse().expect("the end of the run");
@@ -98,31 +130,12 @@ fn check(spec: &str, options: &[&str]) {
     });
     let asked: Vec<f64> = stored.chain(between).collect();
 
-    let scripts = [
-        (
-            "<head>",
-            format!(
-                "<head><script>{}</script>",
-                include_str!("browser/watch.js")
-            ),
-        ),
-        (
-            "</body>",
-            format!(
-                "<script type=\"application/json\" id=\"asked\">{}</script>\n<script type=\"module\">{}</script></body>",
-                serde_json::json!(asked),
-                include_str!("browser/press.js")
-            ),
-        ),
-    ];
-    let pressed = scripts
-        .iter()
-        .fold(page.html.clone(), |html, (place, script)| {
-            html.replacen(place, script, 1)
-        });
-    let file = Scratch::new("pressed.html", &pressed);
-    let verdict = text_of(&loaded(&file.0), "pre", "verdict").expect("a verdict");
-    let verdict: Value = serde_json::from_str(&verdict).expect("JSON");
+    let script = format!(
+        "<script type=\"application/json\" id=\"asked\">{}</script>\n<script type=\"module\">{}</script>",
+        serde_json::json!(asked),
+        include_str!("browser/press.js")
+    );
+    let verdict = verdict(&page, &script);
     assert_eq!(verdict["ended"], Value::Null, "{}", verdict["ended"]);
     assert_eq!(verdict["wrong"], serde_json::json!([]), "{spec}");
     assert_eq!(verdict["failed"], serde_json::json!([]), "{spec}");
@@ -284,6 +297,33 @@ fn a_chain_moves() {
 #[ignore = "needs Chromium"]
 fn an_arm_moves_in_space() {
     check("machines/six_joint_arm.machine", &["1.5"]);
+}
+
+#[test]
+#[ignore = "needs Chromium"]
+fn every_machine_of_the_library_is_drawn() {
+    let folder = std::fs::read_dir(root().join("machines")).expect("the library");
+    let files = folder.map(|entry| entry.expect("a file").path());
+    let mut seen = 0;
+    for file in files.filter(|file| file.extension().is_some_and(|end| end == "machine")) {
+        look(file.to_str().expect("text"), &["--until", "0.4"]);
+        seen += 1;
+    }
+    assert!(seen >= 9, "{seen}");
+}
+
+#[test]
+#[ignore = "needs Chromium"]
+fn a_machine_that_does_not_move_is_drawn() {
+    let text = "machine Still in plane {
+    parameters { m: kg = 1 }
+    coordinates { x: m }
+    bodies { still { mass: m, at: (x, 0) } }
+}
+";
+    let spec = Scratch::new("still.machine", text);
+    look(spec.path(), &["--until", "1"]);
+    look("machines/double_pendulum.machine", &["--until", "0"]);
 }
 
 /// The narrowest window of a browser is wider than a phone: the page is shown in a frame.

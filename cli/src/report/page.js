@@ -106,6 +106,7 @@ class Player {
 
   connect() {
     const { drawing, motion } = this;
+    byId('play').disabled = byId('time').disabled = this.length === 0;
     byId('play').addEventListener('click', () => (this.playing ? this.pause() : this.play()));
     byId('time').addEventListener('input', (event) => {
       this.seek(motion.from + Number(event.target.value) * motion.duration);
