@@ -338,20 +338,27 @@ class Drawing {
     const start = Math.max(0, end - this.trail * this.pathSteps);
     if (!(end > start)) return;
     const c = this.context;
-    const most = Math.max(60, 12_000 / Math.max(picture.bodies.length, 1));
+    // In a long chain a few show the motion, and sixty hide it; the last is always among them.
+    const every = Math.ceil(picture.bodies.length / 16);
+    const most = 12_000 / (picture.bodies.length / every);
     const stride = Math.max(1, Math.ceil((end - start) / most));
-    const x = motion.x;
-    const fades = 6;
+    const fades = picture.bodies.length > 12 ? 3 : 6;
+    const now = motion.x;
+    const { x, y } = view.map;
     this.paths.forEach((path, index) => {
-      const point = (step) => view.project([path[3 * step], path[3 * step + 1], path[3 * step + 2]]);
+      if ((picture.bodies.length - 1 - index) % every !== 0) return;
+      const lineTo = (step) => {
+        const [a, b, d] = [path[3 * step], path[3 * step + 1], path[3 * step + 2]];
+        c.lineTo(x[0] + x[1] * a + x[2] * b + x[3] * d, y[0] + y[1] * a + y[2] * b + y[3] * d);
+      };
       for (let fade = 0; fade < fades; fade++) {
         const from = Math.ceil(start + ((end - start) * fade) / fades);
         const to = Math.floor(start + ((end - start) * (fade + 1)) / fades);
         c.beginPath();
-        for (let step = from; step < to; step += stride) c.lineTo(...point(step));
-        c.lineTo(...point(to));
-        if (fade === fades - 1) c.lineTo(...view.project(this.vector(x, picture.bodies[index].at)));
-        else c.lineTo(...point(Math.min(to + 1, this.pathSteps)));
+        for (let step = from; step < to; step += stride) lineTo(step);
+        lineTo(to);
+        if (fade === fades - 1) c.lineTo(...view.project(this.vector(now, picture.bodies[index].at)));
+        else lineTo(Math.min(to + 1, this.pathSteps));
         c.globalAlpha = (0.75 * (fade + 1)) / fades;
         this.stroke(this.colours[index], 1.3);
       }

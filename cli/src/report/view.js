@@ -91,6 +91,13 @@ class View {
     ];
   }
 
+  /** The same as numbers: pixels are `x[0] + x[1] X + x[2] Y + x[3] Z`, and so for `y`. For what is drawn by the thousand. */
+  get map() {
+    const [px, py] = this.project([0, 0, 0]);
+    const scale = this.scale;
+    return { x: [px, ...this.right.map((r) => scale * r)], y: [py, ...this.above.map((a) => -scale * a)] };
+  }
+
   /** The point in the plane of the screen, through the centre of the view, that is shown at these pixels. */
   unproject(x, y) {
     const scale = this.scale;
