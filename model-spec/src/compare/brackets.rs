@@ -3,10 +3,10 @@
 //! Formulas are compared multiplied out: a bracket that is only written otherwise is no mistake. But who has to mend
 //! `½ c (y − x θ)²` looks for that in the print, and not for the `−c x y θ` that is in it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lagrangian_symbolic::normal::{self, Difference};
-use lagrangian_symbolic::{Expr, Node, Rational};
+use lagrangian_symbolic::{Expr, Id, Node, Rational};
 
 use super::changes;
 use crate::model::stage;
@@ -78,18 +78,11 @@ impl<'d> Sides<'d> {
                 .into_iter()
                 .partition(|&term| has_bracket(term))
         };
-        let (brackets, rest): (Vec<_>, Vec<_>) = split(printed);
-        let (mut others, other_rest): (Vec<_>, Vec<_>) = split(right);
-        let mut left = Vec::new();
-        for term in brackets {
-            match others.iter().position(|&other| other == term) {
-                Some(same) => drop(others.remove(same)),
-                None => left.push(term),
-            }
-        }
+        let (printed, printed_rest): (Vec<_>, Vec<_>) = split(printed);
+        let (right, right_rest): (Vec<_>, Vec<_>) = split(right);
         Sides {
-            brackets: [left, others],
-            rest: [rest, other_rest],
+            brackets: [without(&printed, &right), without(&right, &printed)],
+            rest: [printed_rest, right_rest],
         }
     }
 
@@ -127,6 +120,24 @@ impl<'d> Sides<'d> {
             drop: part(PRINTED, true).chain(rest.drop).collect(),
         })
     }
+}
+
+/// The terms of a list that are not in another one as well; a term that is twice in one is struck out as often as it is in the
+/// other.
+fn without<'d>(list: &[Expr<'d>], other: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    let mut common: BTreeMap<Id, usize> = BTreeMap::new();
+    for term in other {
+        *common.entry(term.id()).or_default() += 1;
+    }
+    let mut is_common = |term: &Expr<'d>| match common.get_mut(&term.id()) {
+        Some(count) if *count > 0 => {
+            *count -= 1;
+            true
+        }
+        _ => false,
+    };
+    let left = list.iter().copied().filter(|term| !is_common(term));
+    left.collect()
 }
 
 /// The terms of a formula as it is built, sums that are added or subtracted as a whole opened.

@@ -123,6 +123,27 @@ fn sixteen_of_the_papers_formulas_are_wrong() {
 }
 
 #[test]
+fn units_give_five_of_the_misprints_away() {
+    derived(&text_of("paper_crusher"), |model, equations| {
+        let comparisons = compare(model, equations).into_iter();
+        let remarked: Vec<(String, usize)> = comparisons
+            .map(|c| (c.item, c.remarks.len()))
+            .filter(|(_, remarks)| *remarks > 0)
+            .collect();
+        // A missing dot and s₁ too much; a missing dot; ẏ₁ is a velocity, but the rate of a mass is none; the cosine of a
+        // speed; a force and a dot too much among moments.
+        let expected = [
+            ("kinetic_energy mortar", 2),
+            ("kinetic_energy pestle", 1),
+            ("kinetic_energy", 1),
+            ("equation x", 1),
+            ("equation phi2", 2),
+        ];
+        assert_eq!(remarked, expected.map(|(item, n)| (item.to_owned(), n)));
+    });
+}
+
+#[test]
 fn what_is_told_mends_the_print() {
     // Every formula once more, as the comparison says to change it, through the whole compiler.
     let paper = text_of("paper_crusher");
