@@ -7,15 +7,18 @@
 
 mod brackets;
 mod changes;
+mod wording;
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_symbolic::normal::Difference;
-use lagrangian_symbolic::{Dag, Expr, Function, Node, evaluate, reachable, text};
+use lagrangian_symbolic::{Dag, Expr, Function, Node, evaluate, reachable};
 
 use crate::diagnostic::Diagnostic;
 use crate::mechanics::{Equations, experiment};
-use crate::model::{Model, PublishedItem, PublishedQuantity, stage};
+use crate::model::{Model, PrintedTerm, PublishedItem, PublishedQuantity, stage};
 use crate::source::Span;
+
+pub(crate) use wording::product;
 
 /// The most terms that a formula is written out in, to say which of them are wrong; a longer one is replaced as a whole.
 const BUDGET: usize = 5000;
@@ -35,17 +38,21 @@ pub struct Comparison<'d> {
     pub mend: Vec<Difference<'d>>,
     /// Where the print adds what has different units.
     pub remarks: Vec<Diagnostic>,
+    /// The terms as they stand in the print, for each component.
+    printed: Vec<Vec<PrintedTerm<'d>>>,
 }
 
 impl<'d> Comparison<'d> {
     /// The terms to add to what is printed, as the spec writes them; terms of a vector as vectors: `(0, e*sin(phi))`.
     pub fn add(&self) -> Vec<String> {
-        self.terms(|mend| &mend.add)
+        let [add, _] = self.words();
+        add
     }
 
-    /// The terms to drop from what is printed, as the spec writes them.
+    /// The terms to drop from what is printed: as they stand there, where they do.
     pub fn drop(&self) -> Vec<String> {
-        self.terms(|mend| &mend.drop)
+        let [_, drop] = self.words();
+        drop
     }
 
     /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places in [`Self::drop`] and
@@ -62,23 +69,27 @@ impl<'d> Comparison<'d> {
         all
     }
 
-    fn terms(&self, list: for<'a> fn(&'a Difference<'d>) -> &'a [Expr<'d>]) -> Vec<String> {
+    fn words(&self) -> [Vec<String>; 2] {
         let dimension = self.mend.len();
-        let mut texts = Vec::new();
+        let mut all = [Vec::new(), Vec::new()];
         for (position, mend) in self.mend.iter().enumerate() {
-            texts.extend(list(mend).iter().map(|&term| {
-                let term = text(term, term.dag());
-                let component = |k| if k == position { term.as_str() } else { "0" };
-                match dimension {
-                    1 => term,
-                    _ => format!(
-                        "({})",
-                        (0..dimension).map(component).collect::<Vec<_>>().join(", ")
-                    ),
-                }
-            }));
+            let printed = self.printed.get(position).map_or(&[][..], Vec::as_slice);
+            let pairs = changes::pairs(&mend.drop, &mend.add);
+            let words = wording::words(mend, &pairs, printed);
+            for (all, words) in all.iter_mut().zip(words) {
+                all.extend(words.into_iter().map(|term| {
+                    let component = |k| if k == position { term.as_str() } else { "0" };
+                    match dimension {
+                        1 => term,
+                        _ => {
+                            let components = (0..dimension).map(component).collect::<Vec<_>>();
+                            format!("({})", components.join(", "))
+                        }
+                    }
+                }));
+            }
         }
-        texts
+        all
     }
 }
 
@@ -95,6 +106,7 @@ pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparis
                 agrees: mend.iter().all(Difference::is_empty),
                 mend,
                 remarks: item.remarks.clone(),
+                printed: item.terms.clone(),
             }
         }));
     }

@@ -592,6 +592,8 @@ pub struct PublishedItem<'d> {
     /// What was printed: one value, or the components of a vector. An equation is its left side
     /// less its right side.
     pub printed: Vec<Expr<'d>>,
+    /// The terms of each, as printed; none of a vector that is not printed by its components.
+    pub terms: Vec<Vec<PrintedTerm<'d>>>,
     /// The item, as the spec writes its head: `kinetic_energy mortar`.
     pub text: String,
     /// Where the printed formula adds what cannot be added. The formula is compared all the same:
@@ -599,6 +601,44 @@ pub struct PublishedItem<'d> {
     pub remarks: Vec<Diagnostic>,
     /// Where the spec says it.
     pub span: Span,
+}
+
+/// A term of a printed formula, as it stands there.
+#[derive(Clone, Debug)]
+pub struct PrintedTerm<'d> {
+    /// Whether it is subtracted; what stands right of an equals sign is.
+    pub negative: bool,
+    /// Its factors, in the order of the print.
+    pub factors: Vec<PrintedFactor<'d>>,
+}
+
+/// A factor of a printed term.
+#[derive(Clone, Debug)]
+pub struct PrintedFactor<'d> {
+    /// As the spec writes it, a sum in brackets.
+    pub text: String,
+    /// Whether it stands behind a slash.
+    pub divides: bool,
+    /// What it is.
+    pub value: Expr<'d>,
+}
+
+impl<'d> PrintedTerm<'d> {
+    /// As the spec writes it.
+    pub fn text(&self) -> String {
+        let factors = self.factors.iter();
+        let factors = factors.map(|factor| (factor.text.as_str(), factor.divides));
+        crate::compare::product(self.negative, factors)
+    }
+
+    /// What it is; none for a term without factors.
+    pub fn value(&self) -> Option<Expr<'d>> {
+        let dag = self.factors.first()?.value.dag();
+        let factors = self.factors.iter();
+        let factors = factors.map(|factor| factor.value.powi(if factor.divides { -1 } else { 1 }));
+        let product = dag.product(factors);
+        Some(if self.negative { -product } else { product })
+    }
 }
 
 /// What a printed formula is for; bodies and coordinates by their indices.

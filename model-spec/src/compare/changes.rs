@@ -52,16 +52,18 @@ pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> 
 }
 
 /// A power.
-type Factor<'d> = (Expr<'d>, i32);
+pub(super) type Factor<'d> = (Expr<'d>, i32);
 
 /// A product, factor by factor.
-struct Term<'d> {
-    coefficient: Rational,
-    factors: Vec<Factor<'d>>,
+pub(super) struct Term<'d> {
+    /// The number in front.
+    pub coefficient: Rational,
+    /// Everything else.
+    pub factors: Vec<Factor<'d>>,
 }
 
 impl<'d> Term<'d> {
-    fn of(term: Expr<'d>) -> Term<'d> {
+    pub fn of(term: Expr<'d>) -> Term<'d> {
         let dag = term.dag();
         let (coefficient, product) = match term.node() {
             Node::Sum(inner) if inner.len() == 1 => (inner[0].1.clone(), dag.expr(inner[0].0)),
@@ -114,7 +116,7 @@ impl<'d> Term<'d> {
 }
 
 /// Whether one factor is the other with one slip.
-fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
+pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
     let dag = a.dag();
     match (a.node(), b.node()) {
         (Node::Symbol(a), Node::Symbol(b)) => {

@@ -7,11 +7,13 @@ use super::expression::unit_text;
 use super::names::{Namespace, show};
 use super::value::{Scope, Vector, limits};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Assumption, Published, PublishedItem, PublishedQuantity, stage};
+use crate::model::{
+    Assumption, PrintedFactor, PrintedTerm, Published, PublishedItem, PublishedQuantity, stage,
+};
 use crate::source::Span;
 use crate::syntax::{
-    self, Comparison, Declared, Expression, Index, PublishedKind, Range, Relation, SectionKind,
-    Spec, Statement,
+    self, Comparison, Declared, Equation, Expression, ExpressionKind, Index, PublishedKind, Range,
+    Relation, SectionKind, Spec, Statement,
 };
 use crate::unit::Unit;
 
@@ -164,12 +166,91 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 vec![self.difference(&equation.left, &equation.right, scope)?]
             }
         };
+        // Every factor once more: what is to be said of its units has been said.
+        let remarks = self.remarks.take();
+        self.remarks = Some(Vec::new());
+        let terms = self.printed_terms(&item.statement, printed.len(), scope);
+        self.remarks = remarks;
         Some(PublishedItem {
             quantity,
             printed,
+            terms: terms.unwrap_or_default(),
             text,
             remarks: Vec::new(),
             span: item.span,
+        })
+    }
+
+    /// The terms of each component of a printed formula, as they stand there.
+    fn printed_terms(
+        &mut self,
+        statement: &'a Statement,
+        dimension: usize,
+        scope: Scope<'a>,
+    ) -> Option<Vec<Vec<PrintedTerm<'d>>>> {
+        let mut components = Vec::new();
+        match statement {
+            Statement::Equation(Equation { left, right }) => {
+                components.push(vec![(false, left), (true, right)]);
+            }
+            Statement::Value(value) => match &value.kind {
+                ExpressionKind::Tuple(parts) => {
+                    components.extend(parts.iter().map(|part| vec![(false, part)]));
+                }
+                _ if dimension == 1 => components.push(vec![(false, value)]),
+                _ => return None,
+            },
+        }
+        let mut all = Vec::new();
+        for mut open in components {
+            let mut terms = Vec::new();
+            open.reverse();
+            while let Some((negative, expression)) = open.pop() {
+                match &expression.kind {
+                    ExpressionKind::Sum(inner) => {
+                        let inner = inner.iter().rev();
+                        open.extend(inner.map(|term| (negative != term.negative, &term.value)));
+                    }
+                    ExpressionKind::Negative(inner) => open.push((!negative, inner)),
+                    _ => terms.push(self.printed_term(negative, expression, scope)?),
+                }
+            }
+            all.push(terms);
+        }
+        Some(all)
+    }
+
+    fn printed_term(
+        &mut self,
+        negative: bool,
+        expression: &'a Expression,
+        scope: Scope<'a>,
+    ) -> Option<PrintedTerm<'d>> {
+        let factors: Vec<(bool, &'a Expression)> = match &expression.kind {
+            ExpressionKind::Product(factors) => {
+                let factors = factors.iter();
+                factors
+                    .map(|factor| (factor.divides, &factor.value))
+                    .collect()
+            }
+            _ => vec![(false, expression)],
+        };
+        let mut negative = negative;
+        let mut printed = Vec::new();
+        for (divides, mut factor) in factors {
+            // -a*b is a product whose first factor is -a.
+            while let ExpressionKind::Negative(inner) = &factor.kind {
+                (negative, factor) = (!negative, inner);
+            }
+            printed.push(PrintedFactor {
+                text: super::text::shown_factor(factor, scope.index),
+                divides,
+                value: self.scalar(factor, scope)?.expr,
+            });
+        }
+        Some(PrintedTerm {
+            negative,
+            factors: printed,
         })
     }
 

@@ -17,6 +17,17 @@ pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> Stri
     text
 }
 
+/// The same for a factor of a product: a sum in brackets.
+pub(super) fn shown_factor(expression: &Expression, index: Option<(&str, i64)>) -> String {
+    let mut text = String::new();
+    Writer {
+        text: &mut text,
+        index,
+    }
+    .expression(expression, Strength::Power);
+    text
+}
+
 /// How strongly a place binds what stands in it: what binds less is put in brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
