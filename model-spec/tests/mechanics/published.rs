@@ -87,8 +87,8 @@ fn mistakes_are_told_in_the_scale_of_the_print() {
     assert_eq!(
         (add, drop),
         (
-            vec!["g*sin(theta)/l".to_owned()],
-            vec!["-g*sin(theta)/l".to_owned()]
+            vec!["g/l*sin(theta)".to_owned()],
+            vec!["-g/l*sin(theta)".to_owned()]
         )
     );
 }
@@ -114,7 +114,7 @@ fn theorems_of_logarithms_are_known_by_their_numbers() {
 #[test]
 fn a_constant_of_the_kinetic_energy_is_a_mistake() {
     let (add, drop) = mistakes("kinetic_energy = m*l^2*der(theta)^2/2 + b*g/l");
-    assert_eq!((add, drop), (vec![], vec!["g*b/l".to_owned()]));
+    assert_eq!((add, drop), (vec![], vec!["b*g/l".to_owned()]));
 }
 
 /// Two masses on one spring, whose names differ by an index.
@@ -216,4 +216,27 @@ fn units_that_do_not_fit_are_remarks() {
     };
     assert_eq!(remarks("1/2*m1*der(x1)^2 + 1/2*m2*der(x2)^2"), 0);
     assert_eq!(remarks("1/2*m1*der(x1)^2 + 1/2*m2*der(x2)*x2"), 1);
+}
+
+#[test]
+fn a_term_is_told_in_the_words_of_the_print() {
+    for (wrong, right) in [
+        ("1/2*der(x1)^2*m2", "1/2*der(x1)^2*m1"), // another index, in its place
+        ("-1/2*der(x1)^2*m1", "1/2*der(x1)^2*m1"), // the sign
+        ("m1*der(x1)^2/4", "1/2*m1*der(x1)^2"),   // the number, which goes to the front
+        ("der(x1)^2/2", "m1*der(x1)^2/2"),        // a factor that was not there
+        ("1/2*m1*l*der(x1)^2", "1/2*m1*der(x1)^2"), // and one too much
+        ("m1*der(x1)^2/(2*l)", "1/2*m1*der(x1)^2"), // below the line, with the number in it
+    ] {
+        let (pairs, left) = changes(&masses(&format!("{wrong} + 1/2*m2*der(x2)^2")));
+        let expected = vec![(wrong.to_owned(), right.to_owned())];
+        assert_eq!((pairs, left), (expected, 0));
+    }
+    // A term that is not in the print as it stands is in the usual order.
+    let (pairs, _) = changes(&masses("1/2*(m1*der(x1)^2 - der(x2)^2*m2)"));
+    let expected = vec![(
+        "-1/2*m2*der(x2)^2".to_owned(),
+        "1/2*m2*der(x2)^2".to_owned(),
+    )];
+    assert_eq!(pairs, expected);
 }
