@@ -1,4 +1,5 @@
-//! Crushers of other builds: two debalances that shake along a line, and a motor whose speed is its own.
+//! Crushers of other builds: two debalances that shake along a line, and a motor whose speed is its
+//! own.
 #![cfg(feature = "std")]
 
 use lagrangian::{Coordinates, Machine, Simulation, Solution, State};
@@ -17,15 +18,16 @@ fn run<M: Machine>(machine: &M, start: State<Coordinates<M>>, until: f64) -> Sol
         .unwrap()
 }
 
-/// What the steps of a run may have erred by, all together: each by the tolerance at most, and the oscillators are damped.
+/// What the steps of a run may have erred by, all together: each by the tolerance at most, and the
+/// oscillators are damped.
 fn drift<M: Machine>(run: &Solution<M>) -> f64 {
     run.statistics().steps as f64 * TOLERANCE
 }
 
-/// The frozen crusher after 0.06 s, coordinates and then rates, by extrapolation in quadruple precision; the mortar's centre
-/// has passed the platform's at 2 mm, at 200 rad/s.
+/// The frozen crusher after 0.06 s, coordinates and then rates, by extrapolation in quadruple
+/// precision; the mortar's centre has passed the platform's at 2 mm, at 200 rad/s.
 const FROZEN_AT_60_MS: [f64; 18] = [
-    5.122_159_817_223_440_7e-3,
+    5.122_159_817_223_441e-3,
     2.739_762_041_120_331e-2,
     1.212_784_420_417_975_5e-3,
     2.649_821_689_009_802e-2,
@@ -61,14 +63,15 @@ fn the_frozen_crusher_goes_where_a_higher_precision_says() {
     let drift = run.statistics().steps as f64 * FINE;
     let (q, v) = (run.end().q.to_array(), run.end().v.to_array());
     for (found, exact) in q.iter().chain(&v).zip(FROZEN_AT_60_MS) {
-        // Passing at 2 mm a distance that is wrong becomes an angle that is wrong 500 times as much. The exact machine is off
-        // by a thousand times that.
+        // Passing at 2 mm a distance that is wrong becomes an angle that is wrong 500 times as
+        // much. The exact machine is off by a thousand times that.
         let limit = 500.0 * drift * (1.0 + exact.abs());
         assert!((found - exact).abs() <= limit, "{found} instead of {exact}");
     }
 }
 
-/// `x` at `t` of `M x″ + B x′ + K x = F cos ωt`, from rest at 0: the steady oscillation less the free one that starts like it.
+/// `x` at `t` of `M x″ + B x′ + K x = F cos ωt`, from rest at 0: the steady oscillation less the
+/// free one that starts like it.
 fn oscillator([mass, damping, stiffness, force, omega]: [f64; 5], t: f64) -> f64 {
     let detuned = stiffness - mass * omega * omega;
     let lossy = damping * omega;
@@ -94,7 +97,8 @@ fn two_debalances_shake_along_their_line_and_nowhere_else() {
         force,
         crusher.omega,
     ];
-    // The rounding of two forces that cancel, as a displacement by springs, and as a turn about the centre.
+    // The rounding of two forces that cancel, as a displacement by springs, and as a turn about the
+    // centre.
     let rounding = 10.0 * f64::EPSILON;
     let across = rounding * force / (2.0 * crusher.cy);
     let spring = 2.0 * (crusher.cx * crusher.yc.powi(2) + crusher.cy * crusher.xc.powi(2));
@@ -144,7 +148,8 @@ fn torque(crusher: &MotorCrusher, speed: f64) -> f64 {
     2.0 * crusher.Mk / (slip / crusher.sk + crusher.sk / slip)
 }
 
-/// The radius of the circle on which a debalance at the centre, of constant speed, drives the platform.
+/// The radius of the circle on which a debalance at the centre, of constant speed, drives the
+/// platform.
 fn radius(crusher: &MotorCrusher, speed: f64) -> f64 {
     let detuned = 2.0 * crusher.cx - (crusher.m + crusher.m0) * speed * speed;
     crusher.m0 * crusher.e * speed * speed / detuned.hypot(2.0 * crusher.bx * speed)
@@ -175,7 +180,8 @@ fn steady_speed(crusher: &MotorCrusher) -> f64 {
     above
 }
 
-/// Runs up, and compares with the steady motion: the mean speed, and the distance of the platform's centre from its rest.
+/// Runs up, and compares with the steady motion: the mean speed, and the distance of the platform's
+/// centre from its rest.
 fn check_steady(breakdown: f64) -> f64 {
     let (crusher, start) = centred(breakdown);
     let run = run(&crusher, start, 20.0);
@@ -232,8 +238,8 @@ fn what_the_motor_gives_is_what_the_machine_gets() {
         })
         .sum();
     assert!(balance.dissipated > 1e3);
-    // Simpson errs by (width/2)⁴/180 of the fourth derivative: as rarely as (ω width/2)⁴ of the power that varies, and the
-    // second harmonic of the debalance's force 16 times that.
+    // Simpson errs by (width/2)⁴/180 of the fourth derivative: as rarely as (ω width/2)⁴ of the
+    // power that varies, and the second harmonic of the debalance's force 16 times that.
     let share = 16.0 * (0.5 * crusher.omega * width).powi(4) / 180.0;
     assert!((work - balance.work).abs() <= share * balance.work + drift(&run) * balance.work);
 }
@@ -245,7 +251,8 @@ fn a_strong_motor_turns_as_told() {
     let told = VibratingCrusher::default();
     let simulation = Simulation::new(&told).tolerance(FINE).until(UNTIL);
     let told = simulation.run(told.start()).unwrap();
-    // By how far the platform's centre is off, by which angle the debalance, and by how much that may be wrong.
+    // By how far the platform's centre is off, by which angle the debalance, and by how much that
+    // may be wrong.
     let off = |breakdown: f64| {
         let crusher = MotorCrusher {
             Mk: breakdown,
@@ -260,8 +267,8 @@ fn a_strong_motor_turns_as_told() {
         let error = run.statistics().steps as f64 * FINE;
         (distance, (motor.psi - crusher.omega * UNTIL).abs(), error)
     };
-    // The load turns the debalance back by an angle that falls as the torque rises: ten times the torque, a tenth of the
-    // distance, but for the square of the angle.
+    // The load turns the debalance back by an angle that falls as the torque rises: ten times the
+    // torque, a tenth of the distance, but for the square of the angle.
     let ((near, angle, _), (nearer, _, error)) = (off(1e5), off(1e6));
     let limit = 10.0 * (angle + 2.0 * error / nearer);
     assert!(limit < 1.0 && nearer > 0.0);

@@ -1,4 +1,5 @@
-//! `lagrangian check`: everything that is wrong with a spec, and printed equations against the derived ones.
+//! `lagrangian check`: everything that is wrong with a spec, and printed equations against the
+//! derived ones.
 
 use lagrangian_spec::compare::{self, Comparison};
 use lagrangian_spec::compile::Compiled;

@@ -1,9 +1,10 @@
 //! Equations as somebody printed them, held against the derived ones.
 //!
-//! Whether a printed formula agrees is decided in the prime field, at points that leave no doubt; only one that does not is
-//! written out term by term, to say what to add and what to drop, and which of these are one term with a slip in it. An
-//! equation of motion may be printed times or over any factor of parameters, and a potential energy may differ by a constant:
-//! neither changes the motion. Equations (E23), (E24) of `docs/equations.md`.
+//! Whether a printed formula agrees is decided in the prime field, at points that leave no doubt;
+//! only one that does not is written out term by term, to say what to add and what to drop, and
+//! which of these are one term with a slip in it. An equation of motion may be printed times or
+//! over any factor of parameters, and a potential energy may differ by a constant: neither changes
+//! the motion. Equations (E23), (E24) of `docs/equations.md`.
 
 mod brackets;
 mod changes;
@@ -20,7 +21,8 @@ use crate::source::Span;
 
 pub(crate) use wording::product;
 
-/// The most terms that a formula is written out in, to say which of them are wrong; a longer one is replaced as a whole.
+/// The most terms that a formula is written out in, to say which of them are wrong; a longer one is
+/// replaced as a whole.
 const BUDGET: usize = 5000;
 
 /// What became of one printed formula.
@@ -43,7 +45,8 @@ pub struct Comparison<'d> {
 }
 
 impl<'d> Comparison<'d> {
-    /// The terms to add to what is printed, as the spec writes them; terms of a vector as vectors: `(0, e*sin(phi))`.
+    /// The terms to add to what is printed, as the spec writes them; terms of a vector as vectors:
+    /// `(0, e*sin(phi))`.
     pub fn add(&self) -> Vec<String> {
         let [add, _] = self.words();
         add
@@ -55,8 +58,9 @@ impl<'d> Comparison<'d> {
         drop
     }
 
-    /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places in [`Self::drop`] and
-    /// [`Self::add`], where they stand as well. By the rule in the documentation of `compare/changes.rs`.
+    /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places
+    /// in [`Self::drop`] and [`Self::add`], where they stand as well. By the rule in the
+    /// documentation of `compare/changes.rs`.
     pub fn changes(&self) -> Vec<(usize, usize)> {
         let (mut dropped, mut added) = (0, 0);
         let mut all = Vec::new();
@@ -225,8 +229,8 @@ fn common_factor<'d>(
     }
 }
 
-/// Whether two formulas are equal: exactly, in the prime field; or, for logarithms and the like, of which the field knows no
-/// theorems, numerically.
+/// Whether two formulas are equal: exactly, in the prime field; or, for logarithms and the like, of
+/// which the field knows no theorems, numerically.
 fn equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     match experiment::equal(a, b) {
         Some(equal) => equal || (is_transcendental(a.dag(), &[a, b]) && nearly_equal(a, b)),
@@ -247,7 +251,8 @@ fn is_transcendental(dag: &Dag, formulas: &[Expr<'_>]) -> bool {
         })
 }
 
-/// Whether two formulas have the same values at some points, all symbols between ½ and 1½, to 20 of 30 digits.
+/// Whether two formulas have the same values at some points, all symbols between ½ and 1½, to 20 of
+/// 30 digits.
 fn nearly_equal(a: Expr<'_>, b: Expr<'_>) -> bool {
     const POINTS: u32 = 64;
     let tolerance = DoubleDouble::from_f64(1e-20);

@@ -1,7 +1,8 @@
-//! The C that machines become, compiled by the C compiler of the computer and held against the interpreter.
+//! The C that machines become, compiled by the C compiler of the computer and held against the
+//! interpreter.
 //!
-//! Its sine is not ours, so the numbers differ in their last digits: each must be as near to double-double as rounding allows.
-//! Where there is no C compiler, nothing is tested.
+//! Its sine is not ours, so the numbers differ in their last digits: each must be as near to
+//! double-double as rounding allows. Where there is no C compiler, nothing is tested.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -42,7 +43,8 @@ fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Program
     )
 }
 
-/// A program in C that prints the accelerations and the kinetic energy at a state, one number a line.
+/// A program in C that prints the accelerations and the kinetic energy at a state, one number a
+/// line.
 fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> String {
     let list = |values: &[f64]| {
         values
@@ -189,7 +191,8 @@ fn check(machine: &str, size: Option<i64>) {
         .call(Role::KineticEnergy, arguments, energy)
         .expect("nothing but accelerations can fail");
     assert_eq!(printed.len(), n + 1);
-    // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix at this state.
+    // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix at this
+    // state.
     let entries = n * (n + 1) / 2;
     let mut matrix = vec![DoubleDouble::ZERO; entries];
     interpreter
@@ -215,7 +218,8 @@ fn check(machine: &str, size: Option<i64>) {
     }
 }
 
-/// `‖M‖ ‖M⁻¹‖` in Frobenius' norm, of a positive definite matrix given row by row up to its diagonal.
+/// `‖M‖ ‖M⁻¹‖` in Frobenius' norm, of a positive definite matrix given row by row up to its
+/// diagonal.
 fn condition(n: usize, lower: &[DoubleDouble]) -> f64 {
     let entry = |i: usize, j: usize| lower[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
     let matrix: Vec<Vec<DoubleDouble>> = (0..n)

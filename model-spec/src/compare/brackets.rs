@@ -1,7 +1,9 @@
-//! Terms with brackets, `½ c (y − x θ)²`, told as such where that takes no more terms than telling what comes out of them.
+//! Terms with brackets, `½ c (y − x θ)²`, told as such where that takes no more terms than telling
+//! what comes out of them.
 //!
-//! Formulas are compared multiplied out: a bracket that is only written otherwise is no mistake. But who has to mend
-//! `½ c (y − x θ)²` looks for that in the print, and not for the `−c x y θ` that is in it.
+//! Formulas are compared multiplied out: a bracket that is only written otherwise is no mistake.
+//! But who has to mend `½ c (y − x θ)²` looks for that in the print, and not for the `−c x y θ`
+//! that is in it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -19,10 +21,11 @@ const BRACKETS: usize = 32;
 
 /// What to add to `printed`, and what to drop from it, to get `right`, in as few terms as possible.
 ///
-/// Brackets that stand on both sides are struck out first. Then printed brackets are kept together with right ones from
-/// which they differ by a slip ([`changes`]), then single printed ones, then single right ones; each if that makes the list no
-/// longer, and of the last, which nobody can look for in the print, if it also takes no more symbols. `None` if multiplying
-/// out takes more terms than the budget.
+/// Brackets that stand on both sides are struck out first. Then printed brackets are kept together
+/// with right ones from which they differ by a slip ([`changes`]), then single printed ones, then
+/// single right ones; each if that makes the list no longer, and of the last, which nobody can look
+/// for in the print, if it also takes no more symbols. `None` if multiplying out takes more terms
+/// than the budget.
 pub(super) fn difference<'d>(
     printed: Expr<'d>,
     right: Expr<'d>,
@@ -122,8 +125,8 @@ impl<'d> Sides<'d> {
     }
 }
 
-/// The terms of a list that are not in another one as well; a term that is twice in one is struck out as often as it is in the
-/// other.
+/// The terms of a list that are not in another one as well; a term that is twice in one is struck
+/// out as often as it is in the other.
 fn without<'d>(list: &[Expr<'d>], other: &[Expr<'d>]) -> Vec<Expr<'d>> {
     let mut common: BTreeMap<Id, usize> = BTreeMap::new();
     for term in other {

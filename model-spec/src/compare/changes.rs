@@ -13,10 +13,11 @@
 //! | another bracket | 1 |
 //! | any other factor for another | 2 |
 //!
-//! Terms at a distance of two or less that have a factor in common, up to such slips, are a change. Of all ways to join terms
-//! to drop with terms to add, one at most with each, that with the smallest sum of distances is taken, where a term that is
-//! left alone counts for more than a change. Of equal ones the one in which the fewest slips are in what moves, and then that
-//! whose terms stand nearest to each other in the two lists.
+//! Terms at a distance of two or less that have a factor in common, up to such slips, are a change.
+//! Of all ways to join terms to drop with terms to add, one at most with each, that with the
+//! smallest sum of distances is taken, where a term that is left alone counts for more than a
+//! change. Of equal ones the one in which the fewest slips are in what moves, and then that whose
+//! terms stand nearest to each other in the two lists.
 
 use lagrangian_symbolic::{Expr, Function, Node, Rational};
 
@@ -28,13 +29,15 @@ const SLIPS: u64 = 2;
 /// The most terms that are joined: finding the best way takes time with the cube of their number.
 const TERMS: usize = 150;
 
-/// The changes among terms to drop and terms to add, by their places in the two lists, in the order of the first.
+/// The changes among terms to drop and terms to add, by their places in the two lists, in the order
+/// of the first.
 pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> {
     if drop.is_empty() || add.is_empty() || drop.len() + add.len() > TERMS {
         return Vec::new();
     }
     let [from, to] = [drop, add].map(|list| list.iter().map(|&e| Term::of(e)).collect::<Vec<_>>());
-    // What counts first weighs more than all together that counts later: `TERMS` slips, `TERMS²` places.
+    // What counts first weighs more than all together that counts later: `TERMS` slips, `TERMS²`
+    // places.
     const SLIP: u64 = 1 << 32;
     const MOVING: u64 = 1 << 16;
     const { assert!(TERMS * TERMS < MOVING as usize) };
@@ -81,8 +84,8 @@ impl<'d> Term<'d> {
         }
     }
 
-    /// How many slips lead to another term, and in how many factors that move; `None` if they are too many, or the terms have
-    /// nothing in common.
+    /// How many slips lead to another term, and in how many factors that move; `None` if they are
+    /// too many, or the terms have nothing in common.
     fn distance(&self, other: &Term<'d>) -> Option<(u64, u64)> {
         let mut slips = 0;
         slips += u64::from(self.coefficient.is_negative() != other.coefficient.is_negative());
@@ -149,17 +152,19 @@ fn undotted(name: &str) -> (usize, &str) {
     (dots, rest)
 }
 
-/// A name without the digits at its end, or the index of a member of a family: `phi` of `phi1`, `q` of `q[3]`.
+/// A name without the digits at its end, or the index of a member of a family: `phi` of `phi1`, `q`
+/// of `q[3]`.
 fn without_index(name: &str) -> &str {
     let base = name.split('[').next().unwrap_or(name);
     base.trim_end_matches(|c: char| c.is_ascii_digit())
 }
 
-/// The column of each row such that the sum of costs is least, no column taken twice; there are as many columns as rows, or
-/// more.
+/// The column of each row such that the sum of costs is least, no column taken twice; there are as
+/// many columns as rows, or more.
 ///
-/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2 (1955) 83–97, as rows that join
-/// one after the other by a shortest path (R. Jonker, A. Volgenant, Computing 38 (1987) 325–340).
+/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2
+/// (1955) 83–97, as rows that join one after the other by a shortest path (R. Jonker, A. Volgenant,
+/// Computing 38 (1987) 325–340).
 fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -> Vec<usize> {
     let cost = |row: usize, column: usize| i64::try_from(cost(row, column)).unwrap_or(i64::MAX / 4);
     // What rows and columns pay; no pair costs less than both together, a joined one exactly that.

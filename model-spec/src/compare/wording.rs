@@ -8,8 +8,8 @@ use crate::model::PrintedTerm;
 
 /// The terms to add and the terms to drop, in words.
 ///
-/// A term to drop that stands in the print is written as it stands there, and the term that it is changed to in the same
-/// order. All others are written in the usual order.
+/// A term to drop that stands in the print is written as it stands there, and the term that it is
+/// changed to in the same order. All others are written in the usual order.
 pub(super) fn words<'d>(
     mend: &Difference<'d>,
     changes: &[(usize, usize)],
@@ -63,8 +63,8 @@ impl<'d> Word<'d> {
     }
 }
 
-/// A term written with its factors where a printed one has the same, or such as differ by a slip; none if that gives something
-/// else.
+/// A term written with its factors where a printed one has the same, or such as differ by a slip;
+/// none if that gives something else.
 fn in_the_order_of<'d>(printed: &PrintedTerm<'d>, term: Expr<'d>) -> Option<String> {
     let dag = term.dag();
     let Term {

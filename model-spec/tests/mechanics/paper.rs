@@ -1,5 +1,6 @@
-//! The crusher paper, formula by formula as printed in `machines/paper_crusher.machine`, held against the machine it
-//! describes; `docs/errata.md`, which lists what is wrong, held against that; and the corrected formulas, typed in by hand.
+//! The crusher paper, formula by formula as printed in `machines/paper_crusher.machine`, held
+//! against the machine it describes; `docs/errata.md`, which lists what is wrong, held against
+//! that; and the corrected formulas, typed in by hand.
 
 use std::collections::BTreeSet;
 
@@ -117,7 +118,8 @@ fn sixteen_of_the_papers_formulas_are_wrong() {
     let formulas = errata().formulas;
     let wrong = formulas.iter().filter(|(_, agrees)| !agrees).count();
     assert_eq!((wrong, formulas.len()), (16, 31));
-    // Positions and velocities of three bodies, T₀ to T₃, T, U, Φ, and for nine coordinates Q and the equation.
+    // Positions and velocities of three bodies, T₀ to T₃, T, U, Φ, and for nine coordinates Q and
+    // the equation.
     let quantities: BTreeSet<&String> = formulas.iter().map(|(formula, _)| formula).collect();
     assert_eq!(quantities.len(), 6 + 4 + 3 + 9 + 9);
 }
@@ -130,8 +132,8 @@ fn units_give_five_of_the_misprints_away() {
             .map(|c| (c.item, c.remarks.len()))
             .filter(|(_, remarks)| *remarks > 0)
             .collect();
-        // A missing dot and s₁ too much; a missing dot; ẏ₁ is a velocity, but the rate of a mass is none; the cosine of a
-        // speed; a force and a dot too much among moments.
+        // A missing dot and s₁ too much; a missing dot; ẏ₁ is a velocity, but the rate of a mass is
+        // none; the cosine of a speed; a force and a dot too much among moments.
         let expected = [
             ("kinetic_energy mortar", 2),
             ("kinetic_energy pestle", 1),
@@ -319,7 +321,8 @@ fn with_its_misprints_mended_the_paper_is_right_about_its_single_pair() {
 
 #[test]
 fn the_frozen_crusher_is_the_mended_paper_on_two_pairs() {
-    // Left and right pull together along x and y, and against each other's turn: no cross terms are left.
+    // Left and right pull together along x and y, and against each other's turn: no cross terms are
+    // left.
     let items = suspension([
         "cx*(x^2 + yc^2*theta^2) + cy*(y^2 + xc^2*theta^2)",
         "bx*(der(x)^2 + yc^2*der(theta)^2) + by*(der(y)^2 + xc^2*der(theta)^2)",
@@ -332,7 +335,8 @@ fn the_frozen_crusher_is_the_mended_paper_on_two_pairs() {
 
 #[test]
 fn the_single_pair_leaves_one_turn_free() {
-    // K (yc, −xc, 1)ᵀ = 0 for the stiffnesses of x, y and θ, and the same for the dampers about their joint.
+    // K (yc, −xc, 1)ᵀ = 0 for the stiffnesses of x, y and θ, and the same for the dampers about
+    // their joint.
     derived(&text_of("paper_crusher"), |model, equations| {
         let symbol = |name: &str| {
             let parameter = model.parameters.iter().find(|p| p.name.base == name);
@@ -358,8 +362,9 @@ fn the_single_pair_leaves_one_turn_free() {
     });
 }
 
-/// A state of the crusher, and its accelerations on four corners with the angle frozen, on four corners exactly, and on the
-/// single pair. Assembled in absolute coordinates in C++, and by a computer algebra system from T; they agree to 4e-18.
+/// A state of the crusher, and its accelerations on four corners with the angle frozen, on four
+/// corners exactly, and on the single pair. Assembled in absolute coordinates in C++, and by a
+/// computer algebra system from T; they agree to 4e-18.
 const TIME: &str = "0.0123";
 const STATE: [&str; 18] = [
     "0.003", "-0.002", "0.04", "0.013", "0.7", "-0.3", "0.021", "-1.1", "0.45", //
@@ -518,7 +523,8 @@ fn one_more_wrong_sign_anywhere_is_found() {
         survivors.len()
     );
     assert!(mutants.len() > 300);
-    // What stands behind the rate of a constant is nothing, whatever its signs; and −J θ″ = 0 is J θ″ = 0.
+    // What stands behind the rate of a constant is nothing, whatever its signs; and −J θ″ = 0 is J
+    // θ″ = 0.
     let nothing = "der(m0)*e*omega*(y0*sin(omega*t) + x0*cos(omega*t))*der(theta)";
     let expected = [
         ("kinetic_energy", nothing),
@@ -530,7 +536,8 @@ fn one_more_wrong_sign_anywhere_is_found() {
     assert_eq!(survivors, expected);
 }
 
-/// The statement with the sign of one term flipped, for every term in it and in its brackets; and where that term stands.
+/// The statement with the sign of one term flipped, for every term in it and in its brackets; and
+/// where that term stands.
 fn flipped(statement: &Statement) -> Vec<(Span, Statement)> {
     let mut all = Vec::new();
     match statement {

@@ -4,7 +4,8 @@ use lagrangian_spec::compare::compare;
 
 use crate::harness::derived;
 
-/// What is said of items that a pendulum publishes: the terms to add and to drop, nothing for what agrees.
+/// What is said of items that a pendulum publishes: the terms to add and to drop, nothing for what
+/// agrees.
 fn said(items: &str) -> Vec<Option<(Vec<String>, Vec<String>)>> {
     derived(&pendulum(items), |model, equations| {
         let said =
@@ -30,7 +31,8 @@ fn pendulum(items: &str) -> String {
     )
 }
 
-/// The terms that are told as changes, as printed and as they should be; and how many are left to add and to drop.
+/// The terms that are told as changes, as printed and as they should be; and how many are left to
+/// add and to drop.
 fn changes(machine: &str) -> (Vec<(String, String)>, usize) {
     derived(machine, |model, equations| {
         let [comparison] = &compare(model, equations)[..] else {
