@@ -164,8 +164,8 @@ impl Machine for InterpretedMachine {
 
     fn start(&self) -> State<Named> {
         let n = self.program.dimension();
-        let mut q = vec![0.0; n];
-        Interpreter::new(&self.program, &self.parameters).start(&mut q);
+        let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+        Interpreter::new(&self.program, &self.parameters).start(&mut q, &mut v);
         let named = |values| Named {
             labels: self.names.coordinates.clone(),
             values,
@@ -173,7 +173,7 @@ impl Machine for InterpretedMachine {
         State {
             t: 0.0,
             q: named(q),
-            v: named(vec![0.0; n]),
+            v: named(v),
         }
     }
 }

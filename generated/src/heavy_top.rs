@@ -111,13 +111,13 @@ impl<S: ::lagrangian::Scalar> HeavyTop<S> {
         }
     }
 
-    /// The start values of the description, at rest and `t = 0`.
+    /// The start values of the description, at `t = 0`.
     pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
         let psi = S::pi();
         let theta = S::pi() * S::from_f64(0.5);
         let zero = S::ZERO;
         let q = [psi, theta, zero];
-        let v = [S::ZERO; 3];
+        let v = [zero, zero, S::from_f64(150.0)];
         ::lagrangian::State {
             t: 0.0,
             q: Coordinates::from_array(q),

@@ -74,14 +74,17 @@ fn agrees_in_f64<M: Machine + Default>(
     let system = machine.prepare();
     let n = program.dimension();
 
-    let mut start = vec![0.0; n];
-    interpreter.start(&mut start);
-    let emitted = system.to_vector(&machine.start().q);
-    assert_eq!(
-        bits(lagrangian::Vector::as_slice(&emitted)),
-        bits(&start),
-        "{file}: start"
-    );
+    let (mut q, mut v) = (vec![0.0; n], vec![0.0; n]);
+    interpreter.start(&mut q, &mut v);
+    let start = machine.start();
+    for (emitted, interpreted) in [(&start.q, &q), (&start.v, &v)] {
+        let emitted = system.to_vector(emitted);
+        assert_eq!(
+            bits(lagrangian::Vector::as_slice(&emitted)),
+            bits(interpreted),
+            "{file}: start"
+        );
+    }
 
     for seed in 1..=STATES {
         let mut numbers = Numbers(seed);

@@ -199,6 +199,8 @@ pub struct Coordinate<'d> {
     pub unit_text: String,
     /// Where it starts; may depend on parameters.
     pub start: Expr<'d>,
+    /// Its rate there, 0 where the spec gives none; may depend on parameters.
+    pub start_rate: Expr<'d>,
     /// Its symbol, that of its velocity, and that of its acceleration.
     pub q: Expr<'d>,
     /// The symbol of its velocity.

@@ -76,7 +76,8 @@ pub struct Program {
     /// For each prepared value its formula in terms of parameters, as a spec would write it; cut
     /// short (`…`) where long.
     pub prepared: Vec<String>,
-    /// Where the coordinates start: reads parameters only.
+    /// Where the coordinates start, and behind them their rates if any of these is not 0: reads
+    /// parameters only.
     pub start: Function,
     /// Everything else, in the order of [`Role`].
     pub functions: Vec<Function>,
@@ -120,7 +121,7 @@ pub struct Fact {
 pub enum Role {
     /// Prepared values, of the parameters.
     Prepare,
-    /// The coordinates at the start, of the parameters.
+    /// The coordinates at the start, and their rates, of the parameters.
     Start,
     /// The mass matrix M(q, t).
     MassMatrix,

@@ -14,6 +14,7 @@
 //! | [`expression`] | the value and the unit of an expression |
 //! | [`frames`] | frames and points |
 //! | [`items`] | bodies, springs, forces, … |
+//! | [`rates`] | rates at the start |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
 mod expression;
@@ -22,6 +23,7 @@ mod items;
 mod layers;
 mod names;
 mod published;
+mod rates;
 mod text;
 mod value;
 mod work;
@@ -162,7 +164,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 .map(|parameter| (member, parameter))
         });
         let constants = self.each(Constants, Self::constant);
-        let coordinates = self.each(Coordinates, Self::coordinate);
+        let mut coordinates = self.each(Coordinates, Self::coordinate);
+        self.start_rates(layers, &mut coordinates);
         let inputs = self.each(Inputs, Self::input);
         self.each(Define, |resolver, member| {
             resolver.definition(member);

@@ -392,6 +392,69 @@ fn a_variant_adds_replaces_and_removes() {
 }
 
 #[test]
+fn coordinates_have_rates_at_the_start() {
+    let dag = Dag::new();
+    let rates = |text: &str| {
+        let model = variant(&dag, text);
+        let rates = model.coordinates.iter().map(|q| q.start_rate);
+        let rates: Vec<Expr> = rates.collect();
+        numbers(&dag, &rates, &[("w", 2.0), ("l", 5.0)])
+    };
+    assert_eq!(rates("gravity (0, 0);"), [0.0; 6]);
+    assert_eq!(
+        rates("coordinates { der(x): m/s = w*l, der(phi): rad/s = -pi }"),
+        [10.0, 0.0, -std::f64::consts::PI, 0.0, 0.0, 0.0]
+    );
+    assert_eq!(
+        rates("coordinates { der(q[i in 1..N]): rad/s = i*w, der(y): m/s = 1 }"),
+        [0.0, 1.0, 0.0, 2.0, 4.0, 6.0]
+    );
+    assert_eq!(
+        rates("coordinates { der(q): rad/s = w }"),
+        [0.0, 0.0, 0.0, 2.0, 2.0, 2.0]
+    );
+    // A name of its own is a coordinate, also where it is `der`.
+    assert_eq!(
+        rates("coordinates { der: m = 1, der(der): m/s = 3 }"),
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 3.0]
+    );
+}
+
+#[test]
+fn a_variant_replaces_rates_and_drops_those_of_what_it_removes() {
+    let base = "machine Base in plane {
+        parameters { m: kg = 1 }
+        coordinates { x: m, der(x): m/s = 1, y: m, der(y): m/s = 2 }
+        bodies { b { mass: m, at: (x, y) } }
+    }";
+    let rates = |text: &str| {
+        let dag = Dag::new();
+        let mut sources = Sources::new();
+        let mut report = Report::new();
+        let mut files = InMemory::new().with("base.machine", base);
+        let text = format!("machine Test extends \"base.machine\" {{ {text} }}");
+        let name = "test.machine";
+        let model = lagrangian_spec::model(
+            &dag,
+            name,
+            &text,
+            &[],
+            &mut files,
+            &mut sources,
+            &mut report,
+        );
+        let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+        let rates = model.coordinates.iter().map(|q| q.start_rate);
+        let rates: Vec<Expr> = rates.collect();
+        numbers(&dag, &rates, &[])
+    };
+    assert_eq!(rates("gravity (0, 0);"), [1.0, 2.0]);
+    assert_eq!(rates("coordinates { der(y): m/s = 5 }"), [1.0, 5.0]);
+    assert_eq!(rates("parameters { x: m = 3 }"), [2.0]);
+    assert_eq!(rates("remove coordinates.x; define { x = 0 }"), [2.0]);
+}
+
+#[test]
 fn the_head_of_a_model_is_that_of_the_variant() {
     let dag = Dag::new();
     let model = sound(

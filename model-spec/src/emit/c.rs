@@ -336,6 +336,9 @@ impl<'a> Emitter<'a> {
             Role::Assumption(i) => {
                 format!("By how much {} holds.", self.program.assumptions[i].text)
             }
+            Role::Start if self.program.start.results.len() > self.program.dimension() => {
+                "Where the coordinates start, and behind them their rates.".to_owned()
+            }
             role => docs(role).to_owned(),
         }
     }

@@ -97,13 +97,20 @@ impl<S: Scalar> Interpreter<S> {
         &self.registers[start..start + len]
     }
 
-    /// Where the coordinates start.
+    /// Where the coordinates start, and how fast.
     ///
     /// # Panics
-    /// If `q` is not as long as [`Program::coordinates`].
-    pub fn start(&mut self, q: &mut [S]) {
+    /// If `q` or `v` is not as long as [`Program::coordinates`].
+    pub fn start(&mut self, q: &mut [S], v: &mut [S]) {
         self.start.run(&mut self.registers);
-        self.start.copy_results(&self.registers, q);
+        let n = q.len();
+        assert_eq!(v.len(), n, "q and v are as long as the coordinates");
+        let results = self.start.results.iter();
+        let mut values = results.map(|&value| self.registers[value as usize]);
+        for place in q.iter_mut().chain(v) {
+            // A machine that starts at rest has no results for its rates.
+            *place = values.next().unwrap_or(S::ZERO);
+        }
     }
 
     /// Runs the function of a role, if the program has one, and writes its results, arranged as its

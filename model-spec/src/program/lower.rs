@@ -48,11 +48,10 @@ impl Program {
             .iter()
             .flat_map(|quantity| quantity.values.iter().copied())
             .collect();
-        let starts: Vec<Expr<'d>> = model
-            .coordinates
-            .iter()
-            .map(|coordinate| coordinate.start)
-            .collect();
+        let mut starts: Vec<Expr<'d>> = model.coordinates.iter().map(|c| c.start).collect();
+        if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
+            starts.extend(model.coordinates.iter().map(|c| c.start_rate));
+        }
         let mut lowering = Lowering::new(model);
         lowering.lower(&roots);
         lowering.lower(&starts);

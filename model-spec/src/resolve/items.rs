@@ -162,7 +162,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// A value in the unit that is declared for it.
-    fn quantity_value(
+    pub fn quantity_value(
         &mut self,
         value: &'a Expression,
         unit: Option<Unit>,
@@ -231,6 +231,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             unit: unit?,
             unit_text: self.unit_text(member, unit?),
             start,
+            start_rate: self.dag.zero(),
             q,
             v,
             a,
@@ -813,7 +814,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         None
     }
 
-    fn unknown_coordinate(&mut self, name: &'a syntax::Ident) {
+    pub fn unknown_coordinate(&mut self, name: &'a syntax::Ident) {
         if self.incomplete || name.text.is_empty() {
             return;
         }

@@ -37,7 +37,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The indices of a range; one «no index» where there is no range.
-    fn unrolled(&mut self, range: Option<&'a Range>) -> Vec<Option<i64>> {
+    pub fn unrolled(&mut self, range: Option<&'a Range>) -> Vec<Option<i64>> {
         let Some(range) = range else {
             return vec![None];
         };
@@ -355,7 +355,7 @@ fn sign(comparison: Comparison) -> &'static str {
 }
 
 /// The index of a family as an expression sees it.
-fn variable(range: Option<&Range>, index: Option<i64>) -> Option<(&str, i64)> {
+pub(super) fn variable(range: Option<&Range>, index: Option<i64>) -> Option<(&str, i64)> {
     let variable = range?.variable.as_ref()?;
     Some((variable.text.as_str(), index?))
 }

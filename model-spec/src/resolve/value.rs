@@ -163,6 +163,11 @@ pub(super) mod limits {
         "a start value",
         "it is computed once, from parameters and constants",
     );
+    pub static START_RATE: Limit = limit(
+        stage::PARAMETER,
+        "a rate at the start",
+        "it is computed once, from parameters and constants",
+    );
     pub static DEFINITION: Limit = limit(stage::ACCELERATION, "a definition", "");
     pub static ASSUMPTION: Limit = limit(
         stage::VELOCITY,

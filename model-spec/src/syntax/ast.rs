@@ -31,6 +31,8 @@ pub struct Spec {
     pub constants: Vec<Item<Quantity>>,
     /// `name: unit = start`
     pub coordinates: Vec<Item<Quantity>>,
+    /// `der(name): unit = rate`, among the coordinates; the value is never left out
+    pub rates: Vec<Item<Quantity>>,
     /// `name: unit = default`
     pub inputs: Vec<Item<Quantity>>,
     /// `name: unit = expression`; the value is never left out

@@ -16,6 +16,27 @@ impl Parser<'_> {
         items: &mut Vec<Item<C>>,
         mut content: impl FnMut(&mut Self, &Declared) -> Option<C>,
     ) {
+        self.each_item(kind, |parser, docs| {
+            let start = parser.here();
+            let name = parser.declared(&format!("the name of {}", kind.item()))?;
+            let content = content(parser, &name)?;
+            let span = start.to(parser.before());
+            items.push(Item {
+                docs,
+                name,
+                content,
+                span,
+            });
+            Some(())
+        });
+    }
+
+    /// Reads each item of a section, behind its documentation; `None` is one that cannot be read.
+    fn each_item(
+        &mut self,
+        kind: SectionKind,
+        mut item: impl FnMut(&mut Self, String) -> Option<()>,
+    ) {
         let Some(group) = self.enter_section(kind) else {
             return;
         };
@@ -25,19 +46,7 @@ impl Parser<'_> {
             if parser.at >= close {
                 return parser.complain_of_docs();
             }
-            let start = parser.here();
-            let Some(name) = parser.declared(&format!("the name of {}", kind.item())) else {
-                return;
-            };
-            if let Some(content) = content(parser, &name) {
-                let span = start.to(parser.before());
-                items.push(Item {
-                    docs,
-                    name,
-                    content,
-                    span,
-                });
-            }
+            item(parser, docs);
         });
     }
 
@@ -56,7 +65,8 @@ impl Parser<'_> {
         self.enter(Delimiter::Brace)
     }
 
-    /// True where an item begins: documentation, or `name:`, `name =`, `name {`, `name[…]`.
+    /// True where an item begins: documentation, or `name:`, `name =`, `name {`, `name[…]`,
+    /// `der(…)`.
     fn begins_item(&self) -> bool {
         let follows = |kind| {
             matches!(
@@ -67,9 +77,17 @@ impl Parser<'_> {
         };
         match self.peek().map(|word| word.kind) {
             Some(TokenKind::Doc) => true,
-            Some(TokenKind::Ident) => self.peek_second().is_some_and(|word| follows(word.kind)),
+            Some(TokenKind::Ident) => {
+                self.begins_rate() || self.peek_second().is_some_and(|word| follows(word.kind))
+            }
             _ => self.doc_attribute().is_some(),
         }
+    }
+
+    /// True where the rate of a coordinate begins: `der(`.
+    fn begins_rate(&self) -> bool {
+        let bracket = TokenKind::Open(Delimiter::Parenthesis);
+        self.is_word("der") && self.peek_second().is_some_and(|word| word.kind == bracket)
     }
 
     /// A name where it is declared: `theta`, `link[0]`, `q[1..N]`, `bob[i in 1..N]`.
@@ -151,13 +169,61 @@ impl Parser<'_> {
 
     /// Items `name: unit = value`.
     pub(super) fn quantities(&mut self, kind: SectionKind, items: &mut Vec<Item<Quantity>>) {
+        let needs_value = matches!(kind, SectionKind::Constants | SectionKind::Outputs);
         self.items(kind, items, |parser, name| {
-            Some(parser.quantity(kind, name))
+            Some(parser.quantity(kind, &name.base.text, name.span, needs_value))
         });
     }
 
-    fn quantity(&mut self, kind: SectionKind, name: &Declared) -> Quantity {
-        let word = &name.base.text;
+    /// Items `name: unit = start`, and `der(name): unit = rate`.
+    pub(super) fn coordinates(&mut self, spec: &mut Spec) {
+        let kind = SectionKind::Coordinates;
+        self.each_item(kind, |parser, docs| {
+            let start = parser.here();
+            let is_rate = parser.begins_rate();
+            let name = if is_rate {
+                parser.rate_of()?
+            } else {
+                parser.declared(&format!("the name of {}", kind.item()))?
+            };
+            let word = match is_rate {
+                true => format!("der({})", name.base.text),
+                false => name.base.text.clone(),
+            };
+            let content = parser.quantity(kind, &word, name.span, is_rate);
+            let items = match is_rate {
+                true => &mut spec.rates,
+                false => &mut spec.coordinates,
+            };
+            items.push(Item {
+                docs,
+                name,
+                content,
+                span: start.to(parser.before()),
+            });
+            Some(())
+        });
+    }
+
+    /// `der(phi)`, `der(q[1..N])`: the coordinate; its span is that of the whole.
+    fn rate_of(&mut self) -> Option<Declared> {
+        let start = self.here();
+        self.at += 1;
+        let group = self.enter(Delimiter::Parenthesis)?;
+        let declared = self.declared("the name of a coordinate");
+        self.leave(group, "`)`");
+        let span = start.to(self.before());
+        declared.map(|declared| Declared { span, ..declared })
+    }
+
+    /// `: unit = value`, behind the name.
+    fn quantity(
+        &mut self,
+        kind: SectionKind,
+        word: &str,
+        name: Span,
+        needs_value: bool,
+    ) -> Quantity {
         let mut has_unit = self.eat_mark(':');
         let is_unit = |word: Word| unit::Unit::named(word.text).is_some();
         if !has_unit && self.peek().is_some_and(is_unit) {
@@ -173,7 +239,7 @@ impl Parser<'_> {
         let has_value = self.is_mark('=');
         if !has_unit && kind != SectionKind::Constants && !self.failed {
             let message = format!("`{word}` has no unit");
-            let missing = Diagnostic::new(Code::MissingUnit, name.span, message);
+            let missing = Diagnostic::new(Code::MissingUnit, name, message);
             self.complain(missing.help(format!(
                 "write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`"
             )));
@@ -182,10 +248,9 @@ impl Parser<'_> {
             self.expect_equals();
             Some(self.expression())
         } else {
-            let needed = matches!(kind, SectionKind::Constants | SectionKind::Outputs);
-            if needed && !self.failed {
+            if needs_value && !self.failed {
                 let message = format!("`{word}` has no value");
-                let missing = Diagnostic::new(Code::MissingValue, name.span, message);
+                let missing = Diagnostic::new(Code::MissingValue, name, message);
                 self.complain(missing.help(format!("write `{word}: unit = expression`")));
             }
             None

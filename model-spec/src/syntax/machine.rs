@@ -235,7 +235,7 @@ impl Parser<'_> {
         match kind {
             SectionKind::Parameters => self.quantities(kind, &mut spec.parameters),
             SectionKind::Constants => self.quantities(kind, &mut spec.constants),
-            SectionKind::Coordinates => self.quantities(kind, &mut spec.coordinates),
+            SectionKind::Coordinates => self.coordinates(spec),
             SectionKind::Inputs => self.quantities(kind, &mut spec.inputs),
             SectionKind::Outputs => self.quantities(kind, &mut spec.outputs),
             SectionKind::Define => self.values(kind, &mut spec.define, '='),

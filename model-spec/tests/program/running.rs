@@ -43,17 +43,36 @@ fn a_pendulum_falls_as_galilei_says() {
 #[test]
 fn a_machine_starts_where_its_spec_says() {
     let mut pendulum = Interpreter::new(&program(PENDULUM), &[2.0, 0.5, 9.81]);
-    let mut q = [0.0];
-    pendulum.start(&mut q);
+    let (mut q, mut v) = ([0.0], [1.0]);
+    pendulum.start(&mut q, &mut v);
+    assert_eq!(v, [0.0]);
     assert!((q[0] - std::f64::consts::FRAC_PI_3).abs() < 4e-16);
     let mut pendulum = Interpreter::new(
         &program(PENDULUM),
         &[2.0, 0.5, 9.81].map(DoubleDouble::from_f64),
     );
-    let mut q = [DoubleDouble::ZERO];
-    pendulum.start(&mut q);
+    let (mut q, mut v) = ([DoubleDouble::ZERO], [DoubleDouble::ZERO]);
+    pendulum.start(&mut q, &mut v);
     let error = q[0] - DoubleDouble::pi() / DoubleDouble::from_f64(3.0);
     assert!(error.to_f64().abs() < 1e-30);
+}
+
+#[test]
+fn rates_at_the_start_follow_the_coordinates() {
+    const ORBIT: &str = "machine Orbit in plane {
+        parameters { m: kg = 1, speed: m/s = 3, d: m = 2 }
+        coordinates { r: m = d, der(r): m/s = -1, phi: rad, der(phi): rad/s = speed/d }
+        bodies { planet { mass: m, at: polar(r, phi) } }
+    }";
+    let orbit = program(ORBIT);
+    let (mut q, mut v) = ([0.0; 2], [0.0; 2]);
+    Interpreter::new(&orbit, &[1.0, 3.0, 2.0]).start(&mut q, &mut v);
+    assert_eq!((q, v), ([2.0, 0.0], [-1.0, 1.5]));
+    Interpreter::new(&orbit, &[1.0, 8.0, 4.0]).start(&mut q, &mut v);
+    assert_eq!((q, v), ([4.0, 0.0], [-1.0, 2.0]));
+    // Who starts at rest has no code for it.
+    assert_eq!(orbit.start.results.len(), 4);
+    assert_eq!(program(PENDULUM).start.results.len(), 1);
 }
 
 #[test]
@@ -92,7 +111,7 @@ fn a_singular_state_names_the_coordinate() {
             .collect();
         let mut crusher = Interpreter::new(program, &parameters);
         let mut q = [0.0; 9];
-        crusher.start(&mut q);
+        crusher.start(&mut q, &mut [0.0; 9]);
         let mut a = [0.0; 9];
         assert_eq!(
             crusher.call(Role::Accelerations, at(&q, &[0.0; 9]), &mut a),

@@ -241,24 +241,30 @@ impl Emitter<'_> {
         } = &self.types;
         let result = format!("{runtime}::State<{coordinates}<{scalar}>>");
         let values = format!("{coordinates}::from_array");
-        let rest = format!("let v = [{scalar}::ZERO; {}];", self.program.dimension());
+        let n = self.program.dimension();
+        let rest = format!("let v = [{scalar}::ZERO; {n}];");
         let head = format!("{runtime}::State");
-        self.docs("The start values of the description, at rest and `t = 0`.");
+        let is_at_rest = self.program.start.results.len() == n;
+        self.docs(match is_at_rest {
+            true => "The start values of the description, at rest and `t = 0`.",
+            false => "The start values of the description, at `t = 0`.",
+        });
         self.writer
             .signature("pub fn start", &["&self".into()], Some(&result));
-        let wanted: Vec<String> = self
-            .program
-            .coordinates
-            .iter()
-            .map(|slot| flat(&slot.name))
-            .collect();
-        let texts = self.statements(&self.program.start, &wanted);
-        self.writer.expression(
-            "let q = ",
-            &Layout::array(texts.into_iter().map(|text| text.text)),
-            ";",
-        );
-        self.writer.line(rest);
+        let names = self.program.coordinates.iter().map(|slot| flat(&slot.name));
+        let mut wanted: Vec<String> = names.clone().collect();
+        if !is_at_rest {
+            wanted.extend(names.map(|name| format!("{name}_rate")));
+        }
+        let mut texts = self.statements(&self.program.start, &wanted).into_iter();
+        let q = Layout::array(texts.by_ref().take(n).map(|text| text.text));
+        self.writer.expression("let q = ", &q, ";");
+        if is_at_rest {
+            self.writer.line(rest);
+        } else {
+            let v = Layout::array(texts.map(|text| text.text));
+            self.writer.expression("let v = ", &v, ";");
+        }
         let fields = vec![
             ("t".to_owned(), Layout::Atom("0.0".into())),
             ("q".to_owned(), Layout::Atom(format!("{values}(q)"))),

@@ -1,0 +1,114 @@
+//! Rates of coordinates at the start: `der(phi): rad/s = 30`.
+
+use lagrangian_symbolic::Expr;
+use rustc_hash::FxHashMap;
+
+use super::Resolver;
+use super::names::{Namespace, declared_unit, show};
+use super::published::variable;
+use super::value::{MemberId, Scope, limits};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::Coordinate;
+use crate::source::Span;
+use crate::syntax::{Index, Item, Quantity, SectionKind, Spec};
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// Gives the coordinates their rates. Those of a variant replace its base's, and a rate of the
+    /// base goes with its coordinate where a variant removes that.
+    pub fn start_rates(&mut self, layers: &'a [Spec], coordinates: &mut [Coordinate<'d>]) {
+        for (layer, spec) in layers.iter().enumerate() {
+            let is_inherited = layer + 1 < layers.len();
+            let mut said: FxHashMap<usize, Span> = FxHashMap::default();
+            for item in &spec.rates {
+                let range = match &item.name.index {
+                    Index::Range(range) => Some(range),
+                    _ => None,
+                };
+                for index in self.unrolled(range) {
+                    let scope = Scope {
+                        index: variable(range, index),
+                        limit: &limits::START_RATE,
+                        hint: None,
+                    };
+                    let rates = self
+                        .settle(|resolver| resolver.start_rate(item, index, scope, is_inherited));
+                    for (coordinate, rate) in rates.into_iter().flatten() {
+                        if let Some(first) = said.insert(coordinate, item.span) {
+                            self.said_twice(item, first);
+                        }
+                        if let Some(coordinate) = coordinates.get_mut(coordinate) {
+                            coordinate.start_rate = rate;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The coordinates of an item, and their rate. Without an index it is about every member of a
+    /// family.
+    fn start_rate(
+        &mut self,
+        item: &'a Item<Quantity>,
+        index: Option<i64>,
+        scope: Scope<'a>,
+        is_inherited: bool,
+    ) -> Option<Vec<(usize, Expr<'d>)>> {
+        let name = &item.name.base;
+        let index = match &item.name.index {
+            Index::One(one) => Some(self.whole(one, Some(scope))?),
+            _ => index,
+        };
+        let Some(group) = self.find_group(Namespace::Values, &name.text) else {
+            if !is_inherited {
+                self.unknown_coordinate(name);
+            }
+            return None;
+        };
+        let members: Vec<MemberId> = self.groups[group]
+            .members
+            .iter()
+            .filter(|(other, _)| index.is_none() || **other == index)
+            .map(|(_, &member)| member)
+            .collect();
+        if is_inherited && !members.iter().any(|&member| self.is_coordinate(member)) {
+            return None;
+        }
+        if members.is_empty() && !self.groups[group].broken {
+            let message = format!("there is no `{}`", show(&name.text, index));
+            self.error(Code::IndexOutOfRange, item.name.span, message);
+        }
+        let unit = declared_unit(&item.content);
+        let mut rates = Vec::new();
+        for member in members {
+            if !self.is_coordinate(member) {
+                let found = self.declaration(member).section.item();
+                let message = format!(
+                    "a coordinate is expected here, and `{}` is {found}",
+                    name.text
+                );
+                self.error(Code::WrongKind, name.span, message);
+                continue;
+            }
+            let rate = self.unit_of(member)?.rate();
+            if let Some(written) = &item.content.unit {
+                let why = "a rate has the unit of its coordinate over s";
+                self.demand(unit, rate, written.span, why);
+            }
+            let value = item.content.value.as_ref()?;
+            let value = self.quantity_value(value, Some(rate), scope)?.expr;
+            rates.extend(self.ordinal(member).map(|coordinate| (coordinate, value)));
+        }
+        Some(rates)
+    }
+
+    fn is_coordinate(&self, member: MemberId) -> bool {
+        self.declaration(member).section == SectionKind::Coordinates
+    }
+
+    fn said_twice(&mut self, item: &Item<Quantity>, first: Span) {
+        let message = format!("the rate of `{}` is said twice", item.name.base.text);
+        let diagnostic = Diagnostic::new(Code::SaidTwice, item.name.span, message);
+        self.push(diagnostic.note(first, "it is said here"));
+    }
+}
