@@ -16,6 +16,7 @@
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
+//!             | "coordinates" "{" list("der" "(" declared ")" ":" unit "=" expression) "}"
 //! values      = ("define" | "frames") "{" list(declared "=" expression) "}"
 //!             | ("potentials" | "dissipations") "{" list(declared ":" expression) "}"
 //! records     = ("bodies" | "springs" | "torsion_springs" | "dampers" | "forces" | "torques"
