@@ -13,8 +13,7 @@
 //! The angles are yaw, pitch and roll. They fail where pitch is a right angle: there the body's
 //! x axis is vertical, and yaw and roll turn about one line. A body spun about the vertical
 //! that starts with its z axis or its y axis near to it never gets there, however it tumbles:
-//! its x axis would have to carry all of the angular momentum. Give it a rate, such as der(yaw)
-//! = 10.
+//! its x axis would have to carry all of the angular momentum.
 //!
 //! 3 coordinates, 4 parameters, 4 outputs. Arithmetic of one call:
 //!
@@ -60,8 +59,7 @@
 /// The angles are yaw, pitch and roll. They fail where pitch is a right angle: there the body's
 /// x axis is vertical, and yaw and roll turn about one line. A body spun about the vertical
 /// that starts with its z axis or its y axis near to it never gets there, however it tumbles:
-/// its x axis would have to carry all of the angular momentum. Give it a rate, such as der(yaw)
-/// = 10.
+/// its x axis would have to carry all of the angular momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AsymmetricTop<S = f64> {
     /// Mass. Nothing depends on it, since nothing weighs. Unit: kg. Default: 2.
@@ -102,10 +100,10 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.B - self.C;
-        let k2 = self.A - self.B;
-        let k1 = self.A + k0;
+        let k1 = self.A - self.B;
+        let k2 = self.A + k0;
         let k3 = k0 * S::from_f64(2.0);
-        let k4 = k2 * S::from_f64(2.0);
+        let k4 = k1 * S::from_f64(2.0);
         let k5 = self.A - k0;
         Prepared {
             A: self.A,
@@ -120,12 +118,12 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
         }
     }
 
-    /// The start values of the description, at rest and `t = 0`.
+    /// The start values of the description, at `t = 0`.
     pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
         let zero = S::ZERO;
         let roll = S::from_ratio(1, 100);
         let q = [zero, zero, roll];
-        let v = [S::ZERO; 3];
+        let v = [S::from_f64(10.0), zero, zero];
         ::lagrangian::State {
             t: 0.0,
             q: Coordinates::from_array(q),
@@ -199,9 +197,9 @@ pub struct Prepared<S = f64> {
     C: S,
     /// `B - C`
     k0: S,
-    /// `A + B - C`
-    k1: S,
     /// `A - B`
+    k1: S,
+    /// `A + B - C`
     k2: S,
     /// `2*(B - C)`
     k3: S,
@@ -227,7 +225,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
     let (sin_roll, cos_roll) = roll.sin_cos();
     let t0 = cos_pitch * cos_roll;
     let t1 = t0 * p.k0;
-    let m11 = p.A - t0 * t1 - cos_pitch * (cos_pitch * p.k2);
+    let m11 = p.A - cos_pitch * (cos_pitch * p.k1) - t0 * t1;
     let m21 = t1 * sin_roll;
     let m22 = cos_roll * (cos_roll * p.k0) + p.C;
     let m31 = -(p.A * sin_pitch);
@@ -259,25 +257,25 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let pitch_dot = v[1];
     let roll_dot = v[2];
     let (sin_roll, cos_roll) = roll.sin_cos();
-    let t0 = p.k3 * cos_roll;
-    let t1 = pitch_dot * cos_roll;
-    let t2 = t0 * t1;
+    let t0 = cos_roll * p.k3;
+    let t1 = t0 * roll_dot;
+    let t2 = cos_roll * pitch_dot;
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t3 = cos_pitch * yaw_dot;
-    let t4 = t3 * sin_pitch;
-    let t5 = t0 * roll_dot;
-    let t6 = t5 * sin_roll;
-    let t7 = t4 * (pitch_dot * p.k4) + t5 * (cos_pitch * t1);
+    let t3 = sin_roll * t1;
+    let t4 = cos_pitch * yaw_dot;
+    let t5 = t2 * t0;
+    let t6 = t4 * sin_pitch;
+    let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
     let t8 = p.k0 * sin_roll;
-    let t9 = pitch_dot * t1 * t8;
-    let t10 = cos_pitch * p.k1 * (pitch_dot * roll_dot) + sin_pitch * t9;
-    let t11 = yaw_dot * t4;
-    let t12 = t3 * p.k5;
-    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t6;
-    let t14 = t3 * cos_roll;
-    let h_yaw = t4 * t2 + t6 * (cos_pitch * t3) + t7 - t10;
-    let h_pitch = t5 * t14 - (t13 + (t11 * p.k2 - roll_dot * t12));
-    let h_roll = -(t3 * t2 + t14 * (t3 * t8) + (pitch_dot * t12 - t9));
+    let t9 = pitch_dot * t2 * t8;
+    let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
+    let t11 = yaw_dot * t6;
+    let t12 = cos_roll * t4;
+    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t3;
+    let t14 = t4 * p.k5;
+    let h_yaw = t7 + (t5 * t6 + t6 * (pitch_dot * p.k4)) - t10;
+    let h_pitch = roll_dot * t14 - (t13 + (t11 * p.k1 - t1 * t12));
+    let h_roll = -(pitch_dot * t14 + t5 * t4 + (t12 * (t4 * t8) - t9));
     [h_yaw, h_pitch, h_roll]
 }
 
@@ -289,25 +287,25 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let pitch_dot = v[1];
     let roll_dot = v[2];
     let (sin_roll, cos_roll) = roll.sin_cos();
-    let t0 = p.k3 * cos_roll;
-    let t1 = pitch_dot * cos_roll;
-    let t2 = t0 * t1;
+    let t0 = cos_roll * p.k3;
+    let t1 = t0 * roll_dot;
+    let t2 = cos_roll * pitch_dot;
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t3 = cos_pitch * yaw_dot;
-    let t4 = t3 * sin_pitch;
-    let t5 = t0 * roll_dot;
-    let t6 = t5 * sin_roll;
-    let t7 = t4 * (pitch_dot * p.k4) + t5 * (cos_pitch * t1);
+    let t3 = sin_roll * t1;
+    let t4 = cos_pitch * yaw_dot;
+    let t5 = t2 * t0;
+    let t6 = t4 * sin_pitch;
+    let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
     let t8 = p.k0 * sin_roll;
-    let t9 = pitch_dot * t1 * t8;
-    let t10 = cos_pitch * p.k1 * (pitch_dot * roll_dot) + sin_pitch * t9;
-    let t11 = yaw_dot * t4;
-    let t12 = t3 * p.k5;
-    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t6;
-    let t14 = t3 * cos_roll;
-    let f_yaw = t10 - (t4 * t2 + t6 * (cos_pitch * t3) + t7);
-    let f_pitch = t13 + (t11 * p.k2 - roll_dot * t12) - t5 * t14;
-    let f_roll = t3 * t2 + t14 * (t3 * t8) + (pitch_dot * t12 - t9);
+    let t9 = pitch_dot * t2 * t8;
+    let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
+    let t11 = yaw_dot * t6;
+    let t12 = cos_roll * t4;
+    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t3;
+    let t14 = t4 * p.k5;
+    let f_yaw = t10 - (t7 + (t5 * t6 + t6 * (pitch_dot * p.k4)));
+    let f_pitch = t13 + (t11 * p.k1 - t1 * t12) - roll_dot * t14;
+    let f_roll = pitch_dot * t14 + t5 * t4 + (t12 * (t4 * t8) - t9);
     [f_yaw, f_pitch, f_roll]
 }
 
@@ -327,7 +325,7 @@ pub fn accelerations<S: ::lagrangian::Scalar>(
     let roll_dot = v[2];
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
     let t0 = cos_pitch * yaw_dot;
-    let t1 = sin_pitch * yaw_dot * t0;
+    let t1 = t0 * (sin_pitch * yaw_dot);
     let (sin_roll, cos_roll) = roll.sin_cos();
     let t2 = cos_roll * cos_roll;
     let t3 = t2 * p.k0;
@@ -336,7 +334,7 @@ pub fn accelerations<S: ::lagrangian::Scalar>(
     let t6 = roll_dot * pitch_dot;
     let t7 = t0 * roll_dot;
     let t8 = t2 * p.k3;
-    let t9 = t3 * t1 + t5 * t6 + (p.k2 * t1 - t7 * p.k5) - t7 * t8;
+    let t9 = t3 * t1 + t5 * t6 + (p.k1 * t1 - t7 * t8) - t7 * p.k5;
     let t10 = t3 + p.C;
     if vanishes(t10, t10, 2.6645352591003757e-15) {
         return Err(singular(1, t10, t10));
@@ -345,14 +343,14 @@ pub fn accelerations<S: ::lagrangian::Scalar>(
     let t12 = p.k0 * t4;
     let t13 = t12 * cos_pitch;
     let t14 = t11 * t13;
-    let t15 = t0 * pitch_dot;
-    let t16 = sin_pitch * t15;
-    let t17 = cos_pitch * t6;
+    let t15 = cos_pitch * t6;
+    let t16 = t0 * pitch_dot;
+    let t17 = sin_pitch * t16;
     let t18 = t12 * (pitch_dot * pitch_dot);
-    let t19 = t8 * t16 + t7 * (cos_pitch * t5) + (t16 * p.k4 + t8 * t17);
-    let t20 = t14 * t9 + (t19 - (t17 * p.k1 + sin_pitch * t18));
+    let t19 = t8 * t15 + t7 * (cos_pitch * t5) + (t8 * t17 + t17 * p.k4);
+    let t20 = t14 * t9 + (t19 - (sin_pitch * t18 + t15 * p.k2));
     let t21 = cos_pitch * cos_pitch;
-    let t22 = p.A - t3 * t21 - t21 * p.k2;
+    let t22 = p.A - t21 * p.k1 - t3 * t21;
     let t23 = t22 - t13 * t14;
     if vanishes(t23, t22, 2.6645352591003757e-15) {
         return Err(singular(0, t23, t22));
@@ -364,7 +362,7 @@ pub fn accelerations<S: ::lagrangian::Scalar>(
     if vanishes(t27, p.A, 2.6645352591003757e-15) {
         return Err(singular(2, t27, p.A));
     }
-    let roll_ddot = (t8 * t15 + t0 * (t12 * t0) + (p.k5 * t15 - t18) - t26 * t20) / t27;
+    let roll_ddot = (p.k5 * t16 + t8 * t16 + (t0 * (t12 * t0) - t18) - t26 * t20) / t27;
     let t28 = t26 * roll_ddot;
     let t29 = t24 * t20;
     let yaw_ddot = t28 - t29;

@@ -16,8 +16,7 @@
 //! 1971).
 //!
 //! These angles are the joints of a device, so nothing fails where beta is a right angle but
-//! the device itself: gimbal lock, in which rotor and outer gimbal turn about one line. Give
-//! the rotor a rate, such as der(gamma) = 300.
+//! the device itself: gimbal lock, in which rotor and outer gimbal turn about one line.
 //!
 //! 3 coordinates, 12 parameters, 2 outputs. Arithmetic of one call:
 //!
@@ -65,8 +64,7 @@
 /// 1971).
 ///
 /// These angles are the joints of a device, so nothing fails where beta is a right angle but
-/// the device itself: gimbal lock, in which rotor and outer gimbal turn about one line. Give
-/// the rotor a rate, such as der(gamma) = 300.
+/// the device itself: gimbal lock, in which rotor and outer gimbal turn about one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroscopeInGimbals<S = f64> {
     /// Inertia of the outer gimbal about its axis, the vertical. Unit: kg*m^2. Default: 0.002.
@@ -177,12 +175,12 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
         }
     }
 
-    /// The start values of the description, at rest and `t = 0`.
+    /// The start values of the description, at `t = 0`.
     pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
         let zero = S::ZERO;
         let beta = S::from_ratio(1, 5);
         let q = [zero, beta, zero];
-        let v = [S::ZERO; 3];
+        let v = [zero, zero, S::from_f64(300.0)];
         ::lagrangian::State {
             t: 0.0,
             q: Coordinates::from_array(q),

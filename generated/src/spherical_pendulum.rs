@@ -117,12 +117,12 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
         }
     }
 
-    /// The start values of the description, at rest and `t = 0`.
+    /// The start values of the description, at `t = 0`.
     pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
         let zero = S::ZERO;
         let theta = S::from_ratio(1, 3) * S::pi();
         let q = [zero, theta];
-        let v = [S::ZERO; 2];
+        let v = [S::from_f64(3.0), zero];
         ::lagrangian::State {
             t: 0.0,
             q: Coordinates::from_array(q),

@@ -10,8 +10,7 @@
 //! is as long as the eccentricity e is great. Where E < 0, with the semi-major axis
 //! a = G m1 m2/(-2 E), the period is 2 pi sqrt(a^3/(G (m1 + m2))), and Kepler's equation
 //! u - e sin(u) = n t gives the place, r = a (1 - e cos(u)). A circle of radius r is run
-//! through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies fall together: give the line a
-//! rate, such as der(phi) = 10, which makes e = 0.6.
+//! through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall together.
 //!
 //! 2 coordinates, 3 parameters, 3 outputs. Arithmetic of one call:
 //!
@@ -54,8 +53,7 @@
 /// is as long as the eccentricity e is great. Where E < 0, with the semi-major axis
 /// a = G m1 m2/(-2 E), the period is 2 pi sqrt(a^3/(G (m1 + m2))), and Kepler's equation
 /// u - e sin(u) = n t gives the place, r = a (1 - e cos(u)). A circle of radius r is run
-/// through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies fall together: give the line a
-/// rate, such as der(phi) = 10, which makes e = 0.6.
+/// through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoBodyOrbit<S = f64> {
     /// Mass of the first body, and of the second. Unit: kg. Default: 3.
@@ -121,12 +119,12 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
         }
     }
 
-    /// The start values of the description, at rest and `t = 0`.
+    /// The start values of the description, at `t = 0`.
     pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
         let r = S::from_ratio(2, 5);
         let zero = S::ZERO;
         let q = [r, zero];
-        let v = [S::ZERO; 2];
+        let v = [zero, S::from_f64(10.0)];
         ::lagrangian::State {
             t: 0.0,
             q: Coordinates::from_array(q),

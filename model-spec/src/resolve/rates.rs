@@ -12,6 +12,14 @@ use crate::model::Coordinate;
 use crate::source::Span;
 use crate::syntax::{Index, Item, Quantity, SectionKind, Spec};
 
+/// What is said about a rate is said about its coordinate.
+fn document(docs: &mut String, more: &str) {
+    if !docs.is_empty() && !more.is_empty() {
+        docs.push('\n');
+    }
+    docs.push_str(more);
+}
+
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Gives the coordinates their rates. Those of a variant replace its base's, and a rate of the
     /// base goes with its coordinate where a variant removes that.
@@ -38,6 +46,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                         }
                         if let Some(coordinate) = coordinates.get_mut(coordinate) {
                             coordinate.start_rate = rate;
+                            document(&mut coordinate.docs, &item.docs);
                         }
                     }
                 }

@@ -42,6 +42,7 @@ impl<'d> Chapter<'_, 'd> {
                 docs: &c.docs,
             }),
         ));
+        blocks.extend(self.rates());
         if !model.parameters.is_empty() {
             blocks.push(self.table(
                 &["", "parameter", "unit", "default", ""],
@@ -94,6 +95,30 @@ impl<'d> Chapter<'_, 'd> {
         blocks.extend(self.approximations());
         blocks.extend(self.outputs());
         blocks
+    }
+
+    /// How fast it starts, where it does not start at rest.
+    fn rates(&self) -> Option<Block> {
+        const MOST: usize = 12;
+        let coordinates = &self.model.coordinates;
+        let moving = || coordinates.iter().filter(|c| !c.start_rate.is_zero());
+        let count = moving().count();
+        let rates = moving().take(MOST).map(|c| {
+            let rate = self.name(c.v).equals(self.value(c.start_rate));
+            let per_second = match c.unit_text.as_str() {
+                "1" => "1/s".to_owned(),
+                unit => format!("{unit}/s"),
+            };
+            let mut words = words![rate, " "];
+            words.extend(unit(&per_second));
+            words
+        });
+        let more = match count.saturating_sub(MOST) {
+            0 => words!["."],
+            more => words![format!(", and so on for {more} more.")],
+        };
+        let begin = words!["It starts with "];
+        (count > 0).then(|| paragraph([begin, listed(rates), more]))
     }
 
     fn table<'t>(&self, titles: &[&str], entries: impl Iterator<Item = Entry<'t, 'd>>) -> Block
