@@ -810,6 +810,22 @@ fn a_top_spun_about_its_middle_axis_tumbles_in_time() {
 }
 
 #[test]
+fn a_free_top_turns_steadily_about_its_own_axes() {
+    let top = AsymmetricTop::default();
+    // Nothing but rounding accelerates it: some 10 times the rate squared, by the moments.
+    let (w, size) = (5.0, 10.0 * 25.0);
+    steady(&top, (&[0.0; 3], &[0.0, 0.0, w]), (0.2, size), |t| {
+        [0.0, 0.0, w * t]
+    });
+    steady(&top, (&[0.0; 3], &[0.0, w, 0.0]), (0.2, size), |t| {
+        [0.0, w * t, 0.0]
+    });
+    steady(&top, (&[0.0; 3], &[w, 0.0, 0.0]), (0.2, size), |t| {
+        [w * t, 0.0, 0.0]
+    });
+}
+
+#[test]
 fn a_free_top_keeps_its_energy_and_its_angular_momentum() {
     let top = AsymmetricTop::default();
     let (q, v) = ([0.1, -0.2, 0.4], [6.0, 1.0, -2.0]);

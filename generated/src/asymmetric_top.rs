@@ -135,7 +135,8 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
 /// The coordinates of [`AsymmetricTop`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Turn about the vertical, then about the body's y axis, then about its x axis. Unit: rad.
+    /// Turn about the vertical, then about the body's y axis, then about its x axis.
+    /// Spun about the middle axis, but for a wobble of a hundredth. Unit: rad.
     pub yaw: S,
     /// `pitch`. Unit: rad.
     pub pitch: S,

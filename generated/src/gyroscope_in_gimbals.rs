@@ -196,7 +196,8 @@ pub struct Coordinates<S = f64> {
     pub alpha: S,
     /// Inclination of the rotor's axis, upwards from the horizontal. Unit: rad.
     pub beta: S,
-    /// Turn of the rotor in the inner gimbal. Unit: rad.
+    /// Turn of the rotor in the inner gimbal.
+    /// Its speed: fast beside the rates that the weight makes. Unit: rad.
     pub gamma: S,
 }
 

@@ -133,7 +133,8 @@ pub struct Coordinates<S = f64> {
     pub psi: S,
     /// `theta`. Unit: rad.
     pub theta: S,
-    /// `phi`. Unit: rad.
+    /// The spin with which it is let go: fast enough to carry it, at m g l/(C spin) = 2 rad/s.
+    /// Unit: rad.
     pub phi: S,
 }
 

@@ -134,7 +134,9 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
 /// The coordinates of [`SphericalPendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Direction in which the pendulum hangs, about the upward vertical. Unit: rad.
+    /// Direction in which the pendulum hangs, about the upward vertical.
+    /// A little less than what makes it a conical pendulum, sqrt(g/(l cos(theta))) = 4.4. Unit:
+    /// rad.
     pub phi: S,
     /// Angle of the rod from the downward vertical. Unit: rad.
     pub theta: S,

@@ -138,7 +138,8 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
 pub struct Coordinates<S = f64> {
     /// Distance of the bodies. Unit: m.
     pub r: S,
-    /// Direction of the second body, seen from the first. Unit: rad.
+    /// Direction of the second body, seen from the first.
+    /// They start at the pericentre of an ellipse of e = 0.6. Unit: rad.
     pub phi: S,
 }
 
