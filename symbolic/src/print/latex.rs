@@ -178,6 +178,7 @@ fn symbol(letter: char) -> String {
 /// use lagrangian_symbolic::latex_words;
 ///
 /// assert_eq!(latex_words("50 % of $x_1$"), r"50 \% of \$x\_1\$");
+/// assert_eq!(latex_words("ψ′, s₁"), r"\ensuremath{\psi}\ensuremath{'}, s\ensuremath{{}_{1}}");
 /// ```
 pub fn latex_words(words: &str) -> String {
     let mut escaped = String::with_capacity(words.len());
@@ -225,6 +226,23 @@ fn mathematical(letter: char) -> Option<String> {
         '→' => r"\to",
         '√' => r"\surd",
         '∞' => r"\infty",
+        '∂' => r"\partial",
+        '∫' => r"\int",
+        '∑' => r"\sum",
+        '∝' => r"\propto",
+        '≪' => r"\ll",
+        '≫' => r"\gg",
+        '⇔' => r"\Leftrightarrow",
+        '↔' => r"\leftrightarrow",
+        '½' => r"\frac{1}{2}",
+        '¼' => r"\frac{1}{4}",
+        '¾' => r"\frac{3}{4}",
+        '′' => "'",
+        '″' => "''",
+        '⁻' => "{}^{-}",
+        '¹' => "{}^{1}",
+        '₀'..='₉' => return Some(format!("{{}}_{{{}}}", letter as u32 - '₀' as u32)),
+        '⁰' | '⁴'..='⁹' => return Some(format!("{{}}^{{{}}}", letter as u32 - '⁰' as u32)),
         'α'..='ω' | 'Α'..='Ω' => {
             let symbol = symbol(letter);
             return symbol
