@@ -1,23 +1,12 @@
 //! The command as a user calls it: what it prints, where, and with which exit status.
 
+mod support;
+
 use std::io::Write;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
-
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-}
-
-fn lagrangian(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
-    command
-        .current_dir(root())
-        .args(arguments)
-        .stdin(Stdio::null());
-    command.output().expect("the command runs")
-}
+use support::{Scratch, lagrangian, root};
 
 fn with_input(arguments: &[&str], input: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
@@ -56,27 +45,6 @@ fn number(value: &Value) -> f64 {
     value
         .as_f64()
         .unwrap_or_else(|| panic!("no number: {value}"))
-}
-
-/// A file of this test's own, gone when the test ends.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str, content: &str) -> Scratch {
-        let path = std::env::temp_dir().join(format!("lagrangian-{}-{name}", std::process::id()));
-        std::fs::write(&path, content).expect("a temporary file");
-        Scratch(path)
-    }
-
-    fn path(&self) -> &str {
-        self.0.to_str().expect("text")
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_file(&self.0);
-    }
 }
 
 #[test]
