@@ -206,7 +206,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         piece: &mut LastPiece<M>,
     ) -> Result<Option<(f64, String)>, Error> {
         let Self { model, stepper, .. } = self;
-        if !model.assumes_something(stepper) {
+        if model.plainly_holds(stepper) {
             return Ok(None);
         }
         for theta in event::LOOKS {
@@ -363,12 +363,22 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         inputs
     }
 
-    /// Whether there are assumptions at all; a machine without any pays nothing for looking.
+    /// Whether every assumption holds at the end of the last step and at the control points of its
+    /// cubic: then one that is linear in the coordinates holds between them. A machine without
+    /// assumptions pays nothing for looking.
     #[inline]
-    fn assumes_something<A: Alongside<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
+    fn plainly_holds<A: Alongside<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
+        let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
+            // Facts do not depend on inputs: those of now are as good as any.
+            let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
+            facts.all(|fact| fact.holds())
+        };
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
-        let facts = self.system.assumptions(t, q, v, stepper.inputs());
-        facts.len() > 0
+        if self.system.assumptions(t, q, v, stepper.inputs()).len() == 0 {
+            return true;
+        }
+        let points = stepper.control_points();
+        holds(t, q, v) && points.iter().all(|(t, q, v)| holds(*t, q, v))
     }
 
     /// The first assumption that does not hold: its number and text.
