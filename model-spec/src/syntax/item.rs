@@ -240,9 +240,13 @@ impl Parser<'_> {
         if !has_unit && kind != SectionKind::Constants && !self.failed {
             let message = format!("`{word}` has no unit");
             let missing = Diagnostic::new(Code::MissingUnit, name, message);
-            self.complain(missing.help(format!(
-                "write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`"
-            )));
+            let is_rate = kind == SectionKind::Coordinates && needs_value;
+            self.complain(missing.help(match is_rate {
+                true => format!("write `{word}: m/s`, or the unit of its coordinate over `s`"),
+                false => format!(
+                    "write `{word}: m`, or whatever its unit is; a pure number is `{word}: 1`"
+                ),
+            }));
         }
         let value = if has_value {
             self.expect_equals();
