@@ -246,6 +246,17 @@ impl Div for DoubleDouble {
 }
 
 impl Scalar for DoubleDouble {
+    type Stored = Self;
+
+    #[inline(always)]
+    fn load(stored: Self) -> Self {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> Self {
+        self
+    }
+
     const ZERO: Self = DoubleDouble { hi: 0.0, lo: 0.0 };
     const ONE: Self = DoubleDouble { hi: 1.0, lo: 0.0 };
 

@@ -111,6 +111,21 @@ impl<S: Scalar> Div for Dual<S> {
 }
 
 impl<S: Scalar> Scalar for Dual<S> {
+    type Stored = Self;
+
+    #[inline(always)]
+    fn load(stored: Self) -> Self {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> Self {
+        self
+    }
+
+    fn product_error(self, b: Self) -> Self {
+        Dual::constant(self.value.product_error(b.value))
+    }
+
     const ZERO: Self = Dual {
         value: S::ZERO,
         derivative: S::ZERO,

@@ -289,6 +289,17 @@ impl Div for Interval {
 }
 
 impl Scalar for Interval {
+    type Stored = Self;
+
+    #[inline(always)]
+    fn load(stored: Self) -> Self {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> Self {
+        self
+    }
+
     const ZERO: Self = Interval { lo: 0.0, hi: 0.0 };
     const ONE: Self = Interval { lo: 1.0, hi: 1.0 };
 

@@ -9,12 +9,14 @@ pub mod double_double;
 pub mod dual;
 mod exact;
 pub mod interval;
+mod kernel;
 mod real;
 pub mod residue;
 
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use interval::Interval;
+pub use kernel::{Kernel, Piece};
 pub use residue::Residue;
 
 use core::fmt::Debug;
@@ -34,6 +36,15 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// What a number is kept as between calls: itself, but for numbers that live in registers only. Generated code reads
+    /// its arguments with [`load`](Scalar::load) and leaves results with [`store`](Scalar::store).
+    type Stored: Copy;
+
+    /// A number as it was kept.
+    fn load(stored: Self::Stored) -> Self;
+    /// The number to be kept.
+    fn store(self) -> Self::Stored;
+
     /// 0.
     const ZERO: Self;
     /// 1.
@@ -46,8 +57,38 @@ pub trait Scalar:
     /// π.
     fn pi() -> Self;
 
+    /// `self·b + c`; rounded once in types that say so, as separate operations are in all others.
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    /// `self·b − c`, rounded as [`mul_add`](Scalar::mul_add) is.
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        self * b - c
+    }
+    /// `c − self·b`, rounded as [`mul_add`](Scalar::mul_add) is.
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
+    /// What rounding took from `self·b`: exactly `self·b − (self * b)`. 0 where a product is exact, or its error is not
+    /// worth knowing.
+    ///
+    /// The phase of a drive, ω·t, is rounded to 1e-14 after a minute at 100 rad/s, a hundred times worse than everything
+    /// that follows; with its error known, sine and cosine can be corrected.
+    #[inline(always)]
+    fn product_error(self, _b: Self) -> Self {
+        Self::ZERO
+    }
+
     /// Sine and cosine together: half the price of both.
     fn sin_cos(self) -> (Self, Self);
+    /// Sines and cosines of several angles: where a processor works on several numbers at once, little dearer than of one.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+        angles.map(Self::sin_cos)
+    }
     /// Sine.
     fn sin(self) -> Self {
         self.sin_cos().0
@@ -118,6 +159,22 @@ pub trait Scalar:
     /// Whether `self > bound` holds for certain (in every lane, for every number of an interval). False for what is
     /// undefined. In a field without an order: whether the two differ.
     fn exceeds(self, bound: Self) -> bool;
+    /// A divisor that must exceed a bound: itself, or nothing where it [does not](Scalar::exceeds). A number of several lanes
+    /// always comes back, undefined in those lanes where it does not, so that no lane stops the others.
+    #[inline(always)]
+    fn guarded(self, bound: Self) -> Option<Self> {
+        if self.exceeds(bound) {
+            Some(self)
+        } else {
+            None
+        }
+    }
     /// The nearest `f64`, for messages.
     fn to_f64(self) -> f64;
+
+    /// Runs a piece of a long function as a function of its own, with the instructions that its caller may use.
+    #[inline(never)]
+    fn call<P: Piece>(piece: P) -> P::Output {
+        piece.run()
+    }
 }

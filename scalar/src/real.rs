@@ -3,9 +3,20 @@
 use crate::Scalar;
 
 macro_rules! scalar_by_libm {
-    ($float:ty, $pi:expr, $sincos:path, $tan:path, $asin:path, $acos:path, $atan:path, $atan2:path, $sinh:path, $cosh:path,
+    ($float:ty, $pi:expr, $splitter:expr, $sincos:path, $tan:path, $asin:path, $acos:path, $atan:path, $atan2:path, $sinh:path, $cosh:path,
      $tanh:path, $exp:path, $log:path, $sqrt:path, $pow:path) => {
         impl Scalar for $float {
+            type Stored = Self;
+
+            #[inline(always)]
+            fn load(stored: Self) -> Self {
+                stored
+            }
+            #[inline(always)]
+            fn store(self) -> Self {
+                self
+            }
+
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
 
@@ -20,6 +31,20 @@ macro_rules! scalar_by_libm {
             #[inline(always)]
             fn pi() -> Self {
                 $pi
+            }
+            #[inline(always)]
+            fn product_error(self, b: Self) -> Self {
+                // T. J. Dekker, *A floating-point technique for extending the available precision*,
+                // Numer. Math. 18 (1971) 224–242: halves of the significands multiply exactly.
+                let halves = |x: Self| {
+                    let c = $splitter * x;
+                    let high = c - (c - x);
+                    (high, x - high)
+                };
+                let ((a1, a0), (b1, b0)) = (halves(self), halves(b));
+                let error = a0 * b0 - (((self * b - a1 * b1) - a0 * b1) - a1 * b0);
+                // Numbers near the largest have no halves.
+                if error.is_finite() { error } else { 0.0 }
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
@@ -118,6 +143,7 @@ macro_rules! scalar_by_libm {
 scalar_by_libm!(
     f64,
     core::f64::consts::PI,
+    134_217_729.0, // 2^27 + 1
     libm::sincos,
     libm::tan,
     libm::asin,
@@ -135,6 +161,7 @@ scalar_by_libm!(
 scalar_by_libm!(
     f32,
     core::f32::consts::PI,
+    4097.0, // 2^12 + 1
     libm::sincosf,
     libm::tanf,
     libm::asinf,

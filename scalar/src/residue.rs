@@ -281,6 +281,17 @@ impl Residue {
 }
 
 impl Scalar for Residue {
+    type Stored = Self;
+
+    #[inline(always)]
+    fn load(stored: Self) -> Self {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> Self {
+        self
+    }
+
     const ZERO: Self = Residue {
         field: Field::ZERO,
         two_adic: TwoAdic::Zero,
