@@ -30,8 +30,10 @@ use crate::model::Name;
 use crate::unit::Unit;
 
 mod articulated;
+mod cost;
 mod count;
 mod formula;
+mod fusion;
 mod graph;
 mod interpret;
 mod listing;
@@ -44,7 +46,9 @@ mod schedule;
 mod solve;
 mod verify;
 
+pub use cost::Cost;
 pub use count::Counts;
+pub use fusion::{Side, fused, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};
@@ -405,5 +409,10 @@ impl Function {
     /// How much work a call is.
     pub fn counts(&self) -> Counts {
         Counts::of(self)
+    }
+
+    /// How long a call takes.
+    pub fn cost(&self) -> Cost {
+        Cost::of(self)
     }
 }
