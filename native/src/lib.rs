@@ -1,18 +1,77 @@
 //! Arithmetic at the speed of the processor.
 //!
 //! Generated code is written once, for any [`Scalar`]. This crate has the scalars that make it fast, and chooses among them
-//! when a machine runs: [`Number::run`] takes a computation on numbers that are kept as `f64`, and does it with whatever
-//! instructions the processor has.
+//! when a machine runs: [`Number::run`] takes a computation on numbers that are kept as `f64`, or as [`Lanes`] of them, and
+//! does it with whatever instructions the processor has.
 //!
-//! It is the only crate of the project with unsafe code.
+//! | processor | `f64` | `Lanes<2>` | `Lanes<4>` | `Lanes<8>` |
+//! | --- | --- | --- | --- | --- |
+//! | x86-64 with AVX-512 | fused, angles four by four | 128 bits | 256 bits | 512 bits |
+//! | x86-64 with AVX2 and FMA | fused, angles four by four | 128 bits | 256 bits | twice 256 bits |
+//! | AArch64 | fused | fused, one by one | fused, one by one | fused, one by one |
+//! | others, or with the feature `strict-libm` | `f64` itself | as `f64`, one by one | as `f64`, one by one | as `f64`, one by one |
+//!
+//! All rows but the last give the same bits: fused multiply-add where generated code asks for it, and the sine and cosine of
+//! [this crate](self#sine-and-cosine). The last row's bits are those of separate multiplications and additions and of `libm`,
+//! the same on every machine. In every row a lane's result is that of `f64`, whatever its neighbours hold.
+//!
+//! # Sine and cosine
+//!
+//! Within 0.96 units in the last place for |x| ≤ 100 000, `libm`'s beyond. `src/sincos.rs` has the proof.
+//!
+//! # Unsafe code
+//!
+//! This is the only crate of the project that has any: instructions which only some processors have cannot be used without
+//! it. Types of registers are not public; a kernel meets them only where the processor has been asked.
+//!
+//! # Features
+//!
+//! * `std` (default): asks the processor what it can do. Without it only what the compiler was told counts, and AArch64 is among
+//!   the others, as `core` has no fused multiply-add.
+//! * `strict-libm`: the last row everywhere.
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
-mod fused;
+mod lanes;
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+mod register;
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+mod sincos;
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+mod vector;
+#[cfg(all(
+    target_arch = "x86_64",
+    any(feature = "std", all(target_feature = "avx2", target_feature = "fma")),
+    not(feature = "strict-libm")
+))]
+mod x86;
 
-pub use fused::Fused;
+#[cfg(all(
+    test,
+    target_arch = "x86_64",
+    feature = "std",
+    not(feature = "strict-libm")
+))]
+mod tests;
 
+pub use lanes::Lanes;
+
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+use lagrangian_scalar::Piece;
 use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};
+
+/// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an instruction where that is one
+/// for the compiler, correct but slow elsewhere. [`Number::run`] has the same bits at full speed.
+///
+/// ```
+/// use lagrangian_native::Fused;
+/// use lagrangian_scalar::Scalar;
+/// let x = Fused::load(1.0 + f64::EPSILON);
+/// let one_more = x.mul_sub(x, Fused::load(1.0 + 2.0 * f64::EPSILON));
+/// assert_eq!(one_more.store(), f64::EPSILON * f64::EPSILON); // what a rounded square has lost
+/// ```
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+pub type Fused = register::Register<f64>;
 
 /// A number that machines are evaluated on, and the arithmetic that is used for it.
 pub trait Number: Copy {
@@ -20,11 +79,36 @@ pub trait Number: Copy {
     fn run<K: Kernel<Self>>(kernel: K) -> K::Output;
 }
 
-impl Number for f64 {
-    #[inline]
-    fn run<K: Kernel<f64>>(kernel: K) -> K::Output {
-        fused::run(kernel)
-    }
+macro_rules! fastest {
+    ($($stored:ty: $($native:ident),* else $fused:ty, $plain:ty;)*) => {$(
+        impl Number for $stored {
+            #[inline]
+            fn run<K: Kernel<Self>>(kernel: K) -> K::Output {
+                $(
+                    #[cfg(all(
+                        target_arch = "x86_64",
+                        any(feature = "std", all(target_feature = "avx2", target_feature = "fma")),
+                        not(feature = "strict-libm")
+                    ))]
+                    let kernel = match x86::run::<x86::$native, K>(kernel) {
+                        Ok(output) => return output,
+                        Err(kernel) => kernel,
+                    };
+                )*
+                #[cfg(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm")))]
+                return kernel.run::<register::Register<$fused>>();
+                #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
+                return kernel.run::<$plain>();
+            }
+        }
+    )*};
+}
+
+fastest! {
+    f64: One else f64, f64;
+    Lanes<2>: Two else [f64; 2], lanes::Plain<2>;
+    Lanes<4>: Four else [f64; 4], lanes::Plain<4>;
+    Lanes<8>: Eight, TwiceFour else [f64; 8], lanes::Plain<8>;
 }
 
 macro_rules! plain {

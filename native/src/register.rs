@@ -1,0 +1,198 @@
+//! Numbers in registers, as scalars: fused multiply-add and polynomial sines, one number or several at once.
+
+use core::fmt;
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::vector::Vector;
+use crate::{Piece, Scalar};
+
+/// One number or several in a register, with fused multiply-add.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub struct Register<V>(V);
+
+impl<V: Vector> fmt::Debug for Register<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.store().fmt(f)
+    }
+}
+
+impl<V: Vector> PartialEq for Register<V> {
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0.store() == other.0.store()
+    }
+}
+
+macro_rules! operator {
+    ($($trait:ident $method:ident),*) => {$(
+        impl<V: Vector> $trait for Register<V> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Register(self.0.$method(other.0))
+            }
+        }
+    )*};
+}
+
+operator!(Add add, Sub sub, Mul mul, Div div);
+
+impl<V: Vector> Neg for Register<V> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Register(self.0.xor(V::splat(-0.0)))
+    }
+}
+
+/// Functions that are `f64`'s, on each number by itself.
+macro_rules! each {
+    ($($method:ident($($argument:ident)?)),* $(,)?) => {$(
+        #[inline(always)]
+        fn $method(self $(, $argument: Self)?) -> Self {
+            each!(@ self $method $($argument)?)
+        }
+    )*};
+    (@ $self:ident $method:ident) => {
+        Register($self.0.map(Scalar::$method))
+    };
+    (@ $self:ident $method:ident $argument:ident) => {
+        Register($self.0.zip($argument.0, Scalar::$method))
+    };
+}
+
+impl<V: Vector> Scalar for Register<V> {
+    type Stored = V::Stored;
+
+    #[inline(always)]
+    fn load(stored: V::Stored) -> Self {
+        Register(V::load(stored))
+    }
+    #[inline(always)]
+    fn store(self) -> V::Stored {
+        self.0.store()
+    }
+
+    const ZERO: Self = Register(V::ZERO);
+    const ONE: Self = Register(V::ONE);
+
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        Register(V::splat(x))
+    }
+    #[inline(always)]
+    fn from_ratio(numerator: i64, denominator: i64) -> Self {
+        Register(V::splat(f64::from_ratio(numerator, denominator)))
+    }
+    #[inline(always)]
+    fn pi() -> Self {
+        Register(V::splat(core::f64::consts::PI))
+    }
+
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        Register(self.0.mul_add(b.0, c.0))
+    }
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        Register(self.0.mul_sub(b.0, c.0))
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        Register(self.0.neg_mul_add(b.0, c.0))
+    }
+    #[inline(always)]
+    fn product_error(self, b: Self) -> Self {
+        Register(self.0.mul_sub(b.0, self.0.mul(b.0)))
+    }
+
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let [pair] = Self::sin_cos_all([self]);
+        pair
+    }
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+        let mut numbers = [V::ZERO; K];
+        for (number, angle) in numbers.iter_mut().zip(angles) {
+            *number = angle.0;
+        }
+        let mut all = [(Self::ZERO, Self::ONE); K];
+        for (pair, (sin, cos)) in all.iter_mut().zip(V::sin_cos_all(numbers)) {
+            *pair = (Register(sin), Register(cos));
+        }
+        all
+    }
+
+    each!(
+        tan(),
+        asin(),
+        acos(),
+        atan(),
+        atan2(x),
+        sinh(),
+        cosh(),
+        tanh(),
+        exp(),
+        ln(),
+        powf(exponent),
+    );
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Register(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Register(self.0.abs())
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        let x = self.0;
+        // ±1 where x is not 0, 0 where it is, x where it is undefined.
+        let one = V::splat(1.0).xor(x.and(V::splat(-0.0)));
+        let defined = V::select(V::splat(0.0).less(x.abs()), one, V::splat(0.0));
+        Register(V::select(x.at_most(x), defined, x))
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // An undefined operand gives an undefined result.
+        let least = V::select(self.0.less(other.0), self.0, other.0);
+        Register(V::select(self.0.at_most(self.0), least, self.0))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        let most = V::select(other.0.less(self.0), self.0, other.0);
+        Register(V::select(self.0.at_most(self.0), most, self.0))
+    }
+
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        V::all(self.0.abs().less(V::splat(f64::INFINITY)))
+    }
+    #[inline(always)]
+    fn exceeds(self, bound: Self) -> bool {
+        V::all(bound.0.less(self.0))
+    }
+    #[inline(always)]
+    fn guarded(self, bound: Self) -> Option<Self> {
+        if !V::SEVERAL {
+            return self.exceeds(bound).then_some(self);
+        }
+        let undefined = V::splat(f64::NAN);
+        Some(Register(V::select(bound.0.less(self.0), self.0, undefined)))
+    }
+    /// The first number.
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.0.first()
+    }
+
+    #[inline(always)]
+    fn call<P: Piece>(piece: P) -> P::Output {
+        V::call(piece)
+    }
+}

@@ -1,0 +1,349 @@
+//! Every register gives the same bits; a lane never hears of its neighbours; the polynomials are as good as they claim.
+
+use std::vec::Vec;
+
+use lagrangian_scalar::{DoubleDouble, Kernel, Scalar};
+
+use crate::register::Register;
+use crate::x86::{self, Eight, Four, Native, One, TwiceFour, Two};
+use crate::{Fused, Lanes, Number, sincos};
+
+/// A xorshift of G. Marsaglia's: the same numbers in every run.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    /// Uniform in [0, 1).
+    fn uniform(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Of any size that is met, and of some that should not be.
+    fn number(&mut self) -> f64 {
+        match self.bits() % 16 {
+            0 => EXTREMES[self.bits() as usize % EXTREMES.len()],
+            1 => f64::from_bits(self.bits()),
+            2 => (self.bits() % 9) as f64 - 4.0,
+            _ => 100.0 * (self.uniform() - 0.5),
+        }
+    }
+}
+
+const EXTREMES: [f64; 14] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    5e-324,
+    f64::MIN_POSITIVE,
+    1e300,
+    -1e300,
+    f64::MAX,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+    99_999.999,
+    -1e22,
+];
+
+fn same(a: f64, b: f64) -> bool {
+    a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+}
+
+/// Sines and cosines of many angles, each by itself.
+struct Sines<'a, T>(&'a [T]);
+
+impl<T: Copy> Kernel<T> for Sines<'_, T> {
+    type Output = Vec<(T, T)>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> Vec<(T, T)> {
+        let mut all = Vec::with_capacity(self.0.len());
+        for angle in self.0 {
+            let (sin, cos) = N::load(*angle).sin_cos();
+            all.push((sin.store(), cos.store()));
+        }
+        all
+    }
+}
+
+/// Those of five angles of a state.
+struct States<'a>(&'a [f64]);
+
+impl Kernel<f64> for States<'_> {
+    type Output = Vec<(f64, f64)>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> Vec<(f64, f64)> {
+        let mut all = Vec::with_capacity(self.0.len());
+        for state in self.0.as_chunks::<5>().0 {
+            let mut angles = [N::ZERO; 5];
+            for (angle, stored) in angles.iter_mut().zip(state) {
+                *angle = N::load(*stored);
+            }
+            for (sin, cos) in N::sin_cos_all(angles) {
+                all.push((sin.store(), cos.store()));
+            }
+        }
+        all
+    }
+}
+
+fn in_lanes<const N: usize>(angles: &[f64]) -> Vec<Lanes<N>> {
+    angles
+        .as_chunks::<N>()
+        .0
+        .iter()
+        .map(|x| Lanes(*x))
+        .collect()
+}
+
+/// Out of the lanes.
+fn flat<const N: usize>(pairs: Vec<(Lanes<N>, Lanes<N>)>) -> Vec<(f64, f64)> {
+    pairs
+        .iter()
+        .flat_map(|(sin, cos)| (0..N).map(|lane| (sin[lane], cos[lane])))
+        .collect()
+}
+
+fn by_register<const N: usize, V: Native<Stored = Lanes<N>>>(
+    angles: &[f64],
+) -> Option<Vec<(f64, f64)>> {
+    x86::run::<V, _>(Sines(&in_lanes(angles))).ok().map(flat)
+}
+
+fn by_array<const N: usize>(angles: &[f64]) -> Option<Vec<(f64, f64)>> {
+    Some(flat(Sines(&in_lanes(angles)).run::<Register<[f64; N]>>()))
+}
+
+/// Four million angles: uniform up to a little more than the polynomials take, of all sizes, and extremes.
+#[test]
+fn sines_have_the_same_bits_in_every_register() {
+    let mut random = Random(0x5eed_0001);
+    for _ in 0..100 {
+        let angles: Vec<f64> = (0..40_000)
+            .map(|i| match i % 4 {
+                0 => 2.02e5 * (random.uniform() - 0.5),
+                1 => 20.0 * (random.uniform() - 0.5),
+                2 => random.number(),
+                _ => f64::from_bits(random.bits()),
+            })
+            .collect();
+        let expected = Sines(&angles).run::<Fused>();
+        let registers = [
+            ("One", x86::run::<One, _>(Sines(&angles)).ok()),
+            ("One, states", x86::run::<One, _>(States(&angles)).ok()),
+            ("Two", by_register::<2, Two>(&angles)),
+            ("Four", by_register::<4, Four>(&angles)),
+            ("TwiceFour", by_register::<8, TwiceFour>(&angles)),
+            ("Eight", by_register::<8, Eight>(&angles)),
+            ("[f64; 2]", by_array::<2>(&angles)),
+            ("[f64; 4]", by_array::<4>(&angles)),
+            ("[f64; 8]", by_array::<8>(&angles)),
+        ];
+        for (name, results) in registers {
+            // None where the processor lacks the register.
+            let Some(results) = results else { continue };
+            assert_eq!(results.len(), expected.len());
+            for ((x, found), expected) in angles.iter().zip(&results).zip(&expected) {
+                assert!(
+                    same(found.0, expected.0) && same(found.1, expected.1),
+                    "{name} at {x:e}: {found:?} instead of {expected:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Every operation of a scalar on three numbers; truth values as 0 and 1.
+struct Everything<T>([T; 3]);
+
+/// How many results there are.
+const RESULTS: usize = 37;
+
+impl<T: Copy> Kernel<T> for Everything<T> {
+    type Output = [T; RESULTS];
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> [T; RESULTS] {
+        let [a, b, c] = self.0.map(N::load);
+        let [(sin1, cos1), (sin2, cos2), (sin3, cos3)] = N::sin_cos_all([a, b, c]);
+        let (sin, cos) = a.sin_cos();
+        let guarded = a.guarded(b).unwrap_or(N::from_f64(f64::NAN));
+        [
+            a + b,
+            a - b,
+            a * b,
+            a / b,
+            -a,
+            a.mul_add(b, c),
+            a.mul_sub(b, c),
+            a.neg_mul_add(b, c),
+            a.product_error(b),
+            a.sqrt(),
+            a.abs(),
+            a.sign(),
+            a.min(b),
+            a.max(b),
+            a.powi(3),
+            a.powi(-2),
+            sin,
+            cos,
+            sin1,
+            cos1,
+            sin2,
+            cos2,
+            sin3,
+            cos3,
+            a.tan(),
+            a.asin(),
+            a.acos(),
+            a.atan(),
+            a.atan2(b),
+            a.sinh(),
+            a.cosh(),
+            a.tanh(),
+            a.exp(),
+            a.ln(),
+            a.powf(b),
+            guarded,
+            N::from_ratio(1, 3) + N::pi() * N::from_f64(2.0) + N::ONE + N::ZERO,
+        ]
+        .map(N::store)
+    }
+}
+
+fn lanes_are_strangers<const N: usize>(
+    run: impl Fn(Everything<Lanes<N>>) -> Option<[Lanes<N>; RESULTS]>,
+) {
+    let mut random = Random(0x5eed_0002);
+    for _ in 0..20_000 {
+        let operands = [(); 3].map(|()| Lanes([(); N].map(|()| random.number())));
+        // None where the processor lacks the register.
+        let Some(results) = run(Everything(operands)) else {
+            return;
+        };
+        for lane in 0..N {
+            let alone = operands.map(|x| x[lane]);
+            for (i, expected) in Everything(alone).run::<Fused>().into_iter().enumerate() {
+                let found = results[i][lane];
+                assert!(
+                    same(found, expected),
+                    "result {i} of {alone:?}: {found:e} instead of {expected:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_lane_is_a_number_alone_whatever_its_neighbours_hold() {
+    lanes_are_strangers::<2>(|all| x86::run::<Two, _>(all).ok());
+    lanes_are_strangers::<4>(|all| x86::run::<Four, _>(all).ok());
+    lanes_are_strangers::<8>(|all| x86::run::<TwiceFour, _>(all).ok());
+    lanes_are_strangers::<8>(|all| x86::run::<Eight, _>(all).ok());
+    lanes_are_strangers::<4>(|all| Some(all.run::<Register<[f64; 4]>>()));
+    let one = |all: Everything<f64>| x86::run::<One, _>(all).ok();
+    let mut random = Random(0x5eed_0003);
+    for _ in 0..20_000 {
+        let operands = [(); 3].map(|()| random.number());
+        let Some(found) = one(Everything(operands)) else {
+            return;
+        };
+        let expected = Everything(operands).run::<Fused>();
+        assert!(
+            (0..RESULTS).all(|i| same(found[i], expected[i])),
+            "{operands:?}"
+        );
+    }
+}
+
+/// What is asked of all lanes at once.
+struct Questions<T>([T; 2]);
+
+impl<T: Copy> Kernel<T> for Questions<T> {
+    type Output = (bool, bool, bool, f64);
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) -> Self::Output {
+        let [a, b] = self.0.map(N::load);
+        (a.is_finite(), a.exceeds(b), a == b, a.to_f64())
+    }
+}
+
+#[test]
+fn a_question_to_lanes_is_answered_by_all_of_them() {
+    fn ask<const N: usize>(random: &mut Random)
+    where
+        Lanes<N>: Number,
+    {
+        for _ in 0..20_000 {
+            let a = Lanes([(); N].map(|()| random.number()));
+            let b = match random.bits() % 3 {
+                0 => a,
+                1 => Lanes(a.0.map(|x| x - 1.0)),
+                _ => Lanes([(); N].map(|()| random.number())),
+            };
+            let (finite, exceeds, equal, first) = Lanes::<N>::run(Questions([a, b]));
+            assert_eq!(finite, a.0.iter().all(|x| x.is_finite()));
+            assert_eq!(
+                exceeds,
+                a.0.iter().zip(&b.0).all(|(a, b)| a > b),
+                "{a:?} > {b:?}"
+            );
+            assert_eq!(equal, a.0.iter().zip(&b.0).all(|(a, b)| a == b));
+            assert!(same(first, a[0]));
+        }
+    }
+    let mut random = Random(0x5eed_0004);
+    ask::<2>(&mut random);
+    ask::<4>(&mut random);
+    ask::<8>(&mut random);
+}
+
+/// The polynomials, evaluated in 106 bits: what is left is their own error.
+#[test]
+fn the_polynomials_are_as_near_as_their_bounds() {
+    let horner = |c: [f64; 6], z: DoubleDouble| {
+        c.iter().rev().fold(DoubleDouble::ZERO, |sum, c| {
+            sum * z + DoubleDouble::from(*c)
+        })
+    };
+    let (mut worst_sin, mut worst_cos) = (0.0, 0.0);
+    const POINTS: u32 = 20_000;
+    for i in 1..=POINTS {
+        let r = core::f64::consts::FRAC_PI_4 * (1.0 + 0.5_f64.powi(36)) * f64::from(i)
+            / f64::from(POINTS);
+        let r = DoubleDouble::from(r);
+        let z = r * r;
+        let (sin, cos) = r.sin_cos();
+        let by_sin = r + r * z * horner(sincos::SIN, z);
+        let by_cos =
+            DoubleDouble::ONE - z / DoubleDouble::from(2.0) + z * z * horner(sincos::COS, z);
+        worst_sin = f64::max(worst_sin, ((by_sin - sin) / sin).hi().abs());
+        worst_cos = f64::max(worst_cos, ((by_cos - cos) / cos).hi().abs());
+    }
+    println!(
+        "relative errors: sine 2^{:.2}, cosine 2^{:.2}",
+        worst_sin.log2(),
+        worst_cos.log2()
+    );
+    assert!(worst_sin < 2.0_f64.powf(-57.8));
+    assert!(worst_cos < 2.0_f64.powf(-63.9));
+}
+
+/// What the reduction stands on: the nearest that a number up to 10⁵ comes to a multiple of π/2.
+#[test]
+fn no_number_comes_too_near_to_a_multiple_of_a_right_angle() {
+    let right = DoubleDouble::pi() / DoubleDouble::from(2.0);
+    let distance = |k: u32| (right * DoubleDouble::from(f64::from(k))).lo().abs();
+    let nearest = (1..=63_662).map(distance).fold(f64::INFINITY, f64::min);
+    println!("nearest: 2^{:.2}", nearest.log2());
+    assert!(nearest > 2.0_f64.powi(-61));
+}

@@ -1,0 +1,358 @@
+//! What sine, cosine and the lanes ask of a processor: one trait, implemented by plain numbers, by arrays of them, and by the
+//! registers of x86-64.
+
+use core::fmt::Debug;
+
+use crate::{Lanes, Piece, Scalar};
+
+/// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
+///
+/// Every operation is IEEE 754's on each number by itself, so the same sequence of them gives the same bits in every
+/// implementation, whatever the neighbours hold.
+pub trait Vector: Copy {
+    /// What the numbers are kept as in memory.
+    type Stored: Copy + Debug + PartialEq;
+    /// A truth value for each number.
+    type Mask: Copy;
+
+    /// Zeros.
+    const ZERO: Self;
+    /// Ones.
+    const ONE: Self;
+    /// Whether there are more numbers than one.
+    const SEVERAL: bool;
+
+    /// The numbers from memory.
+    fn load(stored: Self::Stored) -> Self;
+    /// The numbers to memory.
+    fn store(self) -> Self::Stored;
+    /// The same number everywhere.
+    fn splat(x: f64) -> Self;
+
+    /// `self + other`.
+    fn add(self, other: Self) -> Self;
+    /// `self − other`.
+    fn sub(self, other: Self) -> Self;
+    /// `self · other`.
+    fn mul(self, other: Self) -> Self;
+    /// `self / other`.
+    fn div(self, other: Self) -> Self;
+    /// `self·b + c`, rounded once.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// `self·b − c`, rounded once.
+    fn mul_sub(self, b: Self, c: Self) -> Self;
+    /// `c − self·b`, rounded once.
+    fn neg_mul_add(self, b: Self, c: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+
+    /// Absolute value.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.and(Self::splat(f64::from_bits(!(1 << 63))))
+    }
+    /// Bits that both have.
+    fn and(self, other: Self) -> Self;
+    /// Bits that one has and the other has not.
+    fn xor(self, other: Self) -> Self;
+    /// All bits moved up by `PLACES`, as those of an integer.
+    fn shift_left<const PLACES: u32>(self) -> Self;
+
+    /// Whether the lowest bit is 1.
+    fn is_odd(self) -> Self::Mask;
+    /// `self < other`; false for what is undefined.
+    fn less(self, other: Self) -> Self::Mask;
+    /// `self ≤ other`; false for what is undefined.
+    fn at_most(self, other: Self) -> Self::Mask;
+    /// Where the mask is true, `yes`, elsewhere `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Whether the mask is true everywhere.
+    fn all(mask: Self::Mask) -> bool;
+
+    /// A function of every number by itself.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+    /// A function of every number and its counterpart by itself.
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+    /// Sine and cosine by the scalar library of those angles that are above [`MOST`](crate::sincos::MOST) or undefined; the
+    /// others keep the given ones.
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self);
+
+    /// Sines and cosines of several angles.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but the oldest.
+        let mut all = [(Self::ZERO, Self::ONE); K];
+        let mut i = 0;
+        while i < K {
+            all[i] = crate::sincos::sin_cos(angles[i]);
+            i += 1;
+        }
+        all
+    }
+
+    /// The first number.
+    fn first(self) -> f64;
+
+    /// Runs a piece of a long function as a function that may use what this type stands for.
+    fn call<P: Piece>(piece: P) -> P::Output;
+}
+
+/// [`Vector::sin_cos_beyond`] of one number.
+#[cold]
+#[inline(never)]
+pub fn sin_cos_beyond(angle: f64, sin: f64, cos: f64) -> (f64, f64) {
+    // Not a `>`, as an undefined angle is beyond too.
+    if angle.abs() <= crate::sincos::MOST {
+        (sin, cos)
+    } else {
+        Scalar::sin_cos(angle)
+    }
+}
+
+/// [`Vector::sin_cos_beyond`] of several.
+#[cold]
+#[inline(never)]
+pub fn sin_cos_beyond_each<const N: usize>(
+    angles: Lanes<N>,
+    mut sin: Lanes<N>,
+    mut cos: Lanes<N>,
+) -> (Lanes<N>, Lanes<N>) {
+    for lane in 0..N {
+        (sin[lane], cos[lane]) = sin_cos_beyond(angles[lane], sin[lane], cos[lane]);
+    }
+    (sin, cos)
+}
+
+/// `a·b + c`, rounded once.
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    #[cfg(feature = "std")]
+    return a.mul_add(b, c);
+    #[cfg(not(feature = "std"))]
+    {
+        use core::arch::x86_64::*;
+        // SAFETY: without the standard library this is compiled only where the compiler was told of the instruction.
+        unsafe { _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c))) }
+    }
+}
+
+/// One number, with the standard library's fused multiply-add: an instruction where it is one, and correct, if slow, elsewhere.
+impl Vector for f64 {
+    type Stored = f64;
+    type Mask = bool;
+
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const SEVERAL: bool = false;
+
+    #[inline(always)]
+    fn load(stored: f64) -> Self {
+        stored
+    }
+    #[inline(always)]
+    fn store(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        self / other
+    }
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        fused(self, b, c)
+    }
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        fused(self, b, -c)
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        fused(-self, b, c)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Scalar::sqrt(self)
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        f64::from_bits(self.to_bits() & other.to_bits())
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        f64::from_bits(self.to_bits() ^ other.to_bits())
+    }
+    #[inline(always)]
+    fn shift_left<const PLACES: u32>(self) -> Self {
+        f64::from_bits(self.to_bits() << PLACES)
+    }
+    #[inline(always)]
+    fn is_odd(self) -> bool {
+        self.to_bits() & 1 == 1
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn at_most(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn all(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        f(self)
+    }
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
+    }
+    #[inline(always)]
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
+        sin_cos_beyond(angle, sin, cos)
+    }
+    #[inline(always)]
+    fn first(self) -> f64 {
+        self
+    }
+    #[inline(never)]
+    fn call<P: Piece>(piece: P) -> P::Output {
+        piece.run()
+    }
+}
+
+/// Several numbers, one after another.
+impl<const N: usize> Vector for [f64; N] {
+    type Stored = Lanes<N>;
+    type Mask = [bool; N];
+
+    const ZERO: Self = [0.0; N];
+    const ONE: Self = [1.0; N];
+    const SEVERAL: bool = true;
+
+    #[inline(always)]
+    fn load(stored: Lanes<N>) -> Self {
+        stored.0
+    }
+    #[inline(always)]
+    fn store(self) -> Lanes<N> {
+        Lanes(self)
+    }
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        [x; N]
+    }
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        each(|i| self[i] + other[i])
+    }
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        each(|i| self[i] - other[i])
+    }
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        each(|i| self[i] * other[i])
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        each(|i| self[i] / other[i])
+    }
+    #[inline(always)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        each(|i| Vector::mul_add(self[i], b[i], c[i]))
+    }
+    #[inline(always)]
+    fn mul_sub(self, b: Self, c: Self) -> Self {
+        each(|i| Vector::mul_sub(self[i], b[i], c[i]))
+    }
+    #[inline(always)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        each(|i| Vector::neg_mul_add(self[i], b[i], c[i]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        each(|i| Vector::sqrt(self[i]))
+    }
+    #[inline(always)]
+    fn and(self, other: Self) -> Self {
+        each(|i| self[i].and(other[i]))
+    }
+    #[inline(always)]
+    fn xor(self, other: Self) -> Self {
+        each(|i| self[i].xor(other[i]))
+    }
+    #[inline(always)]
+    fn shift_left<const PLACES: u32>(self) -> Self {
+        each(|i| self[i].shift_left::<PLACES>())
+    }
+    #[inline(always)]
+    fn is_odd(self) -> [bool; N] {
+        each(|i| self[i].is_odd())
+    }
+    #[inline(always)]
+    fn less(self, other: Self) -> [bool; N] {
+        each(|i| self[i] < other[i])
+    }
+    #[inline(always)]
+    fn at_most(self, other: Self) -> [bool; N] {
+        each(|i| self[i] <= other[i])
+    }
+    #[inline(always)]
+    fn select(mask: [bool; N], yes: Self, no: Self) -> Self {
+        each(|i| if mask[i] { yes[i] } else { no[i] })
+    }
+    #[inline(always)]
+    fn all(mask: [bool; N]) -> bool {
+        mask == [true; N]
+    }
+    #[inline(always)]
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        each(|i| f(self[i]))
+    }
+    #[inline(always)]
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        each(|i| f(self[i], other[i]))
+    }
+    #[inline(always)]
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let (sin, cos) = sin_cos_beyond_each(Lanes(angle), Lanes(sin), Lanes(cos));
+        (sin.0, cos.0)
+    }
+    #[inline(always)]
+    fn first(self) -> f64 {
+        self[0]
+    }
+    #[inline(never)]
+    fn call<P: Piece>(piece: P) -> P::Output {
+        piece.run()
+    }
+}
+
+/// A value for every lane.
+#[inline(always)]
+fn each<T, const N: usize>(f: impl FnMut(usize) -> T) -> [T; N] {
+    core::array::from_fn(f)
+}
