@@ -99,7 +99,7 @@ def forms(task, variant, folder):
         results = transcribed(f, read)
         derive += clock.lap()
         # What is as large as this is compiled in its compact mode only.
-        compact = f.n_instructions() > 6000
+        compact = f.n_instructions() > 20000
         compiled = {lanes: None for lanes in (8, 4)}
         for lanes in compiled:
             compiled[lanes] = hy.cfunc(
