@@ -131,6 +131,8 @@ fn main() {
     alone::<8>();
     alone::<12>();
     alone::<16>();
+    alone::<32>();
+    alone::<64>();
     println!("\n| lanes | ns an angle |\n| --: | --: |");
     in_lanes::<2>();
     in_lanes::<4>();

@@ -98,10 +98,16 @@ macro_rules! fastest {
                 #[cfg(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm")))]
                 return kernel.run::<register::Register<$fused>>();
                 #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
-                return kernel.run::<$plain>();
+                return plainly::<$plain, K>(kernel);
             }
         }
     )*};
+}
+
+/// Runs a kernel as any processor can. Out of line, so that a call of [`Number::run`] is a question and a jump.
+#[inline(never)]
+fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {
+    kernel.run::<N>()
 }
 
 fastest! {

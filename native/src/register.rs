@@ -9,7 +9,7 @@ use crate::{Piece, Scalar};
 /// One number or several in a register, with fused multiply-add.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub struct Register<V>(V);
+pub struct Register<V>(pub(crate) V);
 
 impl<V: Vector> fmt::Debug for Register<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -116,15 +116,7 @@ impl<V: Vector> Scalar for Register<V> {
     }
     #[inline(always)]
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
-        let mut numbers = [V::ZERO; K];
-        for (number, angle) in numbers.iter_mut().zip(angles) {
-            *number = angle.0;
-        }
-        let mut all = [(Self::ZERO, Self::ONE); K];
-        for (pair, (sin, cos)) in all.iter_mut().zip(V::sin_cos_all(numbers)) {
-            *pair = (Register(sin), Register(cos));
-        }
-        all
+        V::sin_cos_all(angles)
     }
 
     each!(

@@ -73,17 +73,17 @@ impl<T: Copy> Kernel<T> for Sines<'_, T> {
     }
 }
 
-/// Those of five angles of a state.
-struct States<'a>(&'a [f64]);
+/// Those of the K angles of each state.
+struct States<'a, const K: usize>(&'a [f64]);
 
-impl Kernel<f64> for States<'_> {
+impl<const K: usize> Kernel<f64> for States<'_, K> {
     type Output = Vec<(f64, f64)>;
 
     #[inline(always)]
     fn run<N: Scalar<Stored = f64>>(self) -> Vec<(f64, f64)> {
         let mut all = Vec::with_capacity(self.0.len());
-        for state in self.0.as_chunks::<5>().0 {
-            let mut angles = [N::ZERO; 5];
+        for state in self.0.as_chunks::<K>().0 {
+            let mut angles = [N::ZERO; K];
             for (angle, stored) in angles.iter_mut().zip(state) {
                 *angle = N::load(*stored);
             }
@@ -138,7 +138,6 @@ fn sines_have_the_same_bits_in_every_register() {
         let expected = Sines(&angles).run::<Fused>();
         let registers = [
             ("One", x86::run::<One, _>(Sines(&angles)).ok()),
-            ("One, states", x86::run::<One, _>(States(&angles)).ok()),
             ("Two", by_register::<2, Two>(&angles)),
             ("Four", by_register::<4, Four>(&angles)),
             ("TwiceFour", by_register::<8, TwiceFour>(&angles)),
@@ -159,6 +158,40 @@ fn sines_have_the_same_bits_in_every_register() {
             }
         }
     }
+}
+
+/// However many there are: a full register, a part of one, more than stay in registers.
+#[test]
+fn a_state_may_have_any_number_of_angles() {
+    fn check<const K: usize>() {
+        let mut random = Random(0x5eed_0005);
+        let angles: Vec<f64> = (0..K * 100).map(|_| random.number()).collect();
+        let Ok(found) = x86::run::<One, _>(States::<K>(&angles)) else {
+            return;
+        };
+        let expected = Sines(&angles).run::<Fused>();
+        assert_eq!(found.len(), expected.len());
+        for ((x, found), expected) in angles.iter().zip(found).zip(expected) {
+            assert!(
+                same(found.0, expected.0) && same(found.1, expected.1),
+                "{x:e} of {K}"
+            );
+        }
+    }
+    check::<1>();
+    check::<2>();
+    check::<3>();
+    check::<4>();
+    check::<5>();
+    check::<6>();
+    check::<7>();
+    check::<8>();
+    check::<17>();
+    check::<31>();
+    check::<32>();
+    check::<33>();
+    check::<64>();
+    check::<71>();
 }
 
 /// Every operation of a scalar on three numbers; truth values as 0 and 1.

@@ -3,6 +3,8 @@
 
 use core::fmt::Debug;
 
+use crate::register::Register;
+use crate::sincos::{MOST, sin_cos};
 use crate::{Lanes, Piece, Scalar};
 
 /// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
@@ -79,13 +81,14 @@ pub trait Vector: Copy {
 
     /// Sines and cosines of several angles.
     #[inline(always)]
-    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
+    fn sin_cos_all<const K: usize>(
+        angles: [Register<Self>; K],
+    ) -> [(Register<Self>, Register<Self>); K] {
         // A loop, as `map` would not be inlined, and what is not inlined has no instructions but the oldest.
-        let mut all = [(Self::ZERO, Self::ONE); K];
-        let mut i = 0;
-        while i < K {
-            all[i] = crate::sincos::sin_cos(angles[i]);
-            i += 1;
+        let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
+        for (pair, angle) in all.iter_mut().zip(angles) {
+            let (sin, cos) = sin_cos(angle.0);
+            *pair = (Register(sin), Register(cos));
         }
         all
     }
@@ -102,7 +105,7 @@ pub trait Vector: Copy {
 #[inline(never)]
 pub fn sin_cos_beyond(angle: f64, sin: f64, cos: f64) -> (f64, f64) {
     // Not a `>`, as an undefined angle is beyond too.
-    if angle.abs() <= crate::sincos::MOST {
+    if angle.abs() <= MOST {
         (sin, cos)
     } else {
         Scalar::sin_cos(angle)

@@ -417,27 +417,23 @@ impl Vector for One {
         (One(sin), One(cos))
     }
     #[inline(always)]
-    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
-        let mut all = [(One::ZERO, One::ONE); K];
-        // What is missing to a full register is 0.
-        let angle = |i: usize| if i < K { angles[i].0 } else { 0.0 };
-        let mut done = 0;
-        while done < K {
-            if K - done <= 2 {
-                let (sin, cos) = sincos::sin_cos(Two::load(Lanes([angle(done), angle(done + 1)])));
-                let (sin, cos) = (sin.store(), cos.store());
-                for lane in 0..K - done {
-                    all[done + lane] = (One(sin[lane]), One(cos[lane]));
+    fn sin_cos_all<const K: usize>(
+        angles: [Register<One>; K],
+    ) -> [(Register<One>, Register<One>); K] {
+        let mut all = [(Register(One::ZERO), Register(One::ONE)); K];
+        // Straight code as far as most states reach, so that angles stay in registers; a loop over the rest.
+        macro_rules! straight {
+            ($($start:literal)*) => {$(
+                if const { $start < K } {
+                    four_sines(&angles, &mut all, $start);
                 }
-                break;
-            }
-            let four = Lanes([0, 1, 2, 3].map(|lane| angle(done + lane)));
-            let (sin, cos) = sincos::sin_cos(Four::load(four));
-            let (sin, cos) = (sin.store(), cos.store());
-            for lane in 0..(K - done).min(4) {
-                all[done + lane] = (One(sin[lane]), One(cos[lane]));
-            }
-            done += 4;
+            )*};
+        }
+        straight!(0 4 8 12 16 20 24 28);
+        let mut start = 32;
+        while start < K {
+            four_sines(&angles, &mut all, start);
+            start += 4;
         }
         all
     }
@@ -448,5 +444,33 @@ impl Vector for One {
     #[inline(always)]
     fn call<P: Piece>(piece: P) -> P::Output {
         Four::call(piece)
+    }
+}
+
+/// Sines and cosines of up to four of the angles, from a given one on.
+#[inline(always)]
+fn four_sines<const K: usize>(
+    angles: &[Register<One>; K],
+    all: &mut [(Register<One>, Register<One>); K],
+    start: usize,
+) {
+    // What is missing to a full register is 0.
+    let angle = |i: usize| if i < K { angles[i].0.0 } else { 0.0 };
+    let x = [
+        angle(start),
+        angle(start + 1),
+        angle(start + 2),
+        angle(start + 3),
+    ];
+    let (sin, cos) = if K - start > 2 {
+        let (sin, cos) = sincos::sin_cos(Four::load(Lanes(x)));
+        (sin.store().0, cos.store().0)
+    } else {
+        let (sin, cos) = sincos::sin_cos(Two::load(Lanes([x[0], x[1]])));
+        let (Lanes([s0, s1]), Lanes([c0, c1])) = (sin.store(), cos.store());
+        ([s0, s1, 0.0, 0.0], [c0, c1, 1.0, 1.0])
+    };
+    for (pair, (sin, cos)) in all.iter_mut().skip(start).zip(sin.into_iter().zip(cos)) {
+        *pair = (Register(One(sin)), Register(One(cos)));
     }
 }
