@@ -10,9 +10,10 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
+use lagrangian_scalar::Dual;
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
-use crate::{Assumption, Machine, Quantity, Singular, State, System};
+use crate::{Assumption, Linearize, Machine, Quantity, Singular, State, System};
 
 /// A machine whose equations are interpreted, with the values of its parameters.
 #[derive(Clone, Debug)]
@@ -431,6 +432,87 @@ impl System for InterpretedSystem {
             margin,
             strict: fact.strict,
         })
+    }
+}
+
+impl Linearize for InterpretedSystem {
+    fn linearize(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &Named,
+        a: &mut Vec<f64>,
+        by_coordinates: &mut Vec<f64>,
+        by_rates: &mut Vec<f64>,
+    ) -> Result<(), Singular> {
+        let n = q.len();
+        let u = &u.values;
+        if !self.program.has_linearization() {
+            return self.linearize_by_duals(t, [q, v, u], a, by_coordinates, by_rates);
+        }
+        let width = 1 + self.program.derivatives.len();
+        let mut rows = vec![0.0; n * width];
+        let arguments = Arguments { t, q, v, u, a: &[] };
+        self.call(Role::Derivatives, arguments, &mut rows)?;
+        for (i, row) in rows.chunks_exact(width).enumerate() {
+            a[i] = row[0];
+            by_coordinates[i * n..][..n].copy_from_slice(&row[1..][..n]);
+            by_rates[i * n..][..n].copy_from_slice(&row[1 + n..][..n]);
+        }
+        Ok(())
+    }
+}
+
+impl InterpretedSystem {
+    /// The same where the description asks for no derivatives: the accelerations over dual numbers,
+    /// once for each coordinate and each rate.
+    fn linearize_by_duals(
+        &self,
+        t: f64,
+        state: [&[f64]; 3],
+        a: &mut [f64],
+        by_coordinates: &mut [f64],
+        by_rates: &mut [f64],
+    ) -> Result<(), Singular> {
+        let duals = |values: &[f64]| -> Vec<Dual<f64>> {
+            values.iter().copied().map(Dual::constant).collect()
+        };
+        let parameters = duals(self.interpreter.borrow().parameters());
+        let mut interpreter = Interpreter::new(&self.program, &parameters);
+        let [mut q, mut v, u] = state.map(duals);
+        let n = q.len();
+        let mut row = vec![Dual::constant(0.0); n];
+        for j in 0..2 * n {
+            let is_rate = j >= n;
+            let variable = if is_rate { &mut v[j - n] } else { &mut q[j] };
+            variable.derivative = 1.0;
+            let arguments = Arguments {
+                t: Dual::constant(t),
+                q: &q,
+                v: &v,
+                u: &u,
+                a: &[],
+            };
+            interpreter
+                .call(Role::Accelerations, arguments, &mut row)
+                .map_err(|program::Singular { coordinate, ratio }| Singular {
+                    coordinate,
+                    ratio,
+                })?;
+            let to = if is_rate {
+                &mut *by_rates
+            } else {
+                &mut *by_coordinates
+            };
+            for (i, dual) in row.iter().enumerate() {
+                a[i] = dual.value;
+                to[i * n + j % n] = dual.derivative;
+            }
+            let variable = if is_rate { &mut v[j - n] } else { &mut q[j] };
+            variable.derivative = 0.0;
+        }
+        Ok(())
     }
 }
 

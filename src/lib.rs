@@ -86,7 +86,7 @@ pub use stepper::{
     Tolerance, Work,
 };
 pub use system::{
-    Assumption, Coordinates, Inputs, Machine, Outputs, Quantity, Singular, State, System,
+    Assumption, Coordinates, Inputs, Linearize, Machine, Outputs, Quantity, Singular, State, System,
 };
 pub use vector::Vector;
 

@@ -183,6 +183,30 @@ pub trait System {
     ) -> impl ExactSizeIterator<Item = Assumption<'_>>;
 }
 
+/// Equations of motion that know how their accelerations change with the state: what linearization
+/// and implicit methods need.
+///
+/// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
+/// interpreter for every machine.
+pub trait Linearize: System {
+    /// The accelerations `a(t, q, v, u)`, and row after row their derivatives `∂aᵢ/∂qⱼ` and
+    /// `∂aᵢ/∂vⱼ`: exact but for rounding, no differences.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a state, and the three things that are asked of it"
+    )]
+    fn linearize(
+        &self,
+        t: f64,
+        q: &Self::Vector,
+        v: &Self::Vector,
+        u: &Self::Inputs,
+        a: &mut Self::Vector,
+        by_coordinates: &mut Self::Matrix,
+        by_rates: &mut Self::Matrix,
+    ) -> Result<(), Singular>;
+}
+
 /// Where a machine is and how fast it moves, at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<C> {

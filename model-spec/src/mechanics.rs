@@ -15,6 +15,7 @@
 //! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
 
 mod approximation;
+mod derivatives;
 mod energy;
 pub(crate) mod experiment;
 pub mod groups;
@@ -66,6 +67,12 @@ pub struct Equations<'d> {
     pub forces: Vec<Expr<'d>>,
     /// The same equations of motion before projection, where no coordinate is approximated.
     pub unprojected: Option<Unprojected<'d>>,
+    /// What is left of the forces where accelerations are given, `f − M a`, eq. (E25); empty where
+    /// no derivative is asked for.
+    pub unbalanced: Vec<Expr<'d>>,
+    /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` by it at given
+    /// accelerations, one for each coordinate.
+    pub slopes: Vec<Vec<Expr<'d>>>,
     /// Power of forces, torques, inputs and prescribed motion, eq. (E19). Accelerations may occur.
     pub work_rate: Expr<'d>,
     /// Power that dissipation takes, eq. (E18).
@@ -134,6 +141,11 @@ impl<'d> Equations<'d> {
             return None;
         };
         equations.drop_what_cancels(model);
+        let Some(slopes) = derivatives::slopes(model, &equations.unbalanced) else {
+            refusal::refuse_large(model, report);
+            return None;
+        };
+        equations.slopes = slopes;
         let refused = refusal::refuse_undefined(model, &equations, report)
             || refusal::refuse_massless(model, &equations.mass_matrix, report);
         (!refused).then_some(equations)
@@ -177,6 +189,21 @@ impl<'d> Equations<'d> {
         Some(expanded)
     }
 
+    /// The derivatives of `f − M a`, as they were derived and, for few coordinates, from M and f as
+    /// they are here: where these are multiplied out that may be shorter. Empty where none is asked
+    /// for.
+    pub(crate) fn slopes_in_forms(&self, model: &Model<'d>) -> Vec<Vec<Vec<Expr<'d>>>> {
+        if self.slopes.is_empty() {
+            return Vec::new();
+        }
+        let mut forms = vec![self.slopes.clone()];
+        if self.bias.len() <= EXPANDED_COORDINATES {
+            let unbalanced = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+            forms.extend(derivatives::slopes(model, &unbalanced));
+        }
+        forms
+    }
+
     /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and
     /// (E22).
     fn drop_what_cancels(&mut self, model: &Model<'d>) {
@@ -196,7 +223,12 @@ impl<'d> Equations<'d> {
 
     /// Everything that follows from energies and forces alone.
     fn dynamics(&mut self) -> Vec<&mut Expr<'d>> {
-        let lists = [&mut self.bias, &mut self.applied, &mut self.forces];
+        let lists = [
+            &mut self.bias,
+            &mut self.applied,
+            &mut self.forces,
+            &mut self.unbalanced,
+        ];
         let scalars = [
             &mut self.kinetic_energy,
             &mut self.potential_energy,
@@ -240,6 +272,11 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         applied: projection.project(&applied, all.clone()),
         unprojected: Some(projection.unprojected(&applied)),
         forces: projection.project(&forces, all),
+        unbalanced: match model.derivatives.is_empty() {
+            true => Vec::new(),
+            false => projection.unbalanced(),
+        },
+        slopes: Vec::new(),
         work_rate: power::work_rate(model, &x, &projection, potential_energy),
         dissipation_rate: power::dissipation_rate(model, &x, dissipation),
         outputs: model.outputs.iter().map(|output| output.value).collect(),
@@ -285,19 +322,26 @@ fn approximate<'d>(
     let mut loads = Loads::of_energies(dag, potential_energy, dissipation);
     projection.add_forces(&mut loads);
     let applied = projection.project(&loads, 0..x.q.len());
+    let forces: Vec<Expr<'d>> = applied
+        .iter()
+        .zip(&bias)
+        .map(|(&applied, &bias)| applied - bias)
+        .collect();
+    let unbalanced = match model.derivatives.is_empty() {
+        true => Vec::new(),
+        false => derivatives::unbalanced(model, &mass_matrix, &forces),
+    };
     Some(Equations {
         kinetic_energy,
         potential_energy,
         dissipation,
         mass_matrix,
-        forces: applied
-            .iter()
-            .zip(&bias)
-            .map(|(&applied, &bias)| applied - bias)
-            .collect(),
+        forces,
         bias,
         applied,
         unprojected: None,
+        unbalanced,
+        slopes: Vec::new(),
         work_rate: power::work_rate_of_energies(
             model,
             &x,

@@ -99,6 +99,9 @@ pub struct Model<'d> {
     pub approximations: Vec<Approximation>,
     /// Quantities to observe.
     pub outputs: Vec<Output<'d>>,
+    /// What the accelerations are to be differentiated by, each once, in the order of
+    /// [`Variable`].
+    pub derivatives: Vec<Variable>,
     /// Equations that somebody printed.
     pub published: Vec<Published<'d>>,
     /// The headings of the sections that the machine and its bases have, where each is said first.
@@ -241,6 +244,27 @@ pub struct Assumption<'d> {
     pub strict: bool,
     /// Where the spec says it.
     pub span: Span,
+}
+
+/// What accelerations depend on, and can be differentiated by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Variable {
+    /// A coordinate, by its index in [`Model::coordinates`].
+    Coordinate(usize),
+    /// The rate of a coordinate.
+    Rate(usize),
+    /// An input, by its index in [`Model::inputs`].
+    Input(usize),
+    /// A parameter, by its index in [`Model::parameters`].
+    Parameter(usize),
+}
+
+impl Variable {
+    /// Every coordinate, then every rate: what a linearization needs.
+    pub fn of_state(coordinates: usize) -> Vec<Variable> {
+        let q = (0..coordinates).map(Variable::Coordinate);
+        q.chain((0..coordinates).map(Variable::Rate)).collect()
+    }
 }
 
 /// The index of a pose in [`Model::poses`].

@@ -26,7 +26,7 @@
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use crate::model::Name;
+use crate::model::{Name, Variable};
 use crate::unit::Unit;
 
 mod articulated;
@@ -71,6 +71,9 @@ pub struct Program {
     pub outputs: Vec<Slot>,
     /// Facts that a run checks; [`Role::Assumption`] counts them.
     pub assumptions: Vec<Fact>,
+    /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
+    /// not there.
+    pub derivatives: Vec<Variable>,
     /// Whatever is known once the parameters are: reads parameters, and its results are the
     /// prepared values.
     ///
@@ -137,6 +140,9 @@ pub enum Role {
     Forces,
     /// The accelerations M⁻¹ f.
     Accelerations,
+    /// The accelerations, and their derivatives by [`Program::derivatives`]: a matrix whose first
+    /// column are the accelerations, and every other their derivatives by one variable.
+    Derivatives,
     /// The kinetic energy T.
     KineticEnergy,
     /// The potential energy V.
@@ -164,6 +170,7 @@ impl Role {
             Role::Applied => "applied".into(),
             Role::Forces => "forces".into(),
             Role::Accelerations => "accelerations".into(),
+            Role::Derivatives => "derivatives".into(),
             Role::KineticEnergy => "kinetic_energy".into(),
             Role::PotentialEnergy => "potential_energy".into(),
             Role::Dissipation => "dissipation".into(),
@@ -172,6 +179,12 @@ impl Role {
             Role::Output(index) => format!("output_{index}"),
             Role::Assumption(index) => format!("assumption_{index}"),
         }
+    }
+
+    /// Whether a function of this role inverts the mass matrix: it has no value where that is
+    /// singular.
+    pub fn inverts(self) -> bool {
+        matches!(self, Role::Accelerations | Role::Derivatives)
     }
 }
 
@@ -185,6 +198,8 @@ pub enum Shape {
     /// A symmetric matrix of that order, its lower triangle row by row: entry (i, j), j ≤ i, is
     /// result i (i + 1)/2 + j.
     Symmetric(usize),
+    /// A matrix of so many rows and columns, row by row.
+    Matrix(usize, usize),
 }
 
 impl Shape {
@@ -194,6 +209,7 @@ impl Shape {
             Shape::Scalar => 1,
             Shape::Vector(n) => n,
             Shape::Symmetric(n) => n * (n + 1) / 2,
+            Shape::Matrix(rows, columns) => rows * columns,
         }
     }
 
@@ -201,7 +217,7 @@ impl Shape {
     pub fn order(self) -> usize {
         match self {
             Shape::Scalar => 1,
-            Shape::Vector(n) | Shape::Symmetric(n) => n,
+            Shape::Vector(n) | Shape::Symmetric(n) | Shape::Matrix(n, _) => n,
         }
     }
 
@@ -374,6 +390,12 @@ impl Program {
         [&self.prepare, &self.start]
             .into_iter()
             .chain(&self.functions)
+    }
+
+    /// Whether the derivatives by all coordinates and all rates are there, in this order and first.
+    pub fn has_linearization(&self) -> bool {
+        self.derivatives
+            .starts_with(&Variable::of_state(self.dimension()))
     }
 
     /// The number of coordinates.

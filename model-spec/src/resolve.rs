@@ -15,8 +15,10 @@
 //! | [`frames`] | frames and points |
 //! | [`items`] | bodies, springs, forces, … |
 //! | [`rates`] | rates at the start |
+//! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
+mod derivatives;
 mod expression;
 mod frames;
 mod items;
@@ -195,6 +197,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             Some(resolver.approximation(member))
         });
         let outputs = self.each(Outputs, Self::output);
+        let derivatives = self.each(Derivatives, |resolver, member| {
+            Some(resolver.differentiated_by(member))
+        });
         let published = self.published(layers);
 
         self.check_masses(&bodies, &parameters);
@@ -234,6 +239,12 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             contacts,
             approximations: approximations.into_iter().flatten().collect(),
             outputs,
+            derivatives: derivatives
+                .into_iter()
+                .flatten()
+                .collect::<BTreeSet<_>>()
+                .into_iter()
+                .collect(),
             published,
             sections: sections_of(layers),
         })

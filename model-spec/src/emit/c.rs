@@ -246,7 +246,11 @@ impl<'a> Emitter<'a> {
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
         let keeps = matches!(
             function.role,
-            Role::Start | Role::Accelerations | Role::Output(_) | Role::Assumption(_)
+            Role::Start
+                | Role::Accelerations
+                | Role::Derivatives
+                | Role::Output(_)
+                | Role::Assumption(_)
         );
         if !keeps && function.results.iter().all(is_zero) {
             return;
@@ -258,19 +262,23 @@ impl<'a> Emitter<'a> {
         }
         let mut reads = function.reads();
         reads.parameters |= function.role == Role::Start;
-        let is_accelerations = function.role == Role::Accelerations;
-        let checks_prepared = is_accelerations && !self.program.prepare.guards.is_empty();
+        let inverts = function.role.inverts();
+        let checks_prepared = inverts && !self.program.prepare.guards.is_empty();
         reads.prepared |= checks_prepared;
         let mut arguments = self.declared(reads);
         let result = match function.shape {
             Shape::Scalar => "double",
             Shape::Vector(n) => {
                 arguments.push(format!("double to[{n}]"));
-                if is_accelerations { "int" } else { "void" }
+                if inverts { "int" } else { "void" }
             }
             Shape::Symmetric(n) => {
                 arguments.push(format!("double to[{n}][{n}]"));
                 "void"
+            }
+            Shape::Matrix(rows, columns) => {
+                arguments.push(format!("double to[{rows}][{columns}]"));
+                if inverts { "int" } else { "void" }
             }
         };
         if arguments.is_empty() {
@@ -305,13 +313,22 @@ impl<'a> Emitter<'a> {
                 for (i, text) in texts.iter().enumerate() {
                     writer.line(format!("to[{i}] = {text};"));
                 }
-                if is_accelerations {
+                if inverts {
                     writer.line("return 0;");
                 }
             }
             Shape::Symmetric(n) => {
                 for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
                     writer.line(format!("to[{i}][{j}] = {};", texts[Shape::index(i, j)]));
+                }
+            }
+            Shape::Matrix(_, columns) => {
+                for (index, text) in texts.iter().enumerate() {
+                    let (i, j) = (index / columns, index % columns);
+                    writer.line(format!("to[{i}][{j}] = {text};"));
+                }
+                if inverts {
+                    writer.line("return 0;");
                 }
             }
         }
@@ -332,6 +349,16 @@ impl<'a> Emitter<'a> {
                 format!("{} Unit: {}.", slot.docs, slot.unit_text)
                     .trim()
                     .to_owned()
+            }
+            Role::Derivatives => {
+                let variables = self.program.derivatives.iter();
+                let names: Vec<String> = variables
+                    .map(|variable| self.program.variable_name(*variable))
+                    .collect();
+                format!(
+                    "Column 0: the accelerations; the others: their derivatives by {}. Returns what the accelerations return.",
+                    names.join(", ")
+                )
             }
             Role::Assumption(i) => {
                 format!("By how much {} holds.", self.program.assumptions[i].text)
@@ -607,7 +634,7 @@ fn docs(role: Role) -> &'static str {
         Role::Dissipation => "Dissipation function D, in W.",
         Role::WorkRate => "Power that drives, forces and inputs put in, in W.",
         Role::DissipationRate => "Power that dampers take out, in W.",
-        Role::Prepare | Role::Output(_) | Role::Assumption(_) => "",
+        Role::Prepare | Role::Derivatives | Role::Output(_) | Role::Assumption(_) => "",
     }
 }
 

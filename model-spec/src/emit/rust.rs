@@ -3,6 +3,7 @@
 //! The module needs `core` and the runtime only. Its arithmetic is in plain functions, generic over the number and taking
 //! the arguments that they use; `Machine` and `System` are implemented on top of them for `f64`.
 
+mod derivatives;
 mod docs;
 mod functions;
 mod language;
@@ -159,6 +160,7 @@ impl<'a> Emitter<'a> {
         self.inputs();
         self.outputs();
         self.prepared();
+        self.derivatives();
         for function in &self.program.functions {
             if self.is_emitted(function) {
                 self.function(function);
@@ -170,6 +172,7 @@ impl<'a> Emitter<'a> {
         self.tables();
         self.impl_machine();
         self.impl_system();
+        self.impl_linearize();
         self.helpers();
         self.writer.finish()
     }

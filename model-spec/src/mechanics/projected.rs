@@ -131,7 +131,19 @@ impl<'a, 'd> Projection<'a, 'd> {
     ///
     /// With `gravity` it acts too, as an acceleration of the ground.
     pub fn bias_loads(&self, sign: i64, gravity: bool) -> Loads<'d> {
-        let rate = &mut self.x.coasting(self.model);
+        self.inertia_loads(&mut self.x.coasting(self.model), sign, gravity)
+    }
+
+    /// What is left of the forces where the accelerations are given, `f − M a`, eq. (E25): inertia
+    /// and gravity reversed, and what is applied, by one sweep. This is recursive Newton–Euler,
+    /// linear in the number of links.
+    pub fn unbalanced(&self) -> Vec<Expr<'d>> {
+        let mut loads = self.inertia_loads(&mut self.x.total(self.model), -1, true);
+        self.add_applied(&mut loads);
+        self.project(&loads, 0..self.x.q.len())
+    }
+
+    fn inertia_loads(&self, rate: &mut Tangent<'d>, sign: i64, gravity: bool) -> Loads<'d> {
         let velocities = self.velocities(rate);
         let mut loads = Loads::default();
         for ((body, velocity), load) in self

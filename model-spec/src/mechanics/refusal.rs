@@ -78,11 +78,15 @@ pub(super) fn refuse_undefined(
         ("potential energy", equations.potential_energy),
         ("dissipation", equations.dissipation),
     ];
+    let slopes = equations.slopes.iter().flatten();
     let undefined = energies.iter().find(|(_, energy)| energy.is_undefined());
     let all = equations.forces.iter().chain(equations.mass_matrix.lower());
     let what = match undefined {
         Some((name, _)) => format!("the {name}"),
         None if all.clone().any(|entry| entry.is_undefined()) => "an equation of motion".to_owned(),
+        None if slopes.clone().any(|entry| entry.is_undefined()) => {
+            "a derivative of an acceleration".to_owned()
+        }
         None => return false,
     };
     let diagnostic = match model.approximations.first() {

@@ -41,6 +41,10 @@ const BUDGET: usize = 40_000;
 pub(super) struct Solution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
+    /// What was done, in order.
+    pub(super) steps: Vec<Step<'d>>,
+    /// The coordinates by the nodes of their velocities.
+    pub(super) coordinates: BTreeMap<Id, usize>,
 }
 
 /// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
@@ -70,16 +74,21 @@ pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<
     Some(Solution {
         accelerations,
         pivots: pivots.collect(),
+        coordinates: front.coordinates,
+        steps,
     })
 }
 
 /// A velocity that has left the front: its acceleration is `alone + Σ c·part`.
-struct Step<'d> {
-    of: Id,
+///
+/// For other forces at rest, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, 0 + … without a pivot; and
+/// `c r` comes to the load on each part.
+pub(super) struct Step<'d> {
+    pub(super) of: Id,
     alone: Expr<'d>,
-    parts: Vec<(Id, Expr<'d>)>,
+    pub(super) parts: Vec<(Id, Expr<'d>)>,
     /// What it was divided by, if it was eliminated.
-    pivot: Option<Expr<'d>>,
+    pub(super) pivot: Option<Expr<'d>>,
 }
 
 /// `u = Σ c·part + rest`, where `c` and the rest are free of velocities.

@@ -125,12 +125,12 @@ impl<S: Scalar> Interpreter<S> {
         arguments: Arguments<'_, S>,
         results: &mut [S],
     ) -> Result<(), Singular> {
-        if let (Role::Accelerations, Some(singular)) = (role, self.singular) {
-            return Err(singular);
-        }
         let Some(tape) = self.functions.iter().find(|tape| tape.role == role) else {
             return Ok(());
         };
+        if let Some(singular) = self.singular.filter(|_| role.inverts()) {
+            return Err(singular);
+        }
         let reads = tape.reads;
         let registers = &mut self.registers;
         registers[self.layout.time] = arguments.t;

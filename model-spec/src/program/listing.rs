@@ -9,6 +9,7 @@ use std::fmt::{self, Write as _};
 use rustc_hash::FxHashMap;
 
 use super::{Function, Op, Program, Role, Shape, Source, Value};
+use crate::model::Variable;
 use crate::program::formula::number;
 
 impl fmt::Display for Program {
@@ -40,6 +41,16 @@ impl Program {
         }
     }
 
+    /// The name of a variable, as the spec writes it.
+    pub fn variable_name(&self, variable: Variable) -> String {
+        self.source_name(match variable {
+            Variable::Coordinate(i) => Source::Coordinate(i as u32),
+            Variable::Rate(i) => Source::Velocity(i as u32),
+            Variable::Input(i) => Source::Input(i as u32),
+            Variable::Parameter(i) => Source::Parameter(i as u32),
+        })
+    }
+
     /// The name of a function: that of its role, or of the output or the fact.
     pub fn title(&self, role: Role) -> String {
         match role {
@@ -69,6 +80,13 @@ impl Program {
             (_, Shape::Symmetric(_)) => {
                 let (i, j) = Shape::place(index);
                 format!("{name}[{}, {}]", coordinate(i), coordinate(j))
+            }
+            (_, Shape::Matrix(_, columns)) => {
+                let (i, j) = (coordinate(index / columns), index % columns);
+                match j.checked_sub(1).and_then(|j| self.derivatives.get(j)) {
+                    Some(variable) => format!("{name}[{i}, {}]", self.variable_name(*variable)),
+                    None => format!("{name}[{i}]"),
+                }
             }
         }
     }

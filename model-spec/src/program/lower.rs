@@ -1,5 +1,7 @@
 //! From expressions to programs.
 
+mod derivatives;
+
 use lagrangian_symbolic::{self as symbolic, Expr, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
 
@@ -29,20 +31,27 @@ impl Program {
     /// The program of a machine: every function that [`Role`] names.
     pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
         let quantities = quantities(model, equations);
-        Program::build(model, &quantities, equations.unprojected.as_ref())
+        let unprojected = equations.unprojected.as_ref();
+        Program::build(
+            model,
+            &quantities,
+            unprojected,
+            &equations.slopes_in_forms(model),
+        )
     }
 
     /// The program that computes the quantities.
     ///
     /// If a mass matrix and forces are among them, there are accelerations too.
     pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Program {
-        Program::build(model, quantities, None)
+        Program::build(model, quantities, None, &[])
     }
 
     fn build<'d>(
         model: &Model<'d>,
         quantities: &[Quantity<'d>],
         unprojected: Option<&Unprojected<'d>>,
+        slopes: &[Vec<Vec<Expr<'d>>>],
     ) -> Program {
         let roots: Vec<Expr<'d>> = quantities
             .iter()
@@ -124,6 +133,16 @@ impl Program {
             let accelerations = accelerations(&mut lowering, &matrix, &forces, unprojected);
             known_pivots = accelerations.known_pivots;
             functions.push(accelerations.function);
+            if !slopes.is_empty() {
+                let asked = derivatives::Asked {
+                    matrix: &matrix,
+                    forces: &forces,
+                    unprojected,
+                    slopes,
+                    known_pivots: &known_pivots,
+                };
+                functions.push(derivatives::derivatives(&mut lowering, &asked));
+            }
         }
         functions.sort_by_key(|(function, _)| function.role);
         let graph = &mut lowering.graph;
@@ -136,6 +155,10 @@ impl Program {
             inputs,
             outputs,
             assumptions: facts(model),
+            derivatives: match slopes.is_empty() {
+                true => Vec::new(),
+                false => model.derivatives.clone(),
+            },
             prepare,
             prepared,
             start,
@@ -285,7 +308,7 @@ impl Planned {
             prepared,
         } = schedule(&net);
         let (results, guarded) = roots.split_at(self.results.len());
-        let n = self.results.len();
+        let n = self.shape.order();
         let guards = self
             .pivots
             .iter()
@@ -368,6 +391,7 @@ fn along_the_machine<'d>(
     let articulated::Solution {
         accelerations,
         pivots,
+        ..
     } = articulated::solve(lowering.model, machine)?;
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
     lowering.lower(&accelerations);
@@ -387,6 +411,7 @@ fn along_the_machine<'d>(
         let solution = Solution {
             pivots: pivots.collect(),
             accelerations: results.clone(),
+            columns: Vec::new(),
         };
         Accelerations::new(&mut lowering.graph, solution)
     };

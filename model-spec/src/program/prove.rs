@@ -8,7 +8,7 @@
 
 use std::fmt;
 
-use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_scalar::{Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Symbol, evaluate};
 use rustc_hash::FxHashMap;
 
@@ -16,7 +16,7 @@ use super::{
     Arguments, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular, Source, Value,
 };
 use crate::mechanics::Oracle;
-use crate::model::Model;
+use crate::model::{Model, Variable};
 
 /// The points at which everything must agree.
 pub const POINTS: usize = 3;
@@ -90,7 +90,11 @@ impl fmt::Display for Disagreement {
 impl std::error::Error for Disagreement {}
 
 /// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
-/// and accelerations that obey them.
+/// accelerations that obey them, and the derivatives of these.
+///
+/// Derivatives are not compared with other formulas. The accelerations, once they are known to be
+/// right, are run over dual numbers of the prime field, where `ε² = 0` holds exactly as all else
+/// does: what stands before ε is the derivative.
 pub fn prove(
     program: &Program,
     model: &Model<'_>,
@@ -129,7 +133,8 @@ pub fn prove(
     at_points(program, model, |point| {
         point.check_values(&quantities)?;
         point.check_pivots()?;
-        point.check_motion(&oracle.residual)
+        point.check_motion(&oracle.residual)?;
+        point.check_derivatives()
     })
 }
 
@@ -296,6 +301,71 @@ impl<'a, 'd> Point<'a, 'd> {
             .into()),
             None => Ok(()),
         }
+    }
+
+    /// The accelerations over dual numbers have the derivatives that the program says.
+    fn check_derivatives(&mut self) -> Result<(), Verdict> {
+        let (role, n) = (Role::Derivatives, self.program.dimension());
+        let variables = &self.program.derivatives;
+        if variables.is_empty() {
+            return Ok(());
+        }
+        let width = 1 + variables.len();
+        let found = self.call(role, n * width)?;
+        let accelerations = self.call(Role::Accelerations, n)?;
+        let check = |column: usize, expected: &[Residue]| {
+            let differs = |i: &usize| found[i * width + column] != expected[*i];
+            match (0..n).find(differs) {
+                Some(i) => Err(Verdict::from(Disagreement::Result {
+                    role,
+                    index: i * width + column,
+                    point: self.number,
+                })),
+                None => Ok(()),
+            }
+        };
+        check(0, &accelerations)?;
+        let constants = |values: &[Residue]| -> Vec<Dual<Residue>> {
+            values.iter().map(|x| Dual::constant(*x)).collect()
+        };
+        let mut arguments = [
+            constants(&self.q),
+            constants(&self.v),
+            constants(&self.u),
+            constants(self.interpreter.parameters()),
+        ];
+        let mut interpreter = Interpreter::new(self.program, &arguments[3]);
+        let mut a = vec![Dual::constant(Residue::ZERO); n];
+        for (column, variable) in (1..).zip(variables) {
+            let (list, i) = match *variable {
+                Variable::Coordinate(i) => (0, i),
+                Variable::Rate(i) => (1, i),
+                Variable::Input(i) => (2, i),
+                Variable::Parameter(i) => (3, i),
+            };
+            let before = arguments[list][i];
+            arguments[list][i] = Dual::variable(before.value);
+            if list == 3 {
+                interpreter.prepare(&arguments[3]);
+            }
+            let [q, v, u, _] = &arguments;
+            let t = Dual::constant(self.t);
+            let called = interpreter.call(
+                Role::Accelerations,
+                Arguments { t, q, v, u, a: &[] },
+                &mut a,
+            );
+            arguments[list][i] = before;
+            if list == 3 {
+                interpreter.prepare(&arguments[3]);
+            }
+            if called.is_err() || !a.iter().all(|a| a.is_finite()) {
+                return Err(Verdict::Elsewhere);
+            }
+            let slopes: Vec<Residue> = a.iter().map(|a| a.derivative).collect();
+            check(column, &slopes)?;
+        }
+        Ok(())
     }
 
     /// The product of the pivots is the determinant of M, one for each coordinate, and each is held

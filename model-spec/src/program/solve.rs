@@ -34,8 +34,11 @@ pub(super) fn pivot_tolerance(n: usize) -> f64 {
 pub(super) struct Solution {
     pub(super) accelerations: Vec<Scaled>,
     pub(super) pivots: Vec<Pivot>,
+    /// What was done with each pivot.
+    pub(super) columns: Vec<Column>,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct Pivot {
     pub(super) coordinate: usize,
     pub(super) pivot: Scaled,
@@ -93,26 +96,27 @@ pub(super) fn solve(
     }
     // aₖ = fₖ/dₖ − Σ lᵢ aᵢ, last pivot first.
     let mut accelerations = vec![Scaled::ZERO; n];
-    for Column { k, scaled, below } in columns.into_iter().rev() {
-        let mut terms = vec![scaled];
+    for Column { k, scaled, below } in columns.iter().rev() {
+        let mut terms = vec![*scaled];
         terms.extend(
             below
                 .iter()
                 .map(|&(i, l)| graph.product(&[(l, 1), (accelerations[i], 1)]).negated()),
         );
-        accelerations[k] = total(graph, &terms);
+        accelerations[*k] = total(graph, &terms);
     }
     Solution {
         accelerations,
         pivots,
+        columns,
     }
 }
 
 /// One step of the elimination: `scaled` is fₖ/dₖ, `below` holds the rows i and multipliers lᵢ.
-struct Column {
+pub(super) struct Column {
     k: usize,
     scaled: Scaled,
-    below: Vec<(usize, Scaled)>,
+    pub(super) below: Vec<(usize, Scaled)>,
 }
 
 /// The sum, as one value that is computed once.

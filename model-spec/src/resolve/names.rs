@@ -81,6 +81,8 @@ pub(super) enum Content<'a> {
     Record(&'a Record),
     Equation(&'a Equation),
     Approximation(&'a Spanned<Approximation>),
+    /// A name alone.
+    Nothing,
 }
 
 /// Everything that is declared under one name.
@@ -173,6 +175,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.declare_section(layer, Approximations, &spec.approximations, |content| {
             Content::Approximation(content)
         });
+        self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
     }
 
     fn declare_section<C>(

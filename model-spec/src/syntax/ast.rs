@@ -72,6 +72,8 @@ pub struct Spec {
     pub constraints: Vec<Item<Equation>>,
     /// `coordinate: frozen` or `coordinate: small`
     pub approximations: Vec<Item<Spanned<Approximation>>>,
+    /// `coordinates`, `rates`, `inputs`, `parameters`, or the name of a parameter
+    pub derivatives: Vec<Item<()>>,
     /// `left > right`
     pub assume: Vec<Relation>,
     /// `gravity (0, -g);`
@@ -168,6 +170,7 @@ sections! {
     Contacts => "contacts",
     Approximations => "approximations",
     Outputs => "outputs",
+    Derivatives => "derivatives",
     Published => "published",
 }
 
@@ -234,6 +237,7 @@ impl SectionKind {
             SectionKind::Contacts => "a contact",
             SectionKind::Approximations => "an approximated coordinate",
             SectionKind::Outputs => "an output",
+            SectionKind::Derivatives => "a derivative",
             SectionKind::Published => "a published equation",
         }
     }

@@ -390,6 +390,11 @@ impl Parser<'_> {
         });
     }
 
+    /// Items `coordinates`, `rates`, `m`.
+    pub(super) fn derivatives(&mut self, items: &mut Vec<Item<()>>) {
+        self.items(SectionKind::Derivatives, items, |_, _| Some(()));
+    }
+
     /// Facts `left > right`, and `… for i in 1..N`.
     pub(super) fn assume(&mut self, facts: &mut Vec<Relation>) {
         let Some(group) = self.enter_section(SectionKind::Assume) else {

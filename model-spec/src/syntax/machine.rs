@@ -254,6 +254,7 @@ impl Parser<'_> {
             SectionKind::Contacts => self.records(kind, &mut spec.contacts),
             SectionKind::Constraints => self.constraints(&mut spec.constraints),
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
+            SectionKind::Derivatives => self.derivatives(&mut spec.derivatives),
             SectionKind::Assume => self.assume(&mut spec.assume),
             SectionKind::Gravity => self.gravity(spec, heading, docs),
             SectionKind::Published => self.published(spec, heading, docs),

@@ -95,3 +95,29 @@ pub fn all_machines() -> Vec<String> {
     names.sort();
     names
 }
+
+/// Compiles a text with derivatives by everything, whatever it asks for.
+pub fn differentiated<R>(
+    text: &str,
+    constants: &[(&str, i64)],
+    look: impl for<'d> FnOnce(&Compiled<'d>) -> R,
+) -> R {
+    let text = match text.rfind('}') {
+        Some(end) => format!(
+            "{} derivatives {{ coordinates, rates, inputs, parameters }} }}",
+            &text[..end]
+        ),
+        None => text.to_owned(),
+    };
+    compiled(&text, constants, look)
+}
+
+/// The same for a machine of the library.
+pub fn differentiated_machine<R>(
+    name: &str,
+    constants: &[(&str, i64)],
+    look: impl for<'d> FnOnce(&Compiled<'d>) -> R,
+) -> R {
+    let text = std::fs::read_to_string(library(name)).expect("a machine of the library");
+    differentiated(&text, constants, look)
+}

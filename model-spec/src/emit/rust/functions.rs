@@ -17,7 +17,7 @@ impl<'a> Emitter<'a> {
     pub(super) fn is_emitted(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
-        function.role == Role::Accelerations
+        function.role.inverts()
             || matches!(function.role, Role::Output(_) | Role::Assumption(_))
             || !function.results.iter().all(is_zero)
     }
@@ -45,7 +45,7 @@ impl<'a> Emitter<'a> {
 
     /// Whether a function has to look whether the parameters alone leave the machine without accelerations.
     fn may_be_singular_from_the_start(&self, function: &Function) -> bool {
-        function.role == Role::Accelerations && !self.program.prepare.guards.is_empty()
+        function.role.inverts() && !self.program.prepare.guards.is_empty()
     }
 
     /// The arguments of a function that needs so much, with their types.
@@ -86,9 +86,10 @@ impl<'a> Emitter<'a> {
             Shape::Scalar => scalar.clone(),
             Shape::Vector(n) => format!("[{scalar}; {n}]"),
             Shape::Symmetric(n) => format!("[[{scalar}; {n}]; {n}]"),
+            Shape::Matrix(..) => format!("{}<{scalar}>", self.types.derivatives),
         };
         let result = match function.role {
-            Role::Accelerations => {
+            role if role.inverts() => {
                 format!(
                     "{}<{value}, {runtime}::Singular>",
                     self.types.known("Result")
@@ -125,10 +126,12 @@ impl<'a> Emitter<'a> {
                 let row = |i: usize| Layout::nested((0..n).map(|j| text(Shape::index(i, j))));
                 Layout::nested((0..n).map(row))
             }
+            shape @ Shape::Matrix(..) => self.derivatives_literal(shape, &texts),
         };
-        if function.role == Role::Accelerations {
-            self.writer.expression("let accelerations = ", &value, ";");
-            self.writer.line("Ok(accelerations)");
+        if function.role.inverts() {
+            self.writer
+                .expression(&format!("let {name} = "), &value, ";");
+            self.writer.line(format!("Ok({name})"));
         } else {
             self.writer.expression("", &value, "");
         }
@@ -232,6 +235,9 @@ impl<'a> Emitter<'a> {
                     .collect()
             }
             (_, Shape::Vector(n)) => (0..n).map(|i| format!("r{i}")).collect(),
+            (_, Shape::Matrix(rows, columns)) => (0..rows)
+                .flat_map(|i| (0..columns).map(move |j| format!("d{}_{j}", i + 1)))
+                .collect(),
         }
     }
 
@@ -244,6 +250,9 @@ impl<'a> Emitter<'a> {
             Role::Forces => "Right-hand side `f = Q - h` of `M a = f`.".into(),
             Role::Accelerations => "Accelerations `a`, the solution of `M a = f`.\n\n\
                 `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an error."
+                .into(),
+            Role::Derivatives => "Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of \
+                `M da/dx = d(f - M a)/dx` with `a` held."
                 .into(),
             Role::KineticEnergy => "Kinetic energy `T`, in J.".into(),
             Role::PotentialEnergy => "Potential energy `V`, in J.".into(),

@@ -75,6 +75,7 @@ fn standstill(spec: &Spec) -> Program {
         inputs: slots(&spec.inputs),
         outputs,
         assumptions: Vec::new(),
+        derivatives: Vec::new(),
         prepare: zeros(Role::Prepare, Shape::Vector(0)),
         prepared: Vec::new(),
         start: zeros(Role::Start, Shape::Vector(n)),

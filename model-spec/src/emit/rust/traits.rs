@@ -90,7 +90,7 @@ impl Emitter<'_> {
         Some(self.call_with(&self.function_name(role), self.needs(function)))
     }
 
-    fn call_with(&self, name: &str, needs: Reads) -> String {
+    pub(super) fn call_with(&self, name: &str, needs: Reads) -> String {
         let arguments = self.arguments(needs);
         let passed: Vec<&str> = arguments
             .iter()

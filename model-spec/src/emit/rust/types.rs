@@ -13,6 +13,8 @@ pub(super) struct Types {
     pub(super) inputs: String,
     pub(super) outputs: String,
     pub(super) prepared: String,
+    /// Accelerations with their derivatives.
+    pub(super) derivatives: String,
     /// The parameter that stands for the number.
     pub(super) scalar: String,
     /// `f64`, `usize`, `Result`, …, by full path where the machine has that name.
@@ -28,6 +30,7 @@ impl Types {
             inputs: scope.take("Inputs"),
             outputs: scope.take("Outputs"),
             prepared: scope.take("Prepared"),
+            derivatives: scope.take("Derivatives"),
             scalar: scope.take("S"),
             shadowed: machine.to_owned(),
         }

@@ -1,0 +1,142 @@
+//! What accelerations and their derivatives are returned as, and what they do for the runtime.
+
+use super::Emitter;
+use super::docs::prose;
+use crate::emit::layout::Layout;
+use crate::model::Variable;
+use crate::program::{Role, Shape};
+
+/// Derivatives by variables of one kind: a field of the struct.
+struct Field {
+    name: &'static str,
+    docs: String,
+    /// The columns of the matrix of [`Role::Derivatives`], the accelerations being column 0.
+    columns: std::ops::Range<usize>,
+}
+
+impl Emitter<'_> {
+    /// The fields, in the order of their columns.
+    fn derivative_fields(&self) -> Vec<Field> {
+        let columns = &self.program.derivatives;
+        let kind = |variable: &Variable| match variable {
+            Variable::Coordinate(_) => ("by_coordinates", "By the coordinates."),
+            Variable::Rate(_) => ("by_rates", "By the rates of the coordinates."),
+            Variable::Input(_) => ("by_inputs", "By the inputs."),
+            Variable::Parameter(_) => ("by_parameters", ""),
+        };
+        let mut first = 1;
+        let fields = columns.chunk_by(|a, b| kind(a) == kind(b)).map(|chunk| {
+            let (name, docs) = kind(&chunk[0]);
+            let names: Vec<String> = chunk
+                .iter()
+                .map(|variable| format!("`{}`", self.program.variable_name(*variable)))
+                .collect();
+            let docs = match docs.is_empty() {
+                true => format!("By {}.", names.join(", ")),
+                false => docs.to_owned(),
+            };
+            let columns = first..first + chunk.len();
+            first = columns.end;
+            Field {
+                name,
+                docs,
+                columns,
+            }
+        });
+        fields.collect()
+    }
+
+    /// The struct that the function returns, where there is one.
+    pub(super) fn derivatives(&mut self) {
+        if self.program.derivatives.is_empty() {
+            return;
+        }
+        let (name, scalar) = (self.types.derivatives.clone(), self.types.scalar.clone());
+        let n = self.program.dimension();
+        self.writer.gap();
+        self.docs(
+            "Accelerations with their derivatives, in SI units: row `i` is about the acceleration of coordinate `i`, column `j` is \
+             by variable `j`.",
+        );
+        self.writer.line("#[derive(Clone, Copy, Debug, PartialEq)]");
+        self.writer.open(format!("pub struct {name}<{scalar}> {{"));
+        self.docs("The accelerations.");
+        self.writer
+            .line(format!("pub accelerations: [{scalar}; {n}],"));
+        for Field {
+            name,
+            docs,
+            columns,
+        } in self.derivative_fields()
+        {
+            self.docs(&prose(&docs));
+            let m = columns.len();
+            self.writer
+                .line(format!("pub {name}: [[{scalar}; {m}]; {n}],"));
+        }
+        self.writer.close("}");
+    }
+
+    /// The value of the struct, from the texts of the matrix.
+    pub(super) fn derivatives_literal(&self, shape: Shape, texts: &[String]) -> Layout {
+        let (n, width) = match shape {
+            Shape::Matrix(rows, columns) => (rows, columns),
+            _ => (0, 0),
+        };
+        let text = |i: usize, j: usize| Layout::Atom(texts[i * width + j].clone());
+        let accelerations = Layout::nested((0..n).map(|i| text(i, 0)));
+        let mut fields = vec![("accelerations".to_owned(), accelerations)];
+        for Field { name, columns, .. } in self.derivative_fields() {
+            let row = |i: usize| Layout::nested(columns.clone().map(|j| text(i, j)));
+            fields.push((name.to_owned(), Layout::nested((0..n).map(row))));
+        }
+        Layout::Struct(self.types.derivatives.clone(), fields)
+    }
+
+    /// `Linearize`, where the derivatives by all coordinates and rates are there.
+    pub(super) fn impl_linearize(&mut self) {
+        let n = self.program.dimension();
+        if !self.program.has_linearization() {
+            return;
+        }
+        let Some(function) = self.emitted(Role::Derivatives) else {
+            return;
+        };
+        let runtime = self.options.runtime.clone();
+        let f64 = self.types.known("f64");
+        let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
+        let call = self.call_with("derivatives", self.needs(function));
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl {runtime}::Linearize for {} {{",
+            self.types.prepared
+        ));
+        let vector = format!("&[{f64}; {n}]");
+        let reads = function.reads();
+        let named = |name: &str, is_read: bool, kind: String| {
+            format!("{}: {kind}", if is_read { name } else { "_" })
+        };
+        let arguments = [
+            "&self".to_owned(),
+            named("t", reads.time, f64.clone()),
+            named("q", reads.coordinates, vector.clone()),
+            named("v", reads.velocities, vector),
+            named("u", reads.inputs, format!("&{}", self.types.inputs)),
+            format!("a: &mut [{f64}; {n}]"),
+            format!("by_coordinates: &mut [{f64}; {}]", n * n),
+            format!("by_rates: &mut [{f64}; {}]", n * n),
+        ];
+        self.writer
+            .signature("fn linearize", &arguments, Some(&result));
+        self.writer.line(format!("let derivatives = {call}?;"));
+        self.writer.line("*a = derivatives.accelerations;");
+        for name in ["by_coordinates", "by_rates"] {
+            self.writer
+                .line(format!("let rows = derivatives.{name}.as_flattened();"));
+            self.writer.line(format!("{name}.copy_from_slice(rows);"));
+        }
+        self.writer.line("Ok(())");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}

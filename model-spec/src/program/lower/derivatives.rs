@@ -1,0 +1,259 @@
+//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), one column for each
+//! variable.
+//!
+//! The elimination that finds the accelerations is one list of [`Step`]s, whether it goes along the
+//! machine or over the mass matrix. A right-hand side passes through it forwards, and what answers
+//! it comes back; nothing is factored again. The accelerations in the right-hand sides are the
+//! values that the same function computes.
+
+use lagrangian_symbolic::Expr;
+
+use super::super::graph::{Graph, Id, Scaled};
+use super::super::solve::{self, Elimination, Pivot};
+use super::super::{Function, Role, Shape, articulated};
+use super::{Lowering, Planned};
+use crate::mechanics::Unprojected;
+
+/// One unknown that leaves the equations: `x_of = r_of/pivot + Σ c x_part`, and its load moves on:
+/// `r_part += c r_of`. One without a pivot only gives way to its parts.
+struct Step {
+    of: usize,
+    pivot: Option<Scaled>,
+    parts: Vec<(usize, Scaled)>,
+}
+
+/// The accelerations, and how they were found.
+struct Solved {
+    accelerations: Vec<Scaled>,
+    steps: Vec<Step>,
+    pivots: Vec<Pivot>,
+    /// How many unknowns there are; the first are the accelerations.
+    unknowns: usize,
+}
+
+/// What the function is made from.
+pub(super) struct Asked<'a, 'd> {
+    /// The lower triangle of M.
+    pub matrix: &'a [Scaled],
+    /// The forces f.
+    pub forces: &'a [Scaled],
+    pub unprojected: Option<&'a Unprojected<'d>>,
+    /// The right-hand sides, column by column, over the symbols of the accelerations too; in one form
+    /// or several.
+    pub slopes: &'a [Vec<Vec<Expr<'d>>>],
+    /// Pivots that are looked at once parameters are known.
+    pub known_pivots: &'a [Pivot],
+}
+
+/// The function of the accelerations and their derivatives, by the way that is cheapest to run.
+pub(super) fn derivatives<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+) -> (Function, Vec<Id>) {
+    let elimination = Elimination::of(asked.matrix, asked.forces.len());
+    let along = asked
+        .unprojected
+        .and_then(|machine| along_the_machine(lowering, asked, machine));
+    let mut candidates = functions(lowering, asked, along.as_ref());
+    // What is certainly longer is not even written down: each column passes through the matrix too.
+    let is_shorter = |function: &(Function, Vec<Id>)| {
+        elimination.multiplications * asked.columns() <= function.0.counts().ops()
+    };
+    if candidates.iter().all(is_shorter) {
+        let by_matrix = by_matrix(&mut lowering.graph, asked, elimination);
+        candidates.extend(functions(lowering, asked, Some(&by_matrix)));
+    }
+    candidates
+        .into_iter()
+        .min_by_key(|(function, _)| function.counts().cost())
+        .expect("the mass matrix always leads to one")
+}
+
+/// The functions that lead from one elimination to the same numbers, one for each form of the
+/// right-hand sides.
+fn functions<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+    solved: Option<&Solved>,
+) -> Vec<(Function, Vec<Id>)> {
+    let forms = solved.into_iter().flat_map(|solved| {
+        asked
+            .slopes
+            .iter()
+            .map(move |slopes| (solved, slopes.as_slice()))
+    });
+    forms
+        .map(|(solved, slopes)| function(lowering, asked, solved, slopes))
+        .collect()
+}
+
+impl Asked<'_, '_> {
+    /// How many columns there are, the accelerations among them.
+    fn columns(&self) -> usize {
+        1 + self.slopes.first().map_or(0, Vec::len)
+    }
+}
+
+fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination) -> Solved {
+    let solution = solve::solve(graph, asked.matrix, asked.forces, elimination);
+    let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
+        of: pivot.coordinate,
+        pivot: Some(pivot.pivot),
+        parts: column
+            .below
+            .iter()
+            .map(|(i, l)| (*i, l.negated()))
+            .collect(),
+    };
+    let steps = solution.pivots.iter().zip(&solution.columns);
+    Solved {
+        accelerations: solution.accelerations,
+        steps: steps.map(step).collect(),
+        pivots: solution.pivots,
+        unknowns: asked.forces.len(),
+    }
+}
+
+fn along_the_machine<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+    machine: &Unprojected<'d>,
+) -> Option<Solved> {
+    let solution = articulated::solve(lowering.model, machine)?;
+    lowering.lower(&solution.accelerations);
+    let mut unknowns = asked.forces.len();
+    let mut numbers = solution.coordinates;
+    let mut number = |id| {
+        *numbers.entry(id).or_insert_with(|| {
+            unknowns += 1;
+            unknowns - 1
+        })
+    };
+    let mut steps = Vec::with_capacity(solution.steps.len());
+    for step in &solution.steps {
+        let coefficients: Vec<Expr<'d>> = step.parts.iter().map(|(_, c)| *c).collect();
+        lowering.lower(&coefficients);
+        lowering.lower(step.pivot.as_slice());
+        let coefficients = lowering.values(&coefficients);
+        let parts = step.parts.iter().map(|(part, _)| number(*part));
+        steps.push(Step {
+            parts: parts.zip(coefficients).collect(),
+            of: number(step.of),
+            pivot: step.pivot.map(|pivot| lowering.values(&[pivot])[0]),
+        });
+    }
+    // A pivot need only be positive where the entry of M that it was left over from is not at hand.
+    let scale = |coordinate: usize, pivot: Scaled| {
+        let diagonal = asked.matrix[Shape::index(coordinate, coordinate)];
+        if diagonal.is_known() { diagonal } else { pivot }
+    };
+    let pivots = steps.iter().filter_map(|step| {
+        Some(Pivot {
+            coordinate: step.of,
+            pivot: step.pivot?,
+            scale: scale(step.of, step.pivot?),
+        })
+    });
+    Some(Solved {
+        accelerations: lowering.values(&solution.accelerations),
+        pivots: pivots.collect(),
+        steps,
+        unknowns,
+    })
+}
+
+/// The function: the accelerations first, then one column for each variable, row by row.
+fn function<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+    solved: &Solved,
+    slopes: &[Vec<Expr<'d>>],
+) -> (Function, Vec<Id>) {
+    let n = asked.forces.len();
+    let rights = right_hand_sides(lowering, slopes, &solved.accelerations);
+    let graph = &mut lowering.graph;
+    let inverses: Vec<Scaled> = solved
+        .steps
+        .iter()
+        .map(|step| match step.pivot {
+            Some(pivot) => {
+                let inverse = graph.product(&[(pivot, -1)]);
+                graph.whole(inverse)
+            }
+            None => Scaled::ZERO,
+        })
+        .collect();
+    let mut columns = vec![solved.accelerations.clone()];
+    for right in rights {
+        columns.push(respond(graph, solved, &inverses, right));
+    }
+    let rows = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
+    let planned = Planned {
+        role: Role::Derivatives,
+        shape: Shape::Matrix(n, columns.len()),
+        results: rows.collect(),
+        pivots: solved
+            .pivots
+            .iter()
+            .copied()
+            .filter(|pivot| !asked.known_pivots.contains(pivot))
+            .collect(),
+    };
+    planned.function(graph, true)
+}
+
+/// The right-hand sides with the values of the accelerations in them.
+fn right_hand_sides<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    slopes: &[Vec<Expr<'d>>],
+    accelerations: &[Scaled],
+) -> Vec<Vec<Scaled>> {
+    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    let before = std::mem::take(&mut lowering.values);
+    for (coordinate, value) in lowering.model.coordinates.iter().zip(accelerations) {
+        lowering.values.insert(coordinate.a.id(), *value);
+    }
+    let mut rights = Vec::with_capacity(slopes.len());
+    for column in slopes {
+        lowering.lower(column);
+        rights.push(lowering.values(column));
+    }
+    lowering.values = before;
+    rights
+}
+
+/// Solves `M x = r` by the steps that found the accelerations.
+fn respond(
+    graph: &mut Graph,
+    solved: &Solved,
+    inverses: &[Scaled],
+    right: Vec<Scaled>,
+) -> Vec<Scaled> {
+    let n = right.len();
+    let mut loads: Vec<Vec<Scaled>> = right.into_iter().map(|load| vec![load]).collect();
+    loads.resize(solved.unknowns, Vec::new());
+    let mut totals = Vec::with_capacity(solved.steps.len());
+    for step in &solved.steps {
+        let load = total(graph, &loads[step.of]);
+        for &(part, c) in &step.parts {
+            loads[part].push(graph.product(&[(c, 1), (load, 1)]));
+        }
+        totals.push(load);
+    }
+    let mut answers = vec![Scaled::ZERO; solved.unknowns];
+    for ((step, load), inverse) in solved.steps.iter().zip(totals).zip(inverses).rev() {
+        let mut terms = vec![graph.product(&[(load, 1), (*inverse, 1)])];
+        for &(part, c) in &step.parts {
+            terms.push(graph.product(&[(c, 1), (answers[part], 1)]));
+        }
+        answers[step.of] = total(graph, &terms);
+    }
+    answers.truncate(n);
+    answers
+}
+
+/// The sum, as one value that is computed once.
+fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
+    let sum = graph.sum(terms);
+    graph.whole(sum)
+}
