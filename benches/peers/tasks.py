@@ -89,10 +89,17 @@ class Task:
         q = [random.uniform(-math.pi, math.pi) for _ in range(self.n)]
         return q + [random.uniform(-3, 3) for _ in range(self.n)] + [0.0]
 
-    def write(self, path, references):
+    def by_family(self):
+        """The parameters in the order of our specs: all lengths of a chain, then all masses, and so on."""
+        if not self.name.startswith("chain"):
+            return self.parameters
+        gravity, *links = self.parameters
+        return [gravity] + [x for k in range(4) for x in links[k::4]]
+
+    def write(self, path, parameters, references):
         """What the timing loop reads: sizes, parameters, states, references; binary64 throughout."""
-        rows = [self.parameters, *self.states, *references]
-        sizes = [self.n, len(self.parameters), len(self.states), len(references)]
+        rows = [parameters, *self.states, *references]
+        sizes = [self.n, len(parameters), len(self.states), len(references)]
         with open(path, "wb") as file:
             file.write(struct.pack("<4d", *map(float, sizes)))
             for row in rows:

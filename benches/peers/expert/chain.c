@@ -8,8 +8,11 @@
 // Gravity is an upward acceleration of the first hinge.
 #include "lanes.h"
 
-#define PADDED ((N + 7) / 8 * 8)
+#if N != 2 && N % 4
+#error "N is 2 or a multiple of 4"
+#endif
 
+static double last; // one by the last link's inertia about its hinge
 static double g, l[N], m[N], mc[N], inertia[N];
 
 void eval_setup(const double *p) {
@@ -18,13 +21,23 @@ void eval_setup(const double *p) {
         const double *link = p + 1 + 4 * i, c = link[2];
         l[i] = link[0], m[i] = link[1], mc[i] = link[1] * c, inertia[i] = link[3] + link[1] * c * c;
     }
+    last = 1 / inertia[N - 1];
 }
 
 typedef double d1;
 #define CHAIN(V)                                                                                                       \
     V kx[N], ky[N], tau[N], by[N];                                                                                     \
-    V pxx = (V){0}, pxy = (V){0}, pyy = (V){0}, rx = (V){0}, ry = (V){0};                                              \
-    for (int i = N - 1; i >= 0; --i) {                                                                                 \
+    V pxx, pxy, pyy, rx, ry;                                                                                           \
+    { /* the last link: nothing hangs from it */                                                                       \
+        const int i = N - 1;                                                                                           \
+        const V s = SIN(i), c = COS(i), w2 = RATE(i) * RATE(i);                                                        \
+        const V bx = mc[i] * c, by_ = mc[i] * s;                                                                       \
+        kx[i] = bx, ky[i] = by_, tau[i] = (V){0}, by[i] = (V){0} + last;                                               \
+        const V x = bx * last, y_ = by_ * last;                                                                        \
+        pxx = m[i] - bx * x, pxy = -bx * y_, pyy = m[i] - by_ * y_;                                                    \
+        rx = -w2 * by_, ry = w2 * bx;                                                                                  \
+    }                                                                                                                  \
+    for (int i = N - 2; i >= 0; --i) {                                                                                 \
         /* n = (cos, sin), e = (sin, -cos) */                                                                          \
         const V s = SIN(i), c = COS(i), w2 = RATE(i) * RATE(i);                                                        \
         const V nx = l[i] * c, ny = l[i] * s; /* l n; l e = (ny, -nx) */                                               \
@@ -47,15 +60,28 @@ typedef double d1;
         QDD(i) = a;                                                                                                    \
     }
 
+// Angles are loaded as they stand: a wide load behind narrow stores would wait for them.
+#if N % 8 == 0
+#define WIDTH 8
+#define SINCOS_OF_ONE sincos8
+typedef d8 wide;
+#else
+#define WIDTH 4
+#define SINCOS_OF_ONE sincos4
+typedef d4 wide;
+#endif
+
 void eval(const double *y, double t, const double *p, double *qdd) {
     (void)t, (void)p;
-    double angle[PADDED], sin[PADDED], cos[PADDED];
-    memcpy(angle, y, N * sizeof *y);
-    memset(angle + N, 0, (PADDED - N) * sizeof *y);
-    for (int i = 0; i < N; i += 8) {
-        d8 x, s, c;
-        memcpy(&x, angle + i, sizeof x);
-        sincos8(x, (d8){0}, &s, &c);
+    double sin[N + WIDTH], cos[N + WIDTH];
+    for (int i = 0; i < N; i += WIDTH) {
+        wide x, s, c;
+#if N < 4
+        x = (wide){y[0], y[1]};
+#else
+        memcpy(&x, y + i, sizeof x);
+#endif
+        SINCOS_OF_ONE(x, (wide){0}, &s, &c);
         memcpy(sin + i, &s, sizeof s);
         memcpy(cos + i, &c, sizeof c);
     }

@@ -1,0 +1,22 @@
+"""Our own: `lagrangian library`."""
+
+import os
+
+from peers.common import HERE, command, ready
+
+
+def forms(task, variant, folder):
+    root = HERE.parent.parent
+    size = []
+    if task == "crusher":
+        spec = root / "machines" / "crusher9.machine" if variant == "par" else HERE / "crusher_const.machine"
+    elif task == "arm":
+        spec = root / "machines" / "six_joint_arm.machine"
+    else:
+        spec, size = HERE / "chain.machine", ["--const", f"N={task.removeprefix('chain')}"]
+    library = folder / "libmachine.so"
+    call = [os.environ["LAGRANGIAN"], "library", spec, *size, "--out", library]
+    spent = command(call)
+    derive = command([os.environ["LAGRANGIAN"], "derive", spec, *size, "--as", "rust", "--out", folder / "machine.rs"])
+    command([*call, "--lanes", "4,8"])  # what is timed has eight lanes besides the four that everybody gets
+    yield ready("`lagrangian library`", library, derive, 0.0, spent - derive)
