@@ -4,8 +4,8 @@
 //! cargo run --release --example numbers
 //! ```
 
-use lagrangian::Singular;
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian::{Number, Singular};
 
 lagrangian::machine! {
     /// A point mass on a massless rod; its acceleration is −g/l sin θ.
@@ -18,7 +18,7 @@ lagrangian::machine! {
 }
 
 /// The angular acceleration at the start, over any numbers.
-pub fn acceleration<S: Scalar>(machine: Pendulum<S>) -> Result<S, Singular> {
+pub fn acceleration<S: Number + Scalar>(machine: Pendulum<S>) -> Result<S, Singular> {
     let q = machine.start().q.to_array();
     let [a] = pendulum::accelerations(&machine.prepare(), &q)?;
     Ok(a)

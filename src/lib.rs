@@ -102,6 +102,7 @@ pub use solution::{Ending, Observation, Solution, Statistics};
 #[cfg(feature = "macros")]
 pub use lagrangian_macros::machine;
 
+pub use lagrangian_native::{self as native, Number};
 /// The numbers that emitted code is generic over.
 pub use lagrangian_scalar as scalar;
 pub use lagrangian_scalar::Scalar;

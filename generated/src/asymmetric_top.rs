@@ -227,9 +227,9 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
     let t0 = cos_pitch * cos_roll;
     let t1 = t0 * p.k0;
     let m11 = p.A - cos_pitch * (cos_pitch * p.k1) - t0 * t1;
-    let m21 = t1 * sin_roll;
+    let m21 = sin_roll * t1;
     let m22 = cos_roll * (cos_roll * p.k0) + p.C;
-    let m31 = -(p.A * sin_pitch);
+    let m31 = -(sin_pitch * p.A);
     let zero = S::ZERO;
     [[m11, m21, m31], [m21, m22, zero], [m31, zero, p.A]]
 }
@@ -265,9 +265,9 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let t3 = sin_roll * t1;
     let t4 = cos_pitch * yaw_dot;
     let t5 = t2 * t0;
-    let t6 = t4 * sin_pitch;
+    let t6 = sin_pitch * t4;
     let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
-    let t8 = p.k0 * sin_roll;
+    let t8 = sin_roll * p.k0;
     let t9 = pitch_dot * t2 * t8;
     let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
     let t11 = yaw_dot * t6;
@@ -295,9 +295,9 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let t3 = sin_roll * t1;
     let t4 = cos_pitch * yaw_dot;
     let t5 = t2 * t0;
-    let t6 = t4 * sin_pitch;
+    let t6 = sin_pitch * t4;
     let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
-    let t8 = p.k0 * sin_roll;
+    let t8 = sin_roll * p.k0;
     let t9 = pitch_dot * t2 * t8;
     let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
     let t11 = yaw_dot * t6;
@@ -314,62 +314,83 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
 ) -> Result<[S; 3], ::lagrangian::Singular> {
-    let pitch = q[1];
-    let roll = q[2];
-    let yaw_dot = v[0];
-    let pitch_dot = v[1];
-    let roll_dot = v[2];
-    let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t0 = cos_pitch * yaw_dot;
-    let t1 = t0 * (sin_pitch * yaw_dot);
-    let (sin_roll, cos_roll) = roll.sin_cos();
-    let t2 = cos_roll * cos_roll;
-    let t3 = t2 * p.k0;
-    let t4 = cos_roll * sin_roll;
-    let t5 = t4 * p.k3;
-    let t6 = roll_dot * pitch_dot;
-    let t7 = t0 * roll_dot;
-    let t8 = t2 * p.k3;
-    let t9 = t3 * t1 + t5 * t6 + (p.k1 * t1 - t7 * t8) - t7 * p.k5;
-    let t10 = t3 + p.C;
-    if vanishes(t10, t10, 2.6645352591003757e-15) {
-        return Err(singular(1, t10, t10));
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        let pitch = n(q[1]);
+        let roll = n(q[2]);
+        let yaw_dot = n(v[0]);
+        let pitch_dot = n(v[1]);
+        let roll_dot = n(v[2]);
+        let angles = [pitch, roll];
+        let circular = N::sin_cos_all(angles);
+        let (sin_pitch, cos_pitch) = circular[0];
+        let (sin_roll, cos_roll) = circular[1];
+        let t0 = cos_pitch * yaw_dot;
+        let t1 = t0 * (sin_pitch * yaw_dot);
+        let t2 = cos_roll * cos_roll;
+        let t3 = t2 * n(p.k0);
+        let t4 = sin_roll * cos_roll;
+        let t5 = t4 * n(p.k3);
+        let t6 = roll_dot * pitch_dot;
+        let t7 = t0 * roll_dot;
+        let t8 = t2 * n(p.k3);
+        let t9 = t3.mul_add(t1, t5 * t6) + n(p.k1).mul_sub(t1, t7 * t8);
+        let t10 = t7.neg_mul_add(n(p.k5), t9);
+        let t11 = t3 + n(p.C);
+        let t11 = checked(t11, t11, 2.6645352591003757e-15, 1)?;
+        let t12 = N::ONE / t11;
+        let t13 = n(p.k0) * t4;
+        let t14 = t13 * cos_pitch;
+        let t15 = t12 * t14;
+        let t16 = cos_pitch * t6;
+        let t17 = t0 * pitch_dot;
+        let t18 = sin_pitch * t17;
+        let t19 = t7.mul_add(cos_pitch * t5, t8 * t16);
+        let t20 = t13 * (pitch_dot * pitch_dot);
+        let t21 = sin_pitch.mul_add(t20, t16 * n(p.k2));
+        let t22 = t19 + t8.mul_add(t18, t18 * n(p.k4)) - t21;
+        let t23 = t15.mul_add(t10, t22);
+        let t24 = cos_pitch * cos_pitch;
+        let t25 = t3.neg_mul_add(t24, t24.neg_mul_add(n(p.k1), n(p.A)));
+        let t26 = t14.neg_mul_add(t15, t25);
+        let t26 = checked(t26, t25, 2.6645352591003757e-15, 0)?;
+        let t27 = N::ONE / t26;
+        let t28 = sin_pitch * n(p.A);
+        let t29 = t27 * t28;
+        let t30 = n(p.k5).mul_add(t17, t8 * t17) + t0.mul_sub(t13 * t0, t20);
+        let t31 = t28.neg_mul_add(t29, n(p.A));
+        let t31 = checked(t31, n(p.A), 2.6645352591003757e-15, 2)?;
+        let roll_ddot = t29.neg_mul_add(t23, t30) / t31;
+        let t32 = t29 * roll_ddot;
+        let t33 = t27 * t23;
+        let yaw_ddot = t32 - t33;
+        let pitch_ddot = t15.mul_add(t33 - t32, t12 * t10);
+        let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
+        Ok(accelerations)
     }
-    let t11 = S::ONE / t10;
-    let t12 = p.k0 * t4;
-    let t13 = t12 * cos_pitch;
-    let t14 = t11 * t13;
-    let t15 = cos_pitch * t6;
-    let t16 = t0 * pitch_dot;
-    let t17 = sin_pitch * t16;
-    let t18 = t12 * (pitch_dot * pitch_dot);
-    let t19 = t8 * t15 + t7 * (cos_pitch * t5) + (t8 * t17 + t17 * p.k4);
-    let t20 = t14 * t9 + (t19 - (sin_pitch * t18 + t15 * p.k2));
-    let t21 = cos_pitch * cos_pitch;
-    let t22 = p.A - t21 * p.k1 - t3 * t21;
-    let t23 = t22 - t13 * t14;
-    if vanishes(t23, t22, 2.6645352591003757e-15) {
-        return Err(singular(0, t23, t22));
-    }
-    let t24 = S::ONE / t23;
-    let t25 = p.A * sin_pitch;
-    let t26 = t24 * t25;
-    let t27 = p.A - t25 * t26;
-    if vanishes(t27, p.A, 2.6645352591003757e-15) {
-        return Err(singular(2, t27, p.A));
-    }
-    let roll_ddot = (p.k5 * t16 + t8 * t16 + (t0 * (t12 * t0) - t18) - t26 * t20) / t27;
-    let t28 = t26 * roll_ddot;
-    let t29 = t24 * t20;
-    let yaw_ddot = t28 - t29;
-    let pitch_ddot = t14 * (t29 - t28) + t11 * t9;
-    let accelerations = [yaw_ddot, pitch_ddot, roll_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -390,7 +411,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let t0 = cos_pitch * yaw_dot;
     let t1 = sin_roll * pitch_dot - t0 * cos_roll;
     let t2 = t0 * sin_roll + cos_roll * pitch_dot;
-    let t3 = roll_dot - yaw_dot * sin_pitch;
+    let t3 = roll_dot - sin_pitch * yaw_dot;
     let t4 = t1 * (t1 * p.C) + (t2 * (t2 * p.B) + t3 * (t3 * p.A));
     S::from_f64(0.5) * t4
 }
@@ -417,7 +438,7 @@ pub fn output_momentum_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     let t1 = cos_yaw * sin_pitch;
     let t2 = (sin_yaw * cos_roll - sin_roll * t1) * p.B;
     let t3 = cos_pitch * p.A * (cos_yaw * (roll_dot - sin_pitch * yaw_dot));
-    let t4 = (sin_yaw * sin_roll + t1 * cos_roll) * p.C;
+    let t4 = (sin_yaw * sin_roll + cos_roll * t1) * p.C;
     let t5 = t3 - (sin_roll * t0 + cos_roll * pitch_dot) * t2;
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
 }
@@ -444,7 +465,7 @@ pub fn output_momentum_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     let t1 = sin_yaw * sin_pitch;
     let t2 = (sin_roll * t1 + cos_yaw * cos_roll) * p.B;
     let t3 = cos_pitch * p.A * (sin_yaw * (roll_dot - sin_pitch * yaw_dot));
-    let t4 = (t1 * cos_roll - cos_yaw * sin_roll) * p.C;
+    let t4 = (cos_roll * t1 - cos_yaw * sin_roll) * p.C;
     let t5 = (sin_roll * t0 + cos_roll * pitch_dot) * t2 + t3;
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
 }
@@ -465,7 +486,7 @@ pub fn output_momentum_z<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     let (sin_roll, cos_roll) = roll.sin_cos();
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
     let t0 = cos_pitch * cos_roll;
-    let t1 = (roll_dot - yaw_dot * sin_pitch) * (sin_pitch * p.A);
+    let t1 = (roll_dot - sin_pitch * yaw_dot) * (sin_pitch * p.A);
     let t2 = cos_pitch * sin_roll;
     let t3 = (sin_roll * pitch_dot - t0 * yaw_dot) * (t0 * p.C) + t1;
     (yaw_dot * t2 + cos_roll * pitch_dot) * (t2 * p.B) - t3
@@ -678,10 +699,20 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
 }
 
 /// What is left of a pivot, for the message.

@@ -305,31 +305,54 @@ pub fn forces<S: ::lagrangian::Scalar>(
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
     u: &Inputs<S>,
 ) -> Result<[S; 2], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v, u })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub u: &'a Inputs<S>,
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v, u } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[1]);
+        let x_dot = n(v[0]);
+        let theta_dot = n(v[1]);
+        let (sin_theta, cos_theta) = theta.sin_cos();
+        let t0 = x_dot.neg_mul_add(n(p.rail), n(u.push));
+        let t1 = (n(p.k5) * sin_theta).mul_add(theta_dot * theta_dot, t0);
+        let t2 = n(p.k5) * cos_theta;
+        let t3 = n(p.k9) * t2;
+        let t4 = sin_theta.neg_mul_add(n(p.k2), theta_dot * n(p.hinge));
+        let t5 = t2.neg_mul_add(t3, n(p.k8));
+        let t5 = checked(t5, n(p.k8), 1.7763568394002505e-15, 1)?;
+        let t6 = t1.mul_add(t3, t4) / t5;
+        let x_ddot = t3.mul_add(t6, n(p.k9) * t1);
+        let theta_ddot = -t6;
+        let accelerations = [x_ddot.store(), theta_ddot.store()];
+        Ok(accelerations)
     }
-    let theta = q[1];
-    let x_dot = v[0];
-    let theta_dot = v[1];
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = p.k5 * sin_theta * (theta_dot * theta_dot) + (u.push - x_dot * p.rail);
-    let t1 = p.k5 * cos_theta;
-    let t2 = p.k9 * t1;
-    let t3 = p.k8 - t1 * t2;
-    if vanishes(t3, p.k8, 1.7763568394002505e-15) {
-        return Err(singular(1, t3, p.k8));
-    }
-    let t4 = (t0 * t2 + (theta_dot * p.hinge - sin_theta * p.k2)) / t3;
-    let x_ddot = p.k9 * t0 + t2 * t4;
-    let theta_ddot = -t4;
-    let accelerations = [x_ddot, theta_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -597,10 +620,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

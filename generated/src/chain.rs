@@ -483,7 +483,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t30 = p.m * (t28 + t29);
     let t31 = p.k0 * t1 + p.l * t3;
     let t32 = t0 * sin_q_2;
-    let t33 = t2 * sin_q_1;
+    let t33 = sin_q_1 * t2;
     let t34 = t32 + t33;
     let t35 = t5 * sin_q_3;
     let t36 = t35 + t34;
@@ -519,7 +519,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let h_q_5 = p.l * (sin_q_5 * (p.m * t24 + t25 * p.k21) - t59);
     let h_q_6 = p.l * (sin_q_6 * (p.m * t22 + t23 * p.k21) - t60);
     let h_q_7 = p.l * (sin_q_7 * (p.m * t20 + t21 * p.k21) - t61);
-    let h_q_8 = (sin_q_8 * t20 - t44 * cos_q_8) * p.k23;
+    let h_q_8 = (sin_q_8 * t20 - cos_q_8 * t44) * p.k23;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -622,7 +622,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t30 = p.m * (t28 + t29);
     let t31 = p.k0 * t1 + p.l * t3;
     let t32 = t0 * cos_q_2;
-    let t33 = t2 * cos_q_1;
+    let t33 = cos_q_1 * t2;
     let t34 = t32 + t33;
     let t35 = t5 * cos_q_3;
     let t36 = t35 + t34;
@@ -658,7 +658,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let f_q_5 = p.l * (cos_q_5 * (p.m * t24 + p.k21 * t25) - t59);
     let f_q_6 = p.l * (cos_q_6 * (p.m * t22 + p.k21 * t23) - t60);
     let f_q_7 = p.l * (cos_q_7 * (p.m * t20 + p.k21 * t21) - t61);
-    let f_q_8 = (cos_q_8 * t20 - t44 * sin_q_8) * p.k23;
+    let f_q_8 = (cos_q_8 * t20 - sin_q_8 * t44) * p.k23;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
@@ -666,245 +666,299 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 8],
     v: &[S; 8],
 ) -> Result<[S; 8], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 8],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 8],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let q_1 = n(q[0]);
+        let q_2 = n(q[1]);
+        let q_3 = n(q[2]);
+        let q_4 = n(q[3]);
+        let q_5 = n(q[4]);
+        let q_6 = n(q[5]);
+        let q_7 = n(q[6]);
+        let q_8 = n(q[7]);
+        let q_1_dot = n(v[0]);
+        let q_2_dot = n(v[1]);
+        let q_3_dot = n(v[2]);
+        let q_4_dot = n(v[3]);
+        let q_5_dot = n(v[4]);
+        let q_6_dot = n(v[5]);
+        let q_7_dot = n(v[6]);
+        let q_8_dot = n(v[7]);
+        let angles = [q_8, q_7, q_6, q_5, q_4, q_3, q_2, q_1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_q_8, cos_q_8) = circular[0];
+        let (sin_q_7, cos_q_7) = circular[1];
+        let (sin_q_6, cos_q_6) = circular[2];
+        let (sin_q_5, cos_q_5) = circular[3];
+        let (sin_q_4, cos_q_4) = circular[4];
+        let (sin_q_3, cos_q_3) = circular[5];
+        let (sin_q_2, cos_q_2) = circular[6];
+        let (sin_q_1, cos_q_1) = circular[7];
+        let t0 = cos_q_8.mul_add(cos_q_7, sin_q_8 * sin_q_7);
+        let t1 = t0.neg_mul_add(t0 * n(p.k31), n(p.k19));
+        let t1 = checked(t1, n(p.k19), 7.105427357601002e-15, 6)?;
+        let t2 = N::ONE / t1;
+        let t3 = sin_q_8 * n(p.k32);
+        let t4 = t0.neg_mul_add(t3, sin_q_7 * N::from_f64(1.5));
+        let t5 = cos_q_8 * n(p.k32);
+        let t6 = t0.neg_mul_add(t5, cos_q_7 * N::from_f64(1.5));
+        let t7 = t2.mul_add(t4 * t6, cos_q_8 * (sin_q_8 * n(p.k34)));
+        let t8 = t7 * sin_q_6;
+        let t9 = t2 * n(p.k1);
+        let t10 = t6 * t9;
+        let t11 = cos_q_8.neg_mul_add(t5, N::from_f64(2.0));
+        let t12 = t6.neg_mul_add(t10, t11);
+        let t13 = cos_q_6 * t12;
+        let t14 = cos_q_6.mul_add(N::from_f64(0.5), t13);
+        let t15 = t8.neg_mul_add(n(p.k1), t14);
+        let t16 = cos_q_6 * n(p.k1);
+        let t17 = t4 * t9;
+        let t18 = sin_q_8.neg_mul_add(t3, N::from_f64(2.0));
+        let t19 = t4.neg_mul_add(t17, t18);
+        let t20 = sin_q_6 * t19;
+        let t21 = t13.mul_sub(t16, t8 * (cos_q_6 * n(p.k37)));
+        let t22 = t20.mul_add(sin_q_6 * n(p.k1), n(p.k20)) + t21;
+        let t22 = checked(t22, n(p.k18), 7.105427357601002e-15, 5)?;
+        let t23 = N::ONE / t22;
+        let t24 = n(p.k1) * t23;
+        let t25 = t15 * t24;
+        let t26 = t15.neg_mul_add(t25, N::ONE + t12);
+        let t27 = cos_q_5 * t26;
+        let t28 = sin_q_6.mul_add(N::from_f64(0.5), t20);
+        let t29 = t7.neg_mul_add(t16, t28);
+        let t30 = t23.mul_add(t29 * t15, t7);
+        let t31 = t30 * sin_q_5;
+        let t32 = N::from_f64(0.5).mul_add(cos_q_5, t27);
+        let t33 = n(p.k1).neg_mul_add(t31, t32);
+        let t34 = n(p.k1) * cos_q_5;
+        let t35 = t29 * t24;
+        let t36 = t29.neg_mul_add(t35, N::ONE + t19);
+        let t37 = sin_q_5 * t36;
+        let t38 = t27.mul_sub(t34, t31 * (n(p.k37) * cos_q_5));
+        let t39 = t37.mul_add(n(p.k1) * sin_q_5, n(p.k20)) + t38;
+        let t39 = checked(t39, n(p.k17), 7.105427357601002e-15, 4)?;
+        let t40 = N::ONE / t39;
+        let t41 = n(p.k1) * t40;
+        let t42 = t33 * t41;
+        let t43 = t33.neg_mul_add(t42, N::ONE + t26);
+        let t44 = cos_q_4 * t43;
+        let t45 = N::from_f64(0.5).mul_add(sin_q_5, t37);
+        let t46 = t30.neg_mul_add(t34, t45);
+        let t47 = t40.mul_add(t46 * t33, t30);
+        let t48 = t47 * sin_q_4;
+        let t49 = N::from_f64(0.5).mul_add(cos_q_4, t44);
+        let t50 = n(p.k1).neg_mul_add(t48, t49);
+        let t51 = n(p.k1) * cos_q_4;
+        let t52 = t46 * t41;
+        let t53 = t46.neg_mul_add(t52, N::ONE + t36);
+        let t54 = sin_q_4 * t53;
+        let t55 = t44.mul_sub(t51, t48 * (n(p.k37) * cos_q_4));
+        let t56 = t54.mul_add(n(p.k1) * sin_q_4, n(p.k20)) + t55;
+        let t56 = checked(t56, n(p.k16), 7.105427357601002e-15, 3)?;
+        let t57 = N::ONE / t56;
+        let t58 = n(p.k1) * t57;
+        let t59 = t50 * t58;
+        let t60 = t50.neg_mul_add(t59, N::ONE + t43);
+        let t61 = cos_q_3 * t60;
+        let t62 = N::from_f64(0.5).mul_add(sin_q_4, t54);
+        let t63 = t47.neg_mul_add(t51, t62);
+        let t64 = t57.mul_add(t63 * t50, t47);
+        let t65 = t64 * sin_q_3;
+        let t66 = N::from_f64(0.5).mul_add(cos_q_3, t61);
+        let t67 = n(p.k1).neg_mul_add(t65, t66);
+        let t68 = n(p.k1) * cos_q_3;
+        let t69 = t63 * t58;
+        let t70 = t63.neg_mul_add(t69, N::ONE + t53);
+        let t71 = sin_q_3 * t70;
+        let t72 = t61.mul_sub(t68, t65 * (n(p.k37) * cos_q_3));
+        let t73 = t71.mul_add(n(p.k1) * sin_q_3, n(p.k20)) + t72;
+        let t73 = checked(t73, n(p.k15), 7.105427357601002e-15, 2)?;
+        let t74 = N::ONE / t73;
+        let t75 = n(p.k1) * t74;
+        let t76 = t67 * t75;
+        let t77 = t67.neg_mul_add(t76, N::ONE + t60);
+        let t78 = cos_q_2 * cos_q_1;
+        let t79 = N::from_f64(0.5).mul_add(sin_q_3, t71);
+        let t80 = t64.neg_mul_add(t68, t79);
+        let t81 = t80 * t75;
+        let t82 = t80.neg_mul_add(t81, N::ONE + t70);
+        let t83 = sin_q_2 * sin_q_1;
+        let t84 = N::from_f64(0.5).mul_add(t78, N::from_f64(0.5) * t83);
+        let t85 = t74.mul_add(t80 * t67, t64);
+        let t86 = n(p.k1) * sin_q_1;
+        let t87 = t85 * sin_q_2;
+        let t88 = n(p.k1) * cos_q_1;
+        let t89 = t86.mul_add(t85 * cos_q_2, t87 * t88);
+        let t90 = t77.mul_add(t78, t82 * t83) + t84 - t89;
+        let t91 = t87 * (n(p.k37) * cos_q_2);
+        let t92 = (n(p.k1) * sin_q_2).mul_add(sin_q_2 * t82, n(p.k20));
+        let t93 = t92 + (n(p.k1) * cos_q_2).mul_sub(cos_q_2 * t77, t91);
+        let t93 = checked(t93, n(p.k14), 7.105427357601002e-15, 1)?;
+        let t94 = N::ONE / t93;
+        let t95 = t85 * sin_q_1;
+        let t96 = t88.mul_sub(t77 * cos_q_1, t95 * (n(p.k37) * cos_q_1));
+        let t97 = t86.mul_add(t82 * sin_q_1, n(p.k19)) + t96;
+        let t98 = (t90 * n(p.k36)).neg_mul_add(t94 * t90, t97);
+        let t98 = checked(t98, n(p.k13), 7.105427357601002e-15, 0)?;
+        let t99 = q_6_dot * q_6_dot;
+        let t100 = cos_q_6 * t99;
+        let t101 = n(p.l) * t100;
+        let t102 = q_7_dot * q_7_dot;
+        let t103 = n(p.l) * t102;
+        let t104 = n(p.k0) * (q_8_dot * q_8_dot);
+        let t105 = n(p.g) + cos_q_7.mul_add(t103, cos_q_8 * t104);
+        let t106 = sin_q_7.mul_add(t103, sin_q_8 * t104);
+        let t107 = sin_q_8.mul_sub(t105, cos_q_8 * t106);
+        let t108 = n(p.k0) * t102;
+        let t109 = t105 + cos_q_7.mul_add(t108, n(p.g));
+        let t110 = t107.mul_add(t0 * n(p.k32), cos_q_7 * t106);
+        let t111 = sin_q_7.mul_add(t105, sin_q_7 * n(p.k33)) - t110;
+        let t112 = t17.neg_mul_add(t111, t109 + t19.mul_sub(t101, t3 * t107));
+        let t113 = q_5_dot * q_5_dot;
+        let t114 = cos_q_5 * t113;
+        let t115 = n(p.l) * t114;
+        let t116 = t7 * n(p.k35);
+        let t117 = sin_q_6 * t99;
+        let t118 = t112 + n(p.k0).mul_add(t100, n(p.g));
+        let t119 = n(p.l) * t117;
+        let t120 = sin_q_7.mul_add(t108, t106) + t10.mul_add(t111, t5 * t107);
+        let t121 = t12.mul_add(t119, t116 * t100) + t120;
+        let t122 = cos_q_6.neg_mul_add(t121, t117 * (t8 * n(p.k35)));
+        let t123 = sin_q_6.mul_add(t112, sin_q_6 * n(p.k33)) + t122;
+        let t124 = t118 + t36.mul_add(t115, t117 * t116);
+        let t125 = t35.neg_mul_add(t123, t124);
+        let t126 = q_4_dot * q_4_dot;
+        let t127 = cos_q_4 * t126;
+        let t128 = n(p.l) * t127;
+        let t129 = t30 * n(p.k35);
+        let t130 = sin_q_5 * t113;
+        let t131 = t125 + n(p.k0).mul_add(t114, n(p.g));
+        let t132 = t129.mul_add(t114, t25 * t123);
+        let t133 = n(p.l) * t130;
+        let t134 = t26.mul_add(t133, n(p.k0).mul_add(t117, t121) + t132);
+        let t135 = cos_q_5.neg_mul_add(t134, t130 * (t31 * n(p.k35)));
+        let t136 = sin_q_5.mul_add(t125, sin_q_5 * n(p.k33)) + t135;
+        let t137 = t131 + t53.mul_add(t128, t130 * t129);
+        let t138 = t52.neg_mul_add(t136, t137);
+        let t139 = q_3_dot * q_3_dot;
+        let t140 = cos_q_3 * t139;
+        let t141 = n(p.l) * t140;
+        let t142 = t47 * n(p.k35);
+        let t143 = sin_q_4 * t126;
+        let t144 = t138 + n(p.k0).mul_add(t127, n(p.g));
+        let t145 = t142.mul_add(t127, t42 * t136);
+        let t146 = n(p.l) * t143;
+        let t147 = t43.mul_add(t146, n(p.k0).mul_add(t130, t134) + t145);
+        let t148 = cos_q_4.neg_mul_add(t147, t143 * (t48 * n(p.k35)));
+        let t149 = sin_q_4.mul_add(t138, sin_q_4 * n(p.k33)) + t148;
+        let t150 = t144 + t70.mul_add(t141, t143 * t142);
+        let t151 = t69.neg_mul_add(t149, t150);
+        let t152 = q_1_dot * q_1_dot;
+        let t153 = cos_q_1 * t152;
+        let t154 = q_2_dot * q_2_dot;
+        let t155 = cos_q_2 * t154;
+        let t156 = t153 + t155;
+        let t157 = n(p.l) * t156;
+        let t158 = t64 * n(p.k35);
+        let t159 = sin_q_3 * t139;
+        let t160 = t151 + n(p.k0).mul_add(t140, n(p.g));
+        let t161 = t158.mul_add(t140, t59 * t149);
+        let t162 = n(p.l) * t159;
+        let t163 = t60.mul_add(t162, n(p.k0).mul_add(t143, t147) + t161);
+        let t164 = cos_q_3.neg_mul_add(t163, t159 * (t65 * n(p.k35)));
+        let t165 = sin_q_3.mul_add(t151, sin_q_3 * n(p.k33)) + t164;
+        let t166 = t160 + t82.mul_add(t157, t159 * t158);
+        let t167 = t81.neg_mul_add(t165, t166);
+        let t168 = sin_q_2 * t154;
+        let t169 = sin_q_1 * t152;
+        let t170 = t168 + t169;
+        let t171 = n(p.k35) * t170;
+        let t172 = t156.mul_add(t85 * n(p.k35), t76 * t165);
+        let t173 = n(p.l) * t170;
+        let t174 = t77.mul_add(t173, n(p.k0).mul_add(t159, t163) + t172);
+        let t175 = n(p.g) + n(p.k0).mul_add(t155, t153 * n(p.l));
+        let t176 = t175 * (N::from_f64(0.5) * sin_q_2);
+        let t177 = sin_q_2.mul_add(t167, t87 * t171);
+        let t178 = n(p.k0).mul_add(t168, t169 * n(p.l));
+        let t179 = t177 + cos_q_2.neg_mul_add(t174, t176);
+        let t180 = t178.neg_mul_add(N::from_f64(0.5) * cos_q_2, t179);
+        let t181 = n(p.k1) * t94;
+        let t182 = t180.mul_add(t90 * t181, t153 * (sin_q_1 * n(p.k38)));
+        let t183 = t153.mul_add(n(p.k0), n(p.g));
+        let t184 = t95.mul_add(t171, t183 * (N::from_f64(0.5) * sin_q_1));
+        let t185 = cos_q_1.mul_add(t174, cos_q_1 * t178) + t182;
+        let t186 = sin_q_1.mul_add(t167, sin_q_1 * t175) + t184 - t185;
+        let t187 = N::ONE / t98 * t186;
+        let t188 = t187.neg_mul_add(n(p.k1) * t90, t180);
+        let t189 = t181 * t188;
+        let t190 = sin_q_2.neg_mul_add(t189, t86.neg_mul_add(t187, t157));
+        let t191 = cos_q_2.mul_add(t189, t88.mul_add(t187, t173));
+        let t192 = t67.neg_mul_add(t191, t80.mul_add(t190, t165));
+        let t193 = t75 * t192;
+        let t194 = sin_q_3.neg_mul_add(t193, t141 + t190);
+        let t195 = cos_q_3.mul_add(t193, t162 + t191);
+        let t196 = t50.neg_mul_add(t195, t63.mul_add(t194, t149));
+        let t197 = t58 * t196;
+        let t198 = sin_q_4.neg_mul_add(t197, t128 + t194);
+        let t199 = cos_q_4.mul_add(t197, t146 + t195);
+        let t200 = t33.neg_mul_add(t199, t46.mul_add(t198, t136));
+        let t201 = t41 * t200;
+        let t202 = sin_q_5.neg_mul_add(t201, t115 + t198);
+        let t203 = cos_q_5.mul_add(t201, t133 + t199);
+        let t204 = t15.neg_mul_add(t203, t29.mul_add(t202, t123));
+        let t205 = t24 * t204;
+        let t206 = sin_q_6.neg_mul_add(t205, t101 + t202);
+        let t207 = cos_q_6.mul_add(t205, t119 + t203);
+        let t208 = t2 * t6.neg_mul_add(t207, t4.mul_add(t206, t111));
+        let t209 = t207 * (cos_q_8 * N::from_f64(0.5));
+        let t210 = sin_q_8 * N::from_f64(0.5);
+        let t211 = t206.mul_add(t210, N::from_f64(0.5) * t107);
+        let q_1_ddot = -(t187 * n(p.k4));
+        let q_2_ddot = -(t188 * (t94 * n(p.k4)));
+        let q_3_ddot = -(t192 * (t74 * n(p.k4)));
+        let q_4_ddot = -(t196 * (t57 * n(p.k4)));
+        let q_5_ddot = -(t200 * (t40 * n(p.k4)));
+        let q_6_ddot = -(t204 * (t23 * n(p.k4)));
+        let q_7_ddot = -(n(p.k4) * t208);
+        let q_8_ddot = -(n(p.k39) * (t211 - t208.mul_add(t0 * n(p.k6), t209)));
+        let accelerations = [
+            q_1_ddot.store(),
+            q_2_ddot.store(),
+            q_3_ddot.store(),
+            q_4_ddot.store(),
+            q_5_ddot.store(),
+            q_6_ddot.store(),
+            q_7_ddot.store(),
+            q_8_ddot.store(),
+        ];
+        Ok(accelerations)
     }
-    let q_1 = q[0];
-    let q_2 = q[1];
-    let q_3 = q[2];
-    let q_4 = q[3];
-    let q_5 = q[4];
-    let q_6 = q[5];
-    let q_7 = q[6];
-    let q_8 = q[7];
-    let q_1_dot = v[0];
-    let q_2_dot = v[1];
-    let q_3_dot = v[2];
-    let q_4_dot = v[3];
-    let q_5_dot = v[4];
-    let q_6_dot = v[5];
-    let q_7_dot = v[6];
-    let q_8_dot = v[7];
-    let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let (sin_q_7, cos_q_7) = q_7.sin_cos();
-    let t0 = cos_q_8 * cos_q_7 + sin_q_8 * sin_q_7;
-    let t1 = p.k19 - t0 * (t0 * p.k31);
-    if vanishes(t1, p.k19, 7.105427357601002e-15) {
-        return Err(singular(6, t1, p.k19));
-    }
-    let t2 = S::ONE / t1;
-    let t3 = sin_q_8 * p.k32;
-    let t4 = sin_q_7 * S::from_f64(1.5) - t0 * t3;
-    let t5 = cos_q_8 * p.k32;
-    let t6 = cos_q_7 * S::from_f64(1.5) - t0 * t5;
-    let t7 = cos_q_8 * (sin_q_8 * p.k34) + t2 * (t4 * t6);
-    let (sin_q_6, cos_q_6) = q_6.sin_cos();
-    let t8 = t7 * sin_q_6;
-    let t9 = t2 * p.k1;
-    let t10 = t6 * t9;
-    let t11 = S::from_f64(2.0) - cos_q_8 * t5 - t6 * t10;
-    let t12 = cos_q_6 * t11;
-    let t13 = t12 + cos_q_6 * S::from_f64(0.5) - t8 * p.k1;
-    let t14 = cos_q_6 * p.k1;
-    let t15 = t4 * t9;
-    let t16 = S::from_f64(2.0) - sin_q_8 * t3 - t4 * t15;
-    let t17 = sin_q_6 * t16;
-    let t18 = p.k20 + t17 * (sin_q_6 * p.k1) + (t12 * t14 - t8 * (p.k37 * cos_q_6));
-    let t19 = S::ONE / t18;
-    let t20 = p.k1 * t19;
-    let t21 = t13 * t20;
-    let t22 = S::ONE + t11 - t13 * t21;
-    let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let t23 = cos_q_5 * t22;
-    let t24 = t17 + sin_q_6 * S::from_f64(0.5) - t7 * t14;
-    let t25 = t7 + t19 * (t24 * t13);
-    let t26 = t25 * sin_q_5;
-    let t27 = t23 + S::from_f64(0.5) * cos_q_5 - p.k1 * t26;
-    let t28 = p.k1 * cos_q_5;
-    let t29 = t24 * t20;
-    let t30 = S::ONE + t16 - t24 * t29;
-    let t31 = sin_q_5 * t30;
-    let t32 = p.k20 + t31 * (p.k1 * sin_q_5) + (t23 * t28 - t26 * (p.k37 * cos_q_5));
-    let t33 = S::ONE / t32;
-    let t34 = p.k1 * t33;
-    let t35 = t27 * t34;
-    let t36 = S::ONE + t22 - t27 * t35;
-    let (sin_q_4, cos_q_4) = q_4.sin_cos();
-    let t37 = cos_q_4 * t36;
-    let t38 = t31 + S::from_f64(0.5) * sin_q_5 - t25 * t28;
-    let t39 = t25 + t33 * (t38 * t27);
-    let t40 = t39 * sin_q_4;
-    let t41 = t37 + S::from_f64(0.5) * cos_q_4 - p.k1 * t40;
-    let t42 = p.k1 * cos_q_4;
-    let t43 = t38 * t34;
-    let t44 = S::ONE + t30 - t38 * t43;
-    let t45 = sin_q_4 * t44;
-    let t46 = p.k20 + t45 * (p.k1 * sin_q_4) + (t37 * t42 - t40 * (p.k37 * cos_q_4));
-    let t47 = S::ONE / t46;
-    let t48 = p.k1 * t47;
-    let t49 = t41 * t48;
-    let t50 = S::ONE + t36 - t41 * t49;
-    let (sin_q_3, cos_q_3) = q_3.sin_cos();
-    let t51 = cos_q_3 * t50;
-    let t52 = t45 + S::from_f64(0.5) * sin_q_4 - t39 * t42;
-    let t53 = t39 + t47 * (t52 * t41);
-    let t54 = t53 * sin_q_3;
-    let t55 = t51 + S::from_f64(0.5) * cos_q_3 - p.k1 * t54;
-    let t56 = p.k1 * cos_q_3;
-    let t57 = t52 * t48;
-    let t58 = S::ONE + t44 - t52 * t57;
-    let t59 = sin_q_3 * t58;
-    let t60 = p.k20 + t59 * (p.k1 * sin_q_3) + (t51 * t56 - t54 * (p.k37 * cos_q_3));
-    let t61 = S::ONE / t60;
-    let t62 = p.k1 * t61;
-    let t63 = t55 * t62;
-    let t64 = S::ONE + t50 - t55 * t63;
-    let (sin_q_2, cos_q_2) = q_2.sin_cos();
-    let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t65 = cos_q_2 * cos_q_1;
-    let t66 = t59 + S::from_f64(0.5) * sin_q_3 - t53 * t56;
-    let t67 = t66 * t62;
-    let t68 = S::ONE + t58 - t66 * t67;
-    let t69 = sin_q_2 * sin_q_1;
-    let t70 = S::from_f64(0.5) * t65 + S::from_f64(0.5) * t69;
-    let t71 = t53 + t61 * (t66 * t55);
-    let t72 = p.k1 * sin_q_1;
-    let t73 = t71 * sin_q_2;
-    let t74 = p.k1 * cos_q_1;
-    let t75 = t64 * t65 + t68 * t69 + t70 - (t72 * (t71 * cos_q_2) + t73 * t74);
-    let t76 = p.k1 * cos_q_2 * (cos_q_2 * t64) - t73 * (p.k37 * cos_q_2);
-    let t77 = p.k20 + p.k1 * sin_q_2 * (sin_q_2 * t68) + t76;
-    let t78 = S::ONE / t77;
-    let t79 = t71 * sin_q_1;
-    let t80 = t74 * (t64 * cos_q_1) - t79 * (p.k37 * cos_q_1);
-    let t81 = p.k19 + t72 * (t68 * sin_q_1) + t80 - t75 * p.k36 * (t78 * t75);
-    let t82 = q_6_dot * q_6_dot;
-    let t83 = cos_q_6 * t82;
-    let t84 = p.l * t83;
-    let t85 = q_7_dot * q_7_dot;
-    let t86 = p.l * t85;
-    let t87 = p.k0 * (q_8_dot * q_8_dot);
-    let t88 = p.g + (cos_q_7 * t86 + cos_q_8 * t87);
-    let t89 = sin_q_7 * t86 + sin_q_8 * t87;
-    let t90 = sin_q_8 * t88 - cos_q_8 * t89;
-    let t91 = p.k0 * t85;
-    let t92 = sin_q_7 * p.k33 + sin_q_7 * t88 - (t90 * (t0 * p.k32) + cos_q_7 * t89);
-    let t93 = t88 + (p.g + cos_q_7 * t91) + (t16 * t84 - t3 * t90) - t15 * t92;
-    let t94 = q_5_dot * q_5_dot;
-    let t95 = cos_q_5 * t94;
-    let t96 = p.l * t95;
-    let t97 = t7 * p.k35;
-    let t98 = sin_q_6 * t82;
-    let t99 = p.l * t98;
-    let t100 = t11 * t99 + t97 * t83 + (t89 + sin_q_7 * t91 + (t10 * t92 + t5 * t90));
-    let t101 = sin_q_6 * p.k33 + sin_q_6 * t93 + (t98 * (t8 * p.k35) - cos_q_6 * t100);
-    let t102 = t93 + (p.g + p.k0 * t83) + (t30 * t96 + t98 * t97) - t29 * t101;
-    let t103 = q_4_dot * q_4_dot;
-    let t104 = cos_q_4 * t103;
-    let t105 = p.l * t104;
-    let t106 = t25 * p.k35;
-    let t107 = sin_q_5 * t94;
-    let t108 = p.l * t107;
-    let t109 = t22 * t108 + (t100 + p.k0 * t98 + (t106 * t95 + t21 * t101));
-    let t110 = t107 * (t26 * p.k35) - cos_q_5 * t109;
-    let t111 = sin_q_5 * p.k33 + sin_q_5 * t102 + t110;
-    let t112 = t102 + (p.g + p.k0 * t95) + (t44 * t105 + t107 * t106) - t43 * t111;
-    let t113 = q_3_dot * q_3_dot;
-    let t114 = cos_q_3 * t113;
-    let t115 = p.l * t114;
-    let t116 = t39 * p.k35;
-    let t117 = sin_q_4 * t103;
-    let t118 = p.l * t117;
-    let t119 = t36 * t118 + (t109 + p.k0 * t107 + (t116 * t104 + t35 * t111));
-    let t120 = t117 * (t40 * p.k35) - cos_q_4 * t119;
-    let t121 = sin_q_4 * p.k33 + sin_q_4 * t112 + t120;
-    let t122 = t112 + (p.g + p.k0 * t104) + (t58 * t115 + t117 * t116) - t57 * t121;
-    let t123 = q_1_dot * q_1_dot;
-    let t124 = cos_q_1 * t123;
-    let t125 = q_2_dot * q_2_dot;
-    let t126 = cos_q_2 * t125;
-    let t127 = t124 + t126;
-    let t128 = p.l * t127;
-    let t129 = t53 * p.k35;
-    let t130 = sin_q_3 * t113;
-    let t131 = p.l * t130;
-    let t132 = t50 * t131 + (t119 + p.k0 * t117 + (t129 * t114 + t49 * t121));
-    let t133 = t130 * (t54 * p.k35) - cos_q_3 * t132;
-    let t134 = sin_q_3 * p.k33 + sin_q_3 * t122 + t133;
-    let t135 = t122 + (p.g + p.k0 * t114) + (t68 * t128 + t130 * t129) - t67 * t134;
-    let t136 = sin_q_2 * t125;
-    let t137 = sin_q_1 * t123;
-    let t138 = t136 + t137;
-    let t139 = p.k35 * t138;
-    let t140 = p.l * t138;
-    let t141 = t64 * t140 + (t132 + p.k0 * t130 + (t127 * (t71 * p.k35) + t63 * t134));
-    let t142 = p.g + (p.k0 * t126 + t124 * p.l);
-    let t143 = t142 * (S::from_f64(0.5) * sin_q_2) - cos_q_2 * t141;
-    let t144 = p.k0 * t136 + t137 * p.l;
-    let t145 = t73 * t139 + sin_q_2 * t135 + t143 - t144 * (S::from_f64(0.5) * cos_q_2);
-    let t146 = p.k1 * t78;
-    let t147 = t124 * (sin_q_1 * p.k38) + t145 * (t75 * t146);
-    let t148 = (p.g + t124 * p.k0) * (S::from_f64(0.5) * sin_q_1) + t79 * t139;
-    let t149 = cos_q_1 * t144 + cos_q_1 * t141 + t147;
-    let t150 = S::ONE / t81 * (sin_q_1 * t142 + sin_q_1 * t135 + t148 - t149);
-    let t151 = t145 - t150 * (p.k1 * t75);
-    let t152 = t146 * t151;
-    let t153 = t128 - t72 * t150 - sin_q_2 * t152;
-    let t154 = cos_q_2 * t152 + (t140 + t74 * t150);
-    let t155 = t134 + t66 * t153 - t55 * t154;
-    let t156 = t62 * t155;
-    let t157 = t115 + t153 - sin_q_3 * t156;
-    let t158 = cos_q_3 * t156 + (t131 + t154);
-    let t159 = t121 + t52 * t157 - t41 * t158;
-    let t160 = t48 * t159;
-    let t161 = t105 + t157 - sin_q_4 * t160;
-    let t162 = cos_q_4 * t160 + (t118 + t158);
-    let t163 = t111 + t38 * t161 - t27 * t162;
-    let t164 = t34 * t163;
-    let t165 = t96 + t161 - sin_q_5 * t164;
-    let t166 = cos_q_5 * t164 + (t108 + t162);
-    let t167 = t101 + t24 * t165 - t13 * t166;
-    let t168 = t20 * t167;
-    let t169 = t84 + t165 - sin_q_6 * t168;
-    let t170 = cos_q_6 * t168 + (t99 + t166);
-    let t171 = t2 * (t92 + t4 * t169 - t6 * t170);
-    let t172 = t169 * (sin_q_8 * S::from_f64(0.5)) + S::from_f64(0.5) * t90;
-    let t173 = t172 - (t170 * (cos_q_8 * S::from_f64(0.5)) + t171 * (t0 * p.k6));
-    if vanishes(t18, p.k18, 7.105427357601002e-15) {
-        return Err(singular(5, t18, p.k18));
-    }
-    if vanishes(t32, p.k17, 7.105427357601002e-15) {
-        return Err(singular(4, t32, p.k17));
-    }
-    if vanishes(t46, p.k16, 7.105427357601002e-15) {
-        return Err(singular(3, t46, p.k16));
-    }
-    if vanishes(t60, p.k15, 7.105427357601002e-15) {
-        return Err(singular(2, t60, p.k15));
-    }
-    if vanishes(t77, p.k14, 7.105427357601002e-15) {
-        return Err(singular(1, t77, p.k14));
-    }
-    if vanishes(t81, p.k13, 7.105427357601002e-15) {
-        return Err(singular(0, t81, p.k13));
-    }
-    let q_1_ddot = -(t150 * p.k4);
-    let q_2_ddot = -(t151 * (t78 * p.k4));
-    let q_3_ddot = -(t155 * (t61 * p.k4));
-    let q_4_ddot = -(t159 * (t47 * p.k4));
-    let q_5_ddot = -(t163 * (t33 * p.k4));
-    let q_6_ddot = -(t167 * (t19 * p.k4));
-    let q_7_ddot = -(p.k4 * t171);
-    let q_8_ddot = -(p.k39 * t173);
-    let accelerations = [
-        q_1_ddot, q_2_ddot, q_3_ddot, q_4_ddot, q_5_ddot, q_6_ddot, q_7_ddot, q_8_ddot,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -945,15 +999,15 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
     let t8 = sin_q_6 * q_6_dot;
     let t9 = p.k0 * t8 + p.l * t7;
-    let t10 = q_2_dot * cos_q_2;
-    let t11 = t10 + q_1_dot * cos_q_1;
-    let t12 = q_3_dot * cos_q_3;
+    let t10 = cos_q_2 * q_2_dot;
+    let t11 = t10 + cos_q_1 * q_1_dot;
+    let t12 = cos_q_3 * q_3_dot;
     let t13 = t12 + t11;
-    let t14 = q_4_dot * cos_q_4;
+    let t14 = cos_q_4 * q_4_dot;
     let t15 = t14 + t13;
-    let t16 = q_5_dot * cos_q_5;
+    let t16 = cos_q_5 * q_5_dot;
     let t17 = t16 + t15;
-    let t18 = q_6_dot * cos_q_6;
+    let t18 = cos_q_6 * q_6_dot;
     let t19 = p.k0 * t18 + p.l * t17;
     let t20 = p.m * (t9 * t9 + t19 * t19) + q_6_dot * (q_6_dot * p.J);
     let t21 = p.k0 * t6 + p.l * t5;
@@ -966,7 +1020,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
     let t27 = t26 * sin_q_8 + p.l * (t25 + t24);
     let t28 = t18 + t17;
-    let t29 = q_7_dot * cos_q_7;
+    let t29 = cos_q_7 * q_7_dot;
     let t30 = t26 * cos_q_8 + p.l * (t29 + t28);
     let t31 = p.m * (t27 * t27 + t30 * t30) + q_8_dot * (q_8_dot * p.J);
     let t32 = p.k0 * t25 + p.l * t24;
@@ -1216,10 +1270,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -597,7 +597,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t35 = p.k0 * t30 + p.l * t26;
     let t36 = t2 * sin_t4;
     let t37 = t6 * sin_t3;
-    let t38 = t8 * sin_q_1;
+    let t38 = sin_q_1 * t8;
     let t39 = t37 + t38;
     let t40 = t36 + t39;
     let t41 = t13 * sin_t14;
@@ -608,7 +608,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t46 = t45 + t44;
     let t47 = t28 * sin_t29;
     let t48 = t32 * sin_t33 + p.l * (t47 + t46);
-    let h_q_8 = (sin_t33 * t34 - t48 * cos_t33) * p.k6;
+    let h_q_8 = (sin_t33 * t34 - cos_t33 * t48) * p.k6;
     let t49 = p.k0 * t47 + p.l * t46;
     let t50 = (p.m * t34 + t35 * p.k7) * (p.l * sin_t29) + h_q_8;
     let h_q_7 = t50 - (p.m * t48 + t49 * p.k7) * (p.l * cos_t29);
@@ -642,7 +642,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t74 = p.k0 * t37 + p.l * t38;
     let t75 = (t71 + t72 * p.k7) * (p.l * sin_t3) + h_q_3;
     let h_q_2 = t75 - (t73 + t74 * p.k7) * (p.l * cos_t3);
-    let t76 = (p.m * t72 + (t71 + p.k8 * t9)) * (p.l * sin_q_1) + h_q_2;
+    let t76 = (p.m * t72 + (t71 + p.k8 * t9)) * (sin_q_1 * p.l) + h_q_2;
     let h_q_1 = t76 - (p.m * t74 + (t73 + t38 * p.k8)) * (cos_q_1 * p.l);
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
@@ -790,7 +790,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t34 = t32 * sin_t33 + p.l * (t30 + t26);
     let t35 = t2 * cos_t4;
     let t36 = t6 * cos_t3;
-    let t37 = t8 * cos_q_1;
+    let t37 = cos_q_1 * t8;
     let t38 = t36 + t37;
     let t39 = t35 + t38;
     let t40 = t13 * cos_t14;
@@ -801,7 +801,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t45 = t44 + t43;
     let t46 = t28 * cos_t29;
     let t47 = p.g + (t32 * cos_t33 + p.l * (t46 + t45));
-    let f_q_8 = (cos_t33 * t34 - t47 * sin_t33) * p.k6;
+    let f_q_8 = (cos_t33 * t34 - sin_t33 * t47) * p.k6;
     let t48 = p.k0 * t30 + p.l * t26;
     let t49 = p.g + (p.k0 * t46 + p.l * t45);
     let t50 = f_q_8 + (p.m * t34 + p.k7 * t48) * (p.l * cos_t29);
@@ -837,7 +837,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t75 = f_q_3 + (t71 + p.k7 * t72) * (p.l * cos_t3);
     let f_q_2 = t75 - (t73 + t74 * p.k7) * (p.l * sin_t3);
     let t76 = (p.m * t74 + (t73 + p.k7 * (p.g + p.k0 * t37))) * (sin_q_1 * p.l);
-    let f_q_1 = f_q_2 + (p.m * t72 + (t71 + t9 * p.k8)) * (p.l * cos_q_1) - t76;
+    let f_q_1 = f_q_2 + (p.m * t72 + (t71 + t9 * p.k8)) * (cos_q_1 * p.l) - t76;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
@@ -845,284 +845,335 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 8],
     v: &[S; 8],
 ) -> Result<[S; 8], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 8],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 8],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let q_1 = n(q[0]);
+        let q_2 = n(q[1]);
+        let q_3 = n(q[2]);
+        let q_4 = n(q[3]);
+        let q_5 = n(q[4]);
+        let q_6 = n(q[5]);
+        let q_7 = n(q[6]);
+        let q_8 = n(q[7]);
+        let q_1_dot = n(v[0]);
+        let q_2_dot = n(v[1]);
+        let q_3_dot = n(v[2]);
+        let q_4_dot = n(v[3]);
+        let q_5_dot = n(v[4]);
+        let q_6_dot = n(v[5]);
+        let q_7_dot = n(v[6]);
+        let q_8_dot = n(v[7]);
+        let t0 = q_2 + q_1;
+        let t1 = t0 + q_3;
+        let t2 = t1 + q_4;
+        let t3 = t2 + q_5;
+        let t4 = t3 + q_6;
+        let t5 = t4 + q_7;
+        let t6 = t5 + q_8;
+        let angles = [t6, t5, t4, t3, t2, t1, t0, q_1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t6, cos_t6) = circular[0];
+        let (sin_t5, cos_t5) = circular[1];
+        let (sin_t4, cos_t4) = circular[2];
+        let (sin_t3, cos_t3) = circular[3];
+        let (sin_t2, cos_t2) = circular[4];
+        let (sin_t1, cos_t1) = circular[5];
+        let (sin_t0, cos_t0) = circular[6];
+        let (sin_q_1, cos_q_1) = circular[7];
+        let t7 = cos_t6.mul_add(cos_t5, sin_t6 * sin_t5);
+        let t8 = t7.neg_mul_add(t7 * n(p.k20), n(p.k21));
+        let t8 = checked(t8, t8, 7.105427357601002e-15, 6)?;
+        let t9 = N::ONE / t8;
+        let t10 = t9 * n(p.k1);
+        let t11 = sin_t6 * n(p.k19);
+        let t12 = t7 * t11;
+        let t13 = sin_t5.mul_sub(N::from_f64(1.5), t12);
+        let t14 = t13 * t10;
+        let t15 = sin_t6.neg_mul_add(t11, N::from_f64(2.0));
+        let t16 = t13.neg_mul_add(t14, t15);
+        let t17 = q_2_dot + q_1_dot;
+        let t18 = t17 + q_3_dot;
+        let t19 = t18 + q_4_dot;
+        let t20 = t19 + q_5_dot;
+        let t21 = t20 + q_6_dot;
+        let t22 = t21 * t21;
+        let t23 = cos_t4 * t22;
+        let t24 = n(p.l) * t23;
+        let t25 = t21 + q_7_dot;
+        let t26 = t25 * t25;
+        let t27 = n(p.l) * t26;
+        let t28 = t25 + q_8_dot;
+        let t29 = t28 * (n(p.k0) * t28);
+        let t30 = n(p.g) + cos_t6.mul_add(t29, cos_t5 * t27);
+        let t31 = sin_t6.mul_add(t29, sin_t5 * t27);
+        let t32 = sin_t6.mul_sub(t30, cos_t6 * t31);
+        let t33 = n(p.k0) * t26;
+        let t34 = t30 + cos_t5.mul_add(t33, n(p.g));
+        let t35 = cos_t6 * n(p.k19);
+        let t36 = t7 * t35;
+        let t37 = sin_t5.mul_add(t30, sin_t5 * n(p.k22));
+        let t38 = t12.neg_mul_add(t30, t37 + t36.mul_sub(t31, cos_t5 * t31));
+        let t39 = t14.neg_mul_add(t38, t34 + t16.mul_sub(t24, t11 * t32));
+        let t40 = n(p.k0).mul_add(t23, n(p.g));
+        let t41 = sin_t4 * t16;
+        let t42 = sin_t4 * N::from_f64(0.5);
+        let t43 = cos_t5.mul_sub(N::from_f64(1.5), t36);
+        let t44 = t9 * t43;
+        let t45 = t44.mul_add(t13, cos_t6 * (sin_t6 * n(p.k23)));
+        let t46 = cos_t4 * n(p.k1);
+        let t47 = t45.neg_mul_add(t46, t41 + t42);
+        let t48 = t43 * t10;
+        let t49 = cos_t6.neg_mul_add(t35, N::from_f64(2.0));
+        let t50 = t43.neg_mul_add(t48, t49);
+        let t51 = cos_t4 * t50;
+        let t52 = sin_t4 * n(p.k1);
+        let t53 = t51.mul_sub(t46, n(p.k25) * sin_t4 * (t45 * cos_t4));
+        let t54 = t41.mul_add(t52, n(p.k10)) + t53;
+        let t54 = checked(t54, t54, 7.105427357601002e-15, 5)?;
+        let t55 = N::ONE / t54;
+        let t56 = n(p.k1) * t55;
+        let t57 = t47 * t56;
+        let t58 = t47.neg_mul_add(t57, N::ONE + t16);
+        let t59 = t20 * t20;
+        let t60 = cos_t3 * t59;
+        let t61 = n(p.l) * t60;
+        let t62 = t45 * n(p.k24);
+        let t63 = sin_t4 * t22;
+        let t64 = t63 * t62;
+        let t65 = n(p.l) * t63;
+        let t66 = sin_t5.mul_add(t33, t31) + t48.mul_add(t38, t35 * t32);
+        let t67 = t50.mul_add(t65, t23 * t62) + t66;
+        let t68 = cos_t4.neg_mul_add(t67, t42 * t40);
+        let t69 = sin_t4.mul_add(t39, sin_t4 * t64) + t68;
+        let t70 = t63.neg_mul_add(cos_t4 * n(p.k26), t69);
+        let t71 = t57.neg_mul_add(t70, t40 + t39 + t58.mul_add(t61, t64));
+        let t72 = n(p.k0).mul_add(t60, n(p.g));
+        let t73 = sin_t3 * t58;
+        let t74 = N::from_f64(0.5) * sin_t3;
+        let t75 = cos_t4.mul_add(N::from_f64(0.5), t51);
+        let t76 = t45.neg_mul_add(t52, t75);
+        let t77 = t55 * t76;
+        let t78 = t77.mul_add(t47, t45);
+        let t79 = n(p.k1) * cos_t3;
+        let t80 = t78.neg_mul_add(t79, t73 + t74);
+        let t81 = t76 * t56;
+        let t82 = t76.neg_mul_add(t81, N::ONE + t50);
+        let t83 = cos_t3 * t82;
+        let t84 = n(p.k1) * sin_t3;
+        let t85 = t83.mul_sub(t79, n(p.k25) * sin_t3 * (t78 * cos_t3));
+        let t86 = t73.mul_add(t84, n(p.k10)) + t85;
+        let t86 = checked(t86, t86, 7.105427357601002e-15, 4)?;
+        let t87 = N::ONE / t86;
+        let t88 = n(p.k1) * t87;
+        let t89 = t80 * t88;
+        let t90 = t80.neg_mul_add(t89, N::ONE + t58);
+        let t91 = t19 * t19;
+        let t92 = cos_t2 * t91;
+        let t93 = n(p.l) * t92;
+        let t94 = t78 * n(p.k24);
+        let t95 = sin_t3 * t59;
+        let t96 = t95 * t94;
+        let t97 = n(p.l) * t95;
+        let t98 = n(p.k0).mul_add(t63, t67) + t60.mul_add(t94, t81 * t70);
+        let t99 = t82.mul_add(t97, t98);
+        let t100 = cos_t3.neg_mul_add(t99, t74 * t72);
+        let t101 = sin_t3.mul_add(t71, sin_t3 * t96) + t100;
+        let t102 = t95.neg_mul_add(cos_t3 * n(p.k26), t101);
+        let t103 = t89.neg_mul_add(t102, t72 + t71 + t90.mul_add(t93, t96));
+        let t104 = n(p.k0).mul_add(t92, n(p.g));
+        let t105 = sin_t2 * t90;
+        let t106 = N::from_f64(0.5) * sin_t2;
+        let t107 = N::from_f64(0.5).mul_add(cos_t3, t83);
+        let t108 = t78.neg_mul_add(t84, t107);
+        let t109 = t87 * t108;
+        let t110 = t109.mul_add(t80, t78);
+        let t111 = n(p.k1) * cos_t2;
+        let t112 = t110.neg_mul_add(t111, t105 + t106);
+        let t113 = t108 * t88;
+        let t114 = t108.neg_mul_add(t113, N::ONE + t82);
+        let t115 = cos_t2 * t114;
+        let t116 = n(p.k1) * sin_t2;
+        let t117 = t115.mul_sub(t111, n(p.k25) * sin_t2 * (t110 * cos_t2));
+        let t118 = t105.mul_add(t116, n(p.k10)) + t117;
+        let t118 = checked(t118, t118, 7.105427357601002e-15, 3)?;
+        let t119 = N::ONE / t118;
+        let t120 = n(p.k1) * t119;
+        let t121 = t112 * t120;
+        let t122 = t112.neg_mul_add(t121, N::ONE + t90);
+        let t123 = t18 * t18;
+        let t124 = cos_t1 * t123;
+        let t125 = n(p.l) * t124;
+        let t126 = t110 * n(p.k24);
+        let t127 = sin_t2 * t91;
+        let t128 = t127 * t126;
+        let t129 = n(p.l) * t127;
+        let t130 = n(p.k0).mul_add(t95, t99) + t92.mul_add(t126, t113 * t102);
+        let t131 = t114.mul_add(t129, t130);
+        let t132 = cos_t2.neg_mul_add(t131, t106 * t104);
+        let t133 = sin_t2.mul_add(t103, sin_t2 * t128) + t132;
+        let t134 = t127.neg_mul_add(cos_t2 * n(p.k26), t133);
+        let t135 = t104 + t103 + t122.mul_add(t125, t128);
+        let t136 = t121.neg_mul_add(t134, t135);
+        let t137 = n(p.k0).mul_add(t124, n(p.g));
+        let t138 = sin_t1 * t122;
+        let t139 = N::from_f64(0.5) * sin_t1;
+        let t140 = N::from_f64(0.5).mul_add(cos_t2, t115);
+        let t141 = t110.neg_mul_add(t116, t140);
+        let t142 = t119 * t141;
+        let t143 = t142.mul_add(t112, t110);
+        let t144 = n(p.k1) * cos_t1;
+        let t145 = t143.neg_mul_add(t144, t138 + t139);
+        let t146 = t141 * t120;
+        let t147 = t141.neg_mul_add(t146, N::ONE + t114);
+        let t148 = cos_t1 * t147;
+        let t149 = n(p.k1) * sin_t1;
+        let t150 = t148.mul_sub(t144, n(p.k25) * sin_t1 * (t143 * cos_t1));
+        let t151 = t138.mul_add(t149, n(p.k10)) + t150;
+        let t151 = checked(t151, t151, 7.105427357601002e-15, 2)?;
+        let t152 = N::ONE / t151;
+        let t153 = n(p.k1) * t152;
+        let t154 = t145 * t153;
+        let t155 = t145.neg_mul_add(t154, N::ONE + t122);
+        let t156 = t17 * t17;
+        let t157 = cos_t0 * t156;
+        let t158 = q_1_dot * q_1_dot;
+        let t159 = cos_q_1 * t158;
+        let t160 = t157 + t159;
+        let t161 = n(p.l) * t160;
+        let t162 = t143 * n(p.k24);
+        let t163 = sin_t1 * t123;
+        let t164 = t163 * t162;
+        let t165 = t124.mul_add(t162, t146 * t134);
+        let t166 = n(p.l) * t163;
+        let t167 = t147.mul_add(t166, n(p.k0).mul_add(t127, t131) + t165);
+        let t168 = cos_t1.neg_mul_add(t167, t139 * t137);
+        let t169 = sin_t1.mul_add(t136, sin_t1 * t164) + t168;
+        let t170 = t163.neg_mul_add(cos_t1 * n(p.k26), t169);
+        let t171 = t137 + t136 + t155.mul_add(t161, t164);
+        let t172 = t154.neg_mul_add(t170, t171);
+        let t173 = N::from_f64(0.5).mul_add(cos_t1, t148);
+        let t174 = t143.neg_mul_add(t149, t173);
+        let t175 = t152 * t174;
+        let t176 = t175.mul_add(t145, t143);
+        let t177 = t176 * sin_t0;
+        let t178 = sin_t0 * t156;
+        let t179 = sin_q_1 * t158;
+        let t180 = t178 + t179;
+        let t181 = n(p.k24) * t180;
+        let t182 = t174 * t153;
+        let t183 = t160.mul_add(t176 * n(p.k24), t182 * t170);
+        let t184 = t174.neg_mul_add(t182, N::ONE + t147);
+        let t185 = n(p.l) * t180;
+        let t186 = t184.mul_add(t185, n(p.k0).mul_add(t163, t167) + t183);
+        let t187 = n(p.g) + n(p.k0).mul_add(t157, n(p.l) * t159);
+        let t188 = t187 * (N::from_f64(0.5) * sin_t0);
+        let t189 = sin_t0.mul_add(t172, t177 * t181);
+        let t190 = t178.mul_add(n(p.k0), t179 * n(p.l));
+        let t191 = t189 + cos_t0.neg_mul_add(t186, t188);
+        let t192 = t190.neg_mul_add(N::from_f64(0.5) * cos_t0, t191);
+        let t193 = t176 * sin_q_1;
+        let t194 = t193.mul_add(t181, sin_q_1 * t187);
+        let t195 = cos_t0 * cos_q_1;
+        let t196 = sin_t0 * sin_q_1;
+        let t197 = N::from_f64(0.5).mul_add(t195, N::from_f64(0.5) * t196);
+        let t198 = n(p.k1) * sin_q_1;
+        let t199 = n(p.k1) * cos_q_1;
+        let t200 = t198.mul_add(t176 * cos_t0, t177 * t199);
+        let t201 = t184.mul_add(t195, t155 * t196) + t197 - t200;
+        let t202 = n(p.k1) * cos_t0;
+        let t203 = n(p.k1) * sin_t0;
+        let t204 = t202.mul_sub(cos_t0 * t184, t177 * (n(p.k25) * cos_t0));
+        let t205 = t203.mul_add(sin_t0 * t155, n(p.k10)) + t204;
+        let t205 = checked(t205, t205, 7.105427357601002e-15, 1)?;
+        let t206 = n(p.k1).mul_add(t201, t205);
+        let t207 = N::ONE / t205;
+        let t208 = t207 * t206;
+        let t209 = n(p.k0).mul_add(t159, n(p.g));
+        let t210 = t209 * (N::from_f64(0.5) * sin_q_1);
+        let t211 = t208.mul_add(t192, cos_q_1 * t190);
+        let t212 = cos_q_1.neg_mul_add(t186, t210) - t211;
+        let t213 = sin_q_1.mul_add(t172, t192) + t194 + t212;
+        let t214 = t206.neg_mul_add(t208, t201 * n(p.k27));
+        let t215 = t199.mul_add(t184 * cos_q_1, t198 * (t155 * sin_q_1));
+        let t216 = t193.neg_mul_add(n(p.k25) * cos_q_1, t214);
+        let t217 = n(p.k21) + t205 + t215 + t216;
+        let t217 = checked(t217, t217, 7.105427357601002e-15, 0)?;
+        let t218 = N::ONE / t217 * t159.neg_mul_add(sin_q_1 * n(p.k26), t213);
+        let t219 = t207 * t206.neg_mul_add(t218, t192);
+        let t220 = t218 + t219;
+        let t221 = t202.mul_add(t220, t199.mul_add(t218, t185));
+        let t222 = t203.neg_mul_add(t220, t198.neg_mul_add(t218, t161));
+        let t223 = t222.mul_add(t152 * t145, t152 * t170);
+        let t224 = t175.mul_add(t221, t220) - t223;
+        let t225 = t220 - t224;
+        let t226 = t144.mul_add(t225, t166 + t221);
+        let t227 = t149.neg_mul_add(t225, t125 + t222);
+        let t228 = t227.mul_add(t119 * t112, t119 * t134);
+        let t229 = t142.mul_add(t226, t225) - t228;
+        let t230 = t225 - t229;
+        let t231 = t111.mul_add(t230, t129 + t226);
+        let t232 = t116.neg_mul_add(t230, t93 + t227);
+        let t233 = t232.mul_add(t87 * t80, t87 * t102);
+        let t234 = t109.mul_add(t231, t230) - t233;
+        let t235 = t230 - t234;
+        let t236 = t79.mul_add(t235, t97 + t231);
+        let t237 = t84.neg_mul_add(t235, t61 + t232);
+        let t238 = t237.mul_add(t55 * t47, t55 * t70);
+        let t239 = t77.mul_add(t236, t235) - t238;
+        let t240 = t235 - t239;
+        let t241 = t46.mul_add(t240, t65 + t236);
+        let t242 = t52.neg_mul_add(t240, t24 + t237);
+        let t243 = t44.mul_add(t241, t240) - t242.mul_add(t9 * t13, t9 * t38);
+        let t244 = t241 * (cos_t6 * N::from_f64(0.5));
+        let t245 = t7.mul_add(n(p.k18), n(p.k10));
+        let t246 = sin_t6 * N::from_f64(0.5);
+        let t247 = t242.mul_add(t246, N::from_f64(0.5) * t32);
+        let q_1_ddot = -(t218 * n(p.k4));
+        let q_2_ddot = -(n(p.k4) * t219);
+        let q_3_ddot = n(p.k4) * t224;
+        let q_4_ddot = n(p.k4) * t229;
+        let q_5_ddot = n(p.k4) * t234;
+        let q_6_ddot = n(p.k4) * t239;
+        let q_7_ddot = n(p.k4) * t243;
+        let q_8_ddot = n(p.k28) * ((t240 - t243).mul_add(t245, t244) - t247);
+        let accelerations = [
+            q_1_ddot.store(),
+            q_2_ddot.store(),
+            q_3_ddot.store(),
+            q_4_ddot.store(),
+            q_5_ddot.store(),
+            q_6_ddot.store(),
+            q_7_ddot.store(),
+            q_8_ddot.store(),
+        ];
+        Ok(accelerations)
     }
-    let q_1 = q[0];
-    let q_2 = q[1];
-    let q_3 = q[2];
-    let q_4 = q[3];
-    let q_5 = q[4];
-    let q_6 = q[5];
-    let q_7 = q[6];
-    let q_8 = q[7];
-    let q_1_dot = v[0];
-    let q_2_dot = v[1];
-    let q_3_dot = v[2];
-    let q_4_dot = v[3];
-    let q_5_dot = v[4];
-    let q_6_dot = v[5];
-    let q_7_dot = v[6];
-    let q_8_dot = v[7];
-    let t0 = q_2 + q_1;
-    let t1 = t0 + q_3;
-    let t2 = t1 + q_4;
-    let t3 = t2 + q_5;
-    let t4 = t3 + q_6;
-    let t5 = t4 + q_7;
-    let t6 = t5 + q_8;
-    let (sin_t6, cos_t6) = t6.sin_cos();
-    let (sin_t5, cos_t5) = t5.sin_cos();
-    let t7 = cos_t6 * cos_t5 + sin_t6 * sin_t5;
-    let t8 = p.k21 - t7 * (t7 * p.k20);
-    if vanishes(t8, t8, 7.105427357601002e-15) {
-        return Err(singular(6, t8, t8));
-    }
-    let t9 = S::ONE / t8;
-    let t10 = t9 * p.k1;
-    let t11 = sin_t6 * p.k19;
-    let t12 = t7 * t11;
-    let t13 = sin_t5 * S::from_f64(1.5) - t12;
-    let t14 = t13 * t10;
-    let t15 = S::from_f64(2.0) - sin_t6 * t11 - t13 * t14;
-    let t16 = q_2_dot + q_1_dot;
-    let t17 = t16 + q_3_dot;
-    let t18 = t17 + q_4_dot;
-    let t19 = t18 + q_5_dot;
-    let t20 = t19 + q_6_dot;
-    let t21 = t20 * t20;
-    let (sin_t4, cos_t4) = t4.sin_cos();
-    let t22 = cos_t4 * t21;
-    let t23 = p.l * t22;
-    let t24 = t20 + q_7_dot;
-    let t25 = t24 * t24;
-    let t26 = p.l * t25;
-    let t27 = t24 + q_8_dot;
-    let t28 = t27 * (p.k0 * t27);
-    let t29 = p.g + (cos_t5 * t26 + cos_t6 * t28);
-    let t30 = sin_t5 * t26 + sin_t6 * t28;
-    let t31 = sin_t6 * t29 - cos_t6 * t30;
-    let t32 = p.k0 * t25;
-    let t33 = cos_t6 * p.k19;
-    let t34 = t7 * t33;
-    let t35 = sin_t5 * p.k22 + sin_t5 * t29 + (t34 * t30 - cos_t5 * t30) - t12 * t29;
-    let t36 = t29 + (p.g + cos_t5 * t32) + (t15 * t23 - t11 * t31) - t14 * t35;
-    let t37 = p.g + p.k0 * t22;
-    let t38 = sin_t4 * t15;
-    let t39 = sin_t4 * S::from_f64(0.5);
-    let t40 = cos_t5 * S::from_f64(1.5) - t34;
-    let t41 = t9 * t40;
-    let t42 = cos_t6 * (sin_t6 * p.k23) + t41 * t13;
-    let t43 = cos_t4 * p.k1;
-    let t44 = t38 + t39 - t42 * t43;
-    let t45 = t40 * t10;
-    let t46 = S::from_f64(2.0) - cos_t6 * t33 - t40 * t45;
-    let t47 = cos_t4 * t46;
-    let t48 = sin_t4 * p.k1;
-    let t49 = p.k10 + t38 * t48 + (t47 * t43 - p.k25 * sin_t4 * (t42 * cos_t4));
-    if vanishes(t49, t49, 7.105427357601002e-15) {
-        return Err(singular(5, t49, t49));
-    }
-    let t50 = S::ONE / t49;
-    let t51 = p.k1 * t50;
-    let t52 = t44 * t51;
-    let t53 = S::ONE + t15 - t44 * t52;
-    let t54 = t19 * t19;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t55 = cos_t3 * t54;
-    let t56 = p.l * t55;
-    let t57 = t42 * p.k24;
-    let t58 = sin_t4 * t21;
-    let t59 = t58 * t57;
-    let t60 = p.l * t58;
-    let t61 = t46 * t60 + t22 * t57 + (t30 + sin_t5 * t32 + (t45 * t35 + t33 * t31));
-    let t62 = sin_t4 * t59 + sin_t4 * t36 + (t39 * t37 - cos_t4 * t61);
-    let t63 = t62 - t58 * (cos_t4 * p.k26);
-    let t64 = t37 + t36 + (t59 + t53 * t56) - t52 * t63;
-    let t65 = p.g + p.k0 * t55;
-    let t66 = sin_t3 * t53;
-    let t67 = S::from_f64(0.5) * sin_t3;
-    let t68 = t47 + cos_t4 * S::from_f64(0.5) - t42 * t48;
-    let t69 = t50 * t68;
-    let t70 = t42 + t69 * t44;
-    let t71 = p.k1 * cos_t3;
-    let t72 = t66 + t67 - t70 * t71;
-    let t73 = t68 * t51;
-    let t74 = S::ONE + t46 - t68 * t73;
-    let t75 = cos_t3 * t74;
-    let t76 = p.k1 * sin_t3;
-    let t77 = p.k10 + t66 * t76 + (t75 * t71 - p.k25 * sin_t3 * (t70 * cos_t3));
-    if vanishes(t77, t77, 7.105427357601002e-15) {
-        return Err(singular(4, t77, t77));
-    }
-    let t78 = S::ONE / t77;
-    let t79 = p.k1 * t78;
-    let t80 = t72 * t79;
-    let t81 = S::ONE + t53 - t72 * t80;
-    let t82 = t18 * t18;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t83 = cos_t2 * t82;
-    let t84 = p.l * t83;
-    let t85 = t70 * p.k24;
-    let t86 = sin_t3 * t54;
-    let t87 = t86 * t85;
-    let t88 = p.l * t86;
-    let t89 = t74 * t88 + (t61 + p.k0 * t58 + (t55 * t85 + t73 * t63));
-    let t90 = sin_t3 * t87 + sin_t3 * t64 + (t67 * t65 - cos_t3 * t89);
-    let t91 = t90 - t86 * (cos_t3 * p.k26);
-    let t92 = t65 + t64 + (t87 + t81 * t84) - t80 * t91;
-    let t93 = p.g + p.k0 * t83;
-    let t94 = sin_t2 * t81;
-    let t95 = S::from_f64(0.5) * sin_t2;
-    let t96 = t75 + S::from_f64(0.5) * cos_t3 - t70 * t76;
-    let t97 = t78 * t96;
-    let t98 = t70 + t97 * t72;
-    let t99 = p.k1 * cos_t2;
-    let t100 = t94 + t95 - t98 * t99;
-    let t101 = t96 * t79;
-    let t102 = S::ONE + t74 - t96 * t101;
-    let t103 = cos_t2 * t102;
-    let t104 = p.k1 * sin_t2;
-    let t105 = p.k10 + t94 * t104 + (t103 * t99 - p.k25 * sin_t2 * (t98 * cos_t2));
-    if vanishes(t105, t105, 7.105427357601002e-15) {
-        return Err(singular(3, t105, t105));
-    }
-    let t106 = S::ONE / t105;
-    let t107 = p.k1 * t106;
-    let t108 = t100 * t107;
-    let t109 = S::ONE + t81 - t100 * t108;
-    let t110 = t17 * t17;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let t111 = cos_t1 * t110;
-    let t112 = p.l * t111;
-    let t113 = t98 * p.k24;
-    let t114 = sin_t2 * t82;
-    let t115 = t114 * t113;
-    let t116 = p.l * t114;
-    let t117 = t102 * t116 + (t89 + p.k0 * t86 + (t83 * t113 + t101 * t91));
-    let t118 = sin_t2 * t115 + sin_t2 * t92 + (t95 * t93 - cos_t2 * t117);
-    let t119 = t118 - t114 * (cos_t2 * p.k26);
-    let t120 = t93 + t92 + (t115 + t109 * t112) - t108 * t119;
-    let t121 = p.g + p.k0 * t111;
-    let t122 = sin_t1 * t109;
-    let t123 = S::from_f64(0.5) * sin_t1;
-    let t124 = t103 + S::from_f64(0.5) * cos_t2 - t98 * t104;
-    let t125 = t106 * t124;
-    let t126 = t98 + t125 * t100;
-    let t127 = p.k1 * cos_t1;
-    let t128 = t122 + t123 - t126 * t127;
-    let t129 = t124 * t107;
-    let t130 = S::ONE + t102 - t124 * t129;
-    let t131 = cos_t1 * t130;
-    let t132 = p.k1 * sin_t1;
-    let t133 = p.k10 + t122 * t132 + (t131 * t127 - p.k25 * sin_t1 * (t126 * cos_t1));
-    if vanishes(t133, t133, 7.105427357601002e-15) {
-        return Err(singular(2, t133, t133));
-    }
-    let t134 = S::ONE / t133;
-    let t135 = p.k1 * t134;
-    let t136 = t128 * t135;
-    let t137 = S::ONE + t109 - t128 * t136;
-    let t138 = t16 * t16;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t139 = cos_t0 * t138;
-    let t140 = q_1_dot * q_1_dot;
-    let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t141 = cos_q_1 * t140;
-    let t142 = t139 + t141;
-    let t143 = p.l * t142;
-    let t144 = t126 * p.k24;
-    let t145 = sin_t1 * t110;
-    let t146 = t145 * t144;
-    let t147 = p.l * t145;
-    let t148 = t130 * t147 + (t117 + p.k0 * t114 + (t111 * t144 + t129 * t119));
-    let t149 = sin_t1 * t146 + sin_t1 * t120 + (t123 * t121 - cos_t1 * t148);
-    let t150 = t149 - t145 * (cos_t1 * p.k26);
-    let t151 = t121 + t120 + (t146 + t137 * t143) - t136 * t150;
-    let t152 = t131 + S::from_f64(0.5) * cos_t1 - t126 * t132;
-    let t153 = t134 * t152;
-    let t154 = t126 + t153 * t128;
-    let t155 = t154 * sin_t0;
-    let t156 = sin_t0 * t138;
-    let t157 = sin_q_1 * t140;
-    let t158 = t156 + t157;
-    let t159 = p.k24 * t158;
-    let t160 = t152 * t135;
-    let t161 = S::ONE + t130 - t152 * t160;
-    let t162 = p.l * t158;
-    let t163 = t148 + p.k0 * t145 + (t142 * (t154 * p.k24) + t160 * t150);
-    let t164 = t161 * t162 + t163;
-    let t165 = p.g + (p.k0 * t139 + p.l * t141);
-    let t166 = t165 * (S::from_f64(0.5) * sin_t0) - cos_t0 * t164;
-    let t167 = t156 * p.k0 + t157 * p.l;
-    let t168 = t155 * t159 + sin_t0 * t151 + t166 - t167 * (S::from_f64(0.5) * cos_t0);
-    let t169 = t154 * sin_q_1;
-    let t170 = cos_t0 * cos_q_1;
-    let t171 = sin_t0 * sin_q_1;
-    let t172 = S::from_f64(0.5) * t170 + S::from_f64(0.5) * t171;
-    let t173 = p.k1 * sin_q_1;
-    let t174 = p.k1 * cos_q_1;
-    let t175 = t173 * (t154 * cos_t0) + t155 * t174;
-    let t176 = t161 * t170 + t137 * t171 + t172 - t175;
-    let t177 = p.k1 * cos_t0;
-    let t178 = p.k1 * sin_t0;
-    let t179 = t177 * (cos_t0 * t161) - t155 * (p.k25 * cos_t0);
-    let t180 = p.k10 + t178 * (sin_t0 * t137) + t179;
-    if vanishes(t180, t180, 7.105427357601002e-15) {
-        return Err(singular(1, t180, t180));
-    }
-    let t181 = t180 + p.k1 * t176;
-    let t182 = S::ONE / t180;
-    let t183 = t182 * t181;
-    let t184 = (p.g + p.k0 * t141) * (S::from_f64(0.5) * sin_q_1) - cos_q_1 * t164;
-    let t185 = t168 + sin_q_1 * t151 + (t169 * t159 + sin_q_1 * t165);
-    let t186 = t185 + (t184 - (t183 * t168 + cos_q_1 * t167));
-    let t187 = p.k21 + t180 + (t174 * (t161 * cos_q_1) + t173 * (t137 * sin_q_1));
-    let t188 = t187 + (t176 * p.k27 - t181 * t183 - t169 * (p.k25 * cos_q_1));
-    if vanishes(t188, t188, 7.105427357601002e-15) {
-        return Err(singular(0, t188, t188));
-    }
-    let t189 = S::ONE / t188 * (t186 - t141 * (sin_q_1 * p.k26));
-    let t190 = t182 * (t168 - t181 * t189);
-    let t191 = t189 + t190;
-    let t192 = t177 * t191 + (t162 + t174 * t189);
-    let t193 = t143 - t173 * t189 - t178 * t191;
-    let t194 = t191 + t153 * t192 - (t193 * (t134 * t128) + t134 * t150);
-    let t195 = t191 - t194;
-    let t196 = t127 * t195 + (t147 + t192);
-    let t197 = t112 + t193 - t132 * t195;
-    let t198 = t195 + t125 * t196 - (t197 * (t106 * t100) + t106 * t119);
-    let t199 = t195 - t198;
-    let t200 = t99 * t199 + (t116 + t196);
-    let t201 = t84 + t197 - t104 * t199;
-    let t202 = t199 + t97 * t200 - (t201 * (t78 * t72) + t78 * t91);
-    let t203 = t199 - t202;
-    let t204 = t71 * t203 + (t88 + t200);
-    let t205 = t56 + t201 - t76 * t203;
-    let t206 = t203 + t69 * t204 - (t205 * (t50 * t44) + t50 * t63);
-    let t207 = t203 - t206;
-    let t208 = t43 * t207 + (t60 + t204);
-    let t209 = t23 + t205 - t48 * t207;
-    let t210 = t207 + t41 * t208 - (t209 * (t9 * t13) + t9 * t35);
-    let t211 = (t207 - t210) * (p.k10 + t7 * p.k18);
-    let t212 = t209 * (sin_t6 * S::from_f64(0.5)) + S::from_f64(0.5) * t31;
-    let q_1_ddot = -(t189 * p.k4);
-    let q_2_ddot = -(p.k4 * t190);
-    let q_3_ddot = p.k4 * t194;
-    let q_4_ddot = p.k4 * t198;
-    let q_5_ddot = p.k4 * t202;
-    let q_6_ddot = p.k4 * t206;
-    let q_7_ddot = p.k4 * t210;
-    let q_8_ddot = p.k28 * (t208 * (cos_t6 * S::from_f64(0.5)) + t211 - t212);
-    let accelerations = [
-        q_1_ddot, q_2_ddot, q_3_ddot, q_4_ddot, q_5_ddot, q_6_ddot, q_7_ddot, q_8_ddot,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -1419,10 +1470,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -9,14 +9,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 26 | 7 | 4 | 0 | 0 | 37 |
 //! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 50 | 26 | 0 | 4 | 0 | 84 |
+//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
 //! | `applied` | 16 | 15 | 0 | 0 | 0 | 31 |
-//! | `forces` | 65 | 39 | 0 | 4 | 0 | 112 |
-//! | `accelerations` | 84 | 55 | 2 | 4 | 0 | 149 |
-//! | `kinetic_energy` | 40 | 24 | 0 | 4 | 0 | 72 |
+//! | `forces` | 68 | 41 | 0 | 4 | 0 | 117 |
+//! | `accelerations` | 87 | 57 | 2 | 4 | 0 | 154 |
+//! | `kinetic_energy` | 43 | 26 | 0 | 4 | 0 | 77 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 5 | 0 | 0 | 0 | 15 |
-//! | `work_rate` | 15 | 9 | 0 | 2 | 0 | 28 |
+//! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
 //! | `dissipation_rate` | 10 | 5 | 0 | 0 | 0 | 15 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -509,7 +509,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let t3 = cos_phi2 * s2;
     let t4 = sin_phi2 * s2;
     let zero = S::ZERO;
-    let m31 = -(p.k13 * sin_theta + p.k12 * cos_theta);
+    let m31 = -(p.k13 * sin_theta + cos_theta * p.k12);
     let m32 = p.k13 * cos_theta - sin_theta * p.k12;
     let m41 = p.k11 * cos_phi1;
     let m42 = p.k11 * sin_phi1;
@@ -517,7 +517,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k11 * t1;
     let m55 = s1 * (p.k11 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -568,39 +568,40 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.w.product_error(t);
+    let t1 = p.w * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t9 * p.y0;
-    let t12 = p.w * t;
-    let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = p.k9 * cos_t12 + (t10 * cos_theta - t11 * sin_theta);
-    let t14 = sin_phi2 * s2;
-    let t15 = sin_phi1 * s1;
-    let t16 = t3 * t15 - t5 * cos_phi1;
-    let t17 = t0 * t14 - t2 * cos_phi2 + t16;
-    let t18 = p.m2 * t17 + p.m1 * t16;
-    let t19 = p.k9 * sin_t12 + (sin_theta * t10 + t11 * cos_theta);
-    let t20 = cos_theta * (t13 * p.k12 - t19 * p.k13);
-    let h_x = -(t13 * p.m0 + t8);
-    let h_y = -(p.m0 * t19 + t18);
-    let h_theta = sin_theta * (t19 * p.k12 + t13 * p.k13) + t20;
-    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t18);
-    let h_phi1 = t8 * t15 - t4 * t18;
+    let t4 = t2 * p.y0;
+    let t5 = p.k9 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = cos_phi2 * s2;
+    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t9 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = cos_phi1 * s1;
+    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t12 = t11 * sin_phi1 + t9 * t10;
+    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
+    let t14 = t13 * p.m2 + t12 * p.m1;
+    let t15 = p.k9 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t16 = sin_phi2 * s2;
+    let t17 = sin_phi1 * s1;
+    let t18 = t9 * t17 - t11 * cos_phi1;
+    let t19 = t6 * t16 - t8 * cos_phi2 + t18;
+    let t20 = p.m2 * t19 + p.m1 * t18;
+    let t21 = cos_theta * (t5 * p.k12 - t15 * p.k13);
+    let h_x = -(t5 * p.m0 + t14);
+    let h_y = -(p.m0 * t15 + t20);
+    let h_theta = sin_theta * (t15 * p.k12 + t5 * p.k13) + t21;
+    let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
+    let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
-    let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
+    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
+    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -654,46 +655,47 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2;
-    let t9 = t8 + t6 * p.m1;
-    let t10 = theta_dot * theta_dot;
-    let t11 = t10 * p.x0;
+    let t0 = p.w.product_error(t);
+    let t1 = p.w * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t12 = t10 * p.y0;
-    let t13 = p.w * t;
-    let (sin_t13, cos_t13) = t13.sin_cos();
-    let t14 = p.k9 * cos_t13 + (t11 * cos_theta - t12 * sin_theta);
-    let t15 = x_dot - theta_dot * p.yb;
-    let t16 = x - theta * p.yc;
-    let t17 = sin_phi2 * s2;
-    let t18 = sin_phi1 * s1;
-    let t19 = t3 * t18 - t5 * cos_phi1;
-    let t20 = t0 * t17 - t2 * cos_phi2 + t19;
-    let t21 = p.m2 * t20;
-    let t22 = t21 + p.m1 * t19;
-    let t23 = p.k9 * sin_t13 + (sin_theta * t11 + t12 * cos_theta);
-    let t24 = theta_dot * p.xb + y_dot;
-    let t25 = theta * p.xc + y;
-    let t26 = t24 * p.k15 + sin_theta * (t23 * p.k12 + t14 * p.k13);
-    let t27 = t25 * p.k17 + cos_theta * (t14 * p.k12 - t23 * p.k13) + t26;
-    let f_x = t14 * p.m0 + t9 - (t15 * p.bx + t16 * p.cx);
-    let f_y = p.m0 * t23 + t22 - (t24 * p.by + t25 * p.cy);
-    let f_theta = t15 * p.k16 + t16 * p.k18 - t27;
-    let f_s1 = (p.r1 - s1) * p.k1 + sin_phi1 * t22 + (cos_phi1 * t9 - s1_dot * p.d1);
-    let f_phi1 = t4 * t22 - t9 * t18;
+    let t4 = t2 * p.y0;
+    let t5 = p.k9 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = cos_phi2 * s2;
+    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t9 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = cos_phi1 * s1;
+    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t12 = t11 * sin_phi1 + t9 * t10;
+    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
+    let t14 = t13 * p.m2;
+    let t15 = t14 + t12 * p.m1;
+    let t16 = x_dot - theta_dot * p.yb;
+    let t17 = x - theta * p.yc;
+    let t18 = p.k9 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t19 = sin_phi2 * s2;
+    let t20 = sin_phi1 * s1;
+    let t21 = t9 * t20 - t11 * cos_phi1;
+    let t22 = t6 * t19 - t8 * cos_phi2 + t21;
+    let t23 = p.m2 * t22;
+    let t24 = t23 + p.m1 * t21;
+    let t25 = theta_dot * p.xb + y_dot;
+    let t26 = theta * p.xc + y;
+    let t27 = t25 * p.k15 + sin_theta * (t18 * p.k12 + t5 * p.k13);
+    let t28 = t26 * p.k17 + cos_theta * (t5 * p.k12 - t18 * p.k13) + t27;
+    let f_x = t5 * p.m0 + t15 - (t16 * p.bx + t17 * p.cx);
+    let f_y = p.m0 * t18 + t24 - (t25 * p.by + t26 * p.cy);
+    let f_theta = t16 * p.k16 + t17 * p.k18 - t28;
+    let f_s1 = (p.r1 - s1) * p.k1 + sin_phi1 * t24 + (cos_phi1 * t15 - s1_dot * p.d1);
+    let f_phi1 = t10 * t24 - t15 * t20;
     let zero = S::ZERO;
-    let f_s2 = cos_phi2 * t8 + sin_phi2 * t21 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2);
-    let f_phi2 = p.m2 * (t1 * t20 - t7 * t17);
+    let f_s2 = cos_phi2 * t14 + sin_phi2 * t23 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2);
+    let f_phi2 = p.m2 * (t7 * t22 - t13 * t19);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -701,94 +703,134 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.w) * n(t);
+        let angles = [t0, theta, phi1, phi2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let (sin_phi1, cos_phi1) = circular[2];
+        let (sin_phi2, cos_phi2) = circular[3];
+        let t1 = n(p.w).product_error(n(t));
+        let t2 = cos_theta * n(p.y0);
+        let t3 = theta_dot * theta_dot;
+        let t4 = sin_theta * n(p.x0);
+        let t5 = n(p.k9).mul_add(t1.mul_add(cos_t0, sin_t0), t2 * t3);
+        let t6 = n(p.m0) * t4.mul_add(t3, t5);
+        let t7 = (n(p.r1) - s1).neg_mul_add(n(p.k1), s1_dot * n(p.d1));
+        let t8 = theta_dot.mul_add(n(p.xb), y_dot);
+        let t9 = theta.mul_add(n(p.xc), y);
+        let t10 = t8.mul_add(n(p.by), t9 * n(p.cy));
+        let t11 = t10 - t7.mul_add(sin_phi1, t6);
+        let t12 = cos_theta * n(p.x0);
+        let t13 = sin_theta * n(p.y0);
+        let t14 = t12 - t13;
+        let t15 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+        let t16 = theta.neg_mul_add(n(p.yc), x);
+        let t17 = t11.mul_add(n(p.k23) * t14, t14 * t6);
+        let t18 = n(p.k9).mul_add(t1.neg_mul_add(sin_t0, cos_t0), t3 * t12);
+        let t19 = t13.neg_mul_add(t3, t18) * n(p.m0);
+        let t20 = t15.mul_add(n(p.bx), t16 * n(p.cx));
+        let t21 = t20 - t7.mul_add(cos_phi1, t19);
+        let t22 = t4 + t2;
+        let t23 = t21.mul_add(n(p.k23) * t22, t22 * t19);
+        let t24 = t15.mul_add(n(p.k16), t16 * n(p.k18)) + t17;
+        let t25 = t24 - (t8.mul_add(n(p.k15), t9 * n(p.k17)) + t23);
+        let t26 = n(p.k25) * t25;
+        let t27 = n(p.k26) * t22.neg_mul_add(t26, t21);
+        let t28 = n(p.k26) * t14.mul_add(t26, t11);
+        let t29 = sin_phi1 * t28;
+        let t30 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
+        let t31 = phi1_dot * (s1 * phi1_dot);
+        let t32 = s1_dot * phi1_dot * N::from_f64(2.0);
+        let t33 = sin_phi1.mul_sub(t31, cos_phi1 * t32);
+        let t34 = n(p.m1).mul_add(t33, t30 * sin_phi2);
+        let t35 = sin_phi1.mul_add(t32, cos_phi1 * t31);
+        let t36 = n(p.m1).mul_add(t35, t30 * cos_phi2);
+        let t37 = cos_phi1.neg_mul_add(t36, sin_phi1.neg_mul_add(t34, t7));
+        let t38 = cos_phi1.neg_mul_add(t27, n(p.k22) * t37);
+        let t39 = n(p.k22) * cos_phi1.mul_sub(t34, sin_phi1 * t36);
+        let t40 = sin_phi1.neg_mul_add(t27, cos_phi1.mul_add(t28, t39));
+        let t41 = t38 - t29;
+        let t42 = cos_phi1.neg_mul_add(t40, t28);
+        let t43 = sin_phi1.mul_add(t41, t33) + t42;
+        let t44 = cos_phi1.mul_add(t41, t35) + sin_phi1.mul_add(t40, t27);
+        let t45 = s2 * n(p.m2);
+        let t46 = phi2_dot.neg_mul_add(t45 * phi2_dot, t30);
+        let t47 = sin_phi2.mul_add(t43, cos_phi2 * t44);
+        let t48 = phi2_dot * (s2_dot * N::from_f64(2.0));
+        let t49 = cos_phi2.neg_mul_add(t43, sin_phi2.mul_add(t44, t48)) / s2;
+        let t50 = s2 * t45;
+        checked(t50, t50, 7.993605777301127e-15, 7)?;
+        let t51 = s1 * s1;
+        let t52 = n(p.m1) * t51;
+        let t53 = t51 * n(p.k11);
+        checked(t52, t53, 7.993605777301127e-15, 4)?;
+        let x_ddot = -t27;
+        let y_ddot = -t28;
+        let theta_ddot = t25 * n(p.k24);
+        let s1_ddot = t29 - t38;
+        let phi1_ddot = t40 / s1;
+        let zero = N::ZERO;
+        let s2_ddot = n(p.k21).neg_mul_add(t46, t47);
+        let phi2_ddot = -t49;
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let phi2 = q[7];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = sin_theta * p.x0;
-    let t1 = theta_dot * theta_dot;
-    let t2 = cos_theta * p.y0;
-    let t3 = p.w * t;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t4 = p.m0 * (t0 * t1 + (p.k9 * sin_t3 + t2 * t1));
-    let t5 = s1_dot * p.d1 - (p.r1 - s1) * p.k1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t6 = theta_dot * p.xb + y_dot;
-    let t7 = theta * p.xc + y;
-    let t8 = t6 * p.by + t7 * p.cy - (t4 + t5 * sin_phi1);
-    let t9 = p.x0 * cos_theta;
-    let t10 = sin_theta * p.y0;
-    let t11 = t9 - t10;
-    let t12 = x_dot - theta_dot * p.yb;
-    let t13 = x - theta * p.yc;
-    let t14 = (p.k9 * cos_t3 + t1 * t9 - t10 * t1) * p.m0;
-    let t15 = t12 * p.bx + t13 * p.cx - (t14 + t5 * cos_phi1);
-    let t16 = t0 + t2;
-    let t17 = t6 * p.k15 + t7 * p.k17 + (t15 * (p.k23 * t16) + t16 * t14);
-    let t18 = t12 * p.k16 + t13 * p.k18 + (t8 * (p.k23 * t11) + t11 * t4) - t17;
-    let t19 = p.k25 * t18;
-    let t20 = p.k26 * (t15 - t16 * t19);
-    let t21 = p.k26 * (t8 + t11 * t19);
-    let t22 = sin_phi1 * t21;
-    let t23 = s2_dot * p.d2 - (p.r2 - s2) * p.k2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t24 = phi1_dot * (s1 * phi1_dot);
-    let t25 = s1_dot * phi1_dot * S::from_f64(2.0);
-    let t26 = sin_phi1 * t24 - cos_phi1 * t25;
-    let t27 = t23 * sin_phi2 + p.m1 * t26;
-    let t28 = sin_phi1 * t25 + cos_phi1 * t24;
-    let t29 = t23 * cos_phi2 + p.m1 * t28;
-    let t30 = p.k22 * (t5 - sin_phi1 * t27 - cos_phi1 * t29) - cos_phi1 * t20;
-    let t31 = cos_phi1 * t21 + p.k22 * (cos_phi1 * t27 - sin_phi1 * t29);
-    let t32 = t31 - sin_phi1 * t20;
-    let t33 = t30 - t22;
-    let t34 = t26 + sin_phi1 * t33 + (t21 - cos_phi1 * t32);
-    let t35 = t28 + cos_phi1 * t33 + (t20 + sin_phi1 * t32);
-    let t36 = s2 * p.m2;
-    let t37 = p.k21 * (t23 - phi2_dot * (t36 * phi2_dot));
-    let t38 = phi2_dot * (s2_dot * S::from_f64(2.0)) + sin_phi2 * t35 - cos_phi2 * t34;
-    let t39 = s2 * t36;
-    if vanishes(t39, t39, 7.993605777301127e-15) {
-        return Err(singular(7, t39, t39));
-    }
-    let t40 = s1 * s1;
-    let t41 = p.m1 * t40;
-    let t42 = t40 * p.k11;
-    if vanishes(t41, t42, 7.993605777301127e-15) {
-        return Err(singular(4, t41, t42));
-    }
-    let x_ddot = -t20;
-    let y_ddot = -t21;
-    let theta_ddot = t18 * p.k24;
-    let s1_ddot = t22 - t30;
-    let phi1_ddot = t32 / s1;
-    let zero = S::ZERO;
-    let s2_ddot = sin_phi2 * t34 + cos_phi2 * t35 - t37;
-    let phi2_ddot = -(t38 / s2);
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -818,26 +860,28 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi1_dot * s1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
-    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t8 = theta_dot * p.x0;
+    let t0 = p.w.product_error(t);
+    let t1 = p.w * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t9 = theta_dot * p.y0;
-    let t10 = p.w * t;
-    let (sin_t10, cos_t10) = t10.sin_cos();
-    let t11 = p.k0 * cos_t10 + (y_dot + t8 * cos_theta - t9 * sin_theta);
-    let t12 = x_dot - t8 * sin_theta - cos_theta * t9 - p.k0 * sin_t10;
-    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t14 = p.k10 * (t11 * t11 + t12 * t12) + S::from_f64(0.5) * t13;
-    t14 + (S::from_f64(0.5) * t6 + S::from_f64(0.5) * t7)
+    let t3 = theta_dot * p.y0;
+    let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
+    let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
+    let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
+    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t8 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t9 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
+    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
+    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
+    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
+    let t14 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2);
+    let t15 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t16 = p.k10 * (t5 * t5 + t6 * t6) + S::from_f64(0.5) * t7;
+    t16 + (S::from_f64(0.5) * t14 + S::from_f64(0.5) * t15)
 }
 
 /// Potential energy `V`, in J.
@@ -898,13 +942,15 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta_ddot = a[2];
     let t0 = theta_dot * theta_dot;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = t0 * sin_theta - cos_theta * theta_ddot;
-    let t2 = theta_ddot * sin_theta + cos_theta * t0;
-    let t3 = p.w * t;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t4 = cos_t3 * (p.k9 * sin_t3 - (y_ddot - t2 * p.y0 - t1 * p.x0));
-    let t5 = sin_t3 * (cos_t3 * p.k9 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t4;
-    t5 * p.k19
+    let t1 = sin_theta * t0 - cos_theta * theta_ddot;
+    let t2 = sin_theta * theta_ddot + cos_theta * t0;
+    let t3 = p.w.product_error(t);
+    let t4 = p.w * t;
+    let (sin_t4, cos_t4) = t4.sin_cos();
+    let t5 = cos_t4 - t3 * sin_t4;
+    let t6 = sin_t4 + t3 * cos_t4;
+    let t7 = t5 * (t6 * p.k9 - (y_ddot - t2 * p.y0 - t1 * p.x0));
+    (t6 * (t5 * p.k9 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t7) * p.k19
 }
 
 /// Power that dampers take out, in W.
@@ -1140,10 +1186,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

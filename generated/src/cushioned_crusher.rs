@@ -10,14 +10,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 30 | 7 | 6 | 0 | 0 | 43 |
 //! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 50 | 26 | 0 | 4 | 0 | 84 |
+//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
 //! | `applied` | 32 | 34 | 0 | 0 | 0 | 66 |
-//! | `forces` | 81 | 56 | 0 | 4 | 0 | 145 |
-//! | `accelerations` | 105 | 77 | 2 | 4 | 0 | 192 |
-//! | `kinetic_energy` | 38 | 25 | 0 | 4 | 0 | 71 |
+//! | `forces` | 84 | 58 | 0 | 4 | 0 | 150 |
+//! | `accelerations` | 108 | 79 | 2 | 4 | 0 | 197 |
+//! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
 //! | `potential_energy` | 14 | 11 | 0 | 0 | 0 | 25 |
 //! | `dissipation` | 24 | 15 | 0 | 0 | 0 | 39 |
-//! | `work_rate` | 15 | 9 | 0 | 2 | 0 | 28 |
+//! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
 //! | `dissipation_rate` | 24 | 15 | 0 | 0 | 0 | 39 |
 //! | `output_mortar_force` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `output_crushing_force` | 2 | 2 | 0 | 0 | 0 | 4 |
@@ -572,7 +572,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let t3 = cos_phi2 * s2;
     let t4 = sin_phi2 * s2;
     let zero = S::ZERO;
-    let m31 = -(p.k15 * sin_theta + p.k14 * cos_theta);
+    let m31 = -(p.k15 * sin_theta + cos_theta * p.k14);
     let m32 = p.k15 * cos_theta - sin_theta * p.k14;
     let m41 = p.k13 * cos_phi1;
     let m42 = p.k13 * sin_phi1;
@@ -580,7 +580,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k13 * t1;
     let m55 = s1 * (p.k13 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -631,39 +631,40 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t9 * p.y0;
-    let t12 = p.omega * t;
-    let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = p.k12 * cos_t12 + (t10 * cos_theta - t11 * sin_theta);
-    let t14 = sin_phi2 * s2;
-    let t15 = sin_phi1 * s1;
-    let t16 = t3 * t15 - t5 * cos_phi1;
-    let t17 = t0 * t14 - t2 * cos_phi2 + t16;
-    let t18 = p.m2 * t17 + p.m1 * t16;
-    let t19 = p.k12 * sin_t12 + (sin_theta * t10 + t11 * cos_theta);
-    let t20 = cos_theta * (t13 * p.k14 - t19 * p.k15);
-    let h_x = -(t13 * p.m0 + t8);
-    let h_y = -(p.m0 * t19 + t18);
-    let h_theta = sin_theta * (t19 * p.k14 + t13 * p.k15) + t20;
-    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t18);
-    let h_phi1 = t8 * t15 - t4 * t18;
+    let t4 = t2 * p.y0;
+    let t5 = p.k12 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = cos_phi2 * s2;
+    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t9 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = cos_phi1 * s1;
+    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t12 = t11 * sin_phi1 + t9 * t10;
+    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
+    let t14 = t13 * p.m2 + t12 * p.m1;
+    let t15 = p.k12 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t16 = sin_phi2 * s2;
+    let t17 = sin_phi1 * s1;
+    let t18 = t9 * t17 - t11 * cos_phi1;
+    let t19 = t6 * t16 - t8 * cos_phi2 + t18;
+    let t20 = p.m2 * t19 + p.m1 * t18;
+    let t21 = cos_theta * (t5 * p.k14 - t15 * p.k15);
+    let h_x = -(t5 * p.m0 + t14);
+    let h_y = -(p.m0 * t15 + t20);
+    let h_theta = sin_theta * (t15 * p.k14 + t5 * p.k15) + t21;
+    let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
+    let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
-    let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
+    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
+    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -739,52 +740,53 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi2_dot * s2;
-    let t2 = phi2_dot * t1;
-    let t3 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = phi1_dot * s1;
-    let t5 = phi1_dot * t4;
-    let t6 = t3 * sin_phi1 + t5 * cos_phi1;
-    let t7 = t0 * sin_phi2 + t2 * cos_phi2 + t6;
-    let t8 = t7 * p.m2;
-    let t9 = t8 + t6 * p.m1;
-    let t10 = theta_dot * theta_dot;
-    let t11 = t10 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t12 = t10 * p.y0;
-    let t13 = p.omega * t;
-    let (sin_t13, cos_t13) = t13.sin_cos();
-    let t14 = p.k12 * cos_t13 + (t11 * cos_theta - t12 * sin_theta);
-    let t15 = theta_dot * p.yc;
-    let t16 = p.yc * theta;
-    let t17 = p.bx * (x_dot - t15) + p.cx * (x - t16);
-    let t18 = p.bx * (t15 + x_dot) + p.cx * (t16 + x);
-    let t19 = sin_phi1 * t5 - t3 * cos_phi1;
-    let t20 = sin_phi2 * t2 - t0 * cos_phi2 + t19;
-    let t21 = p.m2 * t20;
-    let t22 = t21 + p.m1 * t19;
-    let t23 = p.k12 * sin_t13 + (sin_theta * t11 + t12 * cos_theta);
-    let t24 = theta_dot * p.xc;
-    let t25 = theta * p.xc;
-    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
-    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
-    let t28 = cos_theta * (t14 * p.k14 - t23 * p.k15);
-    let t29 = sin_theta * (t23 * p.k14 + t14 * p.k15) + t28;
-    let t30 = t4 + theta1_dot * p.r1 - theta_dot * p.R;
-    let t31 = t1 + p.r2 * theta2_dot - theta1_dot * p.rho;
-    let t32 = p.m2 * (t20 * (s2 * cos_phi2) - t7 * (sin_phi2 * s2));
-    let f_x = t14 * p.m0 + t9 - (t17 + t18);
-    let f_y = p.m0 * t23 + t22 - (t26 + t27);
-    let f_theta = t30 * p.k19 - (t29 + (p.yc * (t18 - t17) + p.xc * (t27 - t26)));
-    let f_s1 = cos_phi1 * t9 + sin_phi1 * t22 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1);
-    let f_phi1 = t22 * (s1 * cos_phi1) - t9 * (sin_phi1 * s1) - t30 * (s1 * p.drag1);
-    let f_theta1 = t31 * p.k17 - t30 * p.k20;
-    let f_s2 = cos_phi2 * t8 + sin_phi2 * t21 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2);
-    let f_phi2 = t32 - t31 * (s2 * p.drag2);
-    let f_theta2 = -(t31 * p.k18);
+    let t4 = t2 * p.y0;
+    let t5 = p.k12 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = phi2_dot * s2;
+    let t8 = phi2_dot * t7;
+    let t9 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = phi1_dot * s1;
+    let t11 = phi1_dot * t10;
+    let t12 = t9 * sin_phi1 + cos_phi1 * t11;
+    let t13 = t6 * sin_phi2 + cos_phi2 * t8 + t12;
+    let t14 = t13 * p.m2;
+    let t15 = t14 + t12 * p.m1;
+    let t16 = theta_dot * p.yc;
+    let t17 = p.yc * theta;
+    let t18 = p.bx * (x_dot - t16) + p.cx * (x - t17);
+    let t19 = p.bx * (t16 + x_dot) + p.cx * (t17 + x);
+    let t20 = p.k12 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t21 = sin_phi1 * t11 - t9 * cos_phi1;
+    let t22 = sin_phi2 * t8 - t6 * cos_phi2 + t21;
+    let t23 = p.m2 * t22;
+    let t24 = t23 + p.m1 * t21;
+    let t25 = theta_dot * p.xc;
+    let t26 = theta * p.xc;
+    let t27 = p.by * (y_dot - t25) + p.cy * (y - t26);
+    let t28 = p.by * (t25 + y_dot) + p.cy * (t26 + y);
+    let t29 = cos_theta * (t5 * p.k14 - t20 * p.k15);
+    let t30 = sin_theta * (t20 * p.k14 + t5 * p.k15) + t29;
+    let t31 = t10 + theta1_dot * p.r1 - theta_dot * p.R;
+    let t32 = t7 + p.r2 * theta2_dot - theta1_dot * p.rho;
+    let t33 = p.m2 * (t22 * (cos_phi2 * s2) - t13 * (sin_phi2 * s2));
+    let f_x = t5 * p.m0 + t15 - (t18 + t19);
+    let f_y = p.m0 * t20 + t24 - (t27 + t28);
+    let f_theta = t31 * p.k19 - (t30 + (p.yc * (t19 - t18) + p.xc * (t28 - t27)));
+    let f_s1 = cos_phi1 * t15 + sin_phi1 * t24 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1);
+    let f_phi1 = t24 * (cos_phi1 * s1) - t15 * (sin_phi1 * s1) - t31 * (s1 * p.drag1);
+    let f_theta1 = t32 * p.k17 - t31 * p.k20;
+    let f_s2 = cos_phi2 * t14 + sin_phi2 * t23 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2);
+    let f_phi2 = t33 - t32 * (s2 * p.drag2);
+    let f_theta2 = -(t32 * p.k18);
     [
         f_x, f_y, f_theta, f_s1, f_phi1, f_theta1, f_s2, f_phi2, f_theta2,
     ]
@@ -794,115 +796,150 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let theta1_dot = n(v[5]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let theta2_dot = n(v[8]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [t0, theta, phi1, phi2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let (sin_phi1, cos_phi1) = circular[2];
+        let (sin_phi2, cos_phi2) = circular[3];
+        let t1 = theta_dot * n(p.xc);
+        let t2 = theta * n(p.xc);
+        let t3 = n(p.by).mul_add(y_dot - t1, n(p.cy) * (y - t2));
+        let t4 = phi1_dot * s1;
+        let t5 = theta1_dot.mul_add(n(p.r1), t4);
+        let t6 = theta_dot.neg_mul_add(n(p.R), t5);
+        let t7 = n(p.omega).product_error(n(t));
+        let t8 = cos_theta * n(p.y0);
+        let t9 = theta_dot * theta_dot;
+        let t10 = sin_theta * n(p.x0);
+        let t11 = n(p.k12).mul_add(t7.mul_add(cos_t0, sin_t0), t8 * t9);
+        let t12 = n(p.m0) * t10.mul_add(t9, t11);
+        let t13 = cos_theta * n(p.x0);
+        let t14 = sin_theta * n(p.y0);
+        let t15 = t13 - t14;
+        let t16 = theta_dot * n(p.yc);
+        let t17 = theta * n(p.yc);
+        let t18 = n(p.bx).mul_add(x_dot - t16, n(p.cx) * (x - t17));
+        let t19 = n(p.xc).mul_add(t3, t6 * n(p.k19));
+        let t20 = n(p.by).mul_add(t1 + y_dot, n(p.cy) * (t2 + y));
+        let t21 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
+        let t22 = t6 * n(p.drag1);
+        let t23 = t3 + t20 - sin_phi1.mul_add(t21, t12);
+        let t24 = t22.neg_mul_add(cos_phi1, t23);
+        let t25 = n(p.k12).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t9 * t13);
+        let t26 = t14.neg_mul_add(t9, t25) * n(p.m0);
+        let t27 = t10 + t8;
+        let t28 = n(p.bx).mul_add(t16 + x_dot, n(p.cx) * (t17 + x));
+        let t29 = t24.mul_sub(n(p.k28) * t15, n(p.xc) * t20);
+        let t30 = t29 - t27.mul_add(t26, n(p.yc) * t28);
+        let t31 = t18 + t28 + t22.mul_sub(sin_phi1, cos_phi1 * t21) - t26;
+        let t32 = t19 + t15.mul_add(t12, n(p.yc) * t18) + t30;
+        let t33 = t31.neg_mul_add(n(p.k28) * t27, t32);
+        let t34 = n(p.k30) * t33;
+        let t35 = n(p.k31) * t27.neg_mul_add(t34, t31);
+        let t36 = n(p.k31) * t15.mul_add(t34, t24);
+        let t37 = sin_phi1 * t36;
+        let t38 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
+        let t39 = phi1_dot * t4;
+        let t40 = phi1_dot * s1_dot * N::from_f64(2.0);
+        let t41 = sin_phi1.mul_sub(t39, cos_phi1 * t40);
+        let t42 = n(p.r2).mul_add(theta2_dot, phi2_dot * s2);
+        let t43 = theta1_dot.neg_mul_add(n(p.rho), t42);
+        let t44 = t43 * n(p.drag2);
+        let t45 = n(p.m1).mul_add(t41, sin_phi2 * t38);
+        let t46 = t44.mul_add(cos_phi2, t45);
+        let t47 = sin_phi1.mul_add(t40, cos_phi1 * t39);
+        let t48 = n(p.m1).mul_add(t47, cos_phi2 * t38);
+        let t49 = t44.neg_mul_add(sin_phi2, t48);
+        let t50 = cos_phi1.neg_mul_add(t49, sin_phi1.neg_mul_add(t46, t21));
+        let t51 = cos_phi1.neg_mul_add(t35, n(p.k27) * t50);
+        let t52 = n(p.k27) * (cos_phi1.mul_sub(t46, sin_phi1 * t49) - t22);
+        let t53 = sin_phi1.neg_mul_add(t35, cos_phi1.mul_add(t36, t52));
+        let t54 = t51 - t37;
+        let t55 = cos_phi1.neg_mul_add(t53, t36);
+        let t56 = sin_phi1.mul_add(t54, t41) + t55;
+        let t57 = cos_phi1.mul_add(t54, t47) + sin_phi1.mul_add(t53, t35);
+        let t58 = s2 * n(p.m2);
+        let t59 = phi2_dot.neg_mul_add(phi2_dot * t58, t38);
+        let t60 = sin_phi2.mul_add(t56, cos_phi2 * t57);
+        let t61 = n(p.k25) * phi2_dot.mul_add(s2_dot * n(p.k26), t44);
+        let t62 = cos_phi2.neg_mul_add(t56, sin_phi2.mul_add(t57, t61)) / s2;
+        let t63 = s2 * t58;
+        checked(t63, t63, 7.993605777301127e-15, 7)?;
+        let t64 = s1 * s1;
+        let t65 = n(p.m1) * t64;
+        let t66 = t64 * n(p.k13);
+        checked(t65, t66, 7.993605777301127e-15, 4)?;
+        let x_ddot = -t35;
+        let y_ddot = -t36;
+        let theta_ddot = t33 * n(p.k29);
+        let s1_ddot = t37 - t51;
+        let phi1_ddot = t53 / s1;
+        let theta1_ddot = -(n(p.k23) * t6.mul_sub(n(p.k20), t43 * n(p.k17)));
+        let s2_ddot = n(p.k25).neg_mul_add(t59, t60);
+        let phi2_ddot = -t62;
+        let theta2_ddot = -(t43 * n(p.k24));
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            theta1_ddot.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            theta2_ddot.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let phi2 = q[7];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let theta1_dot = v[5];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let theta2_dot = v[8];
-    let t0 = theta_dot * p.xc;
-    let t1 = theta * p.xc;
-    let t2 = p.by * (y_dot - t0) + p.cy * (y - t1);
-    let t3 = phi1_dot * s1;
-    let t4 = theta1_dot * p.r1 + t3 - theta_dot * p.R;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t5 = sin_theta * p.x0;
-    let t6 = theta_dot * theta_dot;
-    let t7 = cos_theta * p.y0;
-    let t8 = p.omega * t;
-    let (sin_t8, cos_t8) = t8.sin_cos();
-    let t9 = p.m0 * (t5 * t6 + (p.k12 * sin_t8 + t7 * t6));
-    let t10 = p.x0 * cos_theta;
-    let t11 = sin_theta * p.y0;
-    let t12 = t10 - t11;
-    let t13 = theta_dot * p.yc;
-    let t14 = theta * p.yc;
-    let t15 = p.bx * (x_dot - t13) + p.cx * (x - t14);
-    let t16 = p.by * (t0 + y_dot) + p.cy * (t1 + y);
-    let t17 = (s1 - p.gap1) * p.k1 + s1_dot * p.d1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t18 = t4 * p.drag1;
-    let t19 = t2 + t16 - (t9 + sin_phi1 * t17) - t18 * cos_phi1;
-    let t20 = (p.k12 * cos_t8 + t6 * t10 - t11 * t6) * p.m0;
-    let t21 = t5 + t7;
-    let t22 = p.bx * (t13 + x_dot) + p.cx * (t14 + x);
-    let t23 = t19 * (p.k28 * t12) - p.xc * t16 - (t21 * t20 + p.yc * t22);
-    let t24 = t15 + t22 + (t18 * sin_phi1 - t17 * cos_phi1) - t20;
-    let t25 = p.xc * t2 + t4 * p.k19 + (t12 * t9 + p.yc * t15) + t23;
-    let t26 = t25 - t24 * (p.k28 * t21);
-    let t27 = p.k30 * t26;
-    let t28 = p.k31 * (t24 - t21 * t27);
-    let t29 = p.k31 * (t19 + t12 * t27);
-    let t30 = sin_phi1 * t29;
-    let t31 = (s2 - p.gap2) * p.k2 + s2_dot * p.d2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t32 = phi1_dot * t3;
-    let t33 = phi1_dot * s1_dot * S::from_f64(2.0);
-    let t34 = sin_phi1 * t32 - cos_phi1 * t33;
-    let t35 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
-    let t36 = t35 * p.drag2;
-    let t37 = t36 * cos_phi2 + (sin_phi2 * t31 + p.m1 * t34);
-    let t38 = sin_phi1 * t33 + cos_phi1 * t32;
-    let t39 = t31 * cos_phi2 + p.m1 * t38 - t36 * sin_phi2;
-    let t40 = p.k27 * (t17 - sin_phi1 * t37 - cos_phi1 * t39) - cos_phi1 * t28;
-    let t41 = cos_phi1 * t29 + p.k27 * (cos_phi1 * t37 - sin_phi1 * t39 - t18);
-    let t42 = t41 - sin_phi1 * t28;
-    let t43 = t40 - t30;
-    let t44 = t34 + sin_phi1 * t43 + (t29 - cos_phi1 * t42);
-    let t45 = t38 + cos_phi1 * t43 + (t28 + sin_phi1 * t42);
-    let t46 = s2 * p.m2;
-    let t47 = p.k25 * (t31 - phi2_dot * (phi2_dot * t46));
-    let t48 = p.k25 * (t36 + phi2_dot * (s2_dot * p.k26)) + sin_phi2 * t45;
-    let t49 = s2 * t46;
-    if vanishes(t49, t49, 7.993605777301127e-15) {
-        return Err(singular(7, t49, t49));
-    }
-    let t50 = s1 * s1;
-    let t51 = p.m1 * t50;
-    let t52 = t50 * p.k13;
-    if vanishes(t51, t52, 7.993605777301127e-15) {
-        return Err(singular(4, t51, t52));
-    }
-    let x_ddot = -t28;
-    let y_ddot = -t29;
-    let theta_ddot = t26 * p.k29;
-    let s1_ddot = t30 - t40;
-    let phi1_ddot = t42 / s1;
-    let theta1_ddot = -(p.k23 * (t4 * p.k20 - t35 * p.k17));
-    let s2_ddot = sin_phi2 * t44 + cos_phi2 * t45 - t47;
-    let phi2_ddot = -((t48 - cos_phi2 * t44) / s2);
-    let theta2_ddot = -(t35 * p.k24);
-    let accelerations = [
-        x_ddot,
-        y_ddot,
-        theta_ddot,
-        s1_ddot,
-        phi1_ddot,
-        theta1_ddot,
-        s2_ddot,
-        phi2_ddot,
-        theta2_ddot,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -932,25 +969,27 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi1_dot * s1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
-    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = theta_dot * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t8 = theta_dot * p.y0;
-    let t9 = p.omega * t;
-    let (sin_t9, cos_t9) = t9.sin_cos();
-    let t10 = p.k0 * cos_t9 + (y_dot + t7 * cos_theta - t8 * sin_theta);
-    let t11 = x_dot - t7 * sin_theta - cos_theta * t8 - p.k0 * sin_t9;
-    let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t13 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t10 * t10 + t11 * t11) * p.m0 + p.k1_ + t12 + t13) * S::from_f64(0.5)
+    let t3 = theta_dot * p.y0;
+    let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
+    let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
+    let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
+    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t8 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t9 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
+    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
+    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
+    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
+    let t14 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t15 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
+    ((t5 * t5 + t6 * t6) * p.m0 + p.k1_ + t7 + t15) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -1036,13 +1075,15 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta_ddot = a[2];
     let t0 = theta_dot * theta_dot;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = t0 * sin_theta - cos_theta * theta_ddot;
-    let t2 = theta_ddot * sin_theta + cos_theta * t0;
-    let t3 = p.omega * t;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t4 = cos_t3 * (p.k12 * sin_t3 - (y_ddot - t2 * p.y0 - t1 * p.x0));
-    let t5 = sin_t3 * (cos_t3 * p.k12 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t4;
-    t5 * p.k21
+    let t1 = sin_theta * t0 - cos_theta * theta_ddot;
+    let t2 = sin_theta * theta_ddot + cos_theta * t0;
+    let t3 = p.omega.product_error(t);
+    let t4 = p.omega * t;
+    let (sin_t4, cos_t4) = t4.sin_cos();
+    let t5 = cos_t4 - t3 * sin_t4;
+    let t6 = sin_t4 + t3 * cos_t4;
+    let t7 = t5 * (t6 * p.k12 - (y_ddot - t2 * p.y0 - t1 * p.x0));
+    (t6 * (t5 * p.k12 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t7) * p.k21
 }
 
 /// Power that dampers take out, in W.
@@ -1355,10 +1396,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

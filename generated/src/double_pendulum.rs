@@ -271,36 +271,59 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
 ) -> Result<[S; 2], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 2],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta1 = n(q[0]);
+        let theta2 = n(q[1]);
+        let theta1_dot = n(v[0]);
+        let theta2_dot = n(v[1]);
+        let angles = [theta2, theta1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta2, cos_theta2) = circular[0];
+        let (sin_theta1, cos_theta1) = circular[1];
+        let t0 = n(p.k4) * (sin_theta2 * cos_theta1);
+        let t1 = theta1_dot * theta1_dot;
+        let t2 = cos_theta2 * sin_theta1 * n(p.k4);
+        let t3 = theta2_dot * theta2_dot;
+        let t4 = t3.neg_mul_add(t0, t3.mul_add(t2, sin_theta1 * n(p.k7)));
+        let t5 = cos_theta2.mul_add(cos_theta1, sin_theta2 * sin_theta1);
+        let t6 = n(p.k4) * t5;
+        let t7 = n(p.k9) * t6;
+        let t8 = t2.neg_mul_add(t1, t0.mul_add(t1, sin_theta2 * n(p.k6)));
+        let t9 = t6.neg_mul_add(t7, n(p.k5));
+        let t9 = checked(t9, n(p.k5), 1.7763568394002505e-15, 1)?;
+        let t10 = t4.neg_mul_add(t7, t8) / t9;
+        let theta1_ddot = t7.mul_sub(t10, n(p.k9) * t4);
+        let theta2_ddot = -t10;
+        let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
+        Ok(accelerations)
     }
-    let theta1 = q[0];
-    let theta2 = q[1];
-    let theta1_dot = v[0];
-    let theta2_dot = v[1];
-    let (sin_theta2, cos_theta2) = theta2.sin_cos();
-    let (sin_theta1, cos_theta1) = theta1.sin_cos();
-    let t0 = p.k4 * (sin_theta2 * cos_theta1);
-    let t1 = theta1_dot * theta1_dot;
-    let t2 = cos_theta2 * sin_theta1 * p.k4;
-    let t3 = theta2_dot * theta2_dot;
-    let t4 = t3 * t2 + sin_theta1 * p.k7 - t3 * t0;
-    let t5 = p.k4 * (cos_theta2 * cos_theta1 + sin_theta1 * sin_theta2);
-    let t6 = p.k9 * t5;
-    let t7 = p.k5 - t5 * t6;
-    if vanishes(t7, p.k5, 1.7763568394002505e-15) {
-        return Err(singular(1, t7, p.k5));
-    }
-    let t8 = (t0 * t1 + sin_theta2 * p.k6 - t2 * t1 - t4 * t6) / t7;
-    let theta1_ddot = t6 * t8 - p.k9 * t4;
-    let theta2_ddot = -t8;
-    let accelerations = [theta1_ddot, theta2_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -493,10 +516,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -15,14 +15,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 24 | 8 | 2 | 0 | 0 | 34 |
 //! | `mass_matrix` | 28 | 6 | 0 | 2 | 0 | 38 |
-//! | `bias` | 73 | 56 | 0 | 3 | 0 | 135 |
+//! | `bias` | 76 | 58 | 0 | 3 | 0 | 140 |
 //! | `applied` | 12 | 23 | 0 | 0 | 0 | 35 |
-//! | `forces` | 85 | 78 | 0 | 3 | 0 | 169 |
-//! | `accelerations` | 191 | 146 | 5 | 3 | 0 | 348 |
-//! | `kinetic_energy` | 34 | 23 | 0 | 3 | 0 | 63 |
+//! | `forces` | 88 | 80 | 0 | 3 | 0 | 174 |
+//! | `accelerations` | 194 | 148 | 5 | 3 | 0 | 353 |
+//! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `work_rate` | 17 | 13 | 0 | 1 | 0 | 32 |
+//! | `work_rate` | 20 | 15 | 0 | 1 | 0 | 37 |
 //! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -457,7 +457,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k6 * t1;
     let m55 = s1 * (p.k6 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -506,50 +506,53 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = p.omega * t;
-    let (sin_t11, cos_t11) = t11.sin_cos();
-    let t12 = s2_dot * cos_phi2;
-    let t13 = phi2_dot * t12;
-    let t14 = sin_phi2 * t2;
-    let t15 = s1_dot * cos_phi1;
-    let t16 = phi1_dot * t15;
-    let t17 = sin_phi1 * t6;
-    let t18 = t16 + (t16 - phi1_dot * t17);
-    let t19 = t13 + (t13 - phi2_dot * t14) + t18;
-    let t20 = p.m2 * t19 + p.m1 * t18;
-    let t21 = t4 + t7 + y_dot;
-    let t22 = t0 + t3 + t21;
-    let t23 = p.m2 * t22 + p.m1 * t21;
-    let t24 = t23 * (phi1_dot * cos_phi1);
-    let t25 = t15 - t17 + x_dot;
-    let t26 = t12 - t14 + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t27 * (sin_phi1 * phi1_dot);
-    let t29 = t20 * (s1 * cos_phi1) + t15 * t23 - t17 * t23;
-    let t30 = sin_phi1 * (s1_dot * t27 + t6 * t23);
-    let t31 = t29 - (t7 * t27 + t4 * t27 - t10 * (sin_phi1 * s1));
-    let t32 = t22 * (phi2_dot * cos_phi2);
-    let t33 = t26 * (sin_phi2 * phi2_dot);
-    let t34 = sin_phi2 * (s2_dot * t26 + t2 * t22);
-    let t35 = t19 * (s2 * cos_phi2) + t12 * t22 - t14 * t22;
-    let t36 = t35 - (t3 * t26 + t0 * t26 - t9 * (sin_phi2 * s2));
-    let h_x = -(p.k11 * cos_t11 + t10);
-    let h_y = t20 - p.k11 * sin_t11;
-    let h_theta = cos_t11 * p.k13 - sin_t11 * p.k12;
-    let h_s1 = t24 + sin_phi1 * t20 - (t28 + cos_phi1 * t10) - (t24 - t28);
-    let h_phi1 = t31 - (cos_phi1 * (s1_dot * t23 - t6 * t27) - t30);
+    let t11 = p.omega.product_error(t);
+    let t12 = p.omega * t;
+    let (sin_t12, cos_t12) = t12.sin_cos();
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = cos_phi2 * s2_dot;
+    let t15 = phi2_dot * t14;
+    let t16 = sin_phi2 * t2;
+    let t17 = cos_phi1 * s1_dot;
+    let t18 = phi1_dot * t17;
+    let t19 = sin_phi1 * t6;
+    let t20 = t18 + (t18 - phi1_dot * t19);
+    let t21 = t15 + (t15 - phi2_dot * t16) + t20;
+    let t22 = p.m2 * t21 + p.m1 * t20;
+    let t23 = sin_t12 + t11 * cos_t12;
+    let t24 = t4 + t7 + y_dot;
+    let t25 = t0 + t3 + t24;
+    let t26 = p.m2 * t25 + p.m1 * t24;
+    let t27 = t26 * (cos_phi1 * phi1_dot);
+    let t28 = t17 - t19 + x_dot;
+    let t29 = t14 - t16 + t28;
+    let t30 = p.m2 * t29 + p.m1 * t28;
+    let t31 = t30 * (sin_phi1 * phi1_dot);
+    let t32 = t22 * (cos_phi1 * s1) + t17 * t26 - t19 * t26;
+    let t33 = sin_phi1 * (s1_dot * t30 + t6 * t26);
+    let t34 = t32 - (t7 * t30 + t4 * t30 - t10 * (sin_phi1 * s1));
+    let t35 = t25 * (cos_phi2 * phi2_dot);
+    let t36 = t29 * (sin_phi2 * phi2_dot);
+    let t37 = sin_phi2 * (s2_dot * t29 + t2 * t25);
+    let t38 = t21 * (cos_phi2 * s2) + t14 * t25 - t16 * t25;
+    let t39 = t38 - (t3 * t29 + t0 * t29 - t9 * (sin_phi2 * s2));
+    let h_x = -(p.k11 * t13 + t10);
+    let h_y = t22 - p.k11 * t23;
+    let h_theta = t13 * p.k13 - t23 * p.k12;
+    let h_s1 = t27 + sin_phi1 * t22 - (t31 + cos_phi1 * t10) - (t27 - t31);
+    let h_phi1 = t34 - (cos_phi1 * (s1_dot * t26 - t6 * t30) - t33);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t32 - t33 - (t32 + sin_phi2 * t19 - (t33 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t22 - t2 * t26) - t34 - t36));
+    let h_s2 = -(p.m2 * (t35 - t36 - (t35 + sin_phi2 * t21 - (t36 + cos_phi2 * t9))));
+    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t25 - t2 * t29) - t37 - t39));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -607,64 +610,67 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = p.omega * t;
-    let (sin_t11, cos_t11) = t11.sin_cos();
-    let t12 = theta_dot * p.yc;
-    let t13 = t12 + x_dot;
-    let t14 = x_dot - t12;
-    let t15 = p.yc * theta;
-    let t16 = t15 + x;
-    let t17 = x - t15;
-    let t18 = theta_dot * p.xc;
-    let t19 = t18 + y_dot;
-    let t20 = y_dot - t18;
-    let t21 = theta * p.xc;
-    let t22 = t21 + y;
-    let t23 = y - t21;
-    let t24 = s2_dot * cos_phi2;
-    let t25 = phi2_dot * t24;
-    let t26 = sin_phi2 * t2;
-    let t27 = s1_dot * cos_phi1;
-    let t28 = phi1_dot * t27;
-    let t29 = sin_phi1 * t6;
-    let t30 = t28 + (t28 - phi1_dot * t29);
-    let t31 = t25 + (t25 - phi2_dot * t26) + t30;
-    let t32 = p.m2 * t31 + p.m1 * t30;
-    let t33 = p.k15 * (t17 - t16) + p.k14 * (t23 - t22);
-    let t34 = p.k17 * (t14 - t13) + p.k16 * (t20 - t19) + t33;
-    let t35 = y_dot + (t4 + t7);
-    let t36 = t0 + t3 + t35;
-    let t37 = p.m2 * t36 + p.m1 * t35;
-    let t38 = t37 * (phi1_dot * cos_phi1);
-    let t39 = x_dot + (t27 - t29);
-    let t40 = t24 - t26 + t39;
-    let t41 = p.m2 * t40 + p.m1 * t39;
-    let t42 = t41 * (sin_phi1 * phi1_dot);
-    let t43 = sin_phi1 * (s1_dot * t41 + t6 * t37);
-    let t44 = t32 * (s1 * cos_phi1) + t27 * t37 - t29 * t37;
-    let t45 = t44 - (t7 * t41 + t4 * t41 - t10 * (sin_phi1 * s1));
-    let t46 = t36 * (phi2_dot * cos_phi2);
-    let t47 = t40 * (sin_phi2 * phi2_dot);
-    let t48 = sin_phi2 * (s2_dot * t40 + t2 * t36);
-    let t49 = t31 * (s2 * cos_phi2) + t24 * t36 - t26 * t36;
-    let t50 = t49 - (t3 * t40 + t0 * t40 - t9 * (sin_phi2 * s2));
-    let f_x = p.k11 * cos_t11 + t10 - ((t13 + t14) * p.bx + (t16 + t17) * p.cx);
-    let f_y = -((t19 + t20) * p.by + (t22 + t23) * p.cy + (t32 - p.k11 * sin_t11));
-    let f_theta = t34 - (cos_t11 * p.k13 - sin_t11 * p.k12);
-    let f_s1 = t38 - t42 - (t38 + sin_phi1 * t32 - (t42 + cos_phi1 * t10));
-    let f_phi1 = cos_phi1 * (s1_dot * t37 - t6 * t41) - t43 - t45;
+    let t11 = p.omega.product_error(t);
+    let t12 = p.omega * t;
+    let (sin_t12, cos_t12) = t12.sin_cos();
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = theta_dot * p.yc;
+    let t15 = t14 + x_dot;
+    let t16 = x_dot - t14;
+    let t17 = p.yc * theta;
+    let t18 = t17 + x;
+    let t19 = x - t17;
+    let t20 = theta_dot * p.xc;
+    let t21 = t20 + y_dot;
+    let t22 = y_dot - t20;
+    let t23 = theta * p.xc;
+    let t24 = t23 + y;
+    let t25 = y - t23;
+    let t26 = cos_phi2 * s2_dot;
+    let t27 = phi2_dot * t26;
+    let t28 = sin_phi2 * t2;
+    let t29 = cos_phi1 * s1_dot;
+    let t30 = phi1_dot * t29;
+    let t31 = sin_phi1 * t6;
+    let t32 = t30 + (t30 - phi1_dot * t31);
+    let t33 = t27 + (t27 - phi2_dot * t28) + t32;
+    let t34 = p.m2 * t33 + p.m1 * t32;
+    let t35 = sin_t12 + t11 * cos_t12;
+    let t36 = p.k15 * (t19 - t18) + p.k14 * (t25 - t24);
+    let t37 = p.k17 * (t16 - t15) + p.k16 * (t22 - t21) + t36;
+    let t38 = y_dot + (t4 + t7);
+    let t39 = t0 + t3 + t38;
+    let t40 = p.m2 * t39 + p.m1 * t38;
+    let t41 = t40 * (cos_phi1 * phi1_dot);
+    let t42 = x_dot + (t29 - t31);
+    let t43 = t26 - t28 + t42;
+    let t44 = p.m2 * t43 + p.m1 * t42;
+    let t45 = t44 * (sin_phi1 * phi1_dot);
+    let t46 = sin_phi1 * (s1_dot * t44 + t6 * t40);
+    let t47 = t34 * (cos_phi1 * s1) + t29 * t40 - t31 * t40;
+    let t48 = t47 - (t7 * t44 + t4 * t44 - t10 * (sin_phi1 * s1));
+    let t49 = t39 * (cos_phi2 * phi2_dot);
+    let t50 = t43 * (sin_phi2 * phi2_dot);
+    let t51 = sin_phi2 * (s2_dot * t43 + t2 * t39);
+    let t52 = t33 * (cos_phi2 * s2) + t26 * t39 - t28 * t39;
+    let t53 = t52 - (t3 * t43 + t0 * t43 - t9 * (sin_phi2 * s2));
+    let f_x = p.k11 * t13 + t10 - ((t15 + t16) * p.bx + (t18 + t19) * p.cx);
+    let f_y = -((t21 + t22) * p.by + (t24 + t25) * p.cy + (t34 - p.k11 * t35));
+    let f_theta = t37 - (t13 * p.k13 - t35 * p.k12);
+    let f_s1 = t41 - t45 - (t41 + sin_phi1 * t34 - (t45 + cos_phi1 * t10));
+    let f_phi1 = cos_phi1 * (s1_dot * t40 - t6 * t44) - t46 - t48;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t46 - t47 - (t46 + sin_phi2 * t31 - (t47 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t36 - t2 * t40) - t48 - t50);
+    let f_s2 = p.m2 * (t49 - t50 - (t49 + sin_phi2 * t33 - (t50 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t39 - t2 * t43) - t51 - t53);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -672,168 +678,214 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [phi2, phi1, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_phi2, cos_phi2) = circular[0];
+        let (sin_phi1, cos_phi1) = circular[1];
+        let (sin_t0, cos_t0) = circular[2];
+        let t1 = sin_phi2 * s2_dot;
+        let t2 = s2 * phi2_dot;
+        let t3 = cos_phi2 * t2;
+        let t4 = sin_phi1 * s1_dot;
+        let t5 = s1 * phi1_dot;
+        let t6 = cos_phi1 * t5;
+        let t7 = y_dot + (t4 + t6);
+        let t8 = t1 + t3 + t7;
+        let t9 = n(p.m2).mul_add(t8, n(p.m1) * t7);
+        let t10 = t9 * (cos_phi1 * phi1_dot);
+        let t11 = cos_phi2 * s2_dot;
+        let t12 = phi2_dot * t11;
+        let t13 = sin_phi2 * t2;
+        let t14 = cos_phi1 * s1_dot;
+        let t15 = phi1_dot * t14;
+        let t16 = sin_phi1 * t5;
+        let t17 = t15 + phi1_dot.neg_mul_add(t16, t15);
+        let t18 = t12 + phi2_dot.neg_mul_add(t13, t12) + t17;
+        let t19 = n(p.m2).mul_add(t18, n(p.m1) * t17);
+        let t20 = x_dot + (t14 - t16);
+        let t21 = t11 - t13 + t20;
+        let t22 = n(p.m2).mul_add(t21, t20 * n(p.m1));
+        let t23 = t22 * (sin_phi1 * phi1_dot);
+        let t24 = phi2_dot * t1;
+        let t25 = phi1_dot * t4;
+        let t26 = t25 + phi1_dot.mul_add(t6, t25);
+        let t27 = t24 + phi2_dot.mul_add(t3, t24) + t26;
+        let t28 = n(p.m2).mul_add(t27, n(p.m1) * t26);
+        let t29 = sin_phi1.mul_add(t19, t10) - cos_phi1.mul_add(t28, t23);
+        let t30 = t10 - t23 - t29;
+        let t31 = n(p.k6) * cos_phi1;
+        let t32 = n(p.k23) * t31;
+        let t33 = n(p.omega).product_error(n(t));
+        let t34 = t33.neg_mul_add(sin_t0, cos_t0);
+        let t35 = theta_dot * n(p.yc);
+        let t36 = t35 + x_dot;
+        let t37 = x_dot - t35;
+        let t38 = n(p.yc) * theta;
+        let t39 = t38 + x;
+        let t40 = x - t38;
+        let t41 = (t36 + t37).mul_add(n(p.bx), (t39 + t40) * n(p.cx));
+        let t42 = theta_dot * n(p.xc);
+        let t43 = y_dot - t42;
+        let t44 = t42 + y_dot;
+        let t45 = n(p.xc) * theta;
+        let t46 = y - t45;
+        let t47 = t45 + y;
+        let t48 = n(p.k15).mul_add(t40 - t39, n(p.k14) * (t46 - t47));
+        let t49 = t33.mul_add(cos_t0, sin_t0);
+        let t50 = n(p.k17).mul_add(t37 - t36, n(p.k16) * (t43 - t44)) + t48;
+        let t51 = t34.mul_sub(n(p.k13), t49 * n(p.k12)) - t50;
+        let t52 = t32.neg_mul_add(t30, t34.mul_add(n(p.k11), t28) - t41);
+        let t53 = t51.neg_mul_add(n(p.k19), t52);
+        let t54 = t31 * t32;
+        let t55 = N::ONE / (t54 - n(p.k24));
+        let t56 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t57 = n(p.k23) * t56;
+        let t58 = t31.neg_mul_add(t57, n(p.m2) * cos_phi2);
+        let t59 = t55 * t58;
+        let t60 = t8 * (cos_phi2 * phi2_dot);
+        let t61 = t21 * (sin_phi2 * phi2_dot);
+        let t62 = sin_phi2.mul_add(t18, t60) - cos_phi2.mul_add(t27, t61);
+        let t63 = n(p.k6) * sin_phi1;
+        let t64 = n(p.k23) * t63;
+        let t65 = (t44 + t43).mul_add(n(p.by), (t47 + t46) * n(p.cy));
+        let t66 = t31.neg_mul_add(t64, n(p.k21));
+        let t67 = t55 * t66;
+        let t68 = t64.mul_add(t30, t65 + t49.neg_mul_add(n(p.k11), t19));
+        let t69 = t68 - t67.mul_add(t53, n(p.k20) * t51);
+        let t70 = t66 * t67;
+        let t71 = t63.mul_sub(t64, n(p.k25));
+        let t72 = N::ONE / (t71 - t70);
+        let t73 = t63.neg_mul_add(t57, t66.mul_add(t59, n(p.m2) * sin_phi2));
+        let t74 = t72 * t73;
+        let t75 = t59.mul_add(t53, n(p.m2) * (t60 - t61 - t62));
+        let t76 = sin_phi1 * s1_dot.mul_add(t22, t5 * t9);
+        let t77 = cos_phi1 * s1;
+        let t78 = sin_phi1 * s1;
+        let t79 = t78.neg_mul_add(t28, t22.mul_add(t6, t22 * t4));
+        let t80 = t16.neg_mul_add(t9, t77.mul_add(t19, t14 * t9)) - t79;
+        let t81 = n(p.k6) * t78;
+        let t82 = t55 * t81;
+        let t83 = cos_phi1.mul_sub(s1_dot.mul_sub(t9, t5 * t22), t76) - t80;
+        let t84 = t66.neg_mul_add(t82, n(p.k6) * t77);
+        let t85 = t72 * t84;
+        let t86 = t85.neg_mul_add(t69, t82.neg_mul_add(t53, t83));
+        let t87 = s1 * (n(p.k6) * s1);
+        let t88 = t84.mul_add(t85, t81.mul_add(t82, t87));
+        let t89 = N::ONE / t88;
+        let t90 = n(p.m2) * t77.mul_sub(sin_phi2, t78 * cos_phi2);
+        let t91 = t81.neg_mul_add(t59, t84.mul_add(t74, t90));
+        let t92 = t89 * t91;
+        let t93 = t92.neg_mul_add(t86, t75 - t74.mul_add(t69, t57 * t30));
+        let t94 = t58.mul_add(t59, n(p.m2)) + t73.mul_sub(t74, t56 * t57);
+        let t95 = t91.neg_mul_add(t92, t94);
+        let t96 = N::ONE / t95;
+        let t97 = cos_phi2 * s2;
+        let t98 = sin_phi2 * s2;
+        let t99 = n(p.m2) * sin_phi1.mul_sub(t97, cos_phi1 * t98);
+        let t100 = n(p.k23) * t99;
+        let t101 = t31.mul_add(t100, n(p.m2) * t98);
+        let t102 = t55 * t101;
+        let t103 = t63.neg_mul_add(t100, n(p.m2) * t97);
+        let t104 = t66.neg_mul_add(t102, t103);
+        let t105 = t72 * t104;
+        let t106 = t81.mul_add(t102, n(p.m2) * t78.mul_add(t98, t77 * t97));
+        let t107 = t84.mul_add(t105, t106);
+        let t108 = t89 * t107;
+        let t109 = t91.mul_sub(t108, t73 * t105);
+        let t110 = t58.mul_add(t102, t56 * t100) + t109;
+        let t111 = t96 * t110;
+        let t112 = sin_phi2 * s2_dot.mul_add(t21, t2 * t8);
+        let t113 = t98.neg_mul_add(t27, t21.mul_add(t3, t21 * t1));
+        let t114 = t13.neg_mul_add(t8, t97.mul_add(t18, t11 * t8)) - t113;
+        let t115 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t21), t112);
+        let t116 = t111.mul_add(t93, n(p.m2) * (t115 - t114));
+        let t117 = t116 - t102.mul_add(t53, t100 * t30);
+        let t118 = s2 * (n(p.m2) * s2);
+        let t119 = t101.mul_add(t102, t118) + t104.mul_sub(t105, t99 * t100);
+        let t120 = t119 - t110.mul_add(t111, t107 * t108);
+        let phi2_ddot = (t117 - t108.mul_add(t86, t105 * t69)) / t120;
+        let s2_ddot = t111.mul_add(phi2_ddot, t96 * t93);
+        let t121 = t92.neg_mul_add(s2_ddot, t89 * t86);
+        let phi1_ddot = t108.neg_mul_add(phi2_ddot, t121);
+        let t122 = t74.mul_add(s2_ddot, t105 * phi2_ddot);
+        let y_ddot = t85.mul_add(phi1_ddot, t72 * t69) + t122;
+        let t123 = t67.neg_mul_add(y_ddot, t102 * phi2_ddot);
+        let t124 = t82.mul_add(phi1_ddot, t55 * t53) + t123;
+        let t125 = t59 * s2_ddot;
+        let t126 = t124 - t125;
+        let t127 = n(p.k20).mul_add(y_ddot, t51 * n(p.k22));
+        let t128 = t64.mul_add(y_ddot, t57 * s2_ddot);
+        let t129 = t32.mul_add(t126, n(p.k23) * t30) - t128;
+        let t130 = n(p.k24) - t54;
+        checked(t130, n(p.k7), 7.993605777301127e-15, 0)?;
+        let t131 = t70 - t71;
+        checked(t131, n(p.k7), 7.993605777301127e-15, 1)?;
+        checked(t88, t87, 7.993605777301127e-15, 4)?;
+        checked(t95, n(p.m2), 7.993605777301127e-15, 6)?;
+        checked(t120, t118, 7.993605777301127e-15, 7)?;
+        let x_ddot = t125 - t124;
+        let theta_ddot = -n(p.k19).mul_add(t126, t127);
+        let s1_ddot = t100.neg_mul_add(phi2_ddot, t129);
+        let zero = N::ZERO;
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let phi2 = q[7];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t0 = sin_phi2 * s2_dot;
-    let t1 = s2 * phi2_dot;
-    let t2 = cos_phi2 * t1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t3 = sin_phi1 * s1_dot;
-    let t4 = s1 * phi1_dot;
-    let t5 = cos_phi1 * t4;
-    let t6 = y_dot + (t3 + t5);
-    let t7 = t0 + t2 + t6;
-    let t8 = p.m2 * t7 + p.m1 * t6;
-    let t9 = t8 * (cos_phi1 * phi1_dot);
-    let t10 = cos_phi2 * s2_dot;
-    let t11 = phi2_dot * t10;
-    let t12 = sin_phi2 * t1;
-    let t13 = cos_phi1 * s1_dot;
-    let t14 = phi1_dot * t13;
-    let t15 = sin_phi1 * t4;
-    let t16 = t14 + (t14 - phi1_dot * t15);
-    let t17 = t11 + (t11 - phi2_dot * t12) + t16;
-    let t18 = p.m2 * t17 + p.m1 * t16;
-    let t19 = x_dot + (t13 - t15);
-    let t20 = t10 - t12 + t19;
-    let t21 = p.m2 * t20 + t19 * p.m1;
-    let t22 = t21 * (sin_phi1 * phi1_dot);
-    let t23 = phi2_dot * t0;
-    let t24 = phi1_dot * t3;
-    let t25 = t24 + (t24 + phi1_dot * t5);
-    let t26 = t23 + (t23 + phi2_dot * t2) + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t9 - t22 - (t9 + sin_phi1 * t18 - (t22 + cos_phi1 * t27));
-    let t29 = p.k6 * cos_phi1;
-    let t30 = p.k23 * t29;
-    let t31 = p.omega * t;
-    let (sin_t31, cos_t31) = t31.sin_cos();
-    let t32 = theta_dot * p.yc;
-    let t33 = t32 + x_dot;
-    let t34 = x_dot - t32;
-    let t35 = p.yc * theta;
-    let t36 = t35 + x;
-    let t37 = x - t35;
-    let t38 = t27 + cos_t31 * p.k11 - ((t33 + t34) * p.bx + (t36 + t37) * p.cx);
-    let t39 = theta_dot * p.xc;
-    let t40 = y_dot - t39;
-    let t41 = t39 + y_dot;
-    let t42 = p.xc * theta;
-    let t43 = y - t42;
-    let t44 = t42 + y;
-    let t45 = p.k15 * (t37 - t36) + p.k14 * (t43 - t44);
-    let t46 = p.k17 * (t34 - t33) + p.k16 * (t40 - t41) + t45;
-    let t47 = cos_t31 * p.k13 - sin_t31 * p.k12 - t46;
-    let t48 = t38 - t30 * t28 - t47 * p.k19;
-    let t49 = t29 * t30;
-    let t50 = S::ONE / (t49 - p.k24);
-    let t51 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let t52 = p.k23 * t51;
-    let t53 = p.m2 * cos_phi2 - t29 * t52;
-    let t54 = t50 * t53;
-    let t55 = t7 * (cos_phi2 * phi2_dot);
-    let t56 = t20 * (sin_phi2 * phi2_dot);
-    let t57 = p.m2 * (t55 - t56 - (t55 + sin_phi2 * t17 - (t56 + cos_phi2 * t26)));
-    let t58 = p.k6 * sin_phi1;
-    let t59 = p.k23 * t58;
-    let t60 = (t41 + t40) * p.by + (t44 + t43) * p.cy + (t18 - sin_t31 * p.k11);
-    let t61 = p.k21 - t29 * t59;
-    let t62 = t50 * t61;
-    let t63 = t59 * t28 + t60 - (p.k20 * t47 + t62 * t48);
-    let t64 = t61 * t62;
-    let t65 = t58 * t59 - p.k25;
-    let t66 = S::ONE / (t65 - t64);
-    let t67 = t61 * t54 + p.m2 * sin_phi2 - t58 * t52;
-    let t68 = t66 * t67;
-    let t69 = sin_phi1 * (s1_dot * t21 + t4 * t8);
-    let t70 = cos_phi1 * s1;
-    let t71 = sin_phi1 * s1;
-    let t72 = t70 * t18 + t13 * t8 - t15 * t8 - (t21 * t5 + t21 * t3 - t71 * t27);
-    let t73 = p.k6 * t71;
-    let t74 = t50 * t73;
-    let t75 = p.k6 * t70 - t61 * t74;
-    let t76 = t66 * t75;
-    let t77 = cos_phi1 * (s1_dot * t8 - t4 * t21) - t69 - t72 - t74 * t48 - t76 * t63;
-    let t78 = s1 * (p.k6 * s1);
-    let t79 = t75 * t76 + (t73 * t74 + t78);
-    let t80 = S::ONE / t79;
-    let t81 = t75 * t68 + p.m2 * (t70 * sin_phi2 - t71 * cos_phi2) - t73 * t54;
-    let t82 = t80 * t81;
-    let t83 = t54 * t48 + t57 - (t68 * t63 + t52 * t28) - t82 * t77;
-    let t84 = p.m2 + t53 * t54 + (t67 * t68 - t51 * t52) - t81 * t82;
-    let t85 = S::ONE / t84;
-    let t86 = cos_phi2 * s2;
-    let t87 = sin_phi2 * s2;
-    let t88 = p.m2 * (sin_phi1 * t86 - cos_phi1 * t87);
-    let t89 = p.k23 * t88;
-    let t90 = t29 * t89 + p.m2 * t87;
-    let t91 = t50 * t90;
-    let t92 = p.m2 * t86 - t58 * t89 - t61 * t91;
-    let t93 = t66 * t92;
-    let t94 = t75 * t93 + (t73 * t91 + p.m2 * (t71 * t87 + t70 * t86));
-    let t95 = t80 * t94;
-    let t96 = t53 * t91 + t51 * t89 + (t81 * t95 - t67 * t93);
-    let t97 = t85 * t96;
-    let t98 = sin_phi2 * (s2_dot * t20 + t1 * t7);
-    let t99 = t86 * t17 + t10 * t7 - t12 * t7 - (t20 * t2 + t20 * t0 - t87 * t26);
-    let t100 = t97 * t83 + p.m2 * (cos_phi2 * (s2_dot * t7 - t1 * t20) - t98 - t99);
-    let t101 = s2 * (p.m2 * s2);
-    let t102 = t90 * t91 + t101 + (t92 * t93 - t88 * t89) - (t96 * t97 + t94 * t95);
-    let phi2_ddot = (t100 - (t91 * t48 + t89 * t28) - (t95 * t77 + t93 * t63)) / t102;
-    let s2_ddot = t97 * phi2_ddot + t85 * t83;
-    let phi1_ddot = t80 * t77 - t82 * s2_ddot - t95 * phi2_ddot;
-    let y_ddot = t76 * phi1_ddot + t66 * t63 + (t93 * phi2_ddot + t68 * s2_ddot);
-    let t103 = t74 * phi1_ddot + t50 * t48 + (t91 * phi2_ddot - t62 * y_ddot);
-    let t104 = t54 * s2_ddot;
-    let t105 = t103 - t104;
-    let t106 = p.k23 * t28 + t30 * t105 - (t52 * s2_ddot + t59 * y_ddot);
-    let t107 = p.k24 - t49;
-    if vanishes(t107, p.k7, 7.993605777301127e-15) {
-        return Err(singular(0, t107, p.k7));
-    }
-    let t108 = t64 - t65;
-    if vanishes(t108, p.k7, 7.993605777301127e-15) {
-        return Err(singular(1, t108, p.k7));
-    }
-    if vanishes(t79, t78, 7.993605777301127e-15) {
-        return Err(singular(4, t79, t78));
-    }
-    if vanishes(t84, p.m2, 7.993605777301127e-15) {
-        return Err(singular(6, t84, p.m2));
-    }
-    if vanishes(t102, t101, 7.993605777301127e-15) {
-        return Err(singular(7, t102, t101));
-    }
-    let x_ddot = t104 - t103;
-    let theta_ddot = -(p.k19 * t105 + (p.k20 * y_ddot + t47 * p.k22));
-    let s1_ddot = t106 - t89 * phi2_ddot;
-    let zero = S::ZERO;
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -870,13 +922,14 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
     let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = p.omega * t;
-    let (sin_t7, cos_t7) = t7.sin_cos();
-    let t8 = p.k0 * cos_t7 + (y_dot + theta_dot * p.x0);
-    let t9 = x_dot - theta_dot * p.y0 - p.k0 * sin_t7;
-    let t10 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t11 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t8 * t8 + t9 * t9) * p.m0 + p.k1 + t10 + t11) * S::from_f64(0.5)
+    let t7 = p.omega.product_error(t);
+    let t8 = p.omega * t;
+    let (sin_t8, cos_t8) = t8.sin_cos();
+    let t9 = p.k0 * (cos_t8 - t7 * sin_t8) + (y_dot + theta_dot * p.x0);
+    let t10 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t8 + t7 * cos_t8);
+    let t11 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
+    ((t9 * t9 + t10 * t10) * p.m0 + p.k1 + t11 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -930,17 +983,20 @@ pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, v: &[S; 9], a: 
     let x_ddot = a[0];
     let y_ddot = a[1];
     let theta_ddot = a[2];
-    let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = p.k0 * cos_t0;
-    let t2 = t1 + (p.x0 * theta_dot + y_dot);
-    let t3 = p.k10 * sin_t0;
-    let t4 = cos_t0 * p.k10;
-    let t5 = p.k0 * sin_t0;
-    let t6 = x_dot - theta_dot * p.y0 - t5;
-    let t7 = t5 * (x_ddot - theta_ddot * p.y0 - t4) + t4 * t6;
-    let t8 = (t3 * t2 - t1 * (theta_ddot * p.x0 + y_ddot - t3) + t7) * p.m0;
-    (sin_t0 * t2 + cos_t0 * t6) * p.k11 - t8
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = sin_t1 + t0 * cos_t1;
+    let t3 = t2 * p.k10;
+    let t4 = cos_t1 - t0 * sin_t1;
+    let t5 = p.k0 * t4;
+    let t6 = t5 + (p.x0 * theta_dot + y_dot);
+    let t7 = p.k0 * t2;
+    let t8 = t4 * p.k10;
+    let t9 = x_dot - theta_dot * p.y0 - t7;
+    let t10 = t7 * (x_ddot - theta_ddot * p.y0 - t8) + t8 * t9;
+    let t11 = (t3 * t6 - t5 * (theta_ddot * p.x0 + y_ddot - t3) + t10) * p.m0;
+    (t2 * t6 + t4 * t9) * p.k11 - t11
 }
 
 /// Power that dampers take out, in W.
@@ -1170,10 +1226,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

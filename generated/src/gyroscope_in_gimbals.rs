@@ -309,7 +309,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
     let t0 = cos_beta * alpha_dot;
-    let t1 = t0 * sin_beta;
+    let t1 = sin_beta * t0;
     let t2 = beta_dot * p.C3;
     let h_alpha = t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot);
     let h_beta = -(t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot));
@@ -338,7 +338,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
     let t0 = cos_beta * alpha_dot;
-    let t1 = t0 * sin_beta;
+    let t1 = sin_beta * t0;
     let t2 = beta_dot * p.C3;
     let f_alpha = -(t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot));
     let f_beta = t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot) - cos_beta * p.k1;
@@ -350,41 +350,60 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
 ) -> Result<[S; 3], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let beta = n(q[1]);
+        let alpha_dot = n(v[0]);
+        let beta_dot = n(v[1]);
+        let gamma_dot = n(v[2]);
+        let (sin_beta, cos_beta) = beta.sin_cos();
+        let t0 = cos_beta * alpha_dot;
+        let t1 = sin_beta * t0;
+        let t2 = n(p.C3) * beta_dot;
+        let t3 = t2 * (cos_beta * gamma_dot);
+        let t4 = t1.mul_add(beta_dot * n(p.k6), t3);
+        let t5 = cos_beta.neg_mul_add(n(p.k5) * cos_beta, n(p.k7));
+        let t5 = checked(t5, t5, 2.6645352591003757e-15, 0)?;
+        let t6 = N::ONE / t5;
+        let t7 = sin_beta * n(p.C3);
+        let t8 = t6 * t7;
+        let t9 = t7.neg_mul_add(t8, n(p.C3));
+        let t9 = checked(t9, n(p.C3), 2.6645352591003757e-15, 2)?;
+        let t10 = t8.neg_mul_add(t4, t0 * t2) / t9;
+        let t11 = t0 * (n(p.C3) * gamma_dot);
+        let t12 = t1.mul_add(n(p.k5) * alpha_dot, t11);
+        let alpha_ddot = t8.mul_sub(t10, t6 * t4);
+        let beta_ddot = n(p.k8) * cos_beta.neg_mul_add(n(p.k1), t12);
+        let gamma_ddot = -t10;
+        let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
+        Ok(accelerations)
     }
-    let beta = q[1];
-    let alpha_dot = v[0];
-    let beta_dot = v[1];
-    let gamma_dot = v[2];
-    let (sin_beta, cos_beta) = beta.sin_cos();
-    let t0 = cos_beta * alpha_dot;
-    let t1 = sin_beta * t0;
-    let t2 = p.C3 * beta_dot;
-    let t3 = t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot);
-    let t4 = p.k7 - cos_beta * (p.k5 * cos_beta);
-    if vanishes(t4, t4, 2.6645352591003757e-15) {
-        return Err(singular(0, t4, t4));
-    }
-    let t5 = S::ONE / t4;
-    let t6 = sin_beta * p.C3;
-    let t7 = t5 * t6;
-    let t8 = p.C3 - t6 * t7;
-    if vanishes(t8, p.C3, 2.6645352591003757e-15) {
-        return Err(singular(2, t8, p.C3));
-    }
-    let t9 = (t0 * t2 - t7 * t3) / t8;
-    let t10 = t1 * (p.k5 * alpha_dot) + t0 * (p.C3 * gamma_dot) - cos_beta * p.k1;
-    let alpha_ddot = t7 * t9 - t5 * t3;
-    let beta_ddot = p.k8 * t10;
-    let gamma_ddot = -t9;
-    let accelerations = [alpha_ddot, beta_ddot, gamma_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -400,7 +419,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let beta_dot = v[1];
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
-    let t0 = alpha_dot * cos_beta;
+    let t0 = cos_beta * alpha_dot;
     let t1 = t0 * t0;
     let t2 = sin_beta * alpha_dot;
     let t3 = beta_dot * beta_dot;
@@ -632,10 +651,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

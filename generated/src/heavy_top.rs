@@ -231,7 +231,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let phi_dot = v[2];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * psi_dot;
-    let t1 = t0 * cos_theta;
+    let t1 = cos_theta * t0;
     let t2 = theta_dot * p.C;
     let h_psi = t1 * (theta_dot * p.k4) - t2 * (sin_theta * phi_dot);
     let h_theta = t0 * (p.C * phi_dot) - t1 * (psi_dot * p.k3);
@@ -261,7 +261,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let t0 = theta_dot * p.C;
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t1 = sin_theta * psi_dot;
-    let t2 = t1 * cos_theta;
+    let t2 = cos_theta * t1;
     let f_psi = t0 * (sin_theta * phi_dot) - t2 * (theta_dot * p.k4);
     let f_theta = t2 * (psi_dot * p.k3) - (t1 * (p.C * phi_dot) - sin_theta * p.k2);
     let f_phi = t1 * t0;
@@ -272,40 +272,58 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
 ) -> Result<[S; 3], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[1]);
+        let psi_dot = n(v[0]);
+        let theta_dot = n(v[1]);
+        let phi_dot = n(v[2]);
+        let t0 = n(p.C) * theta_dot;
+        let (sin_theta, cos_theta) = theta.sin_cos();
+        let t1 = sin_theta * psi_dot;
+        let t2 = t0 * (sin_theta * phi_dot);
+        let t3 = (cos_theta * n(p.k4)).neg_mul_add(t1 * theta_dot, t2);
+        let t4 = n(p.k3) * cos_theta;
+        let t5 = cos_theta.neg_mul_add(t4, n(p.k1));
+        let t5 = checked(t5, t5, 2.6645352591003757e-15, 0)?;
+        let t6 = N::ONE / t5;
+        let t7 = cos_theta * n(p.C);
+        let t8 = t6 * t7;
+        let t9 = t7.neg_mul_add(t8, n(p.C));
+        let t9 = checked(t9, n(p.C), 2.6645352591003757e-15, 2)?;
+        let phi_ddot = t8.neg_mul_add(t3, t1 * t0) / t9;
+        let t10 = t1.mul_sub(n(p.C) * phi_dot, sin_theta * n(p.k2));
+        let psi_ddot = t8.neg_mul_add(phi_ddot, t6 * t3);
+        let theta_ddot = -(n(p.k5) * t1.neg_mul_add(t4 * psi_dot, t10));
+        let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
+        Ok(accelerations)
     }
-    let theta = q[1];
-    let psi_dot = v[0];
-    let theta_dot = v[1];
-    let phi_dot = v[2];
-    let t0 = p.C * theta_dot;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = sin_theta * psi_dot;
-    let t2 = t0 * (sin_theta * phi_dot) - cos_theta * p.k4 * (t1 * theta_dot);
-    let t3 = p.k3 * cos_theta;
-    let t4 = p.k1 - cos_theta * t3;
-    if vanishes(t4, t4, 2.6645352591003757e-15) {
-        return Err(singular(0, t4, t4));
-    }
-    let t5 = S::ONE / t4;
-    let t6 = cos_theta * p.C;
-    let t7 = t5 * t6;
-    let t8 = p.C - t6 * t7;
-    if vanishes(t8, p.C, 2.6645352591003757e-15) {
-        return Err(singular(2, t8, p.C));
-    }
-    let phi_ddot = (t1 * t0 - t7 * t2) / t8;
-    let t9 = p.k5 * (t1 * (p.C * phi_dot) - sin_theta * p.k2 - t1 * (t3 * psi_dot));
-    let psi_ddot = t5 * t2 - t7 * phi_ddot;
-    let theta_ddot = -t9;
-    let accelerations = [psi_ddot, theta_ddot, phi_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -322,7 +340,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * psi_dot;
     let t1 = t0 * t0;
-    let t2 = psi_dot * cos_theta + phi_dot;
+    let t2 = cos_theta * psi_dot + phi_dot;
     let t3 = theta_dot * theta_dot;
     let t4 = (t1 + t3) * p.k0 + (t1 * p.A + (t3 * p.A + t2 * (t2 * p.C)));
     S::from_f64(0.5) * t4
@@ -558,10 +576,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

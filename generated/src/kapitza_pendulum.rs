@@ -16,14 +16,14 @@
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 10 | 0 | 1 | 0 | 0 | 11 |
-//! | `bias` | 9 | 2 | 0 | 2 | 0 | 14 |
+//! | `bias` | 11 | 3 | 0 | 2 | 0 | 18 |
 //! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
-//! | `forces` | 9 | 3 | 0 | 2 | 0 | 15 |
-//! | `accelerations` | 4 | 1 | 0 | 2 | 0 | 7 |
-//! | `kinetic_energy` | 9 | 2 | 0 | 2 | 0 | 14 |
-//! | `potential_energy` | 4 | 1 | 0 | 2 | 0 | 7 |
-//! | `work_rate` | 9 | 3 | 0 | 2 | 0 | 16 |
-//! | `output_force` | 7 | 3 | 0 | 2 | 0 | 13 |
+//! | `forces` | 11 | 4 | 0 | 2 | 0 | 19 |
+//! | `accelerations` | 6 | 2 | 0 | 2 | 0 | 11 |
+//! | `kinetic_energy` | 11 | 3 | 0 | 2 | 0 | 18 |
+//! | `potential_energy` | 6 | 2 | 0 | 2 | 0 | 11 |
+//! | `work_rate` | 12 | 5 | 0 | 2 | 0 | 21 |
+//! | `output_force` | 9 | 4 | 0 | 2 | 0 | 17 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -236,12 +236,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let theta_dot = v[0];
+    let t0 = p.omega * t;
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = theta_dot * theta_dot * cos_theta;
-    let t1 = p.omega * t;
-    let cos_t1 = t1.cos();
-    let t2 = (t0 * p.l + p.k1 * cos_t1) * (sin_theta * p.k6);
-    let h_theta = t2 - t0 * (sin_theta * p.k5);
+    let t1 = cos_theta * (theta_dot * theta_dot);
+    let t2 = t1 * p.l + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0);
+    let h_theta = t2 * (sin_theta * p.k6) - t1 * (sin_theta * p.k5);
     [h_theta]
 }
 
@@ -261,12 +261,12 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
 pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let theta_dot = v[0];
+    let t0 = p.omega * t;
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = theta_dot * theta_dot * cos_theta;
-    let t1 = p.omega * t;
-    let cos_t1 = t1.cos();
-    let t2 = (p.g - (t0 * p.l + p.k1 * cos_t1)) * (sin_theta * p.k6);
-    let f_theta = t2 + t0 * (sin_theta * p.k5);
+    let t1 = cos_theta * (theta_dot * theta_dot);
+    let t2 = p.g - (t1 * p.l + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0));
+    let f_theta = t2 * (sin_theta * p.k6) + t1 * (sin_theta * p.k5);
     [f_theta]
 }
 
@@ -274,21 +274,45 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
 ) -> Result<[S; 1], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 1],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [t0, theta];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_theta, _) = circular[1];
+        let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
+        let theta_ddot = sin_theta * (n(p.k10) * n(p.k1).neg_mul_add(t1, n(p.g)));
+        let accelerations = [theta_ddot.store()];
+        Ok(accelerations)
     }
-    let theta = q[0];
-    let t0 = p.omega * t;
-    let cos_t0 = t0.cos();
-    let sin_theta = theta.sin();
-    let theta_ddot = sin_theta * (p.k10 * (p.g - p.k1 * cos_t0));
-    let accelerations = [theta_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -299,12 +323,13 @@ pub fn accelerations<S: ::lagrangian::Scalar>(
 pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> S {
     let theta = q[0];
     let theta_dot = v[0];
-    let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = p.omega * t;
-    let sin_t0 = t0.sin();
-    let t1 = theta_dot * (sin_theta * p.l) + p.k0 * sin_t0;
-    let t2 = cos_theta * theta_dot;
-    p.k3 * (t2 * (t2 * p.k2) + t1 * t1)
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t1 = p.k0 * (sin_t0 + p.omega.product_error(t) * cos_t0);
+    let t2 = theta_dot * (sin_theta * p.l) + t1;
+    let t3 = cos_theta * theta_dot;
+    p.k3 * (t3 * (t3 * p.k2) + t2 * t2)
 }
 
 /// Potential energy `V`, in J.
@@ -314,10 +339,11 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
 /// ```
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
     let theta = q[0];
-    let cos_theta = theta.cos();
     let t0 = p.omega * t;
-    let cos_t0 = t0.cos();
-    p.k4 * (cos_theta * p.l + cos_t0 * p.a)
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let cos_theta = theta.cos();
+    let t1 = cos_theta * p.l + (cos_t0 - p.omega.product_error(t) * sin_t0) * p.a;
+    p.k4 * t1
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -337,10 +363,12 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta_dot = v[0];
     let theta_ddot = a[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
-    (t1 + p.k1 * cos_t0) * (sin_t0 * p.k9) - sin_t0 * p.k8
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
+    let t3 = sin_t1 + t0 * cos_t1;
+    (t2 + (cos_t1 - t0 * sin_t1) * p.k1) * (t3 * p.k9) - t3 * p.k8
 }
 
 /// Force that shakes the pivot, upwards. Unit: N.
@@ -361,9 +389,9 @@ pub fn output_force<S: ::lagrangian::Scalar>(
     let theta_ddot = a[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = p.omega * t;
-    let cos_t0 = t0.cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
-    (p.g - (t1 + p.k1 * cos_t0)) * p.m
+    (p.g - (t1 + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0))) * p.m
 }
 
 /// Everything that the description asks to observe.
@@ -539,7 +567,8 @@ fn quantities<'a, const N: usize>(
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -525,7 +525,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S
     let (sin_psi, cos_psi) = psi.sin_cos();
     let t5 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
     let zero = S::ZERO;
-    let m3_1 = -(p.k10 * sin_theta + p.k9 * cos_theta);
+    let m3_1 = -(p.k10 * sin_theta + cos_theta * p.k9);
     let m3_2 = p.k10 * cos_theta - sin_theta * p.k9;
     let m4_1 = p.k7 * cos_phi1;
     let m4_2 = p.k7 * sin_phi1;
@@ -533,7 +533,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S
     let m5_2 = p.k7 * t1;
     let m5_5 = s1 * (p.k7 * s1);
     let m7_1 = cos_phi2 * p.m2;
-    let m7_2 = p.m2 * sin_phi2;
+    let m7_2 = sin_phi2 * p.m2;
     let m7_4 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m7_5 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m8_1 = -(sin_phi2 * t2);
@@ -610,7 +610,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) 
     let t11 = t9 * p.y0;
     let t12 = psi_dot * (psi_dot * p.e);
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t13 = t12 * cos_psi + (t10 * cos_theta - t11 * sin_theta);
+    let t13 = t12 * cos_psi + (cos_theta * t10 - t11 * sin_theta);
     let t14 = sin_phi2 * s2;
     let t15 = sin_phi1 * s1;
     let t16 = t3 * t15 - t5 * cos_phi1;
@@ -626,7 +626,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) 
     let zero = S::ZERO;
     let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
     let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
-    let h_psi = -((cos_psi * t19 - t13 * sin_psi) * p.k8);
+    let h_psi = -((cos_psi * t19 - sin_psi * t13) * p.k8);
     [
         h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero, h_psi,
     ]
@@ -700,7 +700,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
     let t11 = t9 * p.y0;
     let t12 = psi_dot * (psi_dot * p.e);
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t13 = t12 * cos_psi + (t10 * cos_theta - t11 * sin_theta);
+    let t13 = t12 * cos_psi + (cos_theta * t10 - t11 * sin_theta);
     let t14 = theta_dot * p.yc;
     let t15 = p.yc * theta;
     let t16 = p.bx * (x_dot - t14) + p.cx * (x - t15);
@@ -727,7 +727,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
     let zero = S::ZERO;
     let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t21);
     let f_phi2 = p.m2 * (t1 * t21 - t7 * t18);
-    let f_psi = (cos_psi * t23 - t13 * sin_psi) * p.k8 + t31;
+    let f_psi = (cos_psi * t23 - sin_psi * t13) * p.k8 + t31;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero, f_psi,
     ]
@@ -737,111 +737,143 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 10],
     v: &[S; 10],
 ) -> Result<[S; 10], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 10],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 10],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 10], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let psi = n(q[9]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let psi_dot = n(v[9]);
+        let angles = [theta, psi, phi1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_psi, cos_psi) = circular[1];
+        let (sin_phi1, cos_phi1) = circular[2];
+        let t0 = sin_theta * n(p.x0);
+        let t1 = cos_theta * n(p.y0);
+        let t2 = t0 + t1;
+        let t3 = cos_theta * n(p.x0);
+        let t4 = sin_theta * n(p.y0);
+        let t5 = t3 - t4;
+        let t6 = sin_psi.mul_add(t2, cos_psi * t5);
+        let t7 = n(p.k17) * t6;
+        let t8 = cos_psi.neg_mul_add(t7, t5);
+        let t9 = cos_psi.neg_mul_add(cos_psi * n(p.k14), n(p.k16));
+        let t10 = N::ONE / t9;
+        let t11 = t10 * t8;
+        let t12 = sin_psi * cos_psi;
+        let t13 = t12 * n(p.k14);
+        let t14 = sin_psi.neg_mul_add(t7, t11.mul_add(t13, t2));
+        let t15 = sin_psi.neg_mul_add(sin_psi * n(p.k14), n(p.k16));
+        let t16 = (t10 * n(p.k18)).neg_mul_add(t12 * t12, t15);
+        let t17 = N::ONE / t16;
+        let t18 = t2 * n(p.m0);
+        let t19 = t5 * n(p.m0);
+        let t20 = t6.neg_mul_add(n(p.k14) * t6, t2 * t18);
+        let t21 = (t14 * n(p.k19)).mul_add(t17 * t14, t11 * (t8 * n(p.k19)));
+        let t22 = t5.mul_add(t19, n(p.J)) + t20 - t21;
+        let t23 = theta_dot * theta_dot;
+        let t24 = psi_dot * (psi_dot * n(p.e));
+        let t25 = sin_psi.mul_add(t24, t0.mul_add(t23, t1 * t23));
+        let t26 = cos_psi * n(p.k8);
+        let t27 = n(p.omega) - psi_dot;
+        let t28 = t27 * n(p.k2) / t27.mul_add(t27 * n(p.k0), n(p.k1));
+        let t29 = t4.neg_mul_add(t23, t3.mul_add(t23, cos_psi * t24));
+        let t30 = sin_psi * n(p.k8);
+        let t31 = t30.neg_mul_add(t29, t26.mul_add(t25, t28));
+        let t32 = n(p.k15) * t31;
+        let t33 = theta_dot * n(p.yc);
+        let t34 = theta * n(p.yc);
+        let t35 = n(p.bx).mul_add(x_dot - t33, n(p.cx) * (x - t34));
+        let t36 = n(p.bx).mul_add(t33 + x_dot, n(p.cx) * (t34 + x));
+        let t37 = theta_dot * n(p.xc);
+        let t38 = theta * n(p.xc);
+        let t39 = n(p.by).mul_add(y_dot - t37, n(p.cy) * (y - t38));
+        let t40 = n(p.by).mul_add(t37 + y_dot, n(p.cy) * (t38 + y));
+        let t41 = t39 + t40 + cos_psi.mul_sub(t32, n(p.m0) * t25);
+        let t42 = t35 + t36 - sin_psi.mul_add(t32, n(p.m0) * t29);
+        let t43 = t41.neg_mul_add(t10 * t13, t42);
+        let t44 = t14 * n(p.m0);
+        let t45 = t43.mul_sub(t17 * t44, n(p.xc) * t39);
+        let t46 = n(p.yc).mul_add(t36, n(p.xc) * t40);
+        let t47 = t45 - t19.mul_add(t25, n(p.yc) * t35);
+        let t48 = t46 + t6.mul_add(t32, t18 * t29) + t47;
+        let t49 = N::ONE / t22 * t41.neg_mul_add(t11 * n(p.m0), t48);
+        let t50 = t17 * t44.mul_add(t49, t43);
+        let t51 = t49.neg_mul_add(t8 * n(p.m0), t13.neg_mul_add(t50, t41));
+        let t52 = t10 * t51;
+        let t53 = t50.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+        let t54 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+        let t55 = t52.neg_mul_add(cos_phi1, t50.mul_add(sin_phi1, t54)) / s1;
+        let t56 = t30.neg_mul_add(t50, t49 * (t6 * n(p.k8)));
+        let t57 = s2 * (s2 * n(p.m2));
+        checked(t57, t57, 8.881784197001252e-15, 7)?;
+        let t58 = s1 * s1;
+        let t59 = t58 * n(p.m1);
+        let t60 = t58 * n(p.k7);
+        checked(t59, t60, 8.881784197001252e-15, 4)?;
+        checked(t9, n(p.k11), 8.881784197001252e-15, 1)?;
+        checked(t16, n(p.k11), 8.881784197001252e-15, 0)?;
+        checked(t22, n(p.k13), 8.881784197001252e-15, 2)?;
+        let x_ddot = -t50;
+        let y_ddot = -t52;
+        let theta_ddot = -t49;
+        let s1_ddot = t52.mul_add(sin_phi1, t53);
+        let phi1_ddot = -t55;
+        let zero = N::ZERO;
+        let s2_ddot = phi2_dot * (phi2_dot * s2);
+        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
+        let psi_ddot = n(p.k20) * (t26.mul_add(t52, t31) + t56);
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+            psi_ddot.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let psi = q[9];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let psi_dot = v[9];
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = sin_theta * p.x0;
-    let t1 = cos_theta * p.y0;
-    let t2 = t0 + t1;
-    let (sin_psi, cos_psi) = psi.sin_cos();
-    let t3 = p.x0 * cos_theta;
-    let t4 = sin_theta * p.y0;
-    let t5 = t3 - t4;
-    let t6 = sin_psi * t2 + cos_psi * t5;
-    let t7 = p.k17 * t6;
-    let t8 = t5 - cos_psi * t7;
-    let t9 = p.k16 - cos_psi * (cos_psi * p.k14);
-    let t10 = S::ONE / t9;
-    let t11 = t10 * t8;
-    let t12 = sin_psi * cos_psi;
-    let t13 = t12 * p.k14;
-    let t14 = t2 + t11 * t13 - sin_psi * t7;
-    let t15 = p.k16 - sin_psi * (sin_psi * p.k14) - t10 * p.k18 * (t12 * t12);
-    let t16 = S::ONE / t15;
-    let t17 = t2 * p.m0;
-    let t18 = t5 * p.m0;
-    let t19 = t5 * t18 + p.J + (t2 * t17 - t6 * (p.k14 * t6));
-    let t20 = t19 - (t14 * p.k19 * (t16 * t14) + t11 * (t8 * p.k19));
-    let t21 = theta_dot * theta_dot;
-    let t22 = psi_dot * (psi_dot * p.e);
-    let t23 = sin_psi * t22 + (t0 * t21 + t1 * t21);
-    let t24 = cos_psi * p.k8;
-    let t25 = p.omega - psi_dot;
-    let t26 = cos_psi * t22 + t3 * t21 - t4 * t21;
-    let t27 = sin_psi * p.k8;
-    let t28 = t24 * t23 + t25 * p.k2 / (t25 * (t25 * p.k0) + p.k1) - t27 * t26;
-    let t29 = p.k15 * t28;
-    let t30 = theta_dot * p.yc;
-    let t31 = theta * p.yc;
-    let t32 = p.bx * (x_dot - t30) + p.cx * (x - t31);
-    let t33 = p.bx * (t30 + x_dot) + p.cx * (t31 + x);
-    let t34 = theta_dot * p.xc;
-    let t35 = theta * p.xc;
-    let t36 = p.by * (y_dot - t34) + p.cy * (y - t35);
-    let t37 = p.by * (t34 + y_dot) + p.cy * (t35 + y);
-    let t38 = t36 + t37 + (cos_psi * t29 - p.m0 * t23);
-    let t39 = t32 + t33 - (sin_psi * t29 + p.m0 * t26) - t38 * (t10 * t13);
-    let t40 = t14 * p.m0;
-    let t41 = t39 * (t16 * t40) - p.xc * t36 - (t18 * t23 + p.yc * t32);
-    let t42 = p.yc * t33 + p.xc * t37 + (t6 * t29 + t17 * t26) + t41;
-    let t43 = S::ONE / t20 * (t42 - t38 * (t11 * p.m0));
-    let t44 = t16 * (t39 + t40 * t43);
-    let t45 = t10 * (t38 - t13 * t44 - t43 * (t8 * p.m0));
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t46 = phi1_dot * (S::from_f64(2.0) * s1_dot) + t44 * sin_phi1 - t45 * cos_phi1;
-    let t47 = s2 * (s2 * p.m2);
-    if vanishes(t47, t47, 8.881784197001252e-15) {
-        return Err(singular(7, t47, t47));
-    }
-    let t48 = s1 * s1;
-    let t49 = t48 * p.m1;
-    let t50 = t48 * p.k7;
-    if vanishes(t49, t50, 8.881784197001252e-15) {
-        return Err(singular(4, t49, t50));
-    }
-    if vanishes(t9, p.k11, 8.881784197001252e-15) {
-        return Err(singular(1, t9, p.k11));
-    }
-    if vanishes(t15, p.k11, 8.881784197001252e-15) {
-        return Err(singular(0, t15, p.k11));
-    }
-    if vanishes(t20, p.k13, 8.881784197001252e-15) {
-        return Err(singular(2, t20, p.k13));
-    }
-    let x_ddot = -t44;
-    let y_ddot = -t45;
-    let theta_ddot = -t43;
-    let s1_ddot = t45 * sin_phi1 + (t44 * cos_phi1 + phi1_dot * (phi1_dot * s1));
-    let phi1_ddot = -(t46 / s1);
-    let zero = S::ZERO;
-    let s2_ddot = phi2_dot * (phi2_dot * s2);
-    let phi2_ddot = -(phi2_dot * (S::from_f64(2.0) * s2_dot) / s2);
-    let psi_ddot = p.k20 * (t28 + t24 * t45 + (t43 * (t6 * p.k8) - t27 * t44));
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero, psi_ddot,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -888,7 +920,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: 
     let t8 = theta_dot * p.y0;
     let t9 = psi_dot * p.e;
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t10 = t9 * cos_psi + (y_dot + t7 * cos_theta - t8 * sin_theta);
+    let t10 = t9 * cos_psi + (y_dot + t7 * cos_theta - sin_theta * t8);
     let t11 = x_dot - t7 * sin_theta - cos_theta * t8 - t9 * sin_psi;
     let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
     let t13 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
@@ -1243,10 +1275,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

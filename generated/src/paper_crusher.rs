@@ -17,14 +17,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 24 | 8 | 2 | 0 | 0 | 34 |
 //! | `mass_matrix` | 28 | 6 | 0 | 2 | 0 | 38 |
-//! | `bias` | 73 | 56 | 0 | 3 | 0 | 135 |
+//! | `bias` | 76 | 58 | 0 | 3 | 0 | 140 |
 //! | `applied` | 12 | 11 | 0 | 0 | 0 | 23 |
-//! | `forces` | 85 | 67 | 0 | 3 | 0 | 158 |
-//! | `accelerations` | 191 | 133 | 5 | 3 | 0 | 335 |
-//! | `kinetic_energy` | 34 | 23 | 0 | 3 | 0 | 63 |
+//! | `forces` | 88 | 69 | 0 | 3 | 0 | 163 |
+//! | `accelerations` | 194 | 135 | 5 | 3 | 0 | 340 |
+//! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
 //! | `potential_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `dissipation` | 6 | 3 | 0 | 0 | 0 | 9 |
-//! | `work_rate` | 17 | 13 | 0 | 1 | 0 | 32 |
+//! | `work_rate` | 20 | 15 | 0 | 1 | 0 | 37 |
 //! | `dissipation_rate` | 6 | 3 | 0 | 0 | 0 | 9 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -476,7 +476,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k2 * t1;
     let m55 = s1 * (p.k2 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -525,50 +525,53 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = p.omega * t;
-    let (sin_t11, cos_t11) = t11.sin_cos();
-    let t12 = s2_dot * cos_phi2;
-    let t13 = phi2_dot * t12;
-    let t14 = sin_phi2 * t2;
-    let t15 = s1_dot * cos_phi1;
-    let t16 = phi1_dot * t15;
-    let t17 = sin_phi1 * t6;
-    let t18 = t16 + (t16 - phi1_dot * t17);
-    let t19 = t13 + (t13 - phi2_dot * t14) + t18;
-    let t20 = p.m2 * t19 + p.m1 * t18;
-    let t21 = t4 + t7 + y_dot;
-    let t22 = t0 + t3 + t21;
-    let t23 = p.m2 * t22 + p.m1 * t21;
-    let t24 = t23 * (phi1_dot * cos_phi1);
-    let t25 = t15 - t17 + x_dot;
-    let t26 = t12 - t14 + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t27 * (sin_phi1 * phi1_dot);
-    let t29 = t20 * (s1 * cos_phi1) + t15 * t23 - t17 * t23;
-    let t30 = cos_phi1 * (s1_dot * t23 - t6 * t27);
-    let t31 = t29 - (t7 * t27 + t4 * t27 - t10 * (sin_phi1 * s1));
-    let t32 = t22 * (phi2_dot * cos_phi2);
-    let t33 = t26 * (sin_phi2 * phi2_dot);
-    let t34 = sin_phi2 * (s2_dot * t26 + t2 * t22);
-    let t35 = t19 * (s2 * cos_phi2) + t12 * t22 - t14 * t22;
-    let t36 = t35 - (t3 * t26 + t0 * t26 - t9 * (sin_phi2 * s2));
-    let h_x = -(p.k6 * cos_t11 + t10);
-    let h_y = t20 - p.k6 * sin_t11;
-    let h_theta = cos_t11 * p.k16 - sin_t11 * p.k15;
-    let h_s1 = t24 + sin_phi1 * t20 - (t28 + cos_phi1 * t10) - (t24 - t28);
-    let h_phi1 = t31 + (sin_phi1 * (s1_dot * t27 + t6 * t23) - t30);
+    let t11 = p.omega.product_error(t);
+    let t12 = p.omega * t;
+    let (sin_t12, cos_t12) = t12.sin_cos();
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = cos_phi2 * s2_dot;
+    let t15 = phi2_dot * t14;
+    let t16 = sin_phi2 * t2;
+    let t17 = cos_phi1 * s1_dot;
+    let t18 = phi1_dot * t17;
+    let t19 = sin_phi1 * t6;
+    let t20 = t18 + (t18 - phi1_dot * t19);
+    let t21 = t15 + (t15 - phi2_dot * t16) + t20;
+    let t22 = p.m2 * t21 + p.m1 * t20;
+    let t23 = sin_t12 + t11 * cos_t12;
+    let t24 = t4 + t7 + y_dot;
+    let t25 = t0 + t3 + t24;
+    let t26 = p.m2 * t25 + p.m1 * t24;
+    let t27 = t26 * (cos_phi1 * phi1_dot);
+    let t28 = t17 - t19 + x_dot;
+    let t29 = t14 - t16 + t28;
+    let t30 = p.m2 * t29 + p.m1 * t28;
+    let t31 = t30 * (sin_phi1 * phi1_dot);
+    let t32 = t22 * (cos_phi1 * s1) + t17 * t26 - t19 * t26;
+    let t33 = cos_phi1 * (s1_dot * t26 - t6 * t30);
+    let t34 = t32 - (t7 * t30 + t4 * t30 - t10 * (sin_phi1 * s1));
+    let t35 = t25 * (cos_phi2 * phi2_dot);
+    let t36 = t29 * (sin_phi2 * phi2_dot);
+    let t37 = sin_phi2 * (s2_dot * t29 + t2 * t25);
+    let t38 = t21 * (cos_phi2 * s2) + t14 * t25 - t16 * t25;
+    let t39 = t38 - (t3 * t29 + t0 * t29 - t9 * (sin_phi2 * s2));
+    let h_x = -(p.k6 * t13 + t10);
+    let h_y = t22 - p.k6 * t23;
+    let h_theta = t13 * p.k16 - t23 * p.k15;
+    let h_s1 = t27 + sin_phi1 * t22 - (t31 + cos_phi1 * t10) - (t27 - t31);
+    let h_phi1 = t34 + (sin_phi1 * (s1_dot * t30 + t6 * t26) - t33);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t32 - t33 - (t32 + sin_phi2 * t19 - (t33 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t22 - t2 * t26) - t34 - t36));
+    let h_s2 = -(p.m2 * (t35 - t36 - (t35 + sin_phi2 * t21 - (t36 + cos_phi2 * t9))));
+    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t25 - t2 * t29) - t37 - t39));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -618,55 +621,58 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = p.omega * t;
-    let (sin_t11, cos_t11) = t11.sin_cos();
-    let t12 = x_dot - theta_dot * p.yb;
-    let t13 = x - theta * p.yc;
-    let t14 = s2_dot * cos_phi2;
-    let t15 = phi2_dot * t14;
-    let t16 = sin_phi2 * t2;
-    let t17 = s1_dot * cos_phi1;
-    let t18 = phi1_dot * t17;
-    let t19 = sin_phi1 * t6;
-    let t20 = t18 + (t18 - phi1_dot * t19);
-    let t21 = t15 + (t15 - phi2_dot * t16) + t20;
-    let t22 = p.m2 * t21 + p.m1 * t20;
-    let t23 = y_dot + theta_dot * p.xb;
-    let t24 = theta * p.xc + y;
-    let t25 = t12 * p.k4 - t23 * p.k17 + (t13 * p.k3 - t24 * p.k5);
-    let t26 = y_dot + (t4 + t7);
-    let t27 = t0 + t3 + t26;
-    let t28 = p.m2 * t27 + p.m1 * t26;
-    let t29 = t28 * (phi1_dot * cos_phi1);
-    let t30 = x_dot + (t17 - t19);
-    let t31 = t14 - t16 + t30;
-    let t32 = p.m2 * t31 + p.m1 * t30;
-    let t33 = t32 * (sin_phi1 * phi1_dot);
-    let t34 = t22 * (s1 * cos_phi1) + t17 * t28 - t19 * t28;
-    let t35 = cos_phi1 * (s1_dot * t28 - t6 * t32);
-    let t36 = t34 - (t7 * t32 + t4 * t32 - t10 * (sin_phi1 * s1));
-    let t37 = t27 * (phi2_dot * cos_phi2);
-    let t38 = t31 * (sin_phi2 * phi2_dot);
-    let t39 = sin_phi2 * (s2_dot * t31 + t2 * t27);
-    let t40 = t21 * (s2 * cos_phi2) + t14 * t27 - t16 * t27;
-    let t41 = t40 - (t3 * t31 + t0 * t31 - t9 * (sin_phi2 * s2));
-    let f_x = p.k6 * cos_t11 + t10 - (t12 * p.bx + t13 * p.cx);
-    let f_y = -(t22 - p.k6 * sin_t11 + (t23 * p.by + t24 * p.cy));
-    let f_theta = t25 - (cos_t11 * p.k16 - sin_t11 * p.k15);
-    let f_s1 = t29 - t33 - (t29 + sin_phi1 * t22 - (t33 + cos_phi1 * t10));
-    let f_phi1 = -(t36 + (sin_phi1 * (s1_dot * t32 + t6 * t28) - t35));
+    let t11 = p.omega.product_error(t);
+    let t12 = p.omega * t;
+    let (sin_t12, cos_t12) = t12.sin_cos();
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = x_dot - theta_dot * p.yb;
+    let t15 = x - theta * p.yc;
+    let t16 = cos_phi2 * s2_dot;
+    let t17 = phi2_dot * t16;
+    let t18 = sin_phi2 * t2;
+    let t19 = cos_phi1 * s1_dot;
+    let t20 = phi1_dot * t19;
+    let t21 = sin_phi1 * t6;
+    let t22 = t20 + (t20 - phi1_dot * t21);
+    let t23 = t17 + (t17 - phi2_dot * t18) + t22;
+    let t24 = p.m2 * t23 + p.m1 * t22;
+    let t25 = sin_t12 + t11 * cos_t12;
+    let t26 = y_dot + theta_dot * p.xb;
+    let t27 = theta * p.xc + y;
+    let t28 = t14 * p.k4 - t26 * p.k17 + (t15 * p.k3 - t27 * p.k5);
+    let t29 = y_dot + (t4 + t7);
+    let t30 = t0 + t3 + t29;
+    let t31 = p.m2 * t30 + p.m1 * t29;
+    let t32 = t31 * (cos_phi1 * phi1_dot);
+    let t33 = x_dot + (t19 - t21);
+    let t34 = t16 - t18 + t33;
+    let t35 = p.m2 * t34 + p.m1 * t33;
+    let t36 = t35 * (sin_phi1 * phi1_dot);
+    let t37 = t24 * (cos_phi1 * s1) + t19 * t31 - t21 * t31;
+    let t38 = cos_phi1 * (s1_dot * t31 - t6 * t35);
+    let t39 = t37 - (t7 * t35 + t4 * t35 - t10 * (sin_phi1 * s1));
+    let t40 = t30 * (cos_phi2 * phi2_dot);
+    let t41 = t34 * (sin_phi2 * phi2_dot);
+    let t42 = sin_phi2 * (s2_dot * t34 + t2 * t30);
+    let t43 = t23 * (cos_phi2 * s2) + t16 * t30 - t18 * t30;
+    let t44 = t43 - (t3 * t34 + t0 * t34 - t9 * (sin_phi2 * s2));
+    let f_x = p.k6 * t13 + t10 - (t14 * p.bx + t15 * p.cx);
+    let f_y = -(t24 - p.k6 * t25 + (t26 * p.by + t27 * p.cy));
+    let f_theta = t28 - (t13 * p.k16 - t25 * p.k15);
+    let f_s1 = t32 - t36 - (t32 + sin_phi1 * t24 - (t36 + cos_phi1 * t10));
+    let f_phi1 = -(t39 + (sin_phi1 * (s1_dot * t35 + t6 * t31) - t38));
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t37 - t38 - (t37 + sin_phi2 * t21 - (t38 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t27 - t2 * t31) - t39 - t41);
+    let f_s2 = p.m2 * (t40 - t41 - (t40 + sin_phi2 * t23 - (t41 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t30 - t2 * t34) - t42 - t44);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -674,158 +680,202 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [phi2, phi1, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_phi2, cos_phi2) = circular[0];
+        let (sin_phi1, cos_phi1) = circular[1];
+        let (sin_t0, cos_t0) = circular[2];
+        let t1 = sin_phi2 * s2_dot;
+        let t2 = s2 * phi2_dot;
+        let t3 = cos_phi2 * t2;
+        let t4 = sin_phi1 * s1_dot;
+        let t5 = s1 * phi1_dot;
+        let t6 = cos_phi1 * t5;
+        let t7 = y_dot + (t4 + t6);
+        let t8 = t1 + t3 + t7;
+        let t9 = n(p.m2).mul_add(t8, n(p.m1) * t7);
+        let t10 = t9 * (cos_phi1 * phi1_dot);
+        let t11 = cos_phi2 * s2_dot;
+        let t12 = phi2_dot * t11;
+        let t13 = sin_phi2 * t2;
+        let t14 = cos_phi1 * s1_dot;
+        let t15 = phi1_dot * t14;
+        let t16 = sin_phi1 * t5;
+        let t17 = t15 + phi1_dot.neg_mul_add(t16, t15);
+        let t18 = t12 + phi2_dot.neg_mul_add(t13, t12) + t17;
+        let t19 = n(p.m2).mul_add(t18, n(p.m1) * t17);
+        let t20 = x_dot + (t14 - t16);
+        let t21 = t11 - t13 + t20;
+        let t22 = n(p.m2).mul_add(t21, t20 * n(p.m1));
+        let t23 = t22 * (sin_phi1 * phi1_dot);
+        let t24 = phi2_dot * t1;
+        let t25 = phi1_dot * t4;
+        let t26 = t25 + phi1_dot.mul_add(t6, t25);
+        let t27 = t24 + phi2_dot.mul_add(t3, t24) + t26;
+        let t28 = n(p.m2).mul_add(t27, n(p.m1) * t26);
+        let t29 = sin_phi1.mul_add(t19, t10) - cos_phi1.mul_add(t28, t23);
+        let t30 = t10 - t23 - t29;
+        let t31 = n(p.k2) * sin_phi1;
+        let t32 = n(p.k23) * t31;
+        let t33 = n(p.omega).product_error(n(t));
+        let t34 = t33.mul_add(cos_t0, sin_t0);
+        let t35 = theta_dot.mul_add(n(p.xb), y_dot);
+        let t36 = theta.mul_add(n(p.xc), y);
+        let t37 = t35.mul_add(n(p.by), t36 * n(p.cy));
+        let t38 = n(p.k2) * cos_phi1;
+        let t39 = n(p.k23) * t38;
+        let t40 = t33.neg_mul_add(sin_t0, cos_t0);
+        let t41 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+        let t42 = theta.neg_mul_add(n(p.yc), x);
+        let t43 = t41.mul_add(n(p.bx), t42 * n(p.cx));
+        let t44 = t41.mul_sub(n(p.k4), t35 * n(p.k17));
+        let t45 = t44 + t42.mul_sub(n(p.k3), t36 * n(p.k5));
+        let t46 = t40.mul_sub(n(p.k16), t34 * n(p.k15)) - t45;
+        let t47 = t39.mul_add(t30, t43 - t40.mul_add(n(p.k6), t28));
+        let t48 = t46.mul_add(n(p.k19), t47);
+        let t49 = t38 * t39;
+        let t50 = N::ONE / (t49 - n(p.k24));
+        let t51 = t38.neg_mul_add(t32, n(p.k21));
+        let t52 = t50 * t51;
+        let t53 = t32.mul_add(t30, t34.neg_mul_add(n(p.k6), t19) + t37);
+        let t54 = t53 + t52.mul_sub(t48, n(p.k20) * t46);
+        let t55 = t51 * t52;
+        let t56 = t31.mul_sub(t32, n(p.k25));
+        let t57 = N::ONE / (t56 - t55);
+        let t58 = sin_phi1 * s1;
+        let t59 = n(p.k2) * t58;
+        let t60 = t50 * t59;
+        let t61 = cos_phi1 * s1;
+        let t62 = t51.neg_mul_add(t60, n(p.k2) * t61);
+        let t63 = t57 * t62;
+        let t64 = t58.neg_mul_add(t28, t22.mul_add(t6, t22 * t4));
+        let t65 = cos_phi1 * s1_dot.mul_sub(t9, t5 * t22);
+        let t66 = t16.neg_mul_add(t9, t61.mul_add(t19, t14 * t9)) - t64;
+        let t67 = t66 + sin_phi1.mul_sub(s1_dot.mul_add(t22, t5 * t9), t65);
+        let t68 = t60.neg_mul_add(t48, t63.mul_add(t54, t67));
+        let t69 = s1 * (n(p.k2) * s1);
+        let t70 = t62.mul_add(t63, t59.mul_add(t60, t69));
+        let t71 = N::ONE / t70;
+        let t72 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t73 = n(p.k23) * t72;
+        let t74 = t38.neg_mul_add(t73, n(p.m2) * cos_phi2);
+        let t75 = t50 * t74;
+        let t76 = t31.neg_mul_add(t73, t51.mul_add(t75, n(p.m2) * sin_phi2));
+        let t77 = t57 * t76;
+        let t78 = n(p.m2) * t61.mul_sub(sin_phi2, t58 * cos_phi2);
+        let t79 = t59.neg_mul_add(t75, t62.mul_add(t77, t78));
+        let t80 = t71 * t79;
+        let t81 = t8 * (cos_phi2 * phi2_dot);
+        let t82 = t21 * (sin_phi2 * phi2_dot);
+        let t83 = sin_phi2.mul_add(t18, t81) - cos_phi2.mul_add(t27, t82);
+        let t84 = t80.mul_add(t68, n(p.m2) * (t81 - t82 - t83));
+        let t85 = t77.neg_mul_add(t54, t84 - t75.mul_add(t48, t73 * t30));
+        let t86 = t74.mul_add(t75, n(p.m2)) + t76.mul_sub(t77, t72 * t73);
+        let t87 = t79.neg_mul_add(t80, t86);
+        let t88 = N::ONE / t87;
+        let t89 = cos_phi2 * s2;
+        let t90 = sin_phi2 * s2;
+        let t91 = n(p.m2) * sin_phi1.mul_sub(t89, cos_phi1 * t90);
+        let t92 = n(p.k23) * t91;
+        let t93 = t38.mul_add(t92, n(p.m2) * t90);
+        let t94 = t50 * t93;
+        let t95 = t51.neg_mul_add(t94, t31.neg_mul_add(t92, n(p.m2) * t89));
+        let t96 = t57 * t95;
+        let t97 = t59.mul_add(t94, n(p.m2) * t58.mul_add(t90, t61 * t89));
+        let t98 = t62.mul_add(t96, t97);
+        let t99 = t71 * t98;
+        let t100 = t74.mul_add(t94, t72 * t92) + t79.mul_sub(t99, t76 * t96);
+        let t101 = t88 * t100;
+        let t102 = sin_phi2 * s2_dot.mul_add(t21, t2 * t8);
+        let t103 = t90.neg_mul_add(t27, t21.mul_add(t3, t21 * t1));
+        let t104 = t13.neg_mul_add(t8, t89.mul_add(t18, t11 * t8)) - t103;
+        let t105 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t21), t102);
+        let t106 = t94.mul_add(t48, n(p.m2) * (t105 - t104));
+        let t107 = t106 + t101.mul_add(t85, t99 * t68);
+        let t108 = s2 * (n(p.m2) * s2);
+        let t109 = t93.mul_add(t94, t108) + t95.mul_sub(t96, t91 * t92);
+        let t110 = t109 - t100.mul_add(t101, t98 * t99);
+        let phi2_ddot = (t107 - t96.mul_add(t54, t92 * t30)) / t110;
+        let s2_ddot = t101.mul_add(phi2_ddot, t88 * t85);
+        let t111 = t99.mul_add(phi2_ddot, t80.mul_add(s2_ddot, t71 * t68));
+        let t112 = t63.neg_mul_add(t111, t96 * phi2_ddot);
+        let y_ddot = t77.mul_add(s2_ddot, t57 * t54) + t112;
+        let t113 = t60.mul_add(t111, t75 * s2_ddot);
+        let t114 = t52.mul_add(y_ddot, t50 * t48) + t113;
+        let x_ddot = t94.neg_mul_add(phi2_ddot, t114);
+        let t115 = n(p.k20).mul_add(y_ddot, t46 * n(p.k22));
+        let t116 = t73.mul_add(s2_ddot, t92 * phi2_ddot);
+        let t117 = t39.mul_add(x_ddot, t32 * y_ddot) + t116;
+        let t118 = n(p.k24) - t49;
+        checked(t118, n(p.k11), 7.993605777301127e-15, 0)?;
+        let t119 = t55 - t56;
+        checked(t119, n(p.k11), 7.993605777301127e-15, 1)?;
+        checked(t70, t69, 7.993605777301127e-15, 4)?;
+        checked(t87, n(p.m2), 7.993605777301127e-15, 6)?;
+        checked(t110, t108, 7.993605777301127e-15, 7)?;
+        let theta_ddot = n(p.k19).mul_sub(x_ddot, t115);
+        let s1_ddot = n(p.k23).mul_sub(t30, t117);
+        let phi1_ddot = -t111;
+        let zero = N::ZERO;
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let phi2 = q[7];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t0 = sin_phi2 * s2_dot;
-    let t1 = s2 * phi2_dot;
-    let t2 = cos_phi2 * t1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t3 = sin_phi1 * s1_dot;
-    let t4 = s1 * phi1_dot;
-    let t5 = cos_phi1 * t4;
-    let t6 = y_dot + (t3 + t5);
-    let t7 = t0 + t2 + t6;
-    let t8 = p.m2 * t7 + p.m1 * t6;
-    let t9 = t8 * (cos_phi1 * phi1_dot);
-    let t10 = cos_phi2 * s2_dot;
-    let t11 = phi2_dot * t10;
-    let t12 = sin_phi2 * t1;
-    let t13 = cos_phi1 * s1_dot;
-    let t14 = phi1_dot * t13;
-    let t15 = sin_phi1 * t4;
-    let t16 = t14 + (t14 - phi1_dot * t15);
-    let t17 = t11 + (t11 - phi2_dot * t12) + t16;
-    let t18 = p.m2 * t17 + p.m1 * t16;
-    let t19 = x_dot + (t13 - t15);
-    let t20 = t10 - t12 + t19;
-    let t21 = p.m2 * t20 + t19 * p.m1;
-    let t22 = t21 * (sin_phi1 * phi1_dot);
-    let t23 = phi2_dot * t0;
-    let t24 = phi1_dot * t3;
-    let t25 = t24 + (t24 + phi1_dot * t5);
-    let t26 = t23 + (t23 + phi2_dot * t2) + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t9 - t22 - (t9 + sin_phi1 * t18 - (t22 + cos_phi1 * t27));
-    let t29 = p.k2 * sin_phi1;
-    let t30 = p.k23 * t29;
-    let t31 = p.omega * t;
-    let (sin_t31, cos_t31) = t31.sin_cos();
-    let t32 = y_dot + theta_dot * p.xb;
-    let t33 = theta * p.xc + y;
-    let t34 = p.k2 * cos_phi1;
-    let t35 = p.k23 * t34;
-    let t36 = x_dot - theta_dot * p.yb;
-    let t37 = x - theta * p.yc;
-    let t38 = t36 * p.k4 - t32 * p.k17 + (t37 * p.k3 - t33 * p.k5);
-    let t39 = cos_t31 * p.k16 - sin_t31 * p.k15 - t38;
-    let t40 = t35 * t28 + (t36 * p.bx + t37 * p.cx - (t27 + cos_t31 * p.k6));
-    let t41 = t39 * p.k19 + t40;
-    let t42 = t34 * t35;
-    let t43 = S::ONE / (t42 - p.k24);
-    let t44 = p.k21 - t34 * t30;
-    let t45 = t43 * t44;
-    let t46 = t30 * t28 + (t18 - sin_t31 * p.k6 + (t32 * p.by + t33 * p.cy));
-    let t47 = t46 + (t45 * t41 - p.k20 * t39);
-    let t48 = t44 * t45;
-    let t49 = t29 * t30 - p.k25;
-    let t50 = S::ONE / (t49 - t48);
-    let t51 = sin_phi1 * s1;
-    let t52 = p.k2 * t51;
-    let t53 = t43 * t52;
-    let t54 = cos_phi1 * s1;
-    let t55 = p.k2 * t54 - t44 * t53;
-    let t56 = t50 * t55;
-    let t57 = cos_phi1 * (s1_dot * t8 - t4 * t21);
-    let t58 = t54 * t18 + t13 * t8 - t15 * t8 - (t21 * t5 + t21 * t3 - t51 * t27);
-    let t59 = t56 * t47 + (t58 + (sin_phi1 * (s1_dot * t21 + t4 * t8) - t57));
-    let t60 = t59 - t53 * t41;
-    let t61 = s1 * (p.k2 * s1);
-    let t62 = t55 * t56 + (t52 * t53 + t61);
-    let t63 = S::ONE / t62;
-    let t64 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let t65 = p.k23 * t64;
-    let t66 = p.m2 * cos_phi2 - t34 * t65;
-    let t67 = t43 * t66;
-    let t68 = t44 * t67 + p.m2 * sin_phi2 - t29 * t65;
-    let t69 = t50 * t68;
-    let t70 = t55 * t69 + p.m2 * (t54 * sin_phi2 - t51 * cos_phi2) - t52 * t67;
-    let t71 = t63 * t70;
-    let t72 = t7 * (cos_phi2 * phi2_dot);
-    let t73 = t20 * (sin_phi2 * phi2_dot);
-    let t74 = p.m2 * (t72 - t73 - (t72 + sin_phi2 * t17 - (t73 + cos_phi2 * t26)));
-    let t75 = t71 * t60 + t74 - (t67 * t41 + t65 * t28) - t69 * t47;
-    let t76 = p.m2 + t66 * t67 + (t68 * t69 - t64 * t65) - t70 * t71;
-    let t77 = S::ONE / t76;
-    let t78 = cos_phi2 * s2;
-    let t79 = sin_phi2 * s2;
-    let t80 = p.m2 * (sin_phi1 * t78 - cos_phi1 * t79);
-    let t81 = p.k23 * t80;
-    let t82 = t34 * t81 + p.m2 * t79;
-    let t83 = t43 * t82;
-    let t84 = p.m2 * t78 - t29 * t81 - t44 * t83;
-    let t85 = t50 * t84;
-    let t86 = t55 * t85 + (t52 * t83 + p.m2 * (t51 * t79 + t54 * t78));
-    let t87 = t63 * t86;
-    let t88 = t66 * t83 + t64 * t81 + (t70 * t87 - t68 * t85);
-    let t89 = t77 * t88;
-    let t90 = sin_phi2 * (s2_dot * t20 + t1 * t7);
-    let t91 = t78 * t17 + t10 * t7 - t12 * t7 - (t20 * t2 + t20 * t0 - t79 * t26);
-    let t92 = t83 * t41 + p.m2 * (cos_phi2 * (s2_dot * t7 - t1 * t20) - t90 - t91);
-    let t93 = s2 * (p.m2 * s2);
-    let t94 = t82 * t83 + t93 + (t84 * t85 - t80 * t81) - (t88 * t89 + t86 * t87);
-    let phi2_ddot = (t92 + (t89 * t75 + t87 * t60) - (t85 * t47 + t81 * t28)) / t94;
-    let s2_ddot = t89 * phi2_ddot + t77 * t75;
-    let t95 = t87 * phi2_ddot + (t71 * s2_ddot + t63 * t60);
-    let y_ddot = t69 * s2_ddot + t50 * t47 + (t85 * phi2_ddot - t56 * t95);
-    let x_ddot = t45 * y_ddot + t43 * t41 + (t67 * s2_ddot + t53 * t95) - t83 * phi2_ddot;
-    let t96 = t30 * y_ddot + t35 * x_ddot + (t81 * phi2_ddot + t65 * s2_ddot);
-    let t97 = p.k24 - t42;
-    if vanishes(t97, p.k11, 7.993605777301127e-15) {
-        return Err(singular(0, t97, p.k11));
-    }
-    let t98 = t48 - t49;
-    if vanishes(t98, p.k11, 7.993605777301127e-15) {
-        return Err(singular(1, t98, p.k11));
-    }
-    if vanishes(t62, t61, 7.993605777301127e-15) {
-        return Err(singular(4, t62, t61));
-    }
-    if vanishes(t76, p.m2, 7.993605777301127e-15) {
-        return Err(singular(6, t76, p.m2));
-    }
-    if vanishes(t94, t93, 7.993605777301127e-15) {
-        return Err(singular(7, t94, t93));
-    }
-    let theta_ddot = p.k19 * x_ddot - (p.k20 * y_ddot + t39 * p.k22);
-    let s1_ddot = p.k23 * t28 - t96;
-    let phi1_ddot = -t95;
-    let zero = S::ZERO;
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -862,13 +912,14 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
     let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = p.omega * t;
-    let (sin_t7, cos_t7) = t7.sin_cos();
-    let t8 = p.k0 * cos_t7 + (y_dot + theta_dot * p.x0);
-    let t9 = x_dot - theta_dot * p.y0 - p.k0 * sin_t7;
-    let t10 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
-    let t11 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t8 * t8 + t9 * t9) * p.m0 + p.k1 + t10 + t11) * S::from_f64(0.5)
+    let t7 = p.omega.product_error(t);
+    let t8 = p.omega * t;
+    let (sin_t8, cos_t8) = t8.sin_cos();
+    let t9 = p.k0 * (cos_t8 - t7 * sin_t8) + (y_dot + theta_dot * p.x0);
+    let t10 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t8 + t7 * cos_t8);
+    let t11 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
+    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
+    ((t9 * t9 + t10 * t10) * p.m0 + p.k1 + t11 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -912,17 +963,20 @@ pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, v: &[S; 9], a: 
     let x_ddot = a[0];
     let y_ddot = a[1];
     let theta_ddot = a[2];
-    let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = p.k0 * cos_t0;
-    let t2 = t1 + (p.x0 * theta_dot + y_dot);
-    let t3 = p.k14 * sin_t0;
-    let t4 = cos_t0 * p.k14;
-    let t5 = p.k0 * sin_t0;
-    let t6 = x_dot - theta_dot * p.y0 - t5;
-    let t7 = t5 * (x_ddot - theta_ddot * p.y0 - t4) + t4 * t6;
-    let t8 = (t3 * t2 - t1 * (theta_ddot * p.x0 + y_ddot - t3) + t7) * p.m0;
-    (sin_t0 * t2 + cos_t0 * t6) * p.k6 - t8
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = sin_t1 + t0 * cos_t1;
+    let t3 = t2 * p.k14;
+    let t4 = cos_t1 - t0 * sin_t1;
+    let t5 = p.k0 * t4;
+    let t6 = t5 + (p.x0 * theta_dot + y_dot);
+    let t7 = p.k0 * t2;
+    let t8 = t4 * p.k14;
+    let t9 = x_dot - theta_dot * p.y0 - t7;
+    let t10 = t7 * (x_ddot - theta_ddot * p.y0 - t8) + t8 * t9;
+    let t11 = (t3 * t6 - t5 * (theta_ddot * p.x0 + y_ddot - t3) + t10) * p.m0;
+    (t2 * t6 + t4 * t9) * p.k6 - t11
 }
 
 /// Power that dampers take out, in W.
@@ -1150,10 +1204,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

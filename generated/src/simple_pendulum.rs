@@ -202,7 +202,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) 
     let theta = q[0];
     let theta_dot = v[0];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = theta_dot * theta_dot * cos_theta;
+    let t0 = cos_theta * (theta_dot * theta_dot);
     let f_theta = t0 * (sin_theta * p.k0) - (t0 * p.l + p.g) * (sin_theta * p.k3);
     [f_theta]
 }
@@ -211,18 +211,37 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 1],
 ) -> Result<[S; 1], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 1],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let sin_theta = theta.sin();
+        let theta_ddot = -(n(p.k4) * sin_theta);
+        let accelerations = [theta_ddot.store()];
+        Ok(accelerations)
     }
-    let theta = q[0];
-    let sin_theta = theta.sin();
-    let theta_ddot = -(p.k4 * sin_theta);
-    let accelerations = [theta_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -420,7 +439,8 @@ fn quantities<'a, const N: usize>(
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -12,14 +12,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 39 | 7 | 2 | 0 | 0 | 48 |
 //! | `mass_matrix` | 30 | 9 | 0 | 2 | 0 | 43 |
-//! | `bias` | 86 | 66 | 0 | 3 | 0 | 158 |
+//! | `bias` | 89 | 68 | 0 | 3 | 0 | 163 |
 //! | `applied` | 6 | 6 | 0 | 0 | 0 | 12 |
-//! | `forces` | 92 | 70 | 0 | 3 | 0 | 168 |
-//! | `accelerations` | 205 | 138 | 5 | 3 | 0 | 354 |
-//! | `kinetic_energy` | 47 | 27 | 0 | 3 | 0 | 80 |
+//! | `forces` | 95 | 72 | 0 | 3 | 0 | 173 |
+//! | `accelerations` | 208 | 140 | 5 | 3 | 0 | 359 |
+//! | `kinetic_energy` | 50 | 29 | 0 | 3 | 0 | 85 |
 //! | `potential_energy` | 6 | 2 | 0 | 0 | 0 | 8 |
 //! | `dissipation` | 6 | 2 | 0 | 0 | 0 | 8 |
-//! | `work_rate` | 40 | 23 | 0 | 1 | 0 | 65 |
+//! | `work_rate` | 43 | 25 | 0 | 1 | 0 | 70 |
 //! | `dissipation_rate` | 6 | 2 | 0 | 0 | 0 | 8 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -481,7 +481,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k14 * t1;
     let m55 = s1 * (p.k14 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -535,54 +535,57 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = theta_dot * theta_dot;
+    let t11 = p.omega.product_error(t);
     let t12 = p.omega * t;
     let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = s2_dot * cos_phi2;
-    let t14 = phi2_dot * t13;
-    let t15 = sin_phi2 * t2;
-    let t16 = s1_dot * cos_phi1;
-    let t17 = phi1_dot * t16;
-    let t18 = sin_phi1 * t6;
-    let t19 = t17 + (t17 - phi1_dot * t18);
-    let t20 = t14 + (t14 - phi2_dot * t15) + t19;
-    let t21 = p.m2 * t20 + p.m1 * t19;
-    let t22 = (x_dot - sin_t12 * p.k0) * (theta_dot * p.k13);
-    let t23 = (y_dot + cos_t12 * p.k0) * (theta_dot * p.k12);
-    let t24 = sin_t12 * p.k19 + (t23 - theta * (sin_t12 * p.k18));
-    let t25 = y_dot + (t4 + t7);
-    let t26 = t0 + t3 + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t27 * (phi1_dot * cos_phi1);
-    let t29 = x_dot + (t16 - t18);
-    let t30 = t13 - t15 + t29;
-    let t31 = p.m2 * t30 + p.m1 * t29;
-    let t32 = t31 * (sin_phi1 * phi1_dot);
-    let t33 = t21 * (s1 * cos_phi1) + t16 * t27 - t18 * t27;
-    let t34 = sin_phi1 * (s1_dot * t31 + t6 * t27);
-    let t35 = t33 - (t7 * t31 + t4 * t31 - t10 * (sin_phi1 * s1));
-    let t36 = t26 * (phi2_dot * cos_phi2);
-    let t37 = t30 * (sin_phi2 * phi2_dot);
-    let t38 = sin_phi2 * (s2_dot * t30 + t2 * t26);
-    let t39 = t20 * (s2 * cos_phi2) + t13 * t26 - t15 * t26;
-    let t40 = t39 - (t3 * t30 + t0 * t30 - t9 * (sin_phi2 * s2));
-    let h_x = -(t10 + (t11 * p.k13 + p.k17 * cos_t12));
-    let h_y = t21 - (t11 * p.k12 + p.k17 * sin_t12);
-    let h_theta = t22 + t23 - (t24 + (t22 - theta * (cos_t12 * p.k19) - cos_t12 * p.k18));
-    let h_s1 = t28 + sin_phi1 * t21 - (t32 + cos_phi1 * t10) - (t28 - t32);
-    let h_phi1 = t35 - (cos_phi1 * (s1_dot * t27 - t6 * t31) - t34);
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = theta_dot * theta_dot;
+    let t15 = cos_phi2 * s2_dot;
+    let t16 = phi2_dot * t15;
+    let t17 = sin_phi2 * t2;
+    let t18 = cos_phi1 * s1_dot;
+    let t19 = phi1_dot * t18;
+    let t20 = sin_phi1 * t6;
+    let t21 = t19 + (t19 - phi1_dot * t20);
+    let t22 = t16 + (t16 - phi2_dot * t17) + t21;
+    let t23 = p.m2 * t22 + p.m1 * t21;
+    let t24 = sin_t12 + t11 * cos_t12;
+    let t25 = (y_dot + t13 * p.k0) * (theta_dot * p.k12);
+    let t26 = (x_dot - t24 * p.k0) * (theta_dot * p.k13);
+    let t27 = t24 * p.k19 + (t25 - theta * (t24 * p.k18));
+    let t28 = y_dot + (t4 + t7);
+    let t29 = t0 + t3 + t28;
+    let t30 = p.m2 * t29 + p.m1 * t28;
+    let t31 = t30 * (cos_phi1 * phi1_dot);
+    let t32 = x_dot + (t18 - t20);
+    let t33 = t15 - t17 + t32;
+    let t34 = p.m2 * t33 + p.m1 * t32;
+    let t35 = t34 * (sin_phi1 * phi1_dot);
+    let t36 = t23 * (cos_phi1 * s1) + t18 * t30 - t20 * t30;
+    let t37 = sin_phi1 * (s1_dot * t34 + t6 * t30);
+    let t38 = t36 - (t7 * t34 + t4 * t34 - t10 * (sin_phi1 * s1));
+    let t39 = t29 * (cos_phi2 * phi2_dot);
+    let t40 = t33 * (sin_phi2 * phi2_dot);
+    let t41 = sin_phi2 * (s2_dot * t33 + t2 * t29);
+    let t42 = t22 * (cos_phi2 * s2) + t15 * t29 - t17 * t29;
+    let t43 = t42 - (t3 * t33 + t0 * t33 - t9 * (sin_phi2 * s2));
+    let h_x = -(t10 + (t14 * p.k13 + p.k17 * t13));
+    let h_y = t23 - (t14 * p.k12 + p.k17 * t24);
+    let h_theta = t26 + t25 - (t27 + (t26 - theta * (t13 * p.k19) - t13 * p.k18));
+    let h_s1 = t31 + sin_phi1 * t23 - (t35 + cos_phi1 * t10) - (t31 - t35);
+    let h_phi1 = t38 - (cos_phi1 * (s1_dot * t30 - t6 * t34) - t37);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t36 - t37 - (t36 + sin_phi2 * t20 - (t37 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t26 - t2 * t30) - t38 - t40));
+    let h_s2 = -(p.m2 * (t39 - t40 - (t39 + sin_phi2 * t22 - (t40 + cos_phi2 * t9))));
+    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t29 - t2 * t33) - t41 - t43));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -627,55 +630,58 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t0 = sin_phi2 * s2_dot;
     let t1 = t0 * phi2_dot;
     let t2 = phi2_dot * s2;
-    let t3 = t2 * cos_phi2;
+    let t3 = cos_phi2 * t2;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = sin_phi1 * s1_dot;
     let t5 = t4 * phi1_dot;
     let t6 = phi1_dot * s1;
-    let t7 = t6 * cos_phi1;
+    let t7 = cos_phi1 * t6;
     let t8 = t5 + (t5 + phi1_dot * t7);
     let t9 = t1 + (t1 + phi2_dot * t3) + t8;
     let t10 = t9 * p.m2 + t8 * p.m1;
-    let t11 = theta_dot * theta_dot;
+    let t11 = p.omega.product_error(t);
     let t12 = p.omega * t;
     let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = s2_dot * cos_phi2;
-    let t14 = phi2_dot * t13;
-    let t15 = sin_phi2 * t2;
-    let t16 = s1_dot * cos_phi1;
-    let t17 = phi1_dot * t16;
-    let t18 = sin_phi1 * t6;
-    let t19 = t17 + (t17 - phi1_dot * t18);
-    let t20 = t14 + (t14 - phi2_dot * t15) + t19;
-    let t21 = p.m2 * t20 + p.m1 * t19;
-    let t22 = (x_dot - sin_t12 * p.k0) * (theta_dot * p.k13);
-    let t23 = (y_dot + cos_t12 * p.k0) * (theta_dot * p.k12);
-    let t24 = sin_t12 * p.k19 + (t23 - theta * (sin_t12 * p.k18));
-    let t25 = t22 + t23 - (t24 + (t22 - theta * (cos_t12 * p.k19) - cos_t12 * p.k18));
-    let t26 = y_dot + (t4 + t7);
-    let t27 = t0 + t3 + t26;
-    let t28 = p.m2 * t27 + p.m1 * t26;
-    let t29 = t28 * (phi1_dot * cos_phi1);
-    let t30 = x_dot + (t16 - t18);
-    let t31 = t13 - t15 + t30;
-    let t32 = p.m2 * t31 + p.m1 * t30;
-    let t33 = t32 * (sin_phi1 * phi1_dot);
-    let t34 = sin_phi1 * (s1_dot * t32 + t6 * t28);
-    let t35 = t21 * (s1 * cos_phi1) + t16 * t28 - t18 * t28;
-    let t36 = t35 - (t7 * t32 + t4 * t32 - t10 * (sin_phi1 * s1));
-    let t37 = t27 * (phi2_dot * cos_phi2);
-    let t38 = t31 * (sin_phi2 * phi2_dot);
-    let t39 = sin_phi2 * (s2_dot * t31 + t2 * t27);
-    let t40 = t20 * (s2 * cos_phi2) + t13 * t27 - t15 * t27;
-    let t41 = t40 - (t3 * t31 + t0 * t31 - t9 * (sin_phi2 * s2));
-    let f_x = t10 + (t11 * p.k13 + p.k17 * cos_t12) - (p.k21 * x_dot + p.k20 * x);
-    let f_y = t11 * p.k12 + p.k17 * sin_t12 - t21 - (p.k23 * y_dot + p.k22 * y);
-    let f_theta = -(theta_dot * p.k25 + theta * p.k24 + t25);
-    let f_s1 = t29 - t33 - (t29 + sin_phi1 * t21 - (t33 + cos_phi1 * t10));
-    let f_phi1 = cos_phi1 * (s1_dot * t28 - t6 * t32) - t34 - t36;
+    let t13 = cos_t12 - t11 * sin_t12;
+    let t14 = theta_dot * theta_dot;
+    let t15 = cos_phi2 * s2_dot;
+    let t16 = phi2_dot * t15;
+    let t17 = sin_phi2 * t2;
+    let t18 = cos_phi1 * s1_dot;
+    let t19 = phi1_dot * t18;
+    let t20 = sin_phi1 * t6;
+    let t21 = t19 + (t19 - phi1_dot * t20);
+    let t22 = t16 + (t16 - phi2_dot * t17) + t21;
+    let t23 = p.m2 * t22 + p.m1 * t21;
+    let t24 = sin_t12 + t11 * cos_t12;
+    let t25 = (y_dot + t13 * p.k0) * (theta_dot * p.k12);
+    let t26 = (x_dot - t24 * p.k0) * (theta_dot * p.k13);
+    let t27 = t24 * p.k19 + (t25 - theta * (t24 * p.k18));
+    let t28 = t26 + t25 - (t27 + (t26 - theta * (t13 * p.k19) - t13 * p.k18));
+    let t29 = y_dot + (t4 + t7);
+    let t30 = t0 + t3 + t29;
+    let t31 = p.m2 * t30 + p.m1 * t29;
+    let t32 = t31 * (cos_phi1 * phi1_dot);
+    let t33 = x_dot + (t18 - t20);
+    let t34 = t15 - t17 + t33;
+    let t35 = p.m2 * t34 + p.m1 * t33;
+    let t36 = t35 * (sin_phi1 * phi1_dot);
+    let t37 = sin_phi1 * (s1_dot * t35 + t6 * t31);
+    let t38 = t23 * (cos_phi1 * s1) + t18 * t31 - t20 * t31;
+    let t39 = t38 - (t7 * t35 + t4 * t35 - t10 * (sin_phi1 * s1));
+    let t40 = t30 * (cos_phi2 * phi2_dot);
+    let t41 = t34 * (sin_phi2 * phi2_dot);
+    let t42 = sin_phi2 * (s2_dot * t34 + t2 * t30);
+    let t43 = t22 * (cos_phi2 * s2) + t15 * t30 - t17 * t30;
+    let t44 = t43 - (t3 * t34 + t0 * t34 - t9 * (sin_phi2 * s2));
+    let f_x = t10 + (t14 * p.k13 + p.k17 * t13) - (p.k21 * x_dot + p.k20 * x);
+    let f_y = t14 * p.k12 + p.k17 * t24 - t23 - (p.k23 * y_dot + p.k22 * y);
+    let f_theta = -(theta_dot * p.k25 + theta * p.k24 + t28);
+    let f_s1 = t32 - t36 - (t32 + sin_phi1 * t23 - (t36 + cos_phi1 * t10));
+    let f_phi1 = cos_phi1 * (s1_dot * t31 - t6 * t35) - t37 - t39;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t37 - t38 - (t37 + sin_phi2 * t20 - (t38 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t27 - t2 * t31) - t39 - t41);
+    let f_s2 = p.m2 * (t40 - t41 - (t40 + sin_phi2 * t22 - (t41 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t30 - t2 * t34) - t42 - t44);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -683,159 +689,208 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [phi2, phi1, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_phi2, cos_phi2) = circular[0];
+        let (sin_phi1, cos_phi1) = circular[1];
+        let (sin_t0, cos_t0) = circular[2];
+        let t1 = sin_phi2 * s2_dot;
+        let t2 = s2 * phi2_dot;
+        let t3 = cos_phi2 * t2;
+        let t4 = sin_phi1 * s1_dot;
+        let t5 = s1 * phi1_dot;
+        let t6 = cos_phi1 * t5;
+        let t7 = y_dot + (t4 + t6);
+        let t8 = t1 + t3 + t7;
+        let t9 = t8 * (cos_phi2 * phi2_dot);
+        let t10 = cos_phi2 * s2_dot;
+        let t11 = phi2_dot * t10;
+        let t12 = sin_phi2 * t2;
+        let t13 = cos_phi1 * s1_dot;
+        let t14 = phi1_dot * t13;
+        let t15 = sin_phi1 * t5;
+        let t16 = t14 + phi1_dot.neg_mul_add(t15, t14);
+        let t17 = t11 + phi2_dot.neg_mul_add(t12, t11) + t16;
+        let t18 = x_dot + (t13 - t15);
+        let t19 = t10 - t12 + t18;
+        let t20 = t19 * (sin_phi2 * phi2_dot);
+        let t21 = phi2_dot * t1;
+        let t22 = phi1_dot * t4;
+        let t23 = t22 + phi1_dot.mul_add(t6, t22);
+        let t24 = t21 + phi2_dot.mul_add(t3, t21) + t23;
+        let t25 = sin_phi2.mul_add(t17, t9) - cos_phi2.mul_add(t24, t20);
+        let t26 = n(p.m2).mul_add(t8, n(p.m1) * t7);
+        let t27 = t26 * (cos_phi1 * phi1_dot);
+        let t28 = n(p.m2).mul_add(t17, n(p.m1) * t16);
+        let t29 = n(p.m2).mul_add(t19, t18 * n(p.m1));
+        let t30 = t29 * (sin_phi1 * phi1_dot);
+        let t31 = n(p.m2).mul_add(t24, n(p.m1) * t23);
+        let t32 = sin_phi1.mul_add(t28, t27) - cos_phi1.mul_add(t31, t30);
+        let t33 = t27 - t30 - t32;
+        let t34 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t35 = n(p.k36) * t34;
+        let t36 = n(p.k14) * cos_phi1;
+        let t37 = n(p.k36) * t36;
+        let t38 = n(p.omega).product_error(n(t));
+        let t39 = t38.neg_mul_add(sin_t0, cos_t0);
+        let t40 = t39.mul_add(n(p.k0), y_dot) * (n(p.k12) * theta_dot);
+        let t41 = t38.mul_add(cos_t0, sin_t0);
+        let t42 = theta.neg_mul_add(t41 * n(p.k18), t40);
+        let t43 = t41.neg_mul_add(n(p.k0), x_dot) * (n(p.k13) * theta_dot);
+        let t44 = theta.neg_mul_add(n(p.k19) * t39, t43);
+        let t45 = t39.neg_mul_add(n(p.k18), t44);
+        let t46 = t43 + t40 - (n(p.k19).mul_add(t41, t42) + t45);
+        let t47 = theta_dot.mul_add(n(p.k25), theta * n(p.k24)) + t46;
+        let t48 = n(p.k13).mul_add(theta, n(p.k12));
+        let t49 = n(p.k35) * t48;
+        let t50 = theta_dot * theta_dot;
+        let t51 = t31 + t39.mul_add(n(p.k17), n(p.k13) * t50);
+        let t52 = t51 - x_dot.mul_add(n(p.k21), n(p.k20) * x);
+        let t53 = t37.neg_mul_add(t33, t49.neg_mul_add(t47, t52));
+        let t54 = t36.neg_mul_add(t37, t48.neg_mul_add(t49, n(p.k15)));
+        let t54 = checked(t54, n(p.k15), 7.993605777301127e-15, 0)?;
+        let t55 = N::ONE / t54;
+        let t56 = theta.neg_mul_add(n(p.k12), n(p.k13));
+        let t57 = n(p.k35) * t56;
+        let t58 = n(p.k14) * sin_phi1;
+        let t59 = n(p.k36) * t58;
+        let t60 = t36.neg_mul_add(t59, t48 * t57);
+        let t61 = t55 * t60;
+        let t62 = t41.mul_add(n(p.k17), n(p.k12) * t50) - t28;
+        let t63 = t62 - y_dot.mul_add(n(p.k23), n(p.k22) * y);
+        let t64 = t57.mul_add(t47, t63) - t61.mul_add(t53, t59 * t33);
+        let t65 = t56.neg_mul_add(t57, n(p.k15));
+        let t66 = t65 - t60.mul_add(t61, t58 * t59);
+        let t66 = checked(t66, n(p.k15), 7.993605777301127e-15, 1)?;
+        let t67 = N::ONE / t66;
+        let t68 = t36.neg_mul_add(t35, n(p.m2) * cos_phi2);
+        let t69 = t55 * t68;
+        let t70 = t58.neg_mul_add(t35, n(p.m2) * sin_phi2);
+        let t71 = t60.neg_mul_add(t69, t70);
+        let t72 = t67 * t71;
+        let t73 = t35.neg_mul_add(t33, n(p.m2) * (t9 - t20 - t25));
+        let t74 = sin_phi1 * s1_dot.mul_add(t29, t5 * t26);
+        let t75 = cos_phi1 * s1;
+        let t76 = sin_phi1 * s1;
+        let t77 = t15.neg_mul_add(t26, t75.mul_add(t28, t13 * t26));
+        let t78 = t77 - t76.neg_mul_add(t31, t29.mul_add(t6, t29 * t4));
+        let t79 = n(p.k14) * t76;
+        let t80 = t55 * t79;
+        let t81 = cos_phi1.mul_sub(s1_dot.mul_sub(t26, t5 * t29), t74) - t78;
+        let t82 = t60.mul_add(t80, n(p.k14) * t75);
+        let t83 = t67 * t82;
+        let t84 = t83.neg_mul_add(t64, t80.mul_add(t53, t81));
+        let t85 = s1 * (n(p.k14) * s1);
+        let t86 = t82.neg_mul_add(t83, t79.neg_mul_add(t80, t85));
+        let t86 = checked(t86, t85, 7.993605777301127e-15, 4)?;
+        let t87 = N::ONE / t86;
+        let t88 = n(p.m2) * t75.mul_sub(sin_phi2, t76 * cos_phi2);
+        let t89 = t82.neg_mul_add(t72, t79.mul_add(t69, t88));
+        let t90 = t87 * t89;
+        let t91 = t90.neg_mul_add(t84, t73 - t72.mul_add(t64, t69 * t53));
+        let t92 = t34.neg_mul_add(t35, n(p.m2));
+        let t93 = t89.neg_mul_add(t90, t92 - t71.mul_add(t72, t68 * t69));
+        let t93 = checked(t93, n(p.m2), 7.993605777301127e-15, 6)?;
+        let t94 = N::ONE / t93;
+        let t95 = cos_phi2 * s2;
+        let t96 = sin_phi2 * s2;
+        let t97 = n(p.m2) * sin_phi1.mul_sub(t95, cos_phi1 * t96);
+        let t98 = n(p.k36) * t97;
+        let t99 = t36.mul_add(t98, n(p.m2) * t96);
+        let t100 = t55 * t99;
+        let t101 = t58.neg_mul_add(t98, t60.mul_add(t100, n(p.m2) * t95));
+        let t102 = t67 * t101;
+        let t103 = n(p.m2) * t76.mul_add(t96, t75 * t95);
+        let t104 = t82.neg_mul_add(t102, t79.neg_mul_add(t100, t103));
+        let t105 = t87 * t104;
+        let t106 = t89.mul_sub(t105, t68 * t100);
+        let t107 = t71.mul_add(t102, t34 * t98) + t106;
+        let t108 = t94 * t107;
+        let t109 = sin_phi2 * s2_dot.mul_add(t19, t2 * t8);
+        let t110 = t96.neg_mul_add(t24, t19.mul_add(t3, t19 * t1));
+        let t111 = t12.neg_mul_add(t8, t95.mul_add(t17, t10 * t8)) - t110;
+        let t112 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t19), t109);
+        let t113 = t100.mul_add(t53, n(p.m2) * (t112 - t111));
+        let t114 = t113 + t108.mul_sub(t91, t98 * t33);
+        let t115 = s2 * (n(p.m2) * s2);
+        let t116 = t101.mul_add(t102, t99 * t100);
+        let t117 = t97.neg_mul_add(t98, t115) - t116;
+        let t118 = t117 - t107.mul_add(t108, t104 * t105);
+        let t118 = checked(t118, t115, 7.993605777301127e-15, 7)?;
+        let phi2_ddot = (t114 - t105.mul_add(t84, t102 * t64)) / t118;
+        let s2_ddot = t108.mul_add(phi2_ddot, t94 * t91);
+        let t119 = t90.neg_mul_add(s2_ddot, t87 * t84);
+        let phi1_ddot = t105.neg_mul_add(phi2_ddot, t119);
+        let t120 = t72.mul_add(s2_ddot, t102 * phi2_ddot);
+        let y_ddot = t83.neg_mul_add(phi1_ddot, t67 * t64) - t120;
+        let t121 = t61.neg_mul_add(y_ddot, t100 * phi2_ddot);
+        let t122 = t80.mul_add(phi1_ddot, t55 * t53) + t121;
+        let x_ddot = t69.neg_mul_add(s2_ddot, t122);
+        let t123 = t49.mul_sub(x_ddot, t57 * y_ddot);
+        let t124 = t35.mul_add(s2_ddot, t98 * phi2_ddot);
+        let t125 = t37.mul_add(x_ddot, t59 * y_ddot) + t124;
+        let theta_ddot = n(p.k35).neg_mul_add(t47, t123);
+        let s1_ddot = n(p.k36).mul_sub(t33, t125);
+        let zero = N::ZERO;
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let phi2 = q[7];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t0 = sin_phi2 * s2_dot;
-    let t1 = s2 * phi2_dot;
-    let t2 = cos_phi2 * t1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t3 = sin_phi1 * s1_dot;
-    let t4 = s1 * phi1_dot;
-    let t5 = cos_phi1 * t4;
-    let t6 = y_dot + (t3 + t5);
-    let t7 = t0 + t2 + t6;
-    let t8 = t7 * (cos_phi2 * phi2_dot);
-    let t9 = cos_phi2 * s2_dot;
-    let t10 = phi2_dot * t9;
-    let t11 = sin_phi2 * t1;
-    let t12 = cos_phi1 * s1_dot;
-    let t13 = phi1_dot * t12;
-    let t14 = sin_phi1 * t4;
-    let t15 = t13 + (t13 - phi1_dot * t14);
-    let t16 = t10 + (t10 - phi2_dot * t11) + t15;
-    let t17 = x_dot + (t12 - t14);
-    let t18 = t9 - t11 + t17;
-    let t19 = t18 * (sin_phi2 * phi2_dot);
-    let t20 = phi2_dot * t0;
-    let t21 = phi1_dot * t3;
-    let t22 = t21 + (t21 + phi1_dot * t5);
-    let t23 = t20 + (t20 + phi2_dot * t2) + t22;
-    let t24 = p.m2 * t7 + p.m1 * t6;
-    let t25 = t24 * (cos_phi1 * phi1_dot);
-    let t26 = p.m2 * t16 + p.m1 * t15;
-    let t27 = p.m2 * t18 + t17 * p.m1;
-    let t28 = t27 * (sin_phi1 * phi1_dot);
-    let t29 = p.m2 * t23 + p.m1 * t22;
-    let t30 = t25 - t28 - (t25 + sin_phi1 * t26 - (t28 + cos_phi1 * t29));
-    let t31 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let t32 = p.k36 * t31;
-    let t33 = p.m2 * (t8 - t19 - (t8 + sin_phi2 * t16 - (t19 + cos_phi2 * t23)));
-    let t34 = p.k14 * cos_phi1;
-    let t35 = p.k36 * t34;
-    let t36 = p.omega * t;
-    let (sin_t36, cos_t36) = t36.sin_cos();
-    let t37 = (x_dot - sin_t36 * p.k0) * (p.k13 * theta_dot);
-    let t38 = (y_dot + cos_t36 * p.k0) * (p.k12 * theta_dot);
-    let t39 = p.k19 * sin_t36 + (t38 - theta * (sin_t36 * p.k18));
-    let t40 = t37 + t38 - (t39 + (t37 - theta * (p.k19 * cos_t36) - p.k18 * cos_t36));
-    let t41 = theta_dot * p.k25 + theta * p.k24 + t40;
-    let t42 = p.k13 * theta + p.k12;
-    let t43 = p.k35 * t42;
-    let t44 = theta_dot * theta_dot;
-    let t45 = t29 + (p.k13 * t44 + cos_t36 * p.k17) - (x_dot * p.k21 + p.k20 * x);
-    let t46 = t45 - t43 * t41 - t35 * t30;
-    let t47 = p.k15 - t42 * t43 - t34 * t35;
-    if vanishes(t47, p.k15, 7.993605777301127e-15) {
-        return Err(singular(0, t47, p.k15));
-    }
-    let t48 = S::ONE / t47;
-    let t49 = p.k13 - theta * p.k12;
-    let t50 = p.k35 * t49;
-    let t51 = p.k14 * sin_phi1;
-    let t52 = p.k36 * t51;
-    let t53 = t42 * t50 - t34 * t52;
-    let t54 = t48 * t53;
-    let t55 = p.k12 * t44 + sin_t36 * p.k17 - t26 - (y_dot * p.k23 + p.k22 * y);
-    let t56 = t50 * t41 + t55 - (t54 * t46 + t52 * t30);
-    let t57 = p.k15 - t49 * t50 - (t53 * t54 + t51 * t52);
-    if vanishes(t57, p.k15, 7.993605777301127e-15) {
-        return Err(singular(1, t57, p.k15));
-    }
-    let t58 = S::ONE / t57;
-    let t59 = p.m2 * cos_phi2 - t34 * t32;
-    let t60 = t48 * t59;
-    let t61 = p.m2 * sin_phi2 - t51 * t32 - t53 * t60;
-    let t62 = t58 * t61;
-    let t63 = sin_phi1 * (s1_dot * t27 + t4 * t24);
-    let t64 = cos_phi1 * s1;
-    let t65 = sin_phi1 * s1;
-    let t66 = t64 * t26 + t12 * t24 - t14 * t24 - (t27 * t5 + t27 * t3 - t65 * t29);
-    let t67 = p.k14 * t65;
-    let t68 = t48 * t67;
-    let t69 = t53 * t68 + p.k14 * t64;
-    let t70 = t58 * t69;
-    let t71 = t68 * t46 + (cos_phi1 * (s1_dot * t24 - t4 * t27) - t63 - t66);
-    let t72 = t71 - t70 * t56;
-    let t73 = s1 * (p.k14 * s1);
-    let t74 = t73 - t67 * t68 - t69 * t70;
-    if vanishes(t74, t73, 7.993605777301127e-15) {
-        return Err(singular(4, t74, t73));
-    }
-    let t75 = S::ONE / t74;
-    let t76 = t67 * t60 + p.m2 * (t64 * sin_phi2 - t65 * cos_phi2) - t69 * t62;
-    let t77 = t75 * t76;
-    let t78 = t33 - t32 * t30 - (t62 * t56 + t60 * t46) - t77 * t72;
-    let t79 = p.m2 - t31 * t32 - (t61 * t62 + t59 * t60) - t76 * t77;
-    if vanishes(t79, p.m2, 7.993605777301127e-15) {
-        return Err(singular(6, t79, p.m2));
-    }
-    let t80 = S::ONE / t79;
-    let t81 = cos_phi2 * s2;
-    let t82 = sin_phi2 * s2;
-    let t83 = p.m2 * (sin_phi1 * t81 - cos_phi1 * t82);
-    let t84 = p.k36 * t83;
-    let t85 = t34 * t84 + p.m2 * t82;
-    let t86 = t48 * t85;
-    let t87 = t53 * t86 + p.m2 * t81 - t51 * t84;
-    let t88 = t58 * t87;
-    let t89 = p.m2 * (t65 * t82 + t64 * t81) - t67 * t86 - t69 * t88;
-    let t90 = t75 * t89;
-    let t91 = t61 * t88 + t31 * t84 + (t76 * t90 - t59 * t86);
-    let t92 = t80 * t91;
-    let t93 = sin_phi2 * (s2_dot * t18 + t1 * t7);
-    let t94 = t81 * t16 + t9 * t7 - t11 * t7 - (t18 * t2 + t18 * t0 - t82 * t23);
-    let t95 = t86 * t46 + p.m2 * (cos_phi2 * (s2_dot * t7 - t1 * t18) - t93 - t94);
-    let t96 = s2 * (p.m2 * s2);
-    let t97 = t96 - t83 * t84 - (t87 * t88 + t85 * t86) - (t91 * t92 + t89 * t90);
-    if vanishes(t97, t96, 7.993605777301127e-15) {
-        return Err(singular(7, t97, t96));
-    }
-    let phi2_ddot = (t95 + (t92 * t78 - t84 * t30) - (t90 * t72 + t88 * t56)) / t97;
-    let s2_ddot = t92 * phi2_ddot + t80 * t78;
-    let phi1_ddot = t75 * t72 - t77 * s2_ddot - t90 * phi2_ddot;
-    let y_ddot = t58 * t56 - t70 * phi1_ddot - (t88 * phi2_ddot + t62 * s2_ddot);
-    let t98 = t68 * phi1_ddot + t48 * t46 + (t86 * phi2_ddot - t54 * y_ddot);
-    let x_ddot = t98 - t60 * s2_ddot;
-    let t99 = t52 * y_ddot + t35 * x_ddot + (t84 * phi2_ddot + t32 * s2_ddot);
-    let theta_ddot = t43 * x_ddot - t50 * y_ddot - p.k35 * t41;
-    let s1_ddot = p.k36 * t30 - t99;
-    let zero = S::ZERO;
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -868,17 +923,18 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
     let t6 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
     let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t8 = theta_dot * theta;
+    let t8 = p.omega.product_error(t);
     let t9 = p.omega * t;
     let (sin_t9, cos_t9) = t9.sin_cos();
-    let t10 = y_dot + p.k0 * cos_t9;
-    let t11 = theta_dot * theta_dot;
-    let t12 = x_dot - p.k0 * sin_t9;
-    let t13 = t11 * p.k7 - t8 * (p.k4 * t10) + (t11 * p.k6 - t8 * (p.k5 * t12));
-    let t14 = p.k8 * t13 + S::from_f64(0.5) * ((t10 * t10 + t12 * t12) * p.m0 + p.k1);
-    let t15 = t14 - p.k8 * (t12 * (theta_dot * p.k4) - t10 * (theta_dot * p.k5));
-    let t16 = t15 + (p.k3 * (y_dot * y_dot + x_dot * x_dot) + t11 * p.k2);
-    t16 + (S::from_f64(0.5) * t6 + S::from_f64(0.5) * t7)
+    let t10 = y_dot + p.k0 * (cos_t9 - t8 * sin_t9);
+    let t11 = x_dot - p.k0 * (sin_t9 + t8 * cos_t9);
+    let t12 = theta_dot * theta;
+    let t13 = theta_dot * theta_dot;
+    let t14 = t13 * p.k7 - t12 * (p.k4 * t10) + (t13 * p.k6 - t12 * (p.k5 * t11));
+    let t15 = p.k8 * t14 + S::from_f64(0.5) * ((t10 * t10 + t11 * t11) * p.m0 + p.k1);
+    let t16 = t15 - p.k8 * (t11 * (theta_dot * p.k4) - t10 * (theta_dot * p.k5));
+    let t17 = t16 + (p.k3 * (y_dot * y_dot + x_dot * x_dot) + t13 * p.k2);
+    t17 + (S::from_f64(0.5) * t6 + S::from_f64(0.5) * t7)
 }
 
 /// Potential energy `V`, in J.
@@ -925,26 +981,29 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let x_ddot = a[0];
     let y_ddot = a[1];
     let theta_ddot = a[2];
-    let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = sin_t0 * p.k16;
-    let t2 = cos_t0 * p.k0;
-    let t3 = t2 + y_dot;
-    let t4 = sin_t0 * p.k0;
-    let t5 = cos_t0 * p.k16;
-    let t6 = x_dot - t4;
-    let t7 = cos_t0 * theta_dot;
-    let t8 = theta_dot * sin_t0;
-    let t9 = t8 * p.k27 - theta_ddot * (cos_t0 * p.k34);
-    let t10 = t1 * t3 - t2 * (y_ddot - t1) + (t4 * (x_ddot - t5) + t5 * t6);
-    let t11 = theta * t8;
-    let t12 = theta_ddot * theta;
-    let t13 = theta * t7;
-    let t14 = t12 * (sin_t0 * p.k34) + (t8 * (theta_dot * p.k34) + t13 * p.k27);
-    let t15 = t11 * p.k26 - t7 * (p.k33 * theta_dot) - t12 * (p.k33 * cos_t0) + t14;
-    let t16 = (sin_t0 * t3 + cos_t0 * t6) * p.k17 - (t7 * p.k28 - t8 * p.k29) * p.k8;
-    let t17 = (t10 - (theta_ddot * (p.k33 * sin_t0) + t7 * p.k26 - t9) - t15) * p.m0;
-    t16 - p.k32 * (t11 * p.k31 + t13 * p.k30) - t17
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = sin_t1 + t0 * cos_t1;
+    let t3 = t2 * p.k16;
+    let t4 = cos_t1 - t0 * sin_t1;
+    let t5 = t4 * p.k0;
+    let t6 = t5 + y_dot;
+    let t7 = t2 * p.k0;
+    let t8 = t4 * p.k16;
+    let t9 = x_dot - t7;
+    let t10 = t4 * theta_dot;
+    let t11 = t2 * theta_dot;
+    let t12 = t11 * p.k27 - theta_ddot * (t4 * p.k34);
+    let t13 = t3 * t6 - t5 * (y_ddot - t3) + (t7 * (x_ddot - t8) + t8 * t9);
+    let t14 = theta * t11;
+    let t15 = theta_ddot * theta;
+    let t16 = theta * t10;
+    let t17 = t15 * (t2 * p.k34) + (t11 * (theta_dot * p.k34) + t16 * p.k27);
+    let t18 = t14 * p.k26 - t10 * (p.k33 * theta_dot) - t15 * (p.k33 * t4) + t17;
+    let t19 = (t2 * t6 + t4 * t9) * p.k17 - (t10 * p.k28 - t11 * p.k29) * p.k8;
+    let t20 = (t13 - (theta_ddot * (p.k33 * t2) + t10 * p.k26 - t12) - t18) * p.m0;
+    t19 - p.k32 * (t14 * p.k31 + t16 * p.k30) - t20
 }
 
 /// Power that dampers take out, in W.
@@ -1168,10 +1227,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

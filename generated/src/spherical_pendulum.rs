@@ -265,27 +265,47 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
 ) -> Result<[S; 2], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 2],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[1]);
+        let phi_dot = n(v[0]);
+        let theta_dot = n(v[1]);
+        let (sin_theta, cos_theta) = theta.sin_cos();
+        let t0 = cos_theta * phi_dot;
+        let t1 = t0.neg_mul_add(phi_dot * n(p.l), n(p.g));
+        let t2 = sin_theta * (sin_theta * n(p.k0));
+        checked(t2, t2, 1.7763568394002505e-15, 0)?;
+        let phi_ddot = -(t0 * (N::from_f64(2.0) * theta_dot) / sin_theta);
+        let theta_ddot = -(t1 * (sin_theta * n(p.k5)));
+        let accelerations = [phi_ddot.store(), theta_ddot.store()];
+        Ok(accelerations)
     }
-    let theta = q[1];
-    let phi_dot = v[0];
-    let theta_dot = v[1];
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = cos_theta * phi_dot;
-    let t1 = sin_theta * (sin_theta * p.k0);
-    if vanishes(t1, t1, 1.7763568394002505e-15) {
-        return Err(singular(0, t1, t1));
-    }
-    let phi_ddot = -(t0 * (S::from_f64(2.0) * theta_dot) / sin_theta);
-    let theta_ddot = -((p.g - t0 * (phi_dot * p.l)) * (sin_theta * p.k5));
-    let accelerations = [phi_ddot, theta_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -535,10 +555,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -309,41 +309,69 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 8],
     u: &Inputs<S>,
 ) -> Result<[S; 8], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, u })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 8],
+    /// As `accelerations` takes it.
+    pub u: &'a Inputs<S>,
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, u } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let u_1 = n(q[0]);
+        let u_2 = n(q[1]);
+        let u_3 = n(q[2]);
+        let u_4 = n(q[3]);
+        let u_5 = n(q[4]);
+        let u_6 = n(q[5]);
+        let u_7 = n(q[6]);
+        let u_8 = n(q[7]);
+        let t0 = u_1 - u_2;
+        let t1 = u_2 - u_3;
+        let t2 = u_3 - u_4;
+        let t3 = u_4 - u_5;
+        let t4 = u_5 - u_6;
+        let t5 = u_6 - u_7;
+        let t6 = u_7 - u_8;
+        let u_1_ddot = -(n(p.k3) * t0);
+        let u_2_ddot = n(p.k3) * (t0 - t1);
+        let u_3_ddot = n(p.k3) * (t1 - t2);
+        let u_4_ddot = n(p.k3) * (t2 - t3);
+        let u_5_ddot = n(p.k3) * (t3 - t4);
+        let u_6_ddot = n(p.k3) * (t4 - t5);
+        let u_7_ddot = n(p.k3) * (t5 - t6);
+        let u_8_ddot = n(p.k2) * t6.mul_add(n(p.k), n(u.pull));
+        let accelerations = [
+            u_1_ddot.store(),
+            u_2_ddot.store(),
+            u_3_ddot.store(),
+            u_4_ddot.store(),
+            u_5_ddot.store(),
+            u_6_ddot.store(),
+            u_7_ddot.store(),
+            u_8_ddot.store(),
+        ];
+        Ok(accelerations)
     }
-    let u_1 = q[0];
-    let u_2 = q[1];
-    let u_3 = q[2];
-    let u_4 = q[3];
-    let u_5 = q[4];
-    let u_6 = q[5];
-    let u_7 = q[6];
-    let u_8 = q[7];
-    let t0 = u_1 - u_2;
-    let t1 = u_2 - u_3;
-    let t2 = u_3 - u_4;
-    let t3 = u_4 - u_5;
-    let t4 = u_5 - u_6;
-    let t5 = u_6 - u_7;
-    let t6 = u_7 - u_8;
-    let u_1_ddot = -(p.k3 * t0);
-    let u_2_ddot = p.k3 * (t0 - t1);
-    let u_3_ddot = p.k3 * (t1 - t2);
-    let u_4_ddot = p.k3 * (t2 - t3);
-    let u_5_ddot = p.k3 * (t3 - t4);
-    let u_6_ddot = p.k3 * (t4 - t5);
-    let u_7_ddot = p.k3 * (t5 - t6);
-    let u_8_ddot = p.k2 * (t6 * p.k + u.pull);
-    let accelerations = [
-        u_1_ddot, u_2_ddot, u_3_ddot, u_4_ddot, u_5_ddot, u_6_ddot, u_7_ddot, u_8_ddot,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -652,7 +680,8 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -17,14 +17,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 22 | 6 | 2 | 0 | 0 | 30 |
 //! | `mass_matrix` | 30 | 7 | 0 | 3 | 0 | 43 |
-//! | `bias` | 52 | 35 | 0 | 4 | 0 | 95 |
+//! | `bias` | 55 | 37 | 0 | 4 | 0 | 100 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
-//! | `forces` | 66 | 51 | 0 | 4 | 0 | 125 |
-//! | `accelerations` | 68 | 47 | 2 | 3 | 0 | 123 |
-//! | `kinetic_energy` | 41 | 32 | 0 | 4 | 0 | 81 |
+//! | `forces` | 69 | 53 | 0 | 4 | 0 | 130 |
+//! | `accelerations` | 71 | 49 | 2 | 3 | 0 | 128 |
+//! | `kinetic_energy` | 44 | 34 | 0 | 4 | 0 | 86 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `work_rate` | 17 | 15 | 0 | 2 | 0 | 36 |
+//! | `work_rate` | 20 | 17 | 0 | 2 | 0 | 41 |
 //! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -462,7 +462,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k7 * t1;
     let m55 = s1 * (p.k7 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -513,47 +513,48 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = p.k6 * (cos_t1 - t0 * sin_t1);
+    let t3 = theta_dot * theta_dot;
+    let t4 = t3 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t10 * cos_theta;
-    let t12 = t9 * p.y0;
-    let t13 = t12 * sin_theta;
-    let t14 = p.omega * t;
-    let (sin_t14, cos_t14) = t14.sin_cos();
-    let t15 = p.k6 * cos_t14;
-    let t16 = t15 + (t11 - t13);
-    let t17 = t15 + (t13 + t11);
-    let t18 = sin_phi2 * s2;
-    let t19 = sin_phi1 * s1;
-    let t20 = t3 * t19 - t5 * cos_phi1;
-    let t21 = t0 * t18 - t2 * cos_phi2 + t20;
-    let t22 = p.m2 * t21 + p.m1 * t20;
-    let t23 = sin_theta * t10;
-    let t24 = t12 * cos_theta;
-    let t25 = p.k6 * sin_t14;
-    let t26 = t25 + (t23 + t24);
-    let t27 = t25 + (t24 - t23);
-    let t28 = cos_theta * (p.k8 * (t26 - t27) - p.k11 * (t16 - t17));
-    let h_x = -(p.m0 * t17 + (p.m0 * t16 + t8));
-    let h_y = p.m0 * t27 - (p.m0 * t26 + t22);
-    let h_theta = sin_theta * (p.k8 * (t17 + t16) + p.k11 * (t27 + t26)) - t28;
-    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t22);
-    let h_phi1 = t8 * t19 - t4 * t22;
+    let t5 = cos_theta * t4;
+    let t6 = t3 * p.y0;
+    let t7 = t6 * sin_theta;
+    let t8 = t2 + (t5 - t7);
+    let t9 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t10 = cos_phi2 * s2;
+    let t11 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t12 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t13 = cos_phi1 * s1;
+    let t14 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t15 = t14 * sin_phi1 + t12 * t13;
+    let t16 = t11 * sin_phi2 + t9 * t10 + t15;
+    let t17 = t16 * p.m2 + t15 * p.m1;
+    let t18 = t2 + (t7 + t5);
+    let t19 = p.k6 * (sin_t1 + t0 * cos_t1);
+    let t20 = sin_theta * t4;
+    let t21 = t6 * cos_theta;
+    let t22 = t19 + (t20 + t21);
+    let t23 = sin_phi2 * s2;
+    let t24 = sin_phi1 * s1;
+    let t25 = t12 * t24 - t14 * cos_phi1;
+    let t26 = t9 * t23 - t11 * cos_phi2 + t25;
+    let t27 = p.m2 * t26 + p.m1 * t25;
+    let t28 = t19 + (t21 - t20);
+    let t29 = cos_theta * (p.k8 * (t22 - t28) - p.k11 * (t8 - t18));
+    let h_x = -(p.m0 * t18 + (p.m0 * t8 + t17));
+    let h_y = p.m0 * t28 - (p.m0 * t22 + t27);
+    let h_theta = sin_theta * (p.k8 * (t18 + t8) + p.k11 * (t28 + t22)) - t29;
+    let h_s1 = -(cos_phi1 * t17 + sin_phi1 * t27);
+    let h_phi1 = t17 * t24 - t13 * t27;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t21));
-    let h_phi2 = -(p.m2 * (t1 * t21 - t7 * t18));
+    let h_s2 = -(p.m2 * (cos_phi2 * t16 + sin_phi2 * t26));
+    let h_phi2 = -(p.m2 * (t10 * t26 - t16 * t23));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -602,56 +603,57 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = p.k6 * (cos_t1 - t0 * sin_t1);
+    let t3 = theta_dot * theta_dot;
+    let t4 = t3 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t10 * cos_theta;
-    let t12 = t9 * p.y0;
-    let t13 = t12 * sin_theta;
-    let t14 = p.omega * t;
-    let (sin_t14, cos_t14) = t14.sin_cos();
-    let t15 = p.k6 * cos_t14;
-    let t16 = t15 + (t11 - t13);
-    let t17 = t15 + (t13 + t11);
-    let t18 = theta_dot * p.yc;
-    let t19 = p.yc * theta;
-    let t20 = p.bx * (t18 + x_dot) + p.cx * (t19 + x);
-    let t21 = p.bx * (x_dot - t18) + p.cx * (x - t19);
-    let t22 = sin_phi2 * s2;
-    let t23 = sin_phi1 * s1;
-    let t24 = t3 * t23 - t5 * cos_phi1;
-    let t25 = t0 * t22 - t2 * cos_phi2 + t24;
-    let t26 = p.m2 * t25 + p.m1 * t24;
-    let t27 = sin_theta * t10;
-    let t28 = t12 * cos_theta;
-    let t29 = p.k6 * sin_t14;
-    let t30 = t29 + (t27 + t28);
-    let t31 = theta_dot * p.xc;
-    let t32 = theta * p.xc;
-    let t33 = p.by * (t31 + y_dot) + p.cy * (t32 + y);
-    let t34 = t29 + (t28 - t27);
-    let t35 = p.by * (y_dot - t31) + p.cy * (y - t32);
-    let t36 = sin_theta * (p.k8 * (t17 + t16) + p.k11 * (t34 + t30));
-    let t37 = cos_theta * (p.k8 * (t30 - t34) - p.k11 * (t16 - t17)) - t36;
-    let f_x = p.m0 * t16 + t8 + (p.m0 * t17 - t20) - t21;
-    let f_y = p.m0 * t30 + t26 - (t33 + p.m0 * t34) - t35;
-    let f_theta = t37 - (p.yc * (t20 - t21) + p.xc * (t33 - t35));
-    let f_s1 = cos_phi1 * t8 + sin_phi1 * t26;
-    let f_phi1 = t4 * t26 - t8 * t23;
+    let t5 = cos_theta * t4;
+    let t6 = t3 * p.y0;
+    let t7 = t6 * sin_theta;
+    let t8 = t2 + (t5 - t7);
+    let t9 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t10 = cos_phi2 * s2;
+    let t11 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t12 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t13 = cos_phi1 * s1;
+    let t14 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t15 = t14 * sin_phi1 + t12 * t13;
+    let t16 = t11 * sin_phi2 + t9 * t10 + t15;
+    let t17 = t16 * p.m2 + t15 * p.m1;
+    let t18 = t2 + (t7 + t5);
+    let t19 = theta_dot * p.yc;
+    let t20 = p.yc * theta;
+    let t21 = p.bx * (t19 + x_dot) + p.cx * (t20 + x);
+    let t22 = p.bx * (x_dot - t19) + p.cx * (x - t20);
+    let t23 = p.k6 * (sin_t1 + t0 * cos_t1);
+    let t24 = sin_theta * t4;
+    let t25 = t6 * cos_theta;
+    let t26 = t23 + (t24 + t25);
+    let t27 = sin_phi2 * s2;
+    let t28 = sin_phi1 * s1;
+    let t29 = t12 * t28 - t14 * cos_phi1;
+    let t30 = t9 * t27 - t11 * cos_phi2 + t29;
+    let t31 = p.m2 * t30 + p.m1 * t29;
+    let t32 = t23 + (t25 - t24);
+    let t33 = theta_dot * p.xc;
+    let t34 = theta * p.xc;
+    let t35 = p.by * (t33 + y_dot) + p.cy * (t34 + y);
+    let t36 = p.by * (y_dot - t33) + p.cy * (y - t34);
+    let t37 = sin_theta * (p.k8 * (t18 + t8) + p.k11 * (t32 + t26));
+    let t38 = cos_theta * (p.k8 * (t26 - t32) - p.k11 * (t8 - t18)) - t37;
+    let f_x = p.m0 * t8 + t17 + (p.m0 * t18 - t21) - t22;
+    let f_y = p.m0 * t26 + t31 - (t35 + p.m0 * t32) - t36;
+    let f_theta = t38 - (p.yc * (t21 - t22) + p.xc * (t35 - t36));
+    let f_s1 = cos_phi1 * t17 + sin_phi1 * t31;
+    let f_phi1 = t13 * t31 - t17 * t28;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t25);
-    let f_phi2 = p.m2 * (t1 * t25 - t7 * t22);
+    let f_s2 = p.m2 * (cos_phi2 * t16 + sin_phi2 * t30);
+    let f_phi2 = p.m2 * (t10 * t30 - t16 * t27);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -659,84 +661,119 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [t0, theta, phi1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let (sin_phi1, cos_phi1) = circular[2];
+        let t1 = n(p.omega).product_error(n(t));
+        let t2 = t1.neg_mul_add(sin_t0, cos_t0);
+        let t3 = theta_dot * theta_dot;
+        let t4 = cos_theta * t3;
+        let t5 = t2.mul_add(n(p.k6), t4 * n(p.x0));
+        let t6 = sin_theta * t3;
+        let t7 = t6 * n(p.y0);
+        let t8 = sin_theta * n(p.x0);
+        let t9 = cos_theta * n(p.y0);
+        let t10 = t1.mul_add(cos_t0, sin_t0).mul_add(n(p.k6), t4 * n(p.y0));
+        let t11 = n(p.x0) * t6;
+        let t12 = sin_theta * n(p.y0);
+        let t13 = cos_theta * n(p.x0);
+        let t14 = (t10 - t11) * (n(p.m0) * (t12 + t13));
+        let t15 = theta_dot * n(p.yc);
+        let t16 = theta * n(p.yc);
+        let t17 = n(p.bx).mul_add(t15 + x_dot, n(p.cx) * (t16 + x));
+        let t18 = theta_dot * n(p.xc);
+        let t19 = theta * n(p.xc);
+        let t20 = n(p.by).mul_add(t18 + y_dot, n(p.cy) * (t19 + y));
+        let t21 = (t5 - t7).mul_add(n(p.m0) * (t8 + t9), t14);
+        let t22 = n(p.bx).mul_add(x_dot - t15, n(p.cx) * (x - t16));
+        let t23 = t22 + t17 - t2.mul_add(n(p.k14), t4 * n(p.k9));
+        let t24 = n(p.by).mul_add(y_dot - t18, n(p.cy) * (y - t19));
+        let t25 = (t10 + t11).mul_add(n(p.m0) * (t13 - t12), n(p.yc) * t22);
+        let t26 = t23.mul_sub(n(p.k15) * sin_theta, n(p.xc) * t24) - t25;
+        let t27 = n(p.k9).neg_mul_add(t6, t24 + t20);
+        let t28 = t27 * (n(p.k15) * cos_theta);
+        let t29 = n(p.yc).mul_add(t17, n(p.xc) * t20) + t21 + t26;
+        let t30 = t29 - (t5 + t7).mul_add(n(p.m0) * (t9 - t8), t28);
+        let t31 = n(p.k17) * t30;
+        let t32 = n(p.k18) * sin_theta.mul_add(t31, t23);
+        let t33 = n(p.k18) * cos_theta.neg_mul_add(t31, t27);
+        let t34 = t32.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+        let t35 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+        let t36 = t33.neg_mul_add(cos_phi1, t32.mul_add(sin_phi1, t35)) / s1;
+        let t37 = s2 * (s2 * n(p.m2));
+        checked(t37, t37, 7.993605777301127e-15, 7)?;
+        let t38 = s1 * s1;
+        let t39 = t38 * n(p.m1);
+        let t40 = t38 * n(p.k7);
+        checked(t39, t40, 7.993605777301127e-15, 4)?;
+        let x_ddot = -t32;
+        let y_ddot = -t33;
+        let theta_ddot = -(t30 * n(p.k16));
+        let s1_ddot = t33.mul_add(sin_phi1, t34);
+        let phi1_ddot = -t36;
+        let zero = N::ZERO;
+        let s2_ddot = phi2_dot * (phi2_dot * s2);
+        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = theta_dot * theta_dot;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t2 = t1 * cos_theta;
-    let t3 = cos_t0 * p.k6 + t2 * p.x0;
-    let t4 = sin_theta * t1;
-    let t5 = t4 * p.y0;
-    let t6 = sin_theta * p.x0;
-    let t7 = cos_theta * p.y0;
-    let t8 = p.k6 * sin_t0 + t2 * p.y0;
-    let t9 = p.x0 * t4;
-    let t10 = sin_theta * p.y0;
-    let t11 = cos_theta * p.x0;
-    let t12 = theta_dot * p.yc;
-    let t13 = theta * p.yc;
-    let t14 = p.bx * (t12 + x_dot) + p.cx * (t13 + x);
-    let t15 = theta_dot * p.xc;
-    let t16 = theta * p.xc;
-    let t17 = p.by * (t15 + y_dot) + p.cy * (t16 + y);
-    let t18 = (t3 - t5) * (p.m0 * (t6 + t7)) + (t8 - t9) * (p.m0 * (t10 + t11));
-    let t19 = p.bx * (x_dot - t12) + p.cx * (x - t13);
-    let t20 = t19 + t14 - (t2 * p.k9 + cos_t0 * p.k14);
-    let t21 = p.by * (y_dot - t15) + p.cy * (y - t16);
-    let t22 = (t8 + t9) * (p.m0 * (t11 - t10)) + p.yc * t19;
-    let t23 = t20 * (p.k15 * sin_theta) - p.xc * t21 - t22;
-    let t24 = t21 + t17 - p.k9 * t4;
-    let t25 = (t3 + t5) * (p.m0 * (t7 - t6)) + t24 * (p.k15 * cos_theta);
-    let t26 = p.yc * t14 + p.xc * t17 + t18 + t23 - t25;
-    let t27 = p.k17 * t26;
-    let t28 = p.k18 * (t20 + sin_theta * t27);
-    let t29 = p.k18 * (t24 - cos_theta * t27);
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t30 = t28 * sin_phi1 + phi1_dot * (S::from_f64(2.0) * s1_dot) - t29 * cos_phi1;
-    let t31 = s2 * (s2 * p.m2);
-    if vanishes(t31, t31, 7.993605777301127e-15) {
-        return Err(singular(7, t31, t31));
-    }
-    let t32 = s1 * s1;
-    let t33 = t32 * p.m1;
-    let t34 = t32 * p.k7;
-    if vanishes(t33, t34, 7.993605777301127e-15) {
-        return Err(singular(4, t33, t34));
-    }
-    let x_ddot = -t28;
-    let y_ddot = -t29;
-    let theta_ddot = -(t26 * p.k16);
-    let s1_ddot = t29 * sin_phi1 + (t28 * cos_phi1 + phi1_dot * (phi1_dot * s1));
-    let phi1_ddot = -(t30 / s1);
-    let zero = S::ZERO;
-    let s2_ddot = phi2_dot * (phi2_dot * s2);
-    let phi2_ddot = -(phi2_dot * (S::from_f64(2.0) * s2_dot) / s2);
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -759,34 +796,35 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi1_dot * s1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
-    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = theta_dot * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = p.k0 * (cos_t1 - t0 * sin_t1);
+    let t3 = theta_dot * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t7 = t6 * cos_theta + y_dot;
-    let t8 = theta_dot * p.y0;
-    let t9 = t8 * sin_theta;
-    let t10 = p.omega * t;
-    let (sin_t10, cos_t10) = t10.sin_cos();
-    let t11 = p.k0 * cos_t10;
-    let t12 = t11 + (t7 - t9);
-    let t13 = x_dot - t6 * sin_theta;
-    let t14 = cos_theta * t8;
-    let t15 = p.k0 * sin_t10;
-    let t16 = t13 - t14 - t15;
-    let t17 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t18 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t19 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t18;
-    let t20 = t11 - (t7 + t9);
-    let t21 = t15 - (t13 + t14);
-    let t22 = t19 + (p.k1 + p.m0 * (t12 * t12 + t16 * t16) + t17);
-    (p.k1 + p.m0 * (t20 * t20 + t21 * t21) + t22) * S::from_f64(0.5)
+    let t4 = t3 * cos_theta + y_dot;
+    let t5 = theta_dot * p.y0;
+    let t6 = sin_theta * t5;
+    let t7 = t2 + (t4 - t6);
+    let t8 = x_dot - t3 * sin_theta;
+    let t9 = cos_theta * t5;
+    let t10 = p.k0 * (sin_t1 + t0 * cos_t1);
+    let t11 = t8 - t9 - t10;
+    let t12 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t13 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t14 = y_dot + (t13 * cos_phi1 + sin_phi1 * s1_dot);
+    let t15 = t12 * cos_phi2 + sin_phi2 * s2_dot + t14;
+    let t16 = x_dot + (cos_phi1 * s1_dot - t13 * sin_phi1);
+    let t17 = cos_phi2 * s2_dot - t12 * sin_phi2 + t16;
+    let t18 = (t15 * t15 + t17 * t17) * p.m2 + theta2_dot * (theta2_dot * p.J2);
+    let t19 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t20 = (t14 * t14 + t16 * t16) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t19;
+    let t21 = t2 - (t4 + t6);
+    let t22 = t10 - (t8 + t9);
+    let t23 = t20 + (p.k1 + p.m0 * (t7 * t7 + t11 * t11) + t18);
+    (p.k1 + p.m0 * (t21 * t21 + t22 * t22) + t23) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -846,18 +884,21 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta_ddot = a[2];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * theta_dot;
-    let t1 = theta_ddot * sin_theta + cos_theta * t0;
+    let t1 = sin_theta * theta_ddot + cos_theta * t0;
     let t2 = x_ddot - p.x0 * t1;
-    let t3 = t0 * sin_theta - cos_theta * theta_ddot;
+    let t3 = sin_theta * t0 - cos_theta * theta_ddot;
     let t4 = t3 * p.y0;
-    let t5 = p.omega * t;
-    let (sin_t5, cos_t5) = t5.sin_cos();
-    let t6 = cos_t5 * p.k6;
-    let t7 = y_ddot - t3 * p.x0;
-    let t8 = t1 * p.y0;
-    let t9 = p.k6 * sin_t5;
-    let t10 = cos_t5 * (t9 + (t7 + t8)) + cos_t5 * (t9 - (t7 - t8));
-    (sin_t5 * (t6 - (t2 - t4)) + sin_t5 * (t6 - (t2 + t4)) - t10) * p.k12
+    let t5 = p.omega.product_error(t);
+    let t6 = p.omega * t;
+    let (sin_t6, cos_t6) = t6.sin_cos();
+    let t7 = cos_t6 - t5 * sin_t6;
+    let t8 = t7 * p.k6;
+    let t9 = sin_t6 + t5 * cos_t6;
+    let t10 = y_ddot - t3 * p.x0;
+    let t11 = t1 * p.y0;
+    let t12 = t9 * p.k6;
+    let t13 = t7 * (t12 + (t10 + t11)) + t7 * (t12 - (t10 - t11));
+    (t9 * (t8 - (t2 - t4)) + t9 * (t8 - (t2 + t4)) - t13) * p.k12
 }
 
 /// Power that dampers take out, in W.
@@ -1092,10 +1133,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

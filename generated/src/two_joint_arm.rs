@@ -309,9 +309,9 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
     let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_q1, cos_q1) = q1.sin_cos();
     let t1 = sin_t0 * p.c2 + sin_q1 * p.l1;
-    let t2 = p.c2 * cos_t0 + p.l1 * cos_q1;
+    let t2 = cos_t0 * p.c2 + cos_q1 * p.l1;
     let m21 = t1 * (sin_t0 * p.k5) + (t2 * (cos_t0 * p.k5) + p.J2);
-    let t3 = cos_q1 * (p.k6 * t2 + p.k1 * cos_q1);
+    let t3 = cos_q1 * (p.k6 * t2 + cos_q1 * p.k1);
     let m11 = m21 + p.J1 + (sin_q1 * (p.k6 * t1 + sin_q1 * p.k1) + t3);
     [[m11, m21], [m21, p.k7]]
 }
@@ -336,7 +336,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let (sin_q1, cos_q1) = q1.sin_cos();
     let t5 = t1 * sin_t2 + t4 * sin_q1;
     let t6 = t1 * cos_t2 + t4 * cos_q1;
-    let t7 = (cos_t2 * t5 - t6 * sin_t2) * p.k5;
+    let t7 = (cos_t2 * t5 - sin_t2 * t6) * p.k5;
     let t8 = t3 * p.k1;
     let t9 = t7 + cos_q1 * (t5 * p.k6 + sin_q1 * t8);
     let h_q1 = sin_q1 * (t6 * p.k6 + cos_q1 * t8) - t9;
@@ -383,7 +383,7 @@ pub fn forces<S: ::lagrangian::Scalar>(
     let t5 = p.g - (t1 * sin_t2 + t4 * sin_q1);
     let t6 = t1 * cos_t2 + t4 * cos_q1;
     let t7 = cos_q1 * (t5 * p.k6 + p.k10 * (p.g - t3 * (sin_q1 * p.c1)));
-    let t8 = (t5 * cos_t2 + sin_t2 * t6) * p.k5;
+    let t8 = (cos_t2 * t5 + sin_t2 * t6) * p.k5;
     let f_q1 = u.tau1 - (t8 + (t7 + sin_q1 * (t6 * p.k6 + t3 * (cos_q1 * p.k1))));
     let f_q2 = u.tau2 - t8;
     [f_q1, f_q2]
@@ -393,40 +393,65 @@ pub fn forces<S: ::lagrangian::Scalar>(
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
     u: &Inputs<S>,
 ) -> Result<[S; 2], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, q, v, u })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 2],
+    /// As `accelerations` takes it.
+    pub u: &'a Inputs<S>,
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v, u } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let q1 = n(q[0]);
+        let q2 = n(q[1]);
+        let q1_dot = n(v[0]);
+        let q2_dot = n(v[1]);
+        let t0 = q2 + q1;
+        let angles = [t0, q1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_q1, cos_q1) = circular[1];
+        let t1 = q2_dot + q1_dot;
+        let t2 = t1 * (t1 * n(p.c2));
+        let t3 = q1_dot * (q1_dot * n(p.l1));
+        let t4 = n(p.g) - sin_t0.mul_add(t2, sin_q1 * t3);
+        let t5 = cos_t0.mul_add(t2, cos_q1 * t3);
+        let t6 = cos_t0.mul_add(t4, sin_t0 * t5) * n(p.k5);
+        let t7 = cos_q1.neg_mul_add(n(p.k2), n(u.tau1));
+        let t8 = n(u.tau2) - t6;
+        let t9 = sin_t0.mul_add(sin_q1, cos_t0 * cos_q1);
+        let t10 = t9.mul_add(n(p.k11), n(p.k7));
+        let t11 = t8.mul_add(n(p.k12) * t10, t5 * (sin_q1 * n(p.k6)));
+        let t12 = t9.neg_mul_add(t9 * n(p.k13), n(p.k14));
+        let t12 = checked(t12, t12, 1.7763568394002505e-15, 0)?;
+        let t13 = t7 - t4.mul_add(cos_q1 * n(p.k6), t6) - t11;
+        let q1_ddot = N::ONE / t12 * t13;
+        let q2_ddot = n(p.k12) * t10.neg_mul_add(q1_ddot, t8);
+        let accelerations = [q1_ddot.store(), q2_ddot.store()];
+        Ok(accelerations)
     }
-    let q1 = q[0];
-    let q2 = q[1];
-    let q1_dot = v[0];
-    let q2_dot = v[1];
-    let t0 = q2_dot + q1_dot;
-    let t1 = t0 * (t0 * p.c2);
-    let t2 = q2 + q1;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = q1_dot * (q1_dot * p.l1);
-    let (sin_q1, cos_q1) = q1.sin_cos();
-    let t4 = p.g - (sin_t2 * t1 + sin_q1 * t3);
-    let t5 = cos_t2 * t1 + cos_q1 * t3;
-    let t6 = (cos_t2 * t4 + sin_t2 * t5) * p.k5;
-    let t7 = u.tau2 - t6;
-    let t8 = sin_t2 * sin_q1 + cos_t2 * cos_q1;
-    let t9 = t8 * p.k11 + p.k7;
-    let t10 = u.tau1 - cos_q1 * p.k2 - (t6 + t4 * (cos_q1 * p.k6));
-    let t11 = p.k14 - t8 * (t8 * p.k13);
-    if vanishes(t11, t11, 1.7763568394002505e-15) {
-        return Err(singular(0, t11, t11));
-    }
-    let q1_ddot = S::ONE / t11 * (t10 - (t7 * (p.k12 * t9) + t5 * (sin_q1 * p.k6)));
-    let q2_ddot = p.k12 * (t7 - t9 * q1_ddot);
-    let accelerations = [q1_ddot, q2_ddot];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -690,10 +715,27 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

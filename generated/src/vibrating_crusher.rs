@@ -9,14 +9,14 @@
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 19 | 7 | 2 | 0 | 0 | 28 |
 //! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 50 | 26 | 0 | 4 | 0 | 84 |
+//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
-//! | `forces` | 64 | 42 | 0 | 4 | 0 | 114 |
-//! | `accelerations` | 59 | 40 | 2 | 3 | 0 | 107 |
-//! | `kinetic_energy` | 38 | 25 | 0 | 4 | 0 | 71 |
+//! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
+//! | `accelerations` | 62 | 42 | 2 | 3 | 0 | 112 |
+//! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `work_rate` | 15 | 9 | 0 | 2 | 0 | 28 |
+//! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
 //! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -412,7 +412,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let t3 = cos_phi2 * s2;
     let t4 = sin_phi2 * s2;
     let zero = S::ZERO;
-    let m31 = -(p.k9 * sin_theta + p.k8 * cos_theta);
+    let m31 = -(p.k9 * sin_theta + cos_theta * p.k8);
     let m32 = p.k9 * cos_theta - sin_theta * p.k8;
     let m41 = p.k7 * cos_phi1;
     let m42 = p.k7 * sin_phi1;
@@ -420,7 +420,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let m52 = p.k7 * t1;
     let m55 = s1 * (p.k7 * s1);
     let m71 = cos_phi2 * p.m2;
-    let m72 = p.m2 * sin_phi2;
+    let m72 = sin_phi2 * p.m2;
     let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
     let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
     let m81 = -(sin_phi2 * t2);
@@ -471,39 +471,40 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t9 * p.y0;
-    let t12 = p.omega * t;
-    let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = p.k6 * cos_t12 + (t10 * cos_theta - t11 * sin_theta);
-    let t14 = sin_phi2 * s2;
-    let t15 = sin_phi1 * s1;
-    let t16 = t3 * t15 - t5 * cos_phi1;
-    let t17 = t0 * t14 - t2 * cos_phi2 + t16;
-    let t18 = p.m2 * t17 + p.m1 * t16;
-    let t19 = p.k6 * sin_t12 + (sin_theta * t10 + t11 * cos_theta);
-    let t20 = cos_theta * (t13 * p.k8 - t19 * p.k9);
-    let h_x = -(t13 * p.m0 + t8);
-    let h_y = -(p.m0 * t19 + t18);
-    let h_theta = sin_theta * (t19 * p.k8 + t13 * p.k9) + t20;
-    let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t18);
-    let h_phi1 = t8 * t15 - t4 * t18;
+    let t4 = t2 * p.y0;
+    let t5 = p.k6 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = cos_phi2 * s2;
+    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t9 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = cos_phi1 * s1;
+    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t12 = t11 * sin_phi1 + t9 * t10;
+    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
+    let t14 = t13 * p.m2 + t12 * p.m1;
+    let t15 = p.k6 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t16 = sin_phi2 * s2;
+    let t17 = sin_phi1 * s1;
+    let t18 = t9 * t17 - t11 * cos_phi1;
+    let t19 = t6 * t16 - t8 * cos_phi2 + t18;
+    let t20 = p.m2 * t19 + p.m1 * t18;
+    let t21 = cos_theta * (t5 * p.k8 - t15 * p.k9);
+    let h_x = -(t5 * p.m0 + t14);
+    let h_y = -(p.m0 * t15 + t20);
+    let h_theta = sin_theta * (t15 * p.k8 + t5 * p.k9) + t21;
+    let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
+    let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
-    let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
+    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
+    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -552,48 +553,49 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = phi2_dot * phi2_dot;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * theta_dot;
+    let t3 = t2 * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t9 * p.y0;
-    let t12 = p.omega * t;
-    let (sin_t12, cos_t12) = t12.sin_cos();
-    let t13 = p.k6 * cos_t12 + (t10 * cos_theta - t11 * sin_theta);
-    let t14 = theta_dot * p.yc;
-    let t15 = p.yc * theta;
-    let t16 = p.bx * (x_dot - t14) + p.cx * (x - t15);
-    let t17 = p.bx * (t14 + x_dot) + p.cx * (t15 + x);
-    let t18 = sin_phi2 * s2;
-    let t19 = sin_phi1 * s1;
-    let t20 = t3 * t19 - t5 * cos_phi1;
-    let t21 = t0 * t18 - t2 * cos_phi2 + t20;
-    let t22 = p.m2 * t21 + p.m1 * t20;
-    let t23 = p.k6 * sin_t12 + (sin_theta * t10 + t11 * cos_theta);
-    let t24 = theta_dot * p.xc;
-    let t25 = theta * p.xc;
-    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
-    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
-    let t28 = cos_theta * (t13 * p.k8 - t23 * p.k9);
-    let t29 = sin_theta * (t23 * p.k8 + t13 * p.k9) + t28;
-    let f_x = t13 * p.m0 + t8 - (t16 + t17);
-    let f_y = p.m0 * t23 + t22 - (t26 + t27);
-    let f_theta = -(t29 + (p.yc * (t17 - t16) + p.xc * (t27 - t26)));
-    let f_s1 = cos_phi1 * t8 + sin_phi1 * t22;
-    let f_phi1 = t4 * t22 - t8 * t19;
+    let t4 = t2 * p.y0;
+    let t5 = p.k6 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
+    let t6 = phi2_dot * phi2_dot;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t7 = cos_phi2 * s2;
+    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t9 = phi1_dot * phi1_dot;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = cos_phi1 * s1;
+    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t12 = t11 * sin_phi1 + t9 * t10;
+    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
+    let t14 = t13 * p.m2 + t12 * p.m1;
+    let t15 = theta_dot * p.yc;
+    let t16 = p.yc * theta;
+    let t17 = p.bx * (x_dot - t15) + p.cx * (x - t16);
+    let t18 = p.bx * (t15 + x_dot) + p.cx * (t16 + x);
+    let t19 = p.k6 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
+    let t20 = sin_phi2 * s2;
+    let t21 = sin_phi1 * s1;
+    let t22 = t9 * t21 - t11 * cos_phi1;
+    let t23 = t6 * t20 - t8 * cos_phi2 + t22;
+    let t24 = p.m2 * t23 + p.m1 * t22;
+    let t25 = theta_dot * p.xc;
+    let t26 = theta * p.xc;
+    let t27 = p.by * (y_dot - t25) + p.cy * (y - t26);
+    let t28 = p.by * (t25 + y_dot) + p.cy * (t26 + y);
+    let t29 = cos_theta * (t5 * p.k8 - t19 * p.k9);
+    let t30 = sin_theta * (t19 * p.k8 + t5 * p.k9) + t29;
+    let f_x = t5 * p.m0 + t14 - (t17 + t18);
+    let f_y = p.m0 * t19 + t24 - (t27 + t28);
+    let f_theta = -(t30 + (p.yc * (t18 - t17) + p.xc * (t28 - t27)));
+    let f_s1 = cos_phi1 * t14 + sin_phi1 * t24;
+    let f_phi1 = t10 * t24 - t14 * t21;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t21);
-    let f_phi2 = p.m2 * (t1 * t21 - t7 * t18);
+    let f_s2 = p.m2 * (cos_phi2 * t13 + sin_phi2 * t23);
+    let f_phi2 = p.m2 * (t7 * t23 - t13 * t20);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -601,79 +603,115 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 ///
 /// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
 /// error.
-pub fn accelerations<S: ::lagrangian::Scalar>(
+pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
 ) -> Result<[S; 9], ::lagrangian::Singular> {
-    if let Some(singular) = p.singular {
-        return Err(singular);
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [t0, theta, phi1];
+        let circular = N::sin_cos_all(angles);
+        let (sin_t0, cos_t0) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let (sin_phi1, cos_phi1) = circular[2];
+        let t1 = theta_dot * n(p.yc);
+        let t2 = theta * n(p.yc);
+        let t3 = n(p.bx).mul_add(x_dot - t1, n(p.cx) * (x - t2));
+        let t4 = n(p.bx).mul_add(t1 + x_dot, n(p.cx) * (t2 + x));
+        let t5 = n(p.omega).product_error(n(t));
+        let t6 = theta_dot * theta_dot;
+        let t7 = cos_theta * n(p.x0);
+        let t8 = sin_theta * n(p.y0);
+        let t9 = n(p.k6).mul_add(t5.neg_mul_add(sin_t0, cos_t0), t6 * t7);
+        let t10 = t8.neg_mul_add(t6, t9) * n(p.m0);
+        let t11 = t3 + t4 - t10;
+        let t12 = sin_theta * n(p.x0);
+        let t13 = cos_theta * n(p.y0);
+        let t14 = t12 + t13;
+        let t15 = theta_dot * n(p.xc);
+        let t16 = theta * n(p.xc);
+        let t17 = n(p.by).mul_add(t15 + y_dot, n(p.cy) * (t16 + y));
+        let t18 = t11.mul_add(n(p.k13) * t14, t14 * t10);
+        let t19 = n(p.by).mul_add(y_dot - t15, n(p.cy) * (y - t16));
+        let t20 = n(p.k6).mul_add(t5.mul_add(cos_t0, sin_t0), t13 * t6);
+        let t21 = n(p.m0) * t12.mul_add(t6, t20);
+        let t22 = t19 + t17 - t21;
+        let t23 = t7 - t8;
+        let t24 = t22.mul_add(n(p.k13) * t23, t23 * t21);
+        let t25 = n(p.yc).mul_add(t3, n(p.xc) * t19) + t24;
+        let t26 = n(p.yc).mul_add(t4, n(p.xc) * t17) + t18 - t25;
+        let t27 = n(p.k15) * t26;
+        let t28 = n(p.k16) * t14.mul_add(t27, t11);
+        let t29 = n(p.k16) * t23.neg_mul_add(t27, t22);
+        let t30 = t28.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+        let t31 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+        let t32 = t29.neg_mul_add(cos_phi1, t28.mul_add(sin_phi1, t31)) / s1;
+        let t33 = s2 * (s2 * n(p.m2));
+        checked(t33, t33, 7.993605777301127e-15, 7)?;
+        let t34 = s1 * s1;
+        let t35 = t34 * n(p.m1);
+        let t36 = t34 * n(p.k7);
+        checked(t35, t36, 7.993605777301127e-15, 4)?;
+        let x_ddot = -t28;
+        let y_ddot = -t29;
+        let theta_ddot = -(t26 * n(p.k14));
+        let s1_ddot = t29.mul_add(sin_phi1, t30);
+        let phi1_ddot = -t32;
+        let zero = N::ZERO;
+        let s2_ddot = phi2_dot * (phi2_dot * s2);
+        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            s1_ddot.store(),
+            phi1_ddot.store(),
+            zero.store(),
+            s2_ddot.store(),
+            phi2_ddot.store(),
+            zero.store(),
+        ];
+        Ok(accelerations)
     }
-    let x = q[0];
-    let y = q[1];
-    let theta = q[2];
-    let s1 = q[3];
-    let phi1 = q[4];
-    let s2 = q[6];
-    let x_dot = v[0];
-    let y_dot = v[1];
-    let theta_dot = v[2];
-    let s1_dot = v[3];
-    let phi1_dot = v[4];
-    let s2_dot = v[6];
-    let phi2_dot = v[7];
-    let t0 = theta_dot * p.yc;
-    let t1 = theta * p.yc;
-    let t2 = p.bx * (x_dot - t0) + p.cx * (x - t1);
-    let t3 = p.bx * (t0 + x_dot) + p.cx * (t1 + x);
-    let t4 = theta_dot * theta_dot;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t5 = p.x0 * cos_theta;
-    let t6 = p.omega * t;
-    let (sin_t6, cos_t6) = t6.sin_cos();
-    let t7 = sin_theta * p.y0;
-    let t8 = (p.k6 * cos_t6 + t4 * t5 - t7 * t4) * p.m0;
-    let t9 = t2 + t3 - t8;
-    let t10 = sin_theta * p.x0;
-    let t11 = cos_theta * p.y0;
-    let t12 = t10 + t11;
-    let t13 = theta_dot * p.xc;
-    let t14 = theta * p.xc;
-    let t15 = p.by * (t13 + y_dot) + p.cy * (t14 + y);
-    let t16 = p.by * (y_dot - t13) + p.cy * (y - t14);
-    let t17 = p.m0 * (t10 * t4 + (p.k6 * sin_t6 + t11 * t4));
-    let t18 = t16 + t15 - t17;
-    let t19 = t5 - t7;
-    let t20 = p.yc * t2 + p.xc * t16 + (t18 * (p.k13 * t19) + t19 * t17);
-    let t21 = p.yc * t3 + p.xc * t15 + (t9 * (p.k13 * t12) + t12 * t8) - t20;
-    let t22 = p.k15 * t21;
-    let t23 = p.k16 * (t9 + t12 * t22);
-    let t24 = p.k16 * (t18 - t19 * t22);
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t25 = t23 * sin_phi1 + phi1_dot * (S::from_f64(2.0) * s1_dot) - t24 * cos_phi1;
-    let t26 = s2 * (s2 * p.m2);
-    if vanishes(t26, t26, 7.993605777301127e-15) {
-        return Err(singular(7, t26, t26));
-    }
-    let t27 = s1 * s1;
-    let t28 = t27 * p.m1;
-    let t29 = t27 * p.k7;
-    if vanishes(t28, t29, 7.993605777301127e-15) {
-        return Err(singular(4, t28, t29));
-    }
-    let x_ddot = -t23;
-    let y_ddot = -t24;
-    let theta_ddot = -(t21 * p.k14);
-    let s1_ddot = t24 * sin_phi1 + (t23 * cos_phi1 + phi1_dot * (phi1_dot * s1));
-    let phi1_ddot = -(t25 / s1);
-    let zero = S::ZERO;
-    let s2_ddot = phi2_dot * (phi2_dot * s2);
-    let phi2_ddot = -(phi2_dot * (S::from_f64(2.0) * s2_dot) / s2);
-    let accelerations = [
-        x_ddot, y_ddot, theta_ddot, s1_ddot, phi1_ddot, zero, s2_ddot, phi2_ddot, zero,
-    ];
-    Ok(accelerations)
 }
 
 /// Kinetic energy `T`, in J.
@@ -703,25 +741,27 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2;
-    let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi1_dot * s1;
-    let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
-    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = theta_dot * p.x0;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = theta_dot * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t8 = theta_dot * p.y0;
-    let t9 = p.omega * t;
-    let (sin_t9, cos_t9) = t9.sin_cos();
-    let t10 = p.k0 * cos_t9 + (y_dot + t7 * cos_theta - t8 * sin_theta);
-    let t11 = x_dot - t7 * sin_theta - cos_theta * t8 - p.k0 * sin_t9;
-    let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t13 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t10 * t10 + t11 * t11) * p.m0 + p.k1 + t12 + t13) * S::from_f64(0.5)
+    let t3 = theta_dot * p.y0;
+    let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
+    let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
+    let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
+    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t8 = phi2_dot * s2;
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t9 = phi1_dot * s1;
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
+    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
+    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
+    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
+    let t14 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t15 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
+    ((t5 * t5 + t6 * t6) * p.m0 + p.k1 + t7 + t15) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -785,13 +825,15 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta_ddot = a[2];
     let t0 = theta_dot * theta_dot;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = t0 * sin_theta - cos_theta * theta_ddot;
-    let t2 = theta_ddot * sin_theta + cos_theta * t0;
-    let t3 = p.omega * t;
-    let (sin_t3, cos_t3) = t3.sin_cos();
-    let t4 = cos_t3 * (p.k6 * sin_t3 - (y_ddot - t2 * p.y0 - t1 * p.x0));
-    let t5 = sin_t3 * (cos_t3 * p.k6 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t4;
-    t5 * p.k11
+    let t1 = sin_theta * t0 - cos_theta * theta_ddot;
+    let t2 = sin_theta * theta_ddot + cos_theta * t0;
+    let t3 = p.omega.product_error(t);
+    let t4 = p.omega * t;
+    let (sin_t4, cos_t4) = t4.sin_cos();
+    let t5 = cos_t4 - t3 * sin_t4;
+    let t6 = sin_t4 + t3 * cos_t4;
+    let t7 = t5 * (t6 * p.k6 - (y_ddot - t2 * p.y0 - t1 * p.x0));
+    (t6 * (t5 * p.k6 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t7) * p.k11
 }
 
 /// Power that dampers take out, in W.
@@ -1021,10 +1063,27 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
+/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
+/// numbers have several lanes, it is undefined in those in which there is nothing left.
+#[inline(always)]
+fn checked<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<N, ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.guarded(bound) {
+        Some(pivot) => Ok(pivot),
+        None => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    !pivot.exceeds(S::from_f64(share) * diagonal)
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -48,7 +48,7 @@ mod verify;
 
 pub use cost::Cost;
 pub use count::Counts;
-pub use fusion::{Side, fused, uses};
+pub use fusion::{Contracted, Contraction, Contractions, Side, fused, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};
@@ -285,6 +285,10 @@ pub enum Op {
     Div(Value, Value),
     /// −a.
     Neg(Value),
+    /// What rounding took from a·b: 0 but for rounding.
+    ProductError(Value, Value),
+    /// What rounding took from a + b: 0 but for rounding.
+    SumError(Value, Value),
     /// sin a. Where `Cos` of the same value occurs too, both are to be computed together.
     Sin(Value),
     /// cos a.
@@ -301,9 +305,13 @@ impl Op {
         let (a, b) = match *self {
             Op::Constant(_) | Op::Pi | Op::Read(_) => (None, None),
             Op::Neg(a) | Op::Sin(a) | Op::Cos(a) | Op::Unary(_, a) => (Some(a), None),
-            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) | Op::Binary(_, a, b) => {
-                (Some(a), Some(b))
-            }
+            Op::Add(a, b)
+            | Op::Sub(a, b)
+            | Op::Mul(a, b)
+            | Op::Div(a, b)
+            | Op::ProductError(a, b)
+            | Op::SumError(a, b)
+            | Op::Binary(_, a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)
     }

@@ -300,6 +300,11 @@ impl Scalar for Interval {
         self
     }
 
+    /// An enclosure lacks nothing.
+    fn sum_error(self, _: Self) -> Self {
+        Self::ZERO
+    }
+
     const ZERO: Self = Interval { lo: 0.0, hi: 0.0 };
     const ONE: Self = Interval { lo: 1.0, hi: 1.0 };
 

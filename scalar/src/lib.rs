@@ -82,6 +82,16 @@ pub trait Scalar:
         Self::ZERO
     }
 
+    /// What rounding took from `self + b`: exactly `self + b − (self + b)`; near 0 where a sum is nearly exact.
+    ///
+    /// O. Møller, *Quasi double-precision in floating point addition*, BIT 5 (1965) 37–50.
+    #[inline(always)]
+    fn sum_error(self, b: Self) -> Self {
+        let sum = self + b;
+        let b_kept = sum - self;
+        (self - (sum - b_kept)) + (b - b_kept)
+    }
+
     /// Sine and cosine together: half the price of both.
     fn sin_cos(self) -> (Self, Self);
     /// Sines and cosines of several angles: where a processor works on several numbers at once, little dearer than of one.

@@ -8,10 +8,15 @@ use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::layout::{Writer, width};
 use super::names::Scope;
-use crate::program::{Function, Guard, Op, Source, Value};
+use crate::program::{
+    self, Contracted, Contraction, Contractions, Function, Guard, Op, Source, Value,
+};
 
 /// The longest expression that is put into another one.
 const LONGEST_INLINE: usize = 72;
+
+/// The same for one with a call of a method: longer ones are broken by rustfmt.
+const LONGEST_CALL: usize = 58;
 
 /// How a language writes what is no operator.
 pub trait Language {
@@ -37,12 +42,56 @@ pub trait Language {
         cos: Option<&str>,
         angle: &Expression,
     );
-    /// Leaves the function where a pivot vanishes.
-    fn guard(&self, writer: &mut Writer, guard: &Guard, pivot: &str, scale: &str);
+    /// Leaves the function where a pivot vanishes; whether the pivot is used after that.
+    fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], is_used: bool);
     /// A free name for a variable, the nearest to `name`.
     fn identifier(&self, scope: &mut Scope, name: &str) -> String;
+    /// What an angle may be called in the names of its sine and cosine: `theta1`, of `n(q[0])` too.
+    fn angle_name(&self, angle: &str) -> String {
+        let plain = angle.trim_start_matches("r#");
+        plain
+            .chars()
+            .map(|c| if c.is_alphanumeric() { c } else { '_' })
+            .collect()
+    }
     /// Whether a bound value may be called by its meaning, such as `zero`.
     fn constant_name(&self, value: &Rational) -> Option<&'static str>;
+    /// What rounding took from a product or a sum.
+    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression;
+    /// A product and a sum in one operation; `None` where the language keeps them apart.
+    fn contraction(
+        &self,
+        _kind: Contracted,
+        _factors: [&Expression; 2],
+        _term: &Expression,
+    ) -> Option<Expression> {
+        None
+    }
+    /// Whether [`sin_cos_all`](Language::sin_cos_all) is to be used, and products are contracted.
+    fn is_for_speed(&self) -> bool {
+        false
+    }
+    /// Sines and cosines of several angles at once; names for those that are used.
+    fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
+}
+
+/// An operation whose rounding error is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rounded {
+    /// `a·b`
+    Product,
+    /// `a + b`
+    Sum,
+}
+
+/// An angle, and the names of its sine and cosine where they are used.
+pub struct Angle {
+    /// The angle: a variable or an argument.
+    pub angle: Expression,
+    /// The variable for its sine.
+    pub sin: Option<String>,
+    /// The variable for its cosine.
+    pub cos: Option<String>,
 }
 
 /// How tightly an expression holds together.
@@ -125,15 +174,20 @@ pub fn statements(
 ) -> Vec<Expression> {
     let mut body = Body::new(writer, language, function, scope, wanted);
     body.read_arguments();
+    body.all_angles();
     let mut guards = function.guards.iter().peekable();
     for index in 0..function.code.len() {
         body.operation(Value(index as u32));
-        while let Some(guard) =
-            guards.next_if(|guard| guard.pivot.index().max(guard.scale.index()) <= index)
-        {
+        while let Some(guard) = guards.next_if(|guard| body.is_ready(guard, index)) {
             let pivot = body.bound(guard.pivot);
             let scale = body.bound(guard.scale);
-            language.guard(body.writer, guard, &pivot, &scale);
+            let later = &function.code[index + 1..];
+            let is_used = later
+                .iter()
+                .flat_map(Op::operands)
+                .any(|x| x == guard.pivot)
+                || function.results.contains(&guard.pivot);
+            language.guard(body.writer, guard, [&pivot, &scale], is_used);
         }
     }
     function
@@ -143,13 +197,22 @@ pub fn statements(
         .collect()
 }
 
+/// Whether an expression is too long to be put into another one.
+fn is_long(text: &str) -> bool {
+    let longest = match text.contains(".mul_") || text.contains(".neg_mul_") {
+        true => LONGEST_CALL,
+        false => LONGEST_INLINE,
+    };
+    width(text) > longest
+}
+
 struct Body<'a, L> {
     writer: &'a mut Writer,
     language: &'a L,
     function: &'a Function,
     scope: Scope,
     /// How often each value is used.
-    uses: Vec<usize>,
+    uses: Vec<u32>,
     /// The names that values should have.
     wanted: Vec<Option<&'a str>>,
     /// The text of each value so far.
@@ -157,6 +220,8 @@ struct Body<'a, L> {
     temporaries: usize,
     /// Whether results become variables.
     binds_results: bool,
+    /// Which products are computed by the sums that use them.
+    contractions: Contractions,
 }
 
 impl<'a, L: Language> Body<'a, L> {
@@ -168,18 +233,10 @@ impl<'a, L: Language> Body<'a, L> {
         wanted: &'a [String],
     ) -> Body<'a, L> {
         let n = function.code.len();
-        let mut uses = vec![0; n];
-        let guarded = function
-            .guards
-            .iter()
-            .flat_map(|guard| [guard.pivot, guard.scale]);
-        let operands = function.code.iter().flat_map(Op::operands);
-        for value in operands
-            .chain(guarded)
-            .chain(function.results.iter().copied())
-        {
-            uses[value.index()] += 1;
-        }
+        let contractions = match language.is_for_speed() {
+            true => Contractions::of(function),
+            false => Contractions::none(function),
+        };
         let mut names = vec![None; n];
         for (value, name) in function.results.iter().zip(wanted) {
             names[value.index()].get_or_insert(name.as_str());
@@ -189,11 +246,12 @@ impl<'a, L: Language> Body<'a, L> {
             language,
             function,
             scope,
-            uses,
+            uses: program::uses(function),
             wanted: names,
             texts: vec![None; n],
             temporaries: 0,
             binds_results: !wanted.is_empty(),
+            contractions,
         }
     }
 
@@ -217,37 +275,96 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
+    /// Whether what a guard compares is there after the operation at an index.
+    fn is_ready(&self, guard: &Guard, index: usize) -> bool {
+        let is_argument = |value: Value| matches!(self.function.op(value), Op::Read(_));
+        let is_there = |value: Value| value.index() <= index || is_argument(value);
+        is_there(guard.pivot) && is_there(guard.scale)
+    }
+
+    /// Sines and cosines that need nothing but arguments and sums and products of them, together.
+    fn all_angles(&mut self) {
+        if !self.language.is_for_speed() {
+            return;
+        }
+        let code = &self.function.code;
+        // Whether a value is known before any function has been called.
+        let mut is_early = vec![false; code.len()];
+        let mut angles: Vec<Value> = Vec::new();
+        for (index, op) in code.iter().enumerate() {
+            is_early[index] = match op {
+                Op::Constant(_) | Op::Pi | Op::Read(_) => true,
+                Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Neg(_) => {
+                    op.operands().all(|operand| is_early[operand.index()])
+                }
+                _ => false,
+            };
+            if let Op::Sin(angle) | Op::Cos(angle) = op
+                && is_early[angle.index()]
+                && !angles.contains(angle)
+            {
+                angles.push(*angle);
+            }
+        }
+        if angles.len() < 2 {
+            return;
+        }
+        let mut is_needed = vec![false; code.len()];
+        angles
+            .iter()
+            .for_each(|angle| is_needed[angle.index()] = true);
+        for (index, op) in code.iter().enumerate().rev() {
+            if is_needed[index] {
+                op.operands()
+                    .for_each(|operand| is_needed[operand.index()] = true);
+            }
+        }
+        for index in (0..code.len()).filter(|&index| is_needed[index]) {
+            self.operation(Value(index as u32));
+        }
+        let named: Vec<Angle> = angles
+            .into_iter()
+            .map(|angle| self.name_angle(angle))
+            .collect();
+        self.language.sin_cos_all(self.writer, &named);
+    }
+
     fn operation(&mut self, value: Value) {
-        if self.texts[value.index()].is_some() {
-            return; // read above, or the cosine beside a sine
+        if self.texts[value.index()].is_some() || self.contractions.is_part(value) {
+            return; // read above, the cosine beside a sine, or part of the sum that uses it
         }
         let language = self.language;
         let expression = match self.function.op(value).clone() {
+            _ if let Some(sum) = self.contractions.sum(value) => self.contraction(sum),
             Op::Constant(rational) => language.constant(&rational),
             Op::Pi => language.pi(),
             // All of them were read above.
             Op::Read(source) => Expression::leaf(language.variable(source).1),
             Op::Sin(angle) | Op::Cos(angle) => return self.sin_cos(angle),
-            Op::Add(a, b) => {
-                self.combine(a, b, |a, b| Expression::operation("+", Binding::Sum, a, b))
-            }
-            Op::Sub(a, b) => {
-                self.combine(a, b, |a, b| Expression::operation("-", Binding::Sum, a, b))
-            }
-            Op::Mul(a, b) => self.combine(a, b, |a, b| {
+            Op::Add(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("+", Binding::Sum, a, b)
+            }),
+            Op::Sub(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("-", Binding::Sum, a, b)
+            }),
+            Op::Mul(a, b) => self.combine([a, b], |[a, b]| {
                 Expression::operation("*", Binding::Product, a, b)
             }),
-            Op::Div(a, b) => self.combine(a, b, |a, b| {
+            Op::Div(a, b) => self.combine([a, b], |[a, b]| {
                 Expression::operation("/", Binding::Product, a, b)
             }),
-            Op::Neg(a) => self.combine(a, a, |a, _| Expression {
+            Op::Neg(a) => self.combine([a], |[a]| Expression {
                 text: format!("-{}", a.at_least(Binding::Atom)),
                 binding: Binding::Sign,
                 is_leaf: false,
             }),
-            Op::Unary(function, a) => self.combine(a, a, |a, _| language.unary(function, a)),
+            Op::ProductError(a, b) => {
+                self.combine([a, b], |[a, b]| language.error(Rounded::Product, a, b))
+            }
+            Op::SumError(a, b) => self.combine([a, b], |[a, b]| language.error(Rounded::Sum, a, b)),
+            Op::Unary(function, a) => self.combine([a], |[a]| language.unary(function, a)),
             Op::Binary(function, a, b) => {
-                self.combine(a, b, |a, b| language.binary(function, a, b))
+                self.combine([a, b], |[a, b]| language.binary(function, a, b))
             }
         };
         let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
@@ -257,22 +374,33 @@ impl<'a, L: Language> Body<'a, L> {
         }
     }
 
-    /// An expression of two operands, which become variables where it would get too long.
-    fn combine(
+    /// A sum with the product that is contracted into it.
+    fn contraction(&mut self, sum: Contraction) -> Expression {
+        let language = self.language;
+        let [a, b] = sum.factors;
+        self.combine([a, b, sum.term], |[a, b, c]| {
+            language
+                .contraction(sum.kind, [a, b], c)
+                .expect("a language that is for speed contracts")
+        })
+    }
+
+    /// An expression of operands, which become variables where it would get too long.
+    fn combine<const K: usize>(
         &mut self,
-        a: Value,
-        b: Value,
-        write: impl Fn(&Expression, &Expression) -> Expression,
+        operands: [Value; K],
+        write: impl Fn([&Expression; K]) -> Expression,
     ) -> Expression {
         loop {
-            let (left, right) = (self.text(a), self.text(b));
-            let expression = write(&left, &right);
-            let bindable = [(a, left), (b, right)]
+            let texts = operands.map(|operand| self.text(operand));
+            let expression = write(texts.each_ref());
+            let bindable = operands
                 .into_iter()
+                .zip(texts)
                 .filter(|(_, operand)| !operand.is_leaf);
             let longest = bindable.max_by_key(|(_, operand)| width(&operand.text));
             match longest {
-                Some((operand, _)) if width(&expression.text) > LONGEST_INLINE => {
+                Some((operand, _)) if is_long(&expression.text) => {
                     self.bound(operand);
                 }
                 _ => return expression,
@@ -282,34 +410,29 @@ impl<'a, L: Language> Body<'a, L> {
 
     /// Sine and cosine of an angle, whichever of them the function uses.
     fn sin_cos(&mut self, angle: Value) {
+        let Angle { angle, sin, cos } = self.name_angle(angle);
+        self.language
+            .sin_cos(self.writer, sin.as_deref(), cos.as_deref(), &angle);
+    }
+
+    /// Names for the sine and the cosine of an angle, whichever of them the function uses.
+    fn name_angle(&mut self, angle: Value) -> Angle {
         self.bound(angle);
         let argument = self.text(angle);
         let position = |wanted: Op| self.function.code.iter().position(|op| *op == wanted);
         let (sin, cos) = (position(Op::Sin(angle)), position(Op::Cos(angle)));
-        let plain = argument.text.trim_start_matches("r#");
-        let base: String = plain
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '_' })
-            .collect();
+        let base = self.language.angle_name(&argument.text);
         let mut name = |function: &str, index: Option<usize>| {
-            index.map(|index| {
-                (
-                    index,
-                    self.language
-                        .identifier(&mut self.scope, &format!("{function}_{base}")),
-                )
-            })
+            let index = index?;
+            let name = format!("{function}_{base}");
+            let name = self.language.identifier(&mut self.scope, &name);
+            self.texts[index] = Some(Expression::leaf(name.clone()));
+            Some(name)
         };
-        let (sin, cos) = (name("sin", sin), name("cos", cos));
-        let text = |named: &Option<(usize, String)>| named.as_ref().map(|(_, name)| name.clone());
-        self.language.sin_cos(
-            self.writer,
-            text(&sin).as_deref(),
-            text(&cos).as_deref(),
-            &argument,
-        );
-        for (index, name) in sin.into_iter().chain(cos) {
-            self.texts[index] = Some(Expression::leaf(name));
+        Angle {
+            sin: name("sin", sin),
+            cos: name("cos", cos),
+            angle: argument,
         }
     }
 

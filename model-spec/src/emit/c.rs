@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use super::body::{self, Binding, Expression, Language};
+use super::body::{self, Binding, Expression, Language, Rounded};
 use super::cut::{self, Cut, Piece, Place};
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, fields, flat, snake_case};
@@ -12,12 +12,73 @@ use crate::program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Sou
 
 /// What C keeps for itself, and the functions of its library that the code calls.
 const RESERVED: &[&str] = &[
-    "auto", "break", "case", "char", "const", "continue", "default", "do", "double", "else",
-    "enum", "extern", "float", "for", "goto", "if", "inline", "int", "long", "register",
-    "restrict", "return", "short", "signed", "sizeof", "static", "struct", "switch", "typedef",
-    "union", "unsigned", "void", "volatile", "while", "bool", "true", "false", "sin", "cos", "tan",
-    "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "sqrt", "fabs", "fmin",
-    "fmax", "pow", "sign", "p", "t", "q", "v", "a", "u", "to", "self", "singular", "NAN",
+    "auto",
+    "break",
+    "case",
+    "char",
+    "const",
+    "continue",
+    "default",
+    "do",
+    "double",
+    "else",
+    "enum",
+    "extern",
+    "float",
+    "for",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "long",
+    "register",
+    "restrict",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "struct",
+    "switch",
+    "typedef",
+    "union",
+    "unsigned",
+    "void",
+    "volatile",
+    "while",
+    "bool",
+    "true",
+    "false",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "atan2",
+    "sinh",
+    "cosh",
+    "tanh",
+    "exp",
+    "log",
+    "sqrt",
+    "fabs",
+    "fmin",
+    "fmax",
+    "pow",
+    "fma",
+    "sign",
+    "sum_error",
+    "p",
+    "t",
+    "q",
+    "v",
+    "a",
+    "u",
+    "to",
+    "self",
+    "singular",
+    "NAN",
     "INFINITY",
 ];
 
@@ -126,6 +187,18 @@ impl<'a> Emitter<'a> {
         writer.line("#if !defined(__GNUC__) || defined(__clang__)");
         writer.line("#pragma STDC FP_CONTRACT OFF");
         writer.line("#endif");
+        let is_sum_error = |op: &Op| matches!(op, Op::SumError(..));
+        if program
+            .all_functions()
+            .any(|f| f.code.iter().any(is_sum_error))
+        {
+            writer.gap();
+            writer.line("/* What rounding took from a + b. */");
+            writer.open("static double sum_error(double a, double b) {");
+            writer.line("const double sum = a + b, b_kept = sum - a;");
+            writer.line("return (a - (sum - b_kept)) + (b - b_kept);");
+            writer.close("}");
+        }
     }
 
     fn types(&self, writer: &mut Writer) {
@@ -538,6 +611,18 @@ impl Language for Emitter<'_> {
         ))
     }
 
+    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression {
+        Expression::call(match of {
+            Rounded::Product => {
+                let product = [a, b]
+                    .map(|factor| factor.at_least(Binding::Sign))
+                    .join(" * ");
+                format!("fma({}, {}, -({product}))", a.text, b.text)
+            }
+            Rounded::Sum => format!("sum_error({}, {})", a.text, b.text),
+        })
+    }
+
     fn bind(&self, writer: &mut Writer, name: &str, value: &str) {
         writer.statement(&format!("const double {name} ="), &format!("{value};"));
     }
@@ -556,7 +641,7 @@ impl Language for Emitter<'_> {
         }
     }
 
-    fn guard(&self, writer: &mut Writer, guard: &Guard, pivot: &str, scale: &str) {
+    fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2], _: bool) {
         writer.open(format!("if ({}) {{", condition(guard, pivot, scale)));
         writer.line(format!("return {};", guard.coordinate + 1));
         writer.close("}");

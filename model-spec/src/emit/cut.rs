@@ -244,6 +244,8 @@ impl Builder<'_, '_> {
             Op::Mul(a, b) => Op::Mul(self.value(a), self.value(b)),
             Op::Div(a, b) => Op::Div(self.value(a), self.value(b)),
             Op::Neg(a) => Op::Neg(self.value(a)),
+            Op::ProductError(a, b) => Op::ProductError(self.value(a), self.value(b)),
+            Op::SumError(a, b) => Op::SumError(self.value(a), self.value(b)),
             Op::Sin(a) => Op::Sin(self.value(a)),
             Op::Cos(a) => Op::Cos(self.value(a)),
             Op::Unary(function, a) => Op::Unary(function, self.value(a)),

@@ -6,6 +6,7 @@
 mod derivatives;
 mod docs;
 mod functions;
+mod kernel;
 mod language;
 mod structs;
 mod stub;

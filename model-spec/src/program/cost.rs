@@ -81,6 +81,8 @@ fn work(op: &Op) -> u64 {
     match op {
         Op::Constant(_) | Op::Pi | Op::Read(_) | Op::Sin(_) | Op::Cos(_) => 0,
         Op::Add(..) | Op::Sub(..) | Op::Neg(_) | Op::Mul(..) => ARITHMETIC,
+        Op::ProductError(..) => ARITHMETIC,
+        Op::SumError(..) => 6 * ARITHMETIC,
         Op::Unary(Abs | Sign, _) | Op::Binary(Min | Max, ..) => ARITHMETIC,
         Op::Div(..) | Op::Unary(Sqrt, _) => 45,
         Op::Unary(..) | Op::Binary(..) => 120,
@@ -94,6 +96,8 @@ pub(super) fn latency(op: &Op) -> u64 {
         Op::Constant(_) | Op::Pi | Op::Read(_) => 0,
         Op::Add(..) | Op::Sub(..) | Op::Neg(_) | Op::Mul(..) => 40,
         Op::Unary(Abs | Sign, _) | Op::Binary(Min | Max, ..) => 40,
+        Op::ProductError(..) => 40,
+        Op::SumError(..) => 160,
         Op::Div(..) => 130,
         Op::Unary(Sqrt, _) => 180,
         Op::Sin(_) | Op::Cos(_) | Op::Unary(..) | Op::Binary(..) => 450,

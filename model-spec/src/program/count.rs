@@ -37,6 +37,9 @@ impl Counts {
                 Op::Constant(_) | Op::Pi | Op::Read(_) => {}
                 Op::Add(..) | Op::Sub(..) | Op::Neg(_) => counts.additions += 1,
                 Op::Mul(..) => counts.multiplications += 1,
+                // One fused operation; three sums, three more for the order of the terms.
+                Op::ProductError(..) => counts.multiplications += 1,
+                Op::SumError(..) => counts.additions += 6,
                 Op::Div(..) => counts.divisions += 1,
                 Op::Sin(angle) | Op::Cos(angle) => {
                     counts.sincos += usize::from(angles.insert(*angle))

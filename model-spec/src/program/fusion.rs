@@ -27,6 +27,91 @@ pub fn fused(function: &Function) -> Vec<Option<Side>> {
     Timing::of(function).fused
 }
 
+/// A sum and the product that is contracted into it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Contraction {
+    /// Which of the three it is.
+    pub kind: Contracted,
+    /// The factors a and b of the product.
+    pub factors: [Value; 2],
+    /// The other term, c.
+    pub term: Value,
+}
+
+/// What is done to a product and a term.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contracted {
+    /// a·b + c
+    Add,
+    /// a·b − c
+    Sub,
+    /// c − a·b
+    SubFrom,
+}
+
+/// What [`fused`] says, by sums and by products.
+#[derive(Clone, Debug)]
+pub struct Contractions {
+    sums: Vec<Option<Contraction>>,
+    /// Whether a value is a product that is part of a sum.
+    is_part: Vec<bool>,
+}
+
+impl Contractions {
+    /// Those of a function.
+    pub fn of(function: &Function) -> Contractions {
+        let n = function.code.len();
+        let mut all = Contractions {
+            sums: vec![None; n],
+            is_part: vec![false; n],
+        };
+        for (index, side) in fused(function).into_iter().enumerate() {
+            let op = &function.code[index];
+            let (Op::Add(left, right) | Op::Sub(left, right), Some(side)) = (op, side) else {
+                continue;
+            };
+            let (product, term) = match side {
+                Side::Left => (*left, *right),
+                Side::Right => (*right, *left),
+            };
+            let Op::Mul(a, b) = *function.op(product) else {
+                continue;
+            };
+            let kind = match (op, side) {
+                (Op::Add(..), _) => Contracted::Add,
+                (_, Side::Left) => Contracted::Sub,
+                (_, Side::Right) => Contracted::SubFrom,
+            };
+            all.is_part[product.index()] = true;
+            all.sums[index] = Some(Contraction {
+                kind,
+                factors: [a, b],
+                term,
+            });
+        }
+        all
+    }
+
+    /// No sums and no products: every operation by itself.
+    pub fn none(function: &Function) -> Contractions {
+        let n = function.code.len();
+        Contractions {
+            sums: vec![None; n],
+            is_part: vec![false; n],
+        }
+    }
+
+    /// What the sum at an index is, if a product is contracted into it.
+    pub fn sum(&self, value: Value) -> Option<Contraction> {
+        self.sums[value.index()]
+    }
+
+    /// Whether a value is a product that the sum which uses it computes.
+    pub fn is_part(&self, value: Value) -> bool {
+        self.is_part[value.index()]
+    }
+}
+
 /// When values are known.
 pub(super) struct Timing {
     /// What [`fused`] says.

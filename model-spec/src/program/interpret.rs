@@ -5,12 +5,13 @@ use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::Function as Call;
 use rustc_hash::FxHashMap;
 
-use super::{Function, Op, Program, Role, Singular, Source, Value};
+use super::{Contracted, Contractions, Function, Op, Program, Role, Singular, Source, Value};
 
 /// A program ready to run over numbers of type `S`.
 ///
-/// It does what the program says in the order in which the program says it, so over `f64` its
-/// results have the same bits as those of generated code (as long as that uses the same sine).
+/// It does what the program says in the order in which the program says it, and contracts the
+/// products that generated code contracts: over the same numbers its results have the same bits as
+/// those of generated code.
 /// Nothing is allocated after [`Interpreter::new`].
 #[derive(Clone, Debug)]
 pub struct Interpreter<S> {
@@ -89,6 +90,22 @@ impl<S: Scalar> Interpreter<S> {
             self.registers[self.layout.prepared.start + index] = self.registers[*value as usize];
         }
         self.singular = self.prepare.check(&self.registers).err();
+    }
+
+    /// The same over other numbers, with what depends on the parameters computed as it is.
+    pub fn map<R: Scalar>(&self, number: impl Fn(S) -> R) -> Interpreter<R> {
+        Interpreter {
+            layout: self.layout.clone(),
+            prepare: self.prepare.map(&number),
+            start: self.start.map(&number),
+            functions: self
+                .functions
+                .iter()
+                .map(|tape| tape.map(&number))
+                .collect(),
+            registers: self.registers.iter().map(|&x| number(x)).collect(),
+            singular: self.singular,
+        }
     }
 
     /// The parameters.
@@ -262,6 +279,24 @@ enum Step {
         to: Register,
         a: Register,
     },
+    /// A sum with the product that is contracted into it.
+    Contracted {
+        kind: Contracted,
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    ProductError {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    SumError {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
     Sin {
         to: Register,
         a: Register,
@@ -315,10 +350,26 @@ impl<S: Scalar> Tape<S> {
         let mut steps = Vec::with_capacity(function.code.len());
         // The step that computes the sine or the cosine of a register.
         let mut circular: FxHashMap<Register, usize> = FxHashMap::default();
-        for op in &function.code {
+        let contractions = Contractions::of(function);
+        for (index, op) in function.code.iter().enumerate() {
             let at = |value: Value| register[value.index()];
             let to = (first + temporaries) as Register;
+            if contractions.is_part(Value(index as u32)) {
+                // The sum that uses it computes it.
+                register.push(Register::MAX);
+                continue;
+            }
             let step = match *op {
+                _ if let Some(sum) = contractions.sum(Value(index as u32)) => {
+                    let ([a, b], c) = (sum.factors.map(at), at(sum.term));
+                    Step::Contracted {
+                        kind: sum.kind,
+                        to,
+                        a,
+                        b,
+                        c,
+                    }
+                }
                 Op::Constant(_) | Op::Pi => {
                     let next = constants.values.len() as u32;
                     let index = *constants.index_of.entry(op.clone()).or_insert(next);
@@ -356,6 +407,16 @@ impl<S: Scalar> Tape<S> {
                     b: at(b),
                 },
                 Op::Neg(a) => Step::Neg { to, a: at(a) },
+                Op::ProductError(a, b) => Step::ProductError {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::SumError(a, b) => Step::SumError {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
                 Op::Sin(a) => Step::Sin { to, a: at(a) },
                 Op::Cos(a) => Step::Cos { to, a: at(a) },
                 Op::Unary(call, a) => Step::Unary { call, to, a: at(a) },
@@ -402,6 +463,23 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
+    fn map<R: Scalar>(&self, number: impl Fn(S) -> R) -> Tape<R> {
+        let check = |check: &Check<S>| Check {
+            pivot: check.pivot,
+            scale: check.scale,
+            tolerance: number(check.tolerance),
+            coordinate: check.coordinate,
+        };
+        Tape {
+            role: self.role,
+            reads: self.reads,
+            steps: self.steps.clone(),
+            results: self.results.clone(),
+            checks: self.checks.iter().map(check).collect(),
+            temporaries: self.temporaries,
+        }
+    }
+
     fn place_constants(&mut self, first: usize) {
         let place = |register: &mut Register| {
             if *register & IS_CONSTANT != 0 {
@@ -414,9 +492,16 @@ impl<S: Scalar> Tape<S> {
                 | Step::Sub { a, b, .. }
                 | Step::Mul { a, b, .. }
                 | Step::Div { a, b, .. }
+                | Step::ProductError { a, b, .. }
+                | Step::SumError { a, b, .. }
                 | Step::Binary { a, b, .. } => {
                     place(a);
                     place(b);
+                }
+                Step::Contracted { a, b, c, .. } => {
+                    place(a);
+                    place(b);
+                    place(c);
                 }
                 Step::Neg { a, .. }
                 | Step::Sin { a, .. }
@@ -448,6 +533,21 @@ impl<S: Scalar> Tape<S> {
                     registers[to as usize] = registers[a as usize] / registers[b as usize]
                 }
                 Step::Neg { to, a } => registers[to as usize] = -registers[a as usize],
+                Step::Contracted { kind, to, a, b, c } => {
+                    let [a, b, c] = [a, b, c].map(|register| registers[register as usize]);
+                    registers[to as usize] = match kind {
+                        Contracted::Add => a.mul_add(b, c),
+                        Contracted::Sub => a.mul_sub(b, c),
+                        Contracted::SubFrom => a.neg_mul_add(b, c),
+                    };
+                }
+                Step::ProductError { to, a, b } => {
+                    registers[to as usize] =
+                        registers[a as usize].product_error(registers[b as usize])
+                }
+                Step::SumError { to, a, b } => {
+                    registers[to as usize] = registers[a as usize].sum_error(registers[b as usize])
+                }
                 Step::Sin { to, a } => registers[to as usize] = registers[a as usize].sin(),
                 Step::Cos { to, a } => registers[to as usize] = registers[a as usize].cos(),
                 Step::SinCos { sin, cos, a } => {

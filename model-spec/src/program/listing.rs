@@ -257,6 +257,8 @@ impl<'a> Listing<'a> {
             Op::Mul(a, b) => format!("{} * {}", name(a), name(b)),
             Op::Div(a, b) => format!("{} / {}", name(a), name(b)),
             Op::Neg(a) => format!("-{}", name(a)),
+            Op::ProductError(a, b) => format!("error({} * {})", name(a), name(b)),
+            Op::SumError(a, b) => format!("error({} + {})", name(a), name(b)),
             Op::Sin(a) => format!("sin({})", name(a)),
             Op::Cos(a) => format!("cos({})", name(a)),
             Op::Unary(function, a) => format!("{}({})", function.name(), name(a)),

@@ -43,16 +43,38 @@ pub fn mutants(program: &Program, stride: usize) -> impl Iterator<Item = Mutant>
         })
 }
 
-/// Every mistake in a function.
+/// For each value whether it is 0 but for rounding: exact arithmetic sees no mistake in its use.
+fn vanishing(function: &Function) -> Vec<bool> {
+    let mut vanishes: Vec<bool> = Vec::with_capacity(function.code.len());
+    for op in &function.code {
+        let is = |value: &Value| vanishes[value.index()];
+        vanishes.push(match op {
+            Op::ProductError(..) | Op::SumError(..) => true,
+            Op::Mul(a, b) => is(a) || is(b),
+            Op::Add(a, b) | Op::Sub(a, b) => is(a) && is(b),
+            Op::Neg(a) | Op::Div(a, _) => is(a),
+            _ => false,
+        });
+    }
+    vanishes
+}
+
+/// Every mistake in a function that exact arithmetic can see.
 fn changes<'a>(
     program: &'a Program,
     function: &'a Function,
 ) -> impl Iterator<Item = (usize, Op)> + 'a {
+    let vanishes = vanishing(function);
     function
         .code
         .iter()
         .enumerate()
         .flat_map(move |(index, op)| {
+            // A sign before what is 0, or another factor of it, changes nothing.
+            if vanishes[index] {
+                return Vec::new();
+            }
+            let is_zero = |value: &Value| vanishes[value.index()];
             let before = |value: Value| {
                 value
                     .index()
@@ -60,11 +82,13 @@ fn changes<'a>(
                     .map(|index| Value(index as u32))
             };
             let wrong = match op {
+                Op::Add(_, b) | Op::Sub(_, b) if is_zero(b) => vec![],
                 Op::Add(a, b) => vec![Some(Op::Sub(*a, *b)), before(*b).map(|b| Op::Add(*a, b))],
                 Op::Sub(a, b) => vec![Some(Op::Add(*a, *b)), before(*b).map(|b| Op::Sub(*a, b))],
                 Op::Mul(a, b) => vec![Some(Op::Add(*a, *b)), before(*b).map(|b| Op::Mul(*a, b))],
                 Op::Div(a, b) => vec![Some(Op::Mul(*a, *b)), before(*b).map(|b| Op::Div(*a, b))],
                 Op::Neg(a) => vec![Some(Op::Add(*a, *a))],
+                Op::ProductError(..) | Op::SumError(..) => vec![],
                 Op::Sin(a) => vec![Some(Op::Cos(*a))],
                 Op::Cos(a) => vec![Some(Op::Sin(*a))],
                 Op::Constant(value) => {
@@ -80,11 +104,8 @@ fn changes<'a>(
                     vec![Some(Op::Binary(*function, *a, *a)), Some(Op::Add(*a, *b))]
                 }
             };
-            wrong
-                .into_iter()
-                .flatten()
-                .filter(move |wrong| wrong != op)
-                .map(move |wrong| (index, wrong))
+            let others = wrong.into_iter().flatten().filter(|wrong| wrong != op);
+            others.map(|wrong| (index, wrong)).collect::<Vec<_>>()
         })
 }
 

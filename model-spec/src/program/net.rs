@@ -46,6 +46,9 @@ pub(super) enum Leaf {
 /// accelerations.
 pub(super) type Stage = u8;
 
+/// The stage of what time decides, and nothing that comes after it.
+pub(super) const TIME: Stage = 1;
+
 pub(super) struct Net {
     pub(super) items: Vec<Item>,
     pub(super) stages: Vec<Stage>,
@@ -256,7 +259,7 @@ pub(super) fn operands(item: &Item, mut visit: impl FnMut(Index)) {
 fn stage_of(source: Source) -> Stage {
     match source {
         Source::Parameter(_) | Source::Prepared(_) => 0,
-        Source::Time => 1,
+        Source::Time => TIME,
         Source::Coordinate(_) => 2,
         Source::Velocity(_) => 3,
         Source::Input(_) => 4,

@@ -4,7 +4,7 @@ use lagrangian_symbolic::Rational;
 use rustc_hash::FxHashMap;
 
 use super::graph::Id;
-use super::net::{Index, Item, Leaf, Net, Signed, operands};
+use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
 use super::{Op, Value};
 
 /// A function's code, prepared values still called by their nodes.
@@ -106,8 +106,8 @@ impl Builder {
             Item::Function(function, arguments) => {
                 use lagrangian_symbolic::Function::{Cos, Sin};
                 match (function, arguments.as_slice()) {
-                    (Sin, &[x]) => self.op(Op::Sin(value(x))),
-                    (Cos, &[x]) => self.op(Op::Cos(value(x))),
+                    (Sin, &[x]) => self.circular(net, x, value(x)).0,
+                    (Cos, &[x]) => self.circular(net, x, value(x)).1,
                     (_, &[x]) => self.op(Op::Unary(*function, value(x))),
                     (_, &[x, y]) => self.op(Op::Binary(*function, value(x), value(y))),
                     _ => unreachable!("functions have one argument or two"),
@@ -140,6 +140,60 @@ impl Builder {
                 )
             }
         }
+    }
+
+    /// Sine and cosine; of what time alone decides, as exact as if the angle had not been rounded.
+    ///
+    /// The phase ω t of a drive grows without end and its rounding error with it: after a minute at
+    /// 100 rad/s it is 1e-12, the largest error of the whole evaluation. With the error δ of the
+    /// rounded angle known, sin(x + δ) = sin x + δ cos x and cos(x + δ) = cos x − δ sin x to δ².
+    /// The angle of a coordinate needs no such thing: it is an argument, and exact.
+    fn circular(&mut self, net: &Net, angle: Index, value: Value) -> (Value, Value) {
+        let (sin, cos) = (Op::Sin(value), Op::Cos(value));
+        let error = match net.stages[angle as usize] {
+            TIME => self.error(value),
+            _ => None,
+        };
+        // Neither is computed where the function needs only the other: what no result needs is
+        // dropped.
+        let (sin, cos) = (self.op(sin), self.op(cos));
+        let Some(error) = error else {
+            return (sin, cos);
+        };
+        let (by_sin, by_cos) = (self.op(Op::Mul(error, cos)), self.op(Op::Mul(error, sin)));
+        (self.op(Op::Add(sin, by_sin)), self.op(Op::Sub(cos, by_cos)))
+    }
+
+    /// The rounding error of a value, where it is that of a product, a sum or both.
+    fn error(&mut self, value: Value) -> Option<Value> {
+        let of_product = |builder: &mut Builder, value: Value| match builder.code[value.index()] {
+            Op::Mul(a, b) => Some(builder.op(Op::ProductError(a, b))),
+            _ => None,
+        };
+        if let Some(error) = of_product(self, value) {
+            return Some(error);
+        }
+        let (a, b, is_difference) = match self.code[value.index()] {
+            Op::Add(a, b) => (a, b, false),
+            Op::Sub(a, b) => (a, b, true),
+            _ => return None,
+        };
+        let subtrahend = if is_difference {
+            self.op(Op::Neg(b))
+        } else {
+            b
+        };
+        let mut error = self.op(Op::SumError(a, subtrahend));
+        if let Some(first) = of_product(self, a) {
+            error = self.op(Op::Add(error, first));
+        }
+        if let Some(second) = of_product(self, b) {
+            error = match is_difference {
+                true => self.op(Op::Sub(error, second)),
+                false => self.op(Op::Add(error, second)),
+            };
+        }
+        Some(error)
     }
 
     /// The product as a balanced tree; of none, 1.
@@ -282,6 +336,8 @@ pub(super) fn with_operands(op: &Op, moved: impl Fn(Value) -> Value) -> Op {
         Op::Mul(a, b) => Op::Mul(moved(a), moved(b)),
         Op::Div(a, b) => Op::Div(moved(a), moved(b)),
         Op::Neg(a) => Op::Neg(moved(a)),
+        Op::ProductError(a, b) => Op::ProductError(moved(a), moved(b)),
+        Op::SumError(a, b) => Op::SumError(moved(a), moved(b)),
         Op::Sin(a) => Op::Sin(moved(a)),
         Op::Cos(a) => Op::Cos(moved(a)),
         Op::Unary(function, a) => Op::Unary(function, moved(a)),

@@ -44,7 +44,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// Whether a function has to look whether the parameters alone leave the machine without accelerations.
-    fn may_be_singular_from_the_start(&self, function: &Function) -> bool {
+    pub(super) fn may_be_singular_from_the_start(&self, function: &Function) -> bool {
         function.role.inverts() && !self.program.prepare.guards.is_empty()
     }
 
@@ -79,66 +79,58 @@ impl<'a> Emitter<'a> {
 
     /// A function of the state.
     pub(super) fn function(&mut self, function: &Function) {
+        if function.role.inverts() {
+            return self.kernel(function);
+        }
         let runtime = self.options.runtime.clone();
         let scalar = self.types.scalar.clone();
         let name = self.function_name(function.role);
-        let value = match function.shape {
-            Shape::Scalar => scalar.clone(),
-            Shape::Vector(n) => format!("[{scalar}; {n}]"),
-            Shape::Symmetric(n) => format!("[[{scalar}; {n}]; {n}]"),
-            Shape::Matrix(..) => format!("{}<{scalar}>", self.types.derivatives),
-        };
-        let result = match function.role {
-            role if role.inverts() => {
-                format!(
-                    "{}<{value}, {runtime}::Singular>",
-                    self.types.known("Result")
-                )
-            }
-            _ => value,
-        };
         self.writer.gap();
         self.docs(&self.function_docs(function));
         let head = format!("pub fn {name}<{scalar}: {runtime}::Scalar>");
         let arguments = self.declared(self.needs(function));
+        let result = self.result_type(function.shape);
         self.writer.signature(&head, &arguments, Some(&result));
-        if self.may_be_singular_from_the_start(function) {
-            self.writer.open("if let Some(singular) = p.singular {");
-            self.writer.line("return Err(singular);");
-            self.writer.close("}");
-        }
         let cut = cut::cut(function, self.prepared.len());
         let texts: Vec<String> = match &cut {
             Some(cut) => self.calls_of_pieces(function, cut),
             None => {
                 let wanted = self.result_names(function);
-                self.statements(function, &wanted)
-                    .into_iter()
-                    .map(|text| text.text)
-                    .collect()
+                let texts = self.statements(function, &wanted, false);
+                texts.into_iter().map(|text| text.text).collect()
             }
         };
+        let value = self.arranged(function.shape, &texts);
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+        for (i, piece) in cut.iter().flat_map(|cut| &cut.pieces).enumerate() {
+            let slots = cut.as_ref().map_or(0, |cut| cut.slots);
+            self.piece(&format!("{name}_{i}"), piece, slots);
+        }
+    }
+
+    /// The type of what a function gives.
+    pub(super) fn result_type(&self, shape: Shape) -> String {
+        let scalar = &self.types.scalar;
+        match shape {
+            Shape::Scalar => scalar.clone(),
+            Shape::Vector(n) => format!("[{scalar}; {n}]"),
+            Shape::Symmetric(n) => format!("[[{scalar}; {n}]; {n}]"),
+            Shape::Matrix(..) => format!("{}<{scalar}>", self.types.derivatives),
+        }
+    }
+
+    /// The results of a function as they are arranged.
+    pub(super) fn arranged(&self, shape: Shape, texts: &[String]) -> Layout {
         let text = |i: usize| Layout::Atom(texts[i].clone());
-        let value = match function.shape {
+        match shape {
             Shape::Scalar => text(0),
             Shape::Vector(n) => Layout::nested((0..n).map(text)),
             Shape::Symmetric(n) => {
                 let row = |i: usize| Layout::nested((0..n).map(|j| text(Shape::index(i, j))));
                 Layout::nested((0..n).map(row))
             }
-            shape @ Shape::Matrix(..) => self.derivatives_literal(shape, &texts),
-        };
-        if function.role.inverts() {
-            self.writer
-                .expression(&format!("let {name} = "), &value, ";");
-            self.writer.line(format!("Ok({name})"));
-        } else {
-            self.writer.expression("", &value, "");
-        }
-        self.writer.close("}");
-        for (i, piece) in cut.iter().flat_map(|cut| &cut.pieces).enumerate() {
-            let slots = cut.as_ref().map_or(0, |cut| cut.slots);
-            self.piece(&format!("{name}_{i}"), piece, slots);
+            Shape::Matrix(..) => self.derivatives_literal(shape, texts),
         }
     }
 
@@ -164,12 +156,17 @@ impl<'a> Emitter<'a> {
             self.writer
                 .line(format!("{name}_{i}({}){fails};", passed.join(", ")));
         }
+        self.results_of_pieces(cut, false)
+    }
+
+    /// Where the results of a function are once its pieces have run.
+    pub(super) fn results_of_pieces(&mut self, cut: &Cut, in_registers: bool) -> Vec<String> {
         let is_zero =
             |place: &Place| matches!(place, Place::Leaf(Op::Constant(value)) if value.is_zero());
-        if cut.results.iter().any(is_zero) {
-            self.writer.line(format!("let zero = {scalar}::ZERO;"));
-        }
-        let rust = Rust { emitter: self };
+        let rust = Rust {
+            emitter: self,
+            in_registers,
+        };
         let result = |place: &Place| match place {
             place if is_zero(place) => "zero".to_owned(),
             Place::Slot(slot) => format!("w[{slot}]"),
@@ -180,11 +177,16 @@ impl<'a> Emitter<'a> {
             },
             Place::Leaf(_) => rust.pi().text,
         };
-        cut.results.iter().map(result).collect()
+        let results = cut.results.iter().map(result).collect();
+        if cut.results.iter().any(is_zero) {
+            let number = rust.number().to_owned();
+            self.writer.line(format!("let zero = {number}::ZERO;"));
+        }
+        results
     }
 
     /// What a piece is to be given; what it reads from `w` are no prepared values.
-    fn needs_of_piece(&self, piece: &Piece) -> Reads {
+    pub(super) fn needs_of_piece(&self, piece: &Piece) -> Reads {
         let is_prepared = |op: &Op| matches!(op, Op::Read(Source::Prepared(i)) if (*i as usize) < self.prepared.len());
         let mut reads = piece.function.reads();
         reads.prepared = piece.function.code.iter().any(is_prepared);
@@ -203,7 +205,7 @@ impl<'a> Emitter<'a> {
         self.writer.line("#[inline(never)]");
         self.writer
             .signature(&head, &arguments, fails.then_some(result.as_str()));
-        let texts = self.statements(&piece.function, &[]);
+        let texts = self.statements(&piece.function, &[], false);
         for (slot, text) in piece.keeps.iter().zip(texts) {
             self.writer.line(format!("w[{slot}] = {};", text.text));
         }
@@ -214,7 +216,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// What the results of a function should be called; nothing for a scalar.
-    fn result_names(&self, function: &Function) -> Vec<String> {
+    pub(super) fn result_names(&self, function: &Function) -> Vec<String> {
         let coordinate = |i: usize| flat(&self.program.coordinates[i].name);
         let each = |name: &dyn Fn(String) -> String| {
             (0..self.program.dimension())
@@ -241,7 +243,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    fn function_docs(&self, function: &Function) -> String {
+    pub(super) fn function_docs(&self, function: &Function) -> String {
         let mut docs = match function.role {
             Role::Prepare | Role::Start => String::new(),
             Role::MassMatrix => "Mass matrix `M`, row by row.".into(),
@@ -280,7 +282,13 @@ impl<'a> Emitter<'a> {
         docs
     }
 
-    pub(super) fn statements(&mut self, function: &Function, wanted: &[String]) -> Vec<Text> {
+    /// The statements of a function, computed in registers or on numbers as they are kept.
+    pub(super) fn statements(
+        &mut self,
+        function: &Function,
+        wanted: &[String],
+        in_registers: bool,
+    ) -> Vec<Text> {
         let scope = Scope::with(&[
             "p",
             "t",
@@ -290,7 +298,11 @@ impl<'a> Emitter<'a> {
             "u",
             "f",
             "w",
+            "n",
+            "angles",
+            "circular",
             "singular",
+            "checked",
             "vanishes",
             "None",
             "Some",
@@ -304,7 +316,10 @@ impl<'a> Emitter<'a> {
         let mut writer = std::mem::take(&mut self.writer);
         let results = body::statements(
             &mut writer,
-            &Rust { emitter: self },
+            &Rust {
+                emitter: self,
+                in_registers,
+            },
             function,
             scope,
             wanted,
@@ -350,7 +365,7 @@ impl<'a> Emitter<'a> {
 }
 
 /// What either of two functions reads.
-fn union(a: Reads, b: Reads) -> Reads {
+pub(super) fn union(a: Reads, b: Reads) -> Reads {
     Reads {
         parameters: a.parameters || b.parameters,
         prepared: a.prepared || b.prepared,

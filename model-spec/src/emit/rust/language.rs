@@ -3,23 +3,44 @@
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::Emitter;
-use crate::emit::body::{Binding, Expression as Text, Language};
-use crate::emit::layout::Writer;
+use crate::emit::body::{Angle, Binding, Expression as Text, Language, Rounded};
+use crate::emit::layout::{Layout, Writer};
 use crate::emit::names::{Scope, flat};
-use crate::program::{Guard, Source};
+use crate::program::{Contracted, Guard, Source};
 
 /// How Rust writes what is no operator.
 pub(super) struct Rust<'a> {
     pub(super) emitter: &'a Emitter<'a>,
+    /// Whether the code computes in registers: it then loads what it reads, contracts products into
+    /// sums, and takes the sines of all angles at once.
+    pub(super) in_registers: bool,
+}
+
+impl Rust<'_> {
+    /// The type of the numbers.
+    pub(super) fn number(&self) -> &str {
+        match self.in_registers {
+            true => &self.emitter.types.register,
+            false => &self.emitter.types.scalar,
+        }
+    }
+
+    /// A number that is kept outside of registers.
+    fn loaded(&self, place: String) -> String {
+        match self.in_registers {
+            true => format!("n({place})"),
+            false => place,
+        }
+    }
 }
 
 impl Language for Rust<'_> {
     fn constant(&self, value: &Rational) -> Text {
-        rational(&self.emitter.types.scalar, value)
+        rational(self.number(), value)
     }
 
     fn pi(&self) -> Text {
-        Text::call(format!("{}::pi()", self.emitter.types.scalar))
+        Text::call(format!("{}::pi()", self.number()))
     }
 
     fn argument(&self, source: Source) -> Option<Text> {
@@ -27,11 +48,11 @@ impl Language for Rust<'_> {
         Some(Text::leaf(match source {
             Source::Parameter(i) => format!("self.{}", emitter.parameters.paths[i as usize]),
             Source::Prepared(i) => match emitter.prepared.get(i as usize) {
-                Some(name) => format!("p.{name}"),
+                Some(name) => self.loaded(format!("p.{name}")),
                 None => format!("w[{}]", i as usize - emitter.prepared.len()),
             },
-            Source::Time => "t".to_owned(),
-            Source::Input(i) => format!("u.{}", emitter.inputs.paths[i as usize]),
+            Source::Time => self.loaded("t".to_owned()),
+            Source::Input(i) => self.loaded(format!("u.{}", emitter.inputs.paths[i as usize])),
             Source::Coordinate(_) | Source::Velocity(_) | Source::Acceleration(_) => return None,
         }))
     }
@@ -39,9 +60,11 @@ impl Language for Rust<'_> {
     fn variable(&self, source: Source) -> (String, String) {
         let name = |i: u32| flat(&self.emitter.coordinates.slots[i as usize].name);
         match source {
-            Source::Coordinate(i) => (name(i), format!("q[{i}]")),
-            Source::Velocity(i) => (format!("{}_dot", name(i)), format!("v[{i}]")),
-            Source::Acceleration(i) => (format!("{}_ddot", name(i)), format!("a[{i}]")),
+            Source::Coordinate(i) => (name(i), self.loaded(format!("q[{i}]"))),
+            Source::Velocity(i) => (format!("{}_dot", name(i)), self.loaded(format!("v[{i}]"))),
+            Source::Acceleration(i) => {
+                (format!("{}_ddot", name(i)), self.loaded(format!("a[{i}]")))
+            }
             // The others are no variables.
             _ => ("argument".into(), "argument".into()),
         }
@@ -80,13 +103,79 @@ impl Language for Rust<'_> {
         }
     }
 
-    fn guard(&self, writer: &mut Writer, guard: &Guard, pivot: &str, scale: &str) {
+    fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2], is_used: bool) {
+        if self.in_registers {
+            // What comes back is undefined in those of several lanes whose pivot vanishes.
+            let is_variable = pivot.chars().all(|c| c.is_alphanumeric() || c == '_');
+            let result = match is_variable && is_used {
+                true => format!("let {pivot} = "),
+                false => String::new(),
+            };
+            let share = number(guard.tolerance);
+            let coordinate = guard.coordinate;
+            return writer.line(format!(
+                "{result}checked({pivot}, {scale}, {share}, {coordinate})?;"
+            ));
+        }
         writer.open(format!("if {} {{", vanishes(guard, pivot, scale)));
         writer.line(format!(
             "return Err(singular({}, {pivot}, {scale}));",
             guard.coordinate
         ));
         writer.close("}");
+    }
+
+    fn error(&self, of: Rounded, a: &Text, b: &Text) -> Text {
+        let method = match of {
+            Rounded::Product => "product_error",
+            Rounded::Sum => "sum_error",
+        };
+        Text::call(format!(
+            "{}.{method}({})",
+            a.at_least(Binding::Atom),
+            b.text
+        ))
+    }
+
+    fn is_for_speed(&self) -> bool {
+        self.in_registers
+    }
+
+    fn contraction(&self, kind: Contracted, [a, b]: [&Text; 2], c: &Text) -> Option<Text> {
+        let method = match kind {
+            Contracted::Add => "mul_add",
+            Contracted::Sub => "mul_sub",
+            Contracted::SubFrom => "neg_mul_add",
+        };
+        let a = a.at_least(Binding::Atom);
+        Some(Text::call(format!("{a}.{method}({}, {})", b.text, c.text)))
+    }
+
+    fn sin_cos_all(&self, writer: &mut Writer, angles: &[Angle]) {
+        let values = angles.iter().map(|angle| angle.angle.text.clone());
+        writer.expression("let angles = ", &Layout::array(values), ";");
+        writer.line(format!(
+            "let circular = {}::sin_cos_all(angles);",
+            self.number()
+        ));
+        let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "_".into());
+        for (i, angle) in angles.iter().enumerate() {
+            let (sin, cos) = (name(&angle.sin), name(&angle.cos));
+            writer.line(format!("let ({sin}, {cos}) = circular[{i}];"));
+        }
+    }
+
+    /// `theta1` of `n(p.theta1)`.
+    fn angle_name(&self, angle: &str) -> String {
+        let inner = angle
+            .strip_prefix("n(")
+            .and_then(|rest| rest.strip_suffix(')'))
+            .filter(|_| self.in_registers);
+        let plain = inner.unwrap_or(angle).trim_start_matches("r#");
+        plain
+            .chars()
+            .map(|c| if c.is_alphanumeric() { c } else { '_' })
+            .collect()
     }
 
     fn identifier(&self, scope: &mut Scope, name: &str) -> String {

@@ -196,7 +196,7 @@ impl Emitter<'_> {
         for guard in guards {
             wanted.extend(["pivot", "scale"].map(|what| format!("{what}_{}", guard.coordinate)));
         }
-        let texts = self.statements(&with_guards, &wanted);
+        let texts = self.statements(&with_guards, &wanted, false);
         let (values, pivots) = texts.split_at(self.prepared.len());
         let mut fields: Vec<(String, Layout)> = Vec::new();
         for (field, value) in self.prepared.iter().zip(values) {
@@ -256,7 +256,9 @@ impl Emitter<'_> {
         if !is_at_rest {
             wanted.extend(names.map(|name| format!("{name}_rate")));
         }
-        let mut texts = self.statements(&self.program.start, &wanted).into_iter();
+        let mut texts = self
+            .statements(&self.program.start, &wanted, false)
+            .into_iter();
         let q = Layout::array(texts.by_ref().take(n).map(|text| text.text));
         self.writer.expression("let q = ", &q, ";");
         if is_at_rest {

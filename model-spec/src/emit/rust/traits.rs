@@ -372,16 +372,60 @@ impl Emitter<'_> {
             self.writer.close("}");
         }
         let is_guarded = |function: &Function| !function.guards.is_empty();
-        if self.program.all_functions().any(is_guarded) {
-            self.helpers_of_guards();
+        let is_for_speed = |function: &&Function| function.role.inverts();
+        let (fast, others): (Vec<_>, Vec<_>) = self
+            .program
+            .all_functions()
+            .filter(|function| is_guarded(function))
+            .partition(is_for_speed);
+        if !fast.is_empty() {
+            self.helper_of_checks();
+        }
+        if !others.is_empty() {
+            self.helper_of_vanishing();
+        }
+        if !fast.is_empty() || !others.is_empty() {
+            self.helper_of_singular();
         }
     }
 
-    fn helpers_of_guards(&mut self) {
+    /// The check of a pivot in registers.
+    fn helper_of_checks(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let register = self.types.register.clone();
+        let result = self.types.known("Result");
+        self.writer.gap();
+        self.docs(
+            "A pivot of which elimination has left more than rounding errors of a diagonal element. \
+             Where numbers have several lanes, it is undefined in those in which there is nothing left.",
+        );
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("fn checked<{register}: {runtime}::Scalar>"),
+            &[
+                format!("pivot: {register}"),
+                format!("diagonal: {register}"),
+                format!("share: {}", self.types.known("f64")),
+                format!("coordinate: {}", self.types.known("usize")),
+            ],
+            Some(&format!("{result}<{register}, {runtime}::Singular>")),
+        );
+        self.writer.line(format!(
+            "let bound = {register}::from_f64(share) * diagonal;"
+        ));
+        self.writer.open("match pivot.guarded(bound) {");
+        self.writer.line("Some(pivot) => Ok(pivot),");
+        self.writer
+            .line("None => Err(singular(coordinate, pivot, diagonal)),");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
+    /// The check of a pivot of the parameters.
+    fn helper_of_vanishing(&mut self) {
         let runtime = self.options.runtime.clone();
         let scalar = self.types.scalar.clone();
         let f64 = self.types.known("f64");
-        let usize = self.types.known("usize");
         let bool = self.types.known("bool");
         self.writer.gap();
         self.docs(
@@ -396,10 +440,17 @@ impl Emitter<'_> {
             ],
             Some(&bool),
         );
-        self.writer.line(format!(
-            "!pivot.exceeds({scalar}::from_f64(share) * diagonal)"
-        ));
+        self.writer
+            .line(format!("let bound = {scalar}::from_f64(share) * diagonal;"));
+        self.writer.line("pivot.guarded(bound).is_none()");
         self.writer.close("}");
+    }
+
+    /// What an error says of a pivot.
+    fn helper_of_singular(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let scalar = self.types.scalar.clone();
+        let usize = self.types.known("usize");
         self.writer.gap();
         self.writer
             .line("/// What is left of a pivot, for the message.");

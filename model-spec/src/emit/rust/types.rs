@@ -15,8 +15,14 @@ pub(super) struct Types {
     pub(super) prepared: String,
     /// Accelerations with their derivatives.
     pub(super) derivatives: String,
+    /// A call of the accelerations, and what its pieces are.
+    pub(super) accelerations: [String; 2],
+    /// A call of the derivatives, and what its pieces are.
+    pub(super) derivatives_call: [String; 2],
     /// The parameter that stands for the number.
     pub(super) scalar: String,
+    /// The parameter that stands for the number in a register.
+    pub(super) register: String,
     /// `f64`, `usize`, `Result`, …, by full path where the machine has that name.
     pub(super) shadowed: String,
 }
@@ -31,7 +37,10 @@ impl Types {
             outputs: scope.take("Outputs"),
             prepared: scope.take("Prepared"),
             derivatives: scope.take("Derivatives"),
+            accelerations: ["Accelerations", "AccelerationsPiece"].map(|name| scope.take(name)),
+            derivatives_call: ["DerivativesCall", "DerivativesPiece"].map(|name| scope.take(name)),
             scalar: scope.take("S"),
+            register: scope.take("N"),
             shadowed: machine.to_owned(),
         }
     }

@@ -1,0 +1,316 @@
+//! The functions that integrators call: computed in registers, with whatever instructions the
+//! processor has.
+//!
+//! ```text
+//! accelerations(p, t, q, v, u)        picks the arithmetic for numbers kept as S
+//!   Accelerations { p, t, q, v, u }   the call as a value: a Kernel
+//!     run::<N>()                      the code, on numbers N in registers, always inlined
+//! ```
+//!
+//! A function that is too long for that is cut into pieces, each a value of its own.
+
+use super::Emitter;
+use super::types::Types;
+use crate::emit::cut::{self, Cut, Piece};
+use crate::program::{Function, Op, Reads, Role, Source};
+
+impl Emitter<'_> {
+    /// The names of the call of a function, and of its pieces.
+    fn names(&self, role: Role) -> [String; 2] {
+        match role {
+            Role::Derivatives => self.types.derivatives_call.clone(),
+            _ => self.types.accelerations.clone(),
+        }
+    }
+
+    /// A function that is called often.
+    pub(super) fn kernel(&mut self, function: &Function) {
+        let cut = cut::cut(function, self.prepared.len());
+        self.choice(function);
+        self.call_as_value(function);
+        self.run(function, cut.as_ref());
+        if let Some(cut) = &cut {
+            self.pieces(function.role, cut);
+        }
+    }
+
+    /// The function that everybody calls.
+    fn choice(&mut self, function: &Function) {
+        let runtime = self.options.runtime.clone();
+        let scalar = self.types.scalar.clone();
+        let [call, _] = self.names(function.role);
+        let needs = self.needs(function);
+        let result = self.fallible(&self.result_type(function.shape));
+        self.writer.gap();
+        self.docs(&self.function_docs(function));
+        let name = self.function_name(function.role);
+        let head = format!("pub fn {name}<{scalar}: {runtime}::Number>");
+        let arguments: Vec<String> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, kind)| format!("{name}: {kind}"))
+            .collect();
+        self.writer.signature(&head, &arguments, Some(&result));
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let value = match names.is_empty() {
+            true => {
+                format!("{call}(::core::marker::PhantomData::<{scalar}>)")
+            }
+            false => format!("{call} {{ {} }}", names.join(", ")),
+        };
+        self.writer.line(format!("{scalar}::run({value})"));
+        self.writer.close("}");
+    }
+
+    /// The call as a value.
+    fn call_as_value(&mut self, function: &Function) {
+        let scalar = self.types.scalar.clone();
+        let [call, _] = self.names(function.role);
+        let name = self.function_name(function.role);
+        self.writer.gap();
+        self.docs(&format!(
+            "A call of [`{name}`], to be run with whatever instructions the processor has."
+        ));
+        let arguments = self.arguments(self.needs(function));
+        if arguments.is_empty() {
+            return self.writer.line(format!(
+                "pub struct {call}<{scalar}>(::core::marker::PhantomData<{scalar}>);"
+            ));
+        }
+        let lifetime = lifetime(&arguments);
+        self.writer
+            .open(format!("pub struct {call}<{lifetime}{scalar}> {{"));
+        for (argument, kind) in &arguments {
+            self.writer.line(format!("/// As `{name}` takes it."));
+            self.writer
+                .line(format!("pub {argument}: {},", with_lifetime(kind)));
+        }
+        self.writer.close("}");
+    }
+
+    /// The code.
+    fn run(&mut self, function: &Function, cut: Option<&Cut>) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let [call, _] = self.names(function.role);
+        let copy = self.types.known("Copy");
+        let arguments = self.arguments(self.needs(function));
+        let anonymous = if lifetime(&arguments).is_empty() {
+            ""
+        } else {
+            "'_, "
+        };
+        let result = self.fallible(&self.result_type(function.shape));
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for {call}<{anonymous}{scalar}> {{"
+        ));
+        self.writer.line(format!("type Output = {result};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
+            &["self".to_owned()],
+            Some("Self::Output"),
+        );
+        self.open_arguments(self.needs(function), function);
+        if self.may_be_singular_from_the_start(function) {
+            self.writer.open("if let Some(singular) = p.singular {");
+            self.writer.line("return Err(singular);");
+            self.writer.close("}");
+        }
+        let texts: Vec<String> = match cut {
+            Some(cut) => {
+                self.run_pieces(function.role, cut);
+                self.results_of_pieces(cut, true)
+            }
+            None => {
+                let wanted = self.result_names(function);
+                let texts = self.statements(function, &wanted, true);
+                texts.into_iter().map(|text| text.text).collect()
+            }
+        };
+        let name = self.function_name(function.role);
+        let kept: Vec<String> = texts.iter().map(|text| format!("{text}.store()")).collect();
+        let value = self.arranged(function.shape, &kept);
+        self.writer
+            .expression(&format!("let {name} = "), &value, ";");
+        self.writer.line(format!("Ok({name})"));
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
+    /// Names for the fields, and `n`, which loads a number.
+    fn open_arguments(&mut self, needs: Reads, function: &Function) {
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        if !names.is_empty() {
+            self.writer
+                .line(format!("let Self {{ {} }} = self;", names.join(", ")));
+        }
+        if self.loads(function) {
+            self.writer
+                .line(format!("let n = {}::load;", self.types.register));
+        }
+    }
+
+    /// Whether the code of a function reads anything that is kept outside of registers.
+    fn loads(&self, function: &Function) -> bool {
+        let slots = self.prepared.len();
+        function.code.iter().any(|op| match op {
+            Op::Read(Source::Prepared(i)) => (*i as usize) < slots,
+            Op::Read(_) => true,
+            _ => false,
+        })
+    }
+
+    /// A result that there is not where the mass matrix is singular.
+    fn fallible(&self, result: &str) -> String {
+        let runtime = &self.options.runtime;
+        format!(
+            "{}<{result}, {runtime}::Singular>",
+            self.types.known("Result")
+        )
+    }
+
+    /// Calls the pieces, one after the other.
+    fn run_pieces(&mut self, role: Role, cut: &Cut) {
+        let register = self.types.register.clone();
+        let [_, name] = self.names(role);
+        self.writer.comment(
+            "//",
+            "Too long for one function: each piece leaves in `w` what those after it need.",
+        );
+        self.writer
+            .line(format!("let mut w = [{register}::ZERO; {}];", cut.slots));
+        for (i, piece) in cut.pieces.iter().enumerate() {
+            let mut fields: Vec<&str> = self
+                .fields_of_pieces(cut)
+                .iter()
+                .map(|(name, _)| *name)
+                .collect();
+            fields.push("w: &mut w");
+            let fails = if piece.function.guards.is_empty() {
+                ""
+            } else {
+                "?"
+            };
+            self.writer.line(format!(
+                "{register}::call({name}::<{register}, {i}> {{ {} }}){fails};",
+                fields.join(", ")
+            ));
+        }
+    }
+
+    /// What the pieces are given, `w` apart: what any of them reads.
+    fn fields_of_pieces(&self, cut: &Cut) -> Vec<(&'static str, String)> {
+        let reads = cut.pieces.iter().map(|piece| self.needs_of_piece(piece));
+        let all = reads.fold(Reads::default(), super::functions::union);
+        self.arguments(all)
+    }
+
+    fn pieces(&mut self, role: Role, cut: &Cut) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let [_, name] = self.names(role);
+        let usize = self.types.known("usize");
+        let stored = |kind: &str| {
+            with_lifetime(kind)
+                .replace(&format!("<{scalar}>"), &format!("<{register}::Stored>"))
+                .replace(&format!("[{scalar};"), &format!("[{register}::Stored;"))
+        };
+        self.writer.gap();
+        self.docs(&format!(
+            "What the pieces of [`{}`] are given.",
+            self.function_name(role)
+        ));
+        self.writer.open(format!(
+            "struct {name}<'a, {register}: {runtime}::Scalar, const PIECE: {usize}> {{"
+        ));
+        for (field, kind) in self.fields_of_pieces(cut) {
+            let kind = if kind == scalar {
+                format!("{register}::Stored")
+            } else {
+                stored(&kind)
+            };
+            self.writer.line(format!("{field}: {kind},"));
+        }
+        self.writer
+            .line(format!("w: &'a mut [{register}; {}],", cut.slots));
+        self.writer.close("}");
+        for (i, piece) in cut.pieces.iter().enumerate() {
+            self.kernel_piece(role, i, piece, cut);
+        }
+    }
+
+    fn kernel_piece(&mut self, role: Role, i: usize, piece: &Piece, cut: &Cut) {
+        let runtime = self.options.runtime.clone();
+        let register = self.types.register.clone();
+        let [_, name] = self.names(role);
+        let fails = !piece.function.guards.is_empty();
+        let output = if fails {
+            self.fallible("()")
+        } else {
+            "()".to_owned()
+        };
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{register}: {runtime}::Scalar> {runtime}::scalar::Piece for {name}<'_, {register}, {i}> {{"
+        ));
+        self.writer.line(format!("type Output = {output};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        let result = fails.then_some("Self::Output");
+        self.writer
+            .signature("fn run", &["self".to_owned()], result);
+        let needed: Vec<&str> = self
+            .arguments(self.needs_of_piece(piece))
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let all = self.fields_of_pieces(cut).len();
+        let rest = if needed.len() < all { ", .." } else { "" };
+        let names: Vec<&str> = needed.into_iter().chain(["w"]).collect();
+        self.writer
+            .line(format!("let Self {{ {}{rest} }} = self;", names.join(", ")));
+        if self.loads(&piece.function) {
+            self.writer.line(format!("let n = {register}::load;"));
+        }
+        let texts = self.statements(&piece.function, &[], true);
+        for (slot, text) in piece.keeps.iter().zip(texts) {
+            self.writer.line(format!("w[{slot}] = {};", text.text));
+        }
+        if fails {
+            self.writer.line("Ok(())");
+        }
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}
+
+/// `'a, ` where any argument is a reference.
+fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
+    match arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
+        true => "'a, ",
+        false => "",
+    }
+}
+
+/// `&'a [S; 2]` of `&[S; 2]`.
+fn with_lifetime(kind: &str) -> String {
+    match kind.strip_prefix('&') {
+        Some(kind) => format!("&'a {kind}"),
+        None => kind.to_owned(),
+    }
+}
