@@ -20,8 +20,8 @@
 //!   all other functions read prepared values instead, and contain no operation whose operands are
 //!   all known once parameters are;
 //! * no two operations of a function do the same thing;
-//! * the order of operations is the order of rounding: whoever runs a program reorders nothing, so
-//!   the same machine gives the same bits everywhere;
+//! * the order of operations is the order of rounding: whoever runs a program reorders nothing, and
+//!   joins a multiplication and an addition into one rounding only where [`fused`] says so;
 //! * the same description gives the same program.
 
 use lagrangian_symbolic::{self as symbolic, Rational};
