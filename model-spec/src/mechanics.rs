@@ -22,6 +22,7 @@ pub mod groups;
 pub mod integrals;
 mod kinematics;
 mod lagrange;
+mod lumps;
 mod power;
 mod projected;
 mod refusal;
@@ -100,6 +101,9 @@ pub struct Unprojected<'d> {
     pub inertia: Vec<[Expr<'d>; 3]>,
     /// `u` and the load on it.
     pub loads: Vec<(Expr<'d>, Expr<'d>)>,
+    /// Whether velocities have accelerations where no coordinate has one; if not, these are among
+    /// the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
+    pub drifts: bool,
 }
 
 /// What is derived for one body.
@@ -270,7 +274,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         mass_matrix: projection.mass_matrix()?,
         bias: projection.project(&projection.bias_loads(1, false), all.clone()),
         applied: projection.project(&applied, all.clone()),
-        unprojected: Some(projection.unprojected(&applied)),
+        unprojected: Some(projection.unprojected(&applied, &forces)),
         forces: projection.project(&forces, all),
         unbalanced: match model.derivatives.is_empty() {
             true => Vec::new(),

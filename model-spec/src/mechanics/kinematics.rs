@@ -320,7 +320,8 @@ impl Chains {
             let omega = &velocities[index].angular;
             match &pose.step {
                 Step::Shift(r) if self.needed_origin[index] => {
-                    here.linear = acceleration_at(&here, omega, &vector(r), rate);
+                    let turning = Turning::of(omega, &here.angular);
+                    here.linear = shifted_acceleration(&here, omega, &turning, &vector(r), rate);
                 }
                 &Step::Turn { axis, angle } if self.needed[index] => {
                     if self.needed_origin[index] {
@@ -412,8 +413,91 @@ pub(super) fn acceleration_at<'d>(
     ])
 }
 
+/// The same for the origin of a frame that is shifted by `r`.
+fn shifted_acceleration<'d>(
+    here: &Twist<'d>,
+    omega: &Vector<'d>,
+    turning: &Turning<'d>,
+    r: &Vector<'d>,
+    rate: &mut Tangent<'d>,
+) -> Vector<'d> {
+    add(&[
+        &here.linear,
+        &turning.apply(r),
+        &cross(omega, &r.map(|r_k| 2 * rate.of(r_k))),
+        &r.map(|r_k| rate.twice(r_k)),
+    ])
+}
+
+/// How a frame turns, as the matrix `W = α× + ω×ω×` that gives the acceleration `W r` of its points,
+/// entry by entry: what several points and tensors have in common is computed once.
+pub(super) struct Turning<'d> {
+    /// `α`.
+    alpha: Vector<'d>,
+    /// `ωᵢ²`.
+    squares: Vector<'d>,
+    /// `ω_y ω_z`, `ω_z ω_x`, `ω_x ω_y`.
+    products: Vector<'d>,
+}
+
+impl<'d> Turning<'d> {
+    pub fn of(omega: &Vector<'d>, alpha: &Vector<'d>) -> Turning<'d> {
+        Turning {
+            alpha: *alpha,
+            squares: omega.map(|w| w.square()),
+            products: [0, 1, 2].map(|k| {
+                let (next, last) = others(k);
+                omega[next] * omega[last]
+            }),
+        }
+    }
+
+    /// `W` below the diagonal, cyclically: `ωᵢ ωⱼ + αₖ` in row `j` and column `i`.
+    fn below(&self, k: usize) -> Expr<'d> {
+        self.products[k] + self.alpha[k]
+    }
+
+    /// `W` above it: `ωᵢ ωⱼ − αₖ` in row `i` and column `j`.
+    fn above(&self, k: usize) -> Expr<'d> {
+        self.products[k] - self.alpha[k]
+    }
+
+    /// `W r = α×r + ω×(ω×r)`.
+    pub fn apply(&self, r: &Vector<'d>) -> Vector<'d> {
+        [0, 1, 2].map(|k| {
+            let (next, last) = others(k);
+            let outward = self.squares[next] + self.squares[last];
+            r[0].dag().sum([
+                -(outward * r[k]),
+                self.above(last) * r[next],
+                self.below(next) * r[last],
+            ])
+        })
+    }
+
+    /// `J α + ω×J ω` for a tensor `xx, yy, zz, xy, xz, yz`, eq. (E15), in the entries of `W`:
+    ///
+    /// ```text
+    /// J_xx α_x + (J_zz − J_yy) ω_y ω_z + J_yz (ω_y² − ω_z²) + J_xz W_yx − J_xy W_zx
+    /// ```
+    pub fn demand(&self, tensor: &[Expr<'d>; 6]) -> Vector<'d> {
+        let [xx, yy, zz, xy, xz, yz] = *tensor;
+        let (diagonal, off) = ([xx, yy, zz], [yz, xz, xy]);
+        [0, 1, 2].map(|k| {
+            let (next, last) = others(k);
+            xx.dag().sum([
+                diagonal[k] * self.alpha[k],
+                (diagonal[last] - diagonal[next]) * self.products[k],
+                off[k] * (self.squares[next] - self.squares[last]),
+                off[next] * self.below(last),
+                -(off[last] * self.above(next)),
+            ])
+        })
+    }
+}
+
 /// The other two axes, in cyclic order.
-fn others(axis: usize) -> (usize, usize) {
+pub(super) fn others(axis: usize) -> (usize, usize) {
     ((axis + 1) % 3, (axis + 2) % 3)
 }
 

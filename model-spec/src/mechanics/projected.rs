@@ -31,8 +31,9 @@ use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
 
 use super::energy;
 use super::kinematics::{
-    self, Chains, Motion, Variables, Vector, add, apply_tensor, cross, vector,
+    self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
 };
+use super::lumps::{self, Lump};
 use super::refusal;
 use super::symmetric::Symmetric;
 use crate::model::{Action, Body, Force, Inertia, Model, PoseId, Rotation, Space, Torque};
@@ -43,6 +44,9 @@ pub(super) struct Projection<'a, 'd> {
     x: &'a Variables<'d>,
     chains: Chains,
     bodies: Vec<Carrier<'d>>,
+    /// The inertia of the same bodies, by where it is: on points, or fixed to frames.
+    inertial: Vec<Carrier<'d>>,
+    lumps: Vec<(PoseId, Lump<'d>)>,
 }
 
 /// What carries the inertia of one body.
@@ -57,6 +61,7 @@ struct Carrier<'d> {
 }
 
 /// A scalar position with its weight.
+#[derive(Clone, Copy)]
 struct Weighted<'d> {
     position: Expr<'d>,
     weight: Expr<'d>,
@@ -95,12 +100,18 @@ impl<'a, 'd> Projection<'a, 'd> {
         let moving = bodies
             .iter()
             .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
-        let chains = Chains::to(model, turning.chain(twisted), moving);
+        let (inertial, lumps) = gather(model, &bodies);
+        let lumped = lumps.iter().map(|(pose, _)| *pose);
+        let carried = lumps.iter().filter(|(_, lump)| lump.moves());
+        let moving = moving.chain(carried.map(|(pose, _)| *pose));
+        let chains = Chains::to(model, turning.chain(twisted).chain(lumped), moving);
         Projection {
             model,
             x,
             chains,
             bodies,
+            inertial,
+            lumps,
         }
     }
 
@@ -109,17 +120,26 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Column `j` is the momentum of a machine that moves with `vⱼ = 1`, projected: one reverse
     /// sweep. Nothing if they become too large.
     pub fn mass_matrix(&self) -> Option<Symmetric<Expr<'d>>> {
-        let actual = self.velocities(&mut self.x.coasting(self.model));
+        let coasting = &mut self.x.coasting(self.model);
+        let (actual, twists) = (
+            self.velocities_of(&self.inertial, coasting),
+            self.twists(coasting),
+        );
         let n = self.x.q.len();
         let mut columns: Vec<Vec<Expr<'d>>> = Vec::with_capacity(n);
         for j in 0..n {
             if refusal::is_too_large(self.model) {
                 return None;
             }
-            let motion = self.velocities(&mut self.x.partial(self.model, j));
+            let rate = &mut self.x.partial(self.model, j);
+            let motion = self.velocities_of(&self.inertial, rate);
             let mut momenta = Loads::default();
-            for ((body, actual), motion) in self.bodies.iter().zip(&actual).zip(&motion) {
+            for ((body, actual), motion) in self.inertial.iter().zip(&actual).zip(&motion) {
                 momenta.on_body(body, actual, body.momentum(motion));
+            }
+            let moving = self.twists(rate);
+            for (pose, lump) in &self.lumps {
+                momenta.on_frame(&twists[pose.index()], lump.momentum(&moving[pose.index()]));
             }
             columns.push(self.project(&momenta, j..n));
         }
@@ -144,15 +164,18 @@ impl<'a, 'd> Projection<'a, 'd> {
     }
 
     fn inertia_loads(&self, rate: &mut Tangent<'d>, sign: i64, gravity: bool) -> Loads<'d> {
-        let velocities = self.velocities(rate);
+        let velocities = self.velocities_of(&self.inertial, rate);
         let mut loads = Loads::default();
-        for ((body, velocity), load) in self
-            .bodies
-            .iter()
-            .zip(&velocities)
-            .zip(self.inertia(rate, gravity))
-        {
+        let demands = self.inertia(&self.inertial, rate, gravity);
+        for ((body, velocity), load) in self.inertial.iter().zip(&velocities).zip(demands) {
             loads.on_body(body, velocity, load.scaled(sign));
+        }
+        let (twists, accelerations) = self.motion(rate, gravity);
+        for (pose, lump) in &self.lumps {
+            let (twist, here) = (&twists[pose.index()], &accelerations[pose.index()]);
+            let turning = Turning::of(&twist.angular, &here.angular);
+            let demand = lump.demand(&turning, &here.linear);
+            loads.on_frame(twist, demand.map(|vector| vector.map(|x| sign * x)));
         }
         loads
     }
@@ -187,12 +210,19 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// Adds `Σ m g·∂x/∂qᵢ`, on the nodes that inertia acts on.
     pub fn add_gravity(&self, loads: &mut Loads<'d>) {
         let Some(g) = &self.model.gravity else { return };
-        let velocities = self.velocities(&mut self.x.coasting(self.model));
+        let coasting = &mut self.x.coasting(self.model);
+        let velocities = self.velocities_of(&self.inertial, coasting);
         let along = match self.model.space {
             Space::Plane => Vec::new(),
             Space::Space => self.chains.carried(self.model, vector(g)),
         };
-        for (body, velocity) in self.bodies.iter().zip(velocities) {
+        let twists = self.twists(coasting);
+        for (pose, lump) in &self.lumps {
+            let g = &along[pose.index()];
+            let loads_here = [g.map(|g_k| lump.mass * g_k), cross(&lump.moment, g)];
+            loads.on_frame(&twists[pose.index()], loads_here);
+        }
+        for (body, velocity) in self.inertial.iter().zip(velocities) {
             for point in &body.points {
                 loads
                     .on_positions
@@ -272,35 +302,35 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Inertia, and these loads, on velocities.
+    /// Inertia, and loads, on velocities: `applied`, with inertia itself from the rates on; in space
+    /// `forces`, with the bias among them.
     ///
-    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. Velocities along axes that
-    /// turn need the loads `−m ω×u` and `−ω×I ω` on top of `−m u̇` and `−I ω̇`.
-    pub fn unprojected(&self, loads: &Loads<'d>) -> super::Unprojected<'d> {
+    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. In space all that a motion
+    /// without accelerations demands is a load, computed from the ground to the tips along axes that
+    /// turn, and only what accelerations add is left to solve for.
+    pub fn unprojected(&self, applied: &Loads<'d>, forces: &Loads<'d>) -> super::Unprojected<'d> {
         let rate = &mut self.x.coasting(self.model);
-        let velocities = self.velocities(rate);
+        let drifts = self.model.space == Space::Plane;
+        let loads = if drifts { applied } else { forces };
+        let velocities = self.velocities_of(&self.inertial, rate);
         let mut inertia = Vec::new();
-        let mut acting = Vec::new();
-        for (body, velocity) in self.bodies.iter().zip(&velocities) {
+        for (body, velocity) in self.inertial.iter().zip(&velocities) {
             let points = body.points.iter().zip(&velocity.points);
             inertia.extend(points.map(|(point, &u)| [u, u, point.weight]));
-            let omega = self.angular_velocity(body, rate);
-            if let (Some((mass, ..)), Some(linear), Some(omega)) =
-                (body.centre, velocity.linear, omega)
-            {
+            if let (Some((mass, ..)), Some(linear)) = (body.centre, velocity.linear) {
                 inertia.extend(linear.map(|u| [u, u, mass]));
-                let turning = cross(&omega, &linear).map(|x| -(mass * x));
-                acting.extend(linear.into_iter().zip(turning));
             }
-            if let (Some((tensor, _)), Some(omega)) = (body.tensor, omega) {
+            if let (Some((tensor, _)), Some([x, y, z])) = (body.tensor, velocity.angular) {
                 let [xx, yy, zz, xy, xz, yz] = tensor;
-                let [x, y, z] = omega;
                 inertia.extend([[x, x, xx], [y, y, yy], [z, z, zz]]);
                 inertia.extend([[x, y, 2 * xy], [x, z, 2 * xz], [y, z, 2 * yz]]);
-                let turning = cross(&omega, &apply_tensor(&tensor, &omega)).map(|x| -x);
-                acting.extend(omega.into_iter().zip(turning));
             }
         }
+        let twists = self.twists(rate);
+        for (pose, lump) in &self.lumps {
+            inertia.extend(lump.pairs(&twists[pose.index()]));
+        }
+        let mut acting = Vec::new();
         acting.extend(
             loads
                 .on_positions
@@ -320,17 +350,8 @@ impl<'a, 'd> Projection<'a, 'd> {
         super::Unprojected {
             inertia,
             loads: acting,
+            drifts,
         }
-    }
-
-    /// The angular velocity of the frame along whose axes a body's velocities are, where it has
-    /// one.
-    fn angular_velocity(&self, body: &Carrier<'d>, rate: &mut Tangent<'d>) -> Option<Vector<'d>> {
-        let pose = body
-            .centre
-            .map(|(_, pose, _)| pose)
-            .or(body.tensor.map(|(_, pose)| pose))?;
-        Some(self.chains.velocities(self.model, rate)[pose.index()].angular)
     }
 
     /// The power of loads along the actual motion but with time held: `Σ load·Σ vᵢ ∂node/∂qᵢ`.
@@ -384,7 +405,7 @@ impl<'a, 'd> Projection<'a, 'd> {
             return self.model.dag.zero();
         }
         let rate = &mut self.x.total(self.model);
-        let inertia = self.inertia(rate, false);
+        let inertia = self.inertia(&self.bodies, rate, false);
         let velocities = driven.iter().flat_map(|driven| driven.components());
         let loads = inertia.iter().flat_map(|load| load.components());
         self.model.dag.sum(
@@ -394,12 +415,13 @@ impl<'a, 'd> Projection<'a, 'd> {
         )
     }
 
-    /// How everything that carries inertia moves at a rate.
+    /// How every body moves at a rate.
     fn velocities(&self, rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
-        let twists = match self.model.space {
-            Space::Plane => Vec::new(),
-            Space::Space => self.chains.velocities(self.model, rate),
-        };
+        self.velocities_of(&self.bodies, rate)
+    }
+
+    fn velocities_of(&self, list: &[Carrier<'d>], rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
+        let twists = self.twists(rate);
         let velocity = |body: &Carrier<'d>| Carried {
             points: body
                 .points
@@ -411,15 +433,22 @@ impl<'a, 'd> Projection<'a, 'd> {
                 .map(|(_, pose, r)| kinematics::velocity_at(&twists[pose.index()], &r, rate)),
             angular: body.tensor.map(|(_, pose)| twists[pose.index()].angular),
         };
-        self.bodies.iter().map(velocity).collect()
+        list.iter().map(velocity).collect()
     }
 
-    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with
-    /// accelerations; with `gravity` the ground accelerates by `−g`.
-    fn inertia(&self, rate: &mut Tangent<'d>, gravity: bool) -> Vec<Carried<'d>> {
+    /// How frames in space move at a rate.
+    fn twists(&self, rate: &mut Tangent<'d>) -> Vec<Twist<'d>> {
+        match self.model.space {
+            Space::Plane => Vec::new(),
+            Space::Space => self.chains.velocities(self.model, rate),
+        }
+    }
+
+    /// The same, and how they accelerate; with `gravity` the ground accelerates by `−g`.
+    fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
         let model = self.model;
         let gravity = model.gravity.as_ref().filter(|_| gravity);
-        let (twists, accelerations) = match model.space {
+        match model.space {
             Space::Plane => (Vec::new(), Vec::new()),
             Space::Space => {
                 let ground = gravity.map_or([model.dag.zero(); 3], |g| vector(g).map(|g_k| -g_k));
@@ -427,7 +456,19 @@ impl<'a, 'd> Projection<'a, 'd> {
                 let accelerations = self.chains.accelerations(model, ground, &twists, rate);
                 (twists, accelerations)
             }
-        };
+        }
+    }
+
+    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with
+    /// accelerations; with `gravity` the ground accelerates by `−g`.
+    fn inertia(
+        &self,
+        list: &[Carrier<'d>],
+        rate: &mut Tangent<'d>,
+        gravity: bool,
+    ) -> Vec<Carried<'d>> {
+        let (twists, accelerations) = self.motion(rate, gravity);
+        let gravity = self.model.gravity.as_ref().filter(|_| gravity);
         let mut load = |body: &Carrier<'d>| {
             let points = body.points.iter().map(|point| {
                 let (acceleration, weight) =
@@ -451,7 +492,7 @@ impl<'a, 'd> Projection<'a, 'd> {
                 }),
             }
         };
-        self.bodies.iter().map(&mut load).collect()
+        list.iter().map(&mut load).collect()
     }
 }
 
@@ -526,6 +567,12 @@ impl<'d> Loads<'d> {
         }
     }
 
+    /// Loads on how a frame moves: a force, and a moment about its origin.
+    fn on_frame(&mut self, twist: &Twist<'d>, [force, moment]: [Vector<'d>; 2]) {
+        self.on_rates.extend(twist.linear.into_iter().zip(force));
+        self.on_rates.extend(twist.angular.into_iter().zip(moment));
+    }
+
     /// An applied force.
     pub fn on_force(&mut self, force: &Force<'d>) {
         match &force.action {
@@ -583,6 +630,44 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
         centre,
         tensor,
     }
+}
+
+/// What is fixed to frames, gathered, and what is not.
+fn gather<'d>(
+    model: &Model<'d>,
+    bodies: &[Carrier<'d>],
+) -> (Vec<Carrier<'d>>, Vec<(PoseId, Lump<'d>)>) {
+    let zero = model.dag.zero();
+    let mut others = Vec::new();
+    let mut fixed = Vec::new();
+    for body in bodies {
+        let centre = body
+            .centre
+            .map(|(mass, pose, r)| (pose, Lump::of_body(mass, &r, &[zero; 6])));
+        let tensor = body
+            .tensor
+            .map(|(tensor, pose)| (pose, Lump::of_body(zero, &[zero; 3], &tensor)));
+        let constant = |part: &Option<(PoseId, Lump<'d>)>| {
+            part.as_ref().is_some_and(|(_, lump)| lump.is_constant())
+        };
+        let is_constant = [constant(&centre), constant(&tensor)];
+        others.push(Carrier {
+            points: body.points.iter().copied().collect(),
+            centre: body.centre.filter(|_| !is_constant[0]),
+            tensor: body.tensor.filter(|_| !is_constant[1]),
+        });
+        fixed.extend(centre.filter(|_| is_constant[0]));
+        fixed.extend(tensor.filter(|_| is_constant[1]));
+    }
+    if fixed.is_empty() {
+        return (others, Vec::new());
+    }
+    let lumps = lumps::gathered(model, fixed.into_iter());
+    let lumps = (0..).map(PoseId).zip(lumps);
+    (
+        others,
+        lumps.filter(|(_, lump)| !lump.is_nothing()).collect(),
+    )
 }
 
 fn frame_of(body: &Body<'_>) -> Option<PoseId> {

@@ -49,12 +49,11 @@ pub(super) struct Solution<'d> {
 
 /// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
 pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Solution<'d>> {
-    let mut front = Front::new(model, machine);
-    let mut steps = Vec::new();
-    while let Some(step) = front.next()? {
-        steps.push(step);
+    let mut front = Front::of(model, machine, true);
+    let mut steps = front.places();
+    while let Some(mut left) = front.next()? {
+        steps.append(&mut left);
     }
-    let dag = model.dag;
     let mut known: FxHashMap<Id, Expr<'d>> = FxHashMap::default();
     for Step {
         of, alone, parts, ..
@@ -64,19 +63,61 @@ pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<
         let terms = std::iter::once(*alone).chain(terms).collect();
         known.insert(*of, front.totals.total(terms));
     }
-    let pivots = steps
+    let pivots: Vec<_> = steps
         .iter()
-        .filter_map(|step| Some((*front.coordinates.get(&step.of)?, step.pivot?)));
-    let mut accelerations = vec![dag.zero(); model.coordinates.len()];
-    for (id, coordinate) in &front.coordinates {
+        .filter_map(|step| Some((*front.coordinates.get(&step.of)?, step.pivot?)))
+        .collect();
+    let velocities: BTreeMap<Id, usize> = model
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(index, c)| (c.v.id(), index))
+        .collect();
+    let mut accelerations = vec![model.dag.zero(); velocities.len()];
+    for (id, coordinate) in &velocities {
         accelerations[*coordinate] = *known.get(id)?;
     }
     Some(Solution {
         accelerations,
-        pivots: pivots.collect(),
-        coordinates: front.coordinates,
+        pivots,
+        coordinates: velocities,
         steps,
     })
+}
+
+/// The mass matrix by the same way, nothing eliminated: the lower triangle, row by row.
+///
+/// What is left of the form once every velocity has given way to those of coordinates is `M`. A body
+/// adds its inertia to that of what it hangs on before it is handed on, so that each entry takes one
+/// link's work: the composite rigid body algorithm (M. W. Walker and D. E. Orin, *Efficient dynamic
+/// computer simulation of robotic mechanisms*, J. Dyn. Syst. Meas. Control 104 (1982) 205–211).
+pub(super) fn mass_matrix<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+) -> Option<Vec<Expr<'d>>> {
+    let unloaded = Unprojected {
+        inertia: machine.inertia.clone(),
+        loads: Vec::new(),
+        drifts: false,
+    };
+    let mut front = Front::of(model, &unloaded, false);
+    front.totals.expands = false;
+    while let Some(id) = front.next_to_replace() {
+        if front.terms > BUDGET {
+            return None;
+        }
+        let group = front.group(id)?;
+        front.replace(group);
+    }
+    let mut entries = Vec::new();
+    for (i, row) in model.coordinates.iter().enumerate() {
+        for column in &model.coordinates[..=i] {
+            let row = front.form.get_mut(&row.v.id());
+            let terms = row.and_then(|row| row.remove(&column.v.id()));
+            entries.push(front.totals.total(terms.unwrap_or_default()));
+        }
+    }
+    Some(entries)
 }
 
 /// A velocity that has left the front: its acceleration is `alone + Σ c·part`.
@@ -97,10 +138,23 @@ struct Composition<'d> {
     rest: Expr<'d>,
 }
 
+/// A velocity that stands for that of a coordinate: `u = ±v + Σ c·part + rest`, and nothing else is
+/// built from `v`.
+struct Place<'d> {
+    id: Id,
+    /// `v`.
+    velocity: Id,
+    sign: Rational,
+    parts: Vec<(Id, Expr<'d>)>,
+    rest: Expr<'d>,
+}
+
 struct Front<'d> {
     dag: &'d Dag,
-    /// The coordinates by the nodes of their velocities.
+    /// The coordinates by the nodes of their velocities, or of those in their places.
     coordinates: BTreeMap<Id, usize>,
+    /// What stands in the places of the coordinates' velocities.
+    places: Vec<Option<Place<'d>>>,
     /// Which coordinates' velocities a node depends on, where it is linear in them.
     touches: FxHashMap<Id, BTreeSet<usize>>,
     /// How many nodes a node is a part of.
@@ -113,13 +167,16 @@ struct Front<'d> {
     loads: BTreeMap<Id, Vec<Expr<'d>>>,
     /// How many velocities of the front that are no coordinates' depend on each coordinate's.
     uses: Vec<usize>,
+    /// Whether velocities accelerate where no coordinate does.
+    drifts: bool,
     totals: Totals<'d>,
     /// How many terms have come into G and g.
     terms: usize,
 }
 
 impl<'d> Front<'d> {
-    fn new(model: &Model<'d>, machine: &Unprojected<'d>) -> Front<'d> {
+    /// The front at first. With `places`, velocities may stand for those of coordinates.
+    fn of(model: &Model<'d>, machine: &Unprojected<'d>, places: bool) -> Front<'d> {
         let dag = model.dag;
         let coordinates = model.coordinates.iter().enumerate();
         let rates = model
@@ -130,22 +187,29 @@ impl<'d> Front<'d> {
         let mut front = Front {
             dag,
             coordinates: coordinates.map(|(index, c)| (c.v.id(), index)).collect(),
+            places: model.coordinates.iter().map(|_| None).collect(),
             touches: FxHashMap::default(),
             parents: FxHashMap::default(),
             rate: Tangent::new(dag, &rates.chain(time).collect::<Vec<_>>()),
             form: BTreeMap::new(),
             loads: BTreeMap::new(),
             uses: vec![0; model.coordinates.len()],
+            drifts: machine.drifts,
             totals: Totals {
                 dag,
                 made: FxHashSet::default(),
+                expands: true,
             },
             terms: 0,
         };
         let inertial = machine.inertia.iter().flat_map(|[u, w, _]| [*u, *w]);
         let loaded = machine.loads.iter().map(|(u, _)| *u);
         let velocities = model.coordinates.iter().map(|c| c.v);
-        front.find_linear(&inertial.chain(loaded).chain(velocities).collect::<Vec<_>>());
+        let roots: Vec<_> = inertial.chain(loaded).chain(velocities).collect();
+        front.find_linear(&roots);
+        if places {
+            front.find_places(&roots, machine);
+        }
         for id in front.coordinates.keys().copied().collect::<Vec<_>>() {
             front.enter(id);
         }
@@ -156,12 +220,102 @@ impl<'d> Front<'d> {
         front
     }
 
+    /// Finds velocities that may stand for those of coordinates: a sum with `±v` among its terms,
+    /// where nothing else is built from `v` and `v` itself has no inertia.
+    ///
+    /// So each bar of a chain gets an angular velocity of its own, whatever its angle is measured
+    /// from, and of a joint in space the angular velocity about its axis.
+    fn find_places(&mut self, roots: &[Expr<'d>], machine: &Unprojected<'d>) {
+        let inert: FxHashSet<Id> = machine
+            .inertia
+            .iter()
+            .flat_map(|[u, w, _]| [u.id(), w.id()])
+            .collect();
+        let mut candidates: BTreeMap<Id, Vec<usize>> = BTreeMap::new();
+        for (&id, touched) in &self.touches {
+            let Node::Sum(terms) = self.dag.node(id) else {
+                continue;
+            };
+            for (term, c) in terms.iter() {
+                let Some(&index) = self.coordinates.get(term) else {
+                    continue;
+                };
+                let is_unit = c.is_one() || *c == Rational::MINUS_ONE;
+                if is_unit && self.parents[term] == 1 && !inert.contains(term) && touched.len() > 1
+                {
+                    candidates.entry(id).or_default().push(index);
+                }
+            }
+        }
+        for (id, indices) in candidates {
+            if !self.is_linear(id) {
+                continue;
+            }
+            let Some(parts) = self.direct_parts(id) else {
+                continue;
+            };
+            // Of several, one.
+            let index = *indices.iter().min().unwrap_or(&0);
+            let of = |part: &Id| self.coordinates.get(part) == Some(&index);
+            let Some((own, c)) = parts.iter().find(|(part, _)| of(part)) else {
+                continue;
+            };
+            let sign = if *c == self.dag.one() {
+                Rational::ONE
+            } else {
+                Rational::MINUS_ONE
+            };
+            let own = *own;
+            let (moving, resting): (Vec<_>, Vec<_>) = parts
+                .into_iter()
+                .filter(|(part, _)| *part != own)
+                .partition(|(part, _)| self.touches.contains_key(part));
+            let resting = resting.into_iter().map(|(part, c)| c * self.dag.expr(part));
+            self.places[index] = Some(Place {
+                id,
+                velocity: own,
+                sign,
+                parts: moving,
+                rest: self.dag.sum(resting),
+            });
+        }
+        for (index, place) in self.places.iter().enumerate() {
+            if let Some(place) = place {
+                self.coordinates.retain(|_, other| *other != index);
+                self.coordinates.insert(place.id, index);
+            }
+        }
+        self.touches.clear();
+        self.parents.clear();
+        self.find_linear(roots);
+    }
+
+    /// What velocities with another in their place follow from: `v = ±(u − Σ c·part − rest)`.
+    fn places(&mut self) -> Vec<Step<'d>> {
+        let places = std::mem::take(&mut self.places);
+        let steps = places.iter().flatten().map(|place| {
+            let sign = self.dag.constant(place.sign.clone());
+            let parts = place.parts.iter().map(|(part, c)| (*part, -(sign * *c)));
+            Step {
+                of: place.velocity,
+                alone: -(sign * self.drift(&[], place.rest)),
+                parts: std::iter::once((place.id, sign)).chain(parts).collect(),
+                pivot: None,
+            }
+        });
+        steps.collect()
+    }
+
     /// Finds which nodes are linear in velocities, and in which.
     fn find_linear(&mut self, roots: &[Expr<'d>]) {
         for id in reachable(self.dag, roots) {
             let node = self.dag.node(id);
             let mut touched: BTreeSet<usize> =
                 self.coordinates.get(&id).copied().into_iter().collect();
+            if !touched.is_empty() {
+                self.touches.insert(id, touched);
+                continue;
+            }
             node.for_each_child(|child| {
                 touched.extend(self.touches.get(&child).into_iter().flatten())
             });
@@ -183,7 +337,7 @@ impl<'d> Front<'d> {
             }
             // The other one moves as time says.
             (true, false) => {
-                let load = -(weight / 2 * self.rate.of(w));
+                let load = -(weight / 2 * self.drift(&[], w));
                 self.enter(u.id());
                 self.add_load(u.id(), load);
             }
@@ -208,14 +362,36 @@ impl<'d> Front<'d> {
         // Several on one velocity are one, that nothing takes apart again.
         let mut sums: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         for (u, load) in linear.into_iter().chain(direct) {
-            if self.touches.contains_key(&u.id()) {
-                sums.entry(u.id()).or_default().push(load);
+            let place = self.places.iter().zip(&model.coordinates);
+            let place = place
+                .filter(|(_, c)| c.v == u)
+                .find_map(|(p, _)| p.as_ref());
+            match place {
+                // What acts on `v = ±(u − Σ c·part − rest)` acts on all of these.
+                Some(place) => {
+                    let load = load * place.sign.clone();
+                    sums.entry(place.id).or_default().push(load);
+                    for (part, c) in &place.parts {
+                        sums.entry(*part).or_default().push(-(*c * load));
+                    }
+                }
+                None if self.touches.contains_key(&u.id()) => {
+                    sums.entry(u.id()).or_default().push(load);
+                }
+                None => {}
             }
         }
-        for (id, loads) in sums {
+        // Their accelerations are needed, whether anything acts on them or not.
+        let parts = self.places.iter().flatten().flat_map(|place| &place.parts);
+        for id in parts.map(|(part, _)| *part).collect::<Vec<_>>() {
             self.enter(id);
+        }
+        for (id, loads) in sums {
             let load = self.dag.sum(loads);
-            self.add_load(id, load);
+            if !load.is_zero() {
+                self.enter(id);
+                self.add_load(id, load);
+            }
         }
     }
 
@@ -287,7 +463,7 @@ impl<'d> Front<'d> {
     }
 
     /// The next step; `None` inside once the front is empty.
-    fn next(&mut self) -> Option<Option<Step<'d>>> {
+    fn next(&mut self) -> Option<Option<Vec<Step<'d>>>> {
         if self.terms > BUDGET {
             return None;
         }
@@ -295,10 +471,13 @@ impl<'d> Front<'d> {
             |(id, index): &(&Id, &usize)| self.form.contains_key(id) && self.uses[**index] == 0;
         let free = self.coordinates.iter().filter(is_free).map(|(id, _)| *id);
         if let Some(id) = free.min_by_key(|id| (self.form[id].len(), *id)) {
-            return self.eliminate(id).map(Some);
+            return self.eliminate(id).map(|step| Some(vec![step]));
         }
         match self.next_to_replace() {
-            Some(id) => self.replace(id).map(Some),
+            Some(id) => {
+                let group = self.group(id)?;
+                Some(Some(self.replace(group)))
+            }
             None => Some(None),
         }
     }
@@ -344,37 +523,155 @@ impl<'d> Front<'d> {
         })
     }
 
-    fn replace(&mut self, id: Id) -> Option<Step<'d>> {
-        let Composition { parts, rest } = self.composition(id)?;
-        let drift = self.drift(&parts, rest);
-        let (own, row, mut load) = self.take(id);
-        load.push(-(own * drift));
-        let load = self.totals.total(load);
-        for (position, (x, c)) in parts.iter().enumerate() {
-            self.enter(*x);
-            for (y, d) in &parts[..=position] {
-                self.add(*x, *y, *c * *d * own);
+    /// The velocities that give way together with one: those that have parts in common with it, and
+    /// that nothing else in the front is built from.
+    fn group(&self, first: Id) -> Option<Vec<(Id, Composition<'d>)>> {
+        let own = self.composition(first)?;
+        let parts: BTreeSet<Id> = own.parts.iter().map(|(part, _)| *part).collect();
+        let touched = &self.touches[&first];
+        let mut group = vec![(first, own)];
+        let built = self.form.keys().rev().copied();
+        let others: Vec<Id> = built
+            .filter(|id| *id != first && !self.coordinates.contains_key(id))
+            .filter(|id| !touched.is_disjoint(&self.touches[id]))
+            .collect();
+        let coupled = |id: &&Id| self.form[&first].contains_key(*id);
+        for &id in others.iter().filter(coupled) {
+            let composition = self.composition(id)?;
+            let shares = composition
+                .parts
+                .iter()
+                .any(|(part, _)| parts.contains(part));
+            let mut above = others
+                .iter()
+                .copied()
+                .take_while(|above| *above > id)
+                .chain([first]);
+            if shares && !parts.contains(&id) && !above.any(|above| self.is_built_from(above, id)) {
+                group.push((id, composition));
             }
-            for (y, value) in &row {
-                // ẋ ẏ stands twice in the form where y is x itself.
-                let factor = if x == y { 2 } else { 1 };
-                self.add(*x, *y, factor * (*c * *value));
+        }
+        Some(group)
+    }
+
+    /// Whether one velocity is built from another.
+    fn is_built_from(&self, id: Id, part: Id) -> bool {
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            if id == part {
+                return true;
             }
-            self.add_load(*x, *c * load);
+            if id > part && !self.coordinates.contains_key(&id) {
+                self.dag.node(id).for_each_child(|child| {
+                    if child >= part && self.touches.contains_key(&child) {
+                        open.push(child);
+                    }
+                });
+            }
         }
-        for (y, value) in row {
-            self.add_load(y, -(value * drift));
+        false
+    }
+
+    /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, its rows
+    /// and columns `G` become `Cᵀ B`, so that what columns have in common is computed once.
+    fn replace(&mut self, group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
+        let drifts: Vec<Expr<'d>> = group
+            .iter()
+            .map(|(_, Composition { parts, rest })| self.drift(parts, *rest))
+            .collect();
+        let position: BTreeMap<Id, usize> = group
+            .iter()
+            .enumerate()
+            .map(|(k, (id, _))| (*id, k))
+            .collect();
+        let mut inner: Vec<Vec<(usize, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut outer: Vec<Vec<(Id, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut loads: Vec<Vec<Expr<'d>>> = Vec::with_capacity(group.len());
+        for (k, (id, _)) in group.iter().enumerate() {
+            let (own, row, load) = self.take(*id);
+            if !own.is_zero() {
+                inner[k].push((k, own));
+            }
+            for (other, value) in row {
+                match position.get(&other) {
+                    Some(&l) => {
+                        inner[k].push((l, value));
+                        inner[l].push((k, value));
+                    }
+                    None => outer[k].push((other, value)),
+                }
+            }
+            loads.push(load);
         }
-        Some(Step {
-            of: id,
-            alone: drift,
-            parts,
-            pivot: None,
-        })
+        for (k, mut load) in loads.into_iter().enumerate() {
+            load.extend(inner[k].iter().map(|(l, value)| -(*value * drifts[*l])));
+            let load = self.totals.total(load);
+            for (x, c) in &group[k].1.parts {
+                self.enter(*x);
+                self.add_load(*x, *c * load);
+            }
+            for (y, value) in &outer[k] {
+                self.add_load(*y, -(*value * drifts[k]));
+                for (x, c) in &group[k].1.parts {
+                    // ẋ ẏ stands twice in the form where y is x itself.
+                    let factor = if x == y { 2 } else { 1 };
+                    self.add(*x, *y, factor * (*c * *value));
+                }
+            }
+        }
+        self.congruence(&group, &inner);
+        let steps = group.into_iter().zip(drifts);
+        steps
+            .map(|((of, Composition { parts, .. }), alone)| Step {
+                of,
+                alone,
+                parts,
+                pivot: None,
+            })
+            .collect()
+    }
+
+    /// Adds `Cᵀ G C`.
+    fn congruence(&mut self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) {
+        let mut columns: BTreeMap<Id, Vec<(usize, Expr<'d>)>> = BTreeMap::new();
+        for (k, (_, composition)) in group.iter().enumerate() {
+            for (part, c) in &composition.parts {
+                columns.entry(*part).or_default().push((k, *c));
+            }
+        }
+        // Sparse columns first: Cᵀ is applied to the products with dense ones.
+        let weight = |column: &[(usize, Expr<'d>)]| {
+            let varies = |(_, c): &&(usize, Expr<'d>)| c.stage() > Stage::CONSTANT;
+            (column.iter().filter(varies).count(), column.len())
+        };
+        let mut columns: Vec<(Id, Vec<(usize, Expr<'d>)>)> = columns.into_iter().collect();
+        columns.sort_by_key(|(id, column)| (weight(column), *id));
+        for (position, (x, column)) in columns.iter().enumerate() {
+            let mut products: BTreeMap<usize, Vec<Expr<'d>>> = BTreeMap::new();
+            for (l, c) in column {
+                for (k, value) in &inner[*l] {
+                    products.entry(*k).or_default().push(*c * *value);
+                }
+            }
+            let products: BTreeMap<usize, Expr<'d>> = products
+                .into_iter()
+                .map(|(k, terms)| (k, self.totals.total(terms)))
+                .collect();
+            for (y, sparse) in &columns[..=position] {
+                for (k, c) in sparse {
+                    if let Some(product) = products.get(k) {
+                        self.add(*x, *y, *c * *product);
+                    }
+                }
+            }
+        }
     }
 
     /// `β = Σ ċ w + ė`: what the acceleration of `Σ c w + e` has beside `Σ c ẇ`.
     fn drift(&mut self, parts: &[(Id, Expr<'d>)], rest: Expr<'d>) -> Expr<'d> {
+        if !self.drifts {
+            return self.dag.zero();
+        }
         let mut terms = vec![self.rate.of(rest)];
         for (part, c) in parts {
             let w = self.dag.expr(*part);
@@ -494,6 +791,8 @@ struct Totals<'d> {
     dag: &'d Dag,
     /// The sums made here.
     made: FxHashSet<Id>,
+    /// Whether any are multiplied out.
+    expands: bool,
 }
 
 impl<'d> Totals<'d> {
@@ -501,6 +800,9 @@ impl<'d> Totals<'d> {
     /// several eliminations may cancel, which they cannot while some of them are inside a product.
     fn total(&mut self, terms: Vec<Expr<'d>>) -> Expr<'d> {
         let mut shortest = self.dag.sum(terms.iter().copied());
+        if !self.expands {
+            return shortest;
+        }
         if terms.len() > 1 {
             for reach in Reach::ALL {
                 if let Some(candidate) = self.partly_expanded(&terms, reach)

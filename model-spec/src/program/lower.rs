@@ -2,7 +2,7 @@
 
 mod derivatives;
 
-use lagrangian_symbolic::{self as symbolic, Expr, Symbol, nearest, reachable};
+use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
 
 use super::articulated;
@@ -53,6 +53,11 @@ impl Program {
         unprojected: Option<&Unprojected<'d>>,
         slopes: &[Vec<Vec<Expr<'d>>>],
     ) -> Program {
+        let mut quantities = quantities.to_vec();
+        if let Some(machine) = unprojected {
+            shorten_mass_matrix(model, machine, &mut quantities);
+        }
+        let quantities = &quantities;
         let roots: Vec<Expr<'d>> = quantities
             .iter()
             .flat_map(|quantity| quantity.values.iter().copied())
@@ -203,6 +208,37 @@ pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quant
     quantities
         .extend(assumptions.map(|(index, fact)| scalar(Role::Assumption(index), fact.excess)));
     quantities
+}
+
+/// Takes the mass matrix by [`articulated::mass_matrix`] where that is shorter.
+fn shorten_mass_matrix<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    quantities: &mut [Quantity<'d>],
+) {
+    let matrix = quantities
+        .iter_mut()
+        .find(|quantity| quantity.role == Role::MassMatrix);
+    if let Some(matrix) = matrix
+        && let Some(composite) = articulated::mass_matrix(model, machine)
+        && operations(model.dag, &composite) < operations(model.dag, &matrix.values)
+    {
+        matrix.values = composite;
+    }
+}
+
+/// How many numbers are multiplied and added at run time, before anything is shared but nodes.
+fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
+    let varies = |id: &symbolic::Id| dag.expr(*id).stage() > Stage::PARAMETER;
+    let each = |id: symbolic::Id| match dag.node(id) {
+        symbolic::Node::Sum(terms) if varies(&id) => terms.len() - 1,
+        symbolic::Node::Product(factors) => {
+            let varying = factors.iter().filter(|(factor, _)| varies(factor)).count();
+            varying.saturating_sub(usize::from(varying == factors.len()))
+        }
+        _ => 0,
+    };
+    reachable(dag, roots).into_iter().map(each).sum()
 }
 
 /// Expressions on their way into the graph.

@@ -147,12 +147,12 @@ fn along_the_machine<'d>(
         let diagonal = asked.matrix[Shape::index(coordinate, coordinate)];
         if diagonal.is_known() { diagonal } else { pivot }
     };
-    let pivots = steps.iter().filter_map(|step| {
-        Some(Pivot {
-            coordinate: step.of,
-            pivot: step.pivot?,
-            scale: scale(step.of, step.pivot?),
-        })
+    let eliminated = steps.iter().filter_map(|step| step.pivot);
+    let pivots = solution.pivots.iter().zip(eliminated);
+    let pivots = pivots.map(|(&(coordinate, _), pivot)| Pivot {
+        coordinate,
+        pivot,
+        scale: scale(coordinate, pivot),
     });
     Some(Solved {
         accelerations: lowering.values(&solution.accelerations),

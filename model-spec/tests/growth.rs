@@ -1,0 +1,167 @@
+//! How programs grow with the machine: operations per link are constant.
+
+use std::path::Path;
+
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::mechanics::Oracle;
+use lagrangian_spec::program::{Role, prove};
+use lagrangian_spec::source::{Disk, Sources};
+use lagrangian_symbolic::{Dag, Rational};
+
+/// Links in space on hinges whose axes alternate, each with a full inertia: no frame of the chain
+/// keeps a plane.
+const SPATIAL: &str = "machine Spatial in space {
+    constants { N = 4 }
+    parameters { l: m = 0.3, m: kg = 0.7, g: m/s^2 = 9.81 }
+    coordinates { q[1..2*N]: rad = 0.2 }
+    frames {
+        end[0] = ground,
+        fork[i in 1..N] = end[i-1].turn(x, q[2*i-1]),
+        link[i in 1..N] = fork[i].shift(0, 0, l/4).turn(y, q[2*i]),
+        end[i in 1..N] = link[i].shift(0, 0, l),
+    }
+    bodies {
+        fork[i in 1..N] { mass: m/5, inertia: (0.002, 0.001, 0.003), frame: fork[i] },
+        link[i in 1..N] {
+            mass: m, inertia: (0.02, 0.03, 0.01, 0.001, 0, 0.002), frame: link[i], at: link[i].point(0.01, 0, l/2),
+        },
+    }
+    gravity (0, 0, -g);
+}";
+
+/// A binary tree of bars in the plane: bar `i` hangs from the end of bar `i/2`.
+fn tree(depth: u32) -> String {
+    let bars = 2usize.pow(depth) - 1;
+    let mut frames = vec!["end1 = ground.turn(q[1]).shift(0, -l)".to_owned()];
+    let mut bodies = vec!["bar1 { mass: m, at: end1.origin }".to_owned()];
+    for bar in 2..=bars {
+        let parent = bar / 2;
+        frames.push(format!(
+            "end{bar} = end{parent}.turn(q[{bar}]).shift(0, -l)"
+        ));
+        bodies.push(format!("bar{bar} {{ mass: m, at: end{bar}.origin }}"));
+    }
+    format!(
+        "machine Tree in plane {{
+            parameters {{ l: m = 0.3, m: kg = 0.7, g: m/s^2 = 9.81 }}
+            coordinates {{ q[1..{bars}]: rad = 0.2 }}
+            frames {{ {} }}
+            bodies {{ {} }}
+            gravity (0, -g);
+        }}",
+        frames.join(", "),
+        bodies.join(", ")
+    )
+}
+
+/// What a machine takes.
+struct Size {
+    accelerations: usize,
+    mass_matrix: usize,
+}
+
+fn compiled<R>(text: &str, n: i64, look: impl for<'d> FnOnce(&Compiled<'d>) -> R) -> R {
+    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+    let constants: Vec<(String, Rational)> = match n {
+        0 => Vec::new(),
+        n => vec![("N".to_owned(), Rational::from(n))],
+    };
+    let model = lagrangian_spec::model(
+        &dag,
+        "growth",
+        text,
+        &constants,
+        &mut Disk,
+        &mut sources,
+        &mut report,
+    );
+    match model.and_then(|model| Compiled::new(model, &mut report)) {
+        Some(machine) => look(&machine),
+        None => panic!("{}", report.render_short(&sources)),
+    }
+}
+
+fn size(text: &str, n: i64) -> Size {
+    compiled(text, n, |machine| {
+        let ops = |role| {
+            machine
+                .program
+                .function(role)
+                .map_or(0, |f| f.counts().ops())
+        };
+        let size = Size {
+            accelerations: ops(Role::Accelerations),
+            mass_matrix: ops(Role::MassMatrix),
+        };
+        println!(
+            "{} {n}: {} operations for accelerations, {} for M",
+            machine.program.name, size.accelerations, size.mass_matrix
+        );
+        size
+    })
+}
+
+fn library(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../machines/{name}.machine"));
+    std::fs::read_to_string(path).expect("a machine of the library")
+}
+
+/// Twice as many links: at most 2.05 times the operations for accelerations, 4.1 times for M.
+fn assert_linear(text: &str) {
+    let (short, long) = (size(text, 32), size(text, 64));
+    assert!(
+        100 * long.accelerations <= 205 * short.accelerations,
+        "accelerations: {}, {}",
+        short.accelerations,
+        long.accelerations
+    );
+    assert!(
+        10 * long.mass_matrix <= 41 * short.mass_matrix,
+        "M: {}, {}",
+        short.mass_matrix,
+        long.mass_matrix
+    );
+}
+
+#[test]
+fn a_chain_in_absolute_angles_costs_as_much_per_link_at_any_length() {
+    assert_linear(&library("chain"));
+}
+
+#[test]
+fn a_chain_in_relative_angles_costs_as_much_per_link_at_any_length() {
+    assert_linear(&library("chain_relative"));
+}
+
+#[test]
+fn every_link_of_a_chain_in_space_costs_the_same() {
+    // The first links are cheaper: what they hang on is at rest. After them it is so many
+    // operations more for so many links more, but for what sharing finds here and there.
+    let [a, b, c] = [6, 10, 14].map(|n| size(SPATIAL, n).accelerations);
+    assert!(
+        100 * (c - b).abs_diff(b - a) <= 2 * (b - a),
+        "{a}, {b}, {c}"
+    );
+}
+
+#[test]
+fn a_tree_costs_as_much_per_bar_at_any_depth() {
+    let (small, large) = (size(&tree(5), 0), size(&tree(6), 0));
+    assert!(
+        10 * large.accelerations <= 21 * small.accelerations,
+        "{}, {}",
+        small.accelerations,
+        large.accelerations
+    );
+}
+
+#[test]
+fn the_chain_in_space_and_the_tree_obey_lagranges_equations() {
+    for (text, n) in [(SPATIAL, 1), (SPATIAL, 2), (&tree(2), 0), (&tree(3), 0)] {
+        compiled(text, n, |machine| {
+            let oracle = Oracle::derive(&machine.model);
+            assert_eq!(prove(&machine.program, &machine.model, &oracle), Ok(()));
+        });
+    }
+}
