@@ -25,7 +25,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lagrangian_symbolic::{
-    Dag, Expr, Id, Node, Rational, Stage, Symbol, Tangent, reachable, reverse,
+    Dag, Expr, Function, Id, Node, Rational, Stage, Symbol, Tangent, reachable, reverse,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -633,6 +633,9 @@ impl<'d> Front<'d> {
 
     /// Adds `Cᵀ G C`.
     fn congruence(&mut self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) {
+        if let Some((parts, cos, sin)) = self.turn(group) {
+            return self.turn_inertia(parts, cos, sin, inner);
+        }
         let mut columns: BTreeMap<Id, Vec<(usize, Expr<'d>)>> = BTreeMap::new();
         for (k, (_, composition)) in group.iter().enumerate() {
             for (part, c) in &composition.parts {
@@ -663,6 +666,62 @@ impl<'d> Front<'d> {
                         self.add(*x, *y, *c * *product);
                     }
                 }
+            }
+        }
+    }
+
+    /// Whether two velocities are two others along axes that are turned: `u = c w + s w'`, `u' = c
+    /// w' − s w`. Then `w` and `w'`, the cosine and the sine, this with its sign.
+    fn turn(&self, group: &[(Id, Composition<'d>)]) -> Option<([Id; 2], Expr<'d>, Expr<'d>)> {
+        let [(_, first), (_, second)] = group else {
+            return None;
+        };
+        let &[(a, c), (b, s)] = first.parts.as_slice() else {
+            return None;
+        };
+        let &[(a_again, s_again), (b_again, c_again)] = second.parts.as_slice() else {
+            return None;
+        };
+        if (a, b) != (a_again, b_again) {
+            return None;
+        }
+        let is_turn = |cos: Expr<'d>, sin: Expr<'d>| match cos.node() {
+            Node::Function(Function::Cos, angle) => {
+                let expected = self.dag.expr(angle[0]).sin();
+                sin == expected || sin == -expected
+            }
+            _ => false,
+        };
+        if c == c_again && s == -s_again && is_turn(c, s) {
+            return Some(([a, b], c, s));
+        }
+        let swapped = s == s_again && c == -c_again && is_turn(s, c);
+        swapped.then_some(([b, a], s, c))
+    }
+
+    /// Adds `Cᵀ G C` for a turn, with a few operations less: for `G = [x z; z y]` and `α = s (y − x) −
+    /// 2 c z` it is `[x + s α, −c α − z; ·, y − s α]`, since `c² + s² = 1`.
+    fn turn_inertia(
+        &mut self,
+        [a, b]: [Id; 2],
+        cos: Expr<'d>,
+        sin: Expr<'d>,
+        inner: &[Vec<(usize, Expr<'d>)>],
+    ) {
+        let entry = |k: usize, l: usize| {
+            let mut row = inner[k].iter();
+            row.find(|(other, _)| *other == l)
+                .map_or(self.dag.zero(), |(_, value)| *value)
+        };
+        let [x, y, z] = [entry(0, 0), entry(1, 1), entry(0, 1)];
+        let alpha = self.totals.total(vec![sin * (y - x), -2 * (cos * z)]);
+        for (u, w, terms) in [
+            (a, a, [x, sin * alpha]),
+            (b, b, [y, -(sin * alpha)]),
+            (a, b, [-z, -(cos * alpha)]),
+        ] {
+            for term in terms {
+                self.add(u, w, term);
             }
         }
     }
