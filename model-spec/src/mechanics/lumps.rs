@@ -1,4 +1,4 @@
-//! The inertia that a frame in space carries: all that is fixed to it, as one.
+//! The inertia that a frame in space carries, eq. (E27): all that is fixed to it, as one.
 //!
 //! Three things make one lump of what a link consists of, and a small one. What is fixed to frames
 //! that are a constant shift apart is added up. Of that, what is symmetric about the axis of the

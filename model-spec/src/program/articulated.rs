@@ -15,6 +15,14 @@
 //!     g_k += cₖ (g_u − G_uu β)     g_x −= G_ux β
 //! ```
 //!
+//! Velocities that are coupled and have parts in common give way together, `u = C w + e`: with `B = G C`
+//! the form becomes `Cᵀ B`, and what its columns share is computed once. Where a velocity is the only
+//! one that a coordinate's goes into, `u = ±v + …`, it stands for that: a chain's bars have angular
+//! velocities of their own, whatever their angles are measured from.
+//!
+//! In space the accelerations that velocities have where no coordinate accelerates are computed from
+//! the ground on and are among the loads; then `β = 0`.
+//!
 //! The accelerations follow in reverse order. On a chain of links this is the articulated-body
 //! algorithm, linear in the number of links (R. Featherstone, *The calculation of robot dynamics
 //! using articulated-body inertias*, Int. J. Robotics Res. 2 (1983) 13–30); a machine of free
