@@ -652,7 +652,7 @@ fn gather<'d>(
         };
         let is_constant = [constant(&centre), constant(&tensor)];
         others.push(Carrier {
-            points: body.points.iter().copied().collect(),
+            points: body.points.to_vec(),
             centre: body.centre.filter(|_| !is_constant[0]),
             tensor: body.tensor.filter(|_| !is_constant[1]),
         });
