@@ -237,16 +237,16 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// Bias `h`: velocity products and explicit time in the inertia forces.
 ///
 /// ```text
-/// h[yaw] = 2*(A - B)*sin(pitch)*cos(pitch)*der(yaw)*der(pitch)
-///     - 2*(C - B)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)*der(pitch)
-///     - 2*(C - B)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)*der(roll)
+/// h[yaw] = 2*(B - C)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)*der(pitch)
+///     + 2*(A - B)*sin(pitch)*cos(pitch)*der(yaw)*der(pitch)
+///     + 2*(B - C)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)*der(roll)
 ///     - (B - C)*sin(pitch)*cos(roll)*sin(roll)*der(pitch)^2
-///     - 2*(C - B)*cos(roll)^2*cos(pitch)*der(pitch)*der(roll)
+///     + 2*(B - C)*cos(roll)^2*cos(pitch)*der(pitch)*der(roll)
 ///     - (A + B - C)*cos(pitch)*der(pitch)*der(roll)
 /// h[pitch] = 2*(B - C)*cos(roll)^2*cos(pitch)*der(yaw)*der(roll)
 ///     - (B - C)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)^2
 ///     - (A - B)*sin(pitch)*cos(pitch)*der(yaw)^2 + (A - B + C)*cos(pitch)*der(yaw)*der(roll)
-///     + 2*(C - B)*cos(roll)*sin(roll)*der(pitch)*der(roll)
+///     - 2*(B - C)*cos(roll)*sin(roll)*der(pitch)*der(roll)
 /// h[roll] = (B - C)*cos(roll)*sin(roll)*der(pitch)^2
 ///     - (B - C)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)^2
 ///     - (B - C)*cos(pitch)*cos(2*roll)*der(yaw)*der(pitch) - A*cos(pitch)*der(yaw)*der(pitch)
@@ -257,26 +257,26 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let yaw_dot = v[0];
     let pitch_dot = v[1];
     let roll_dot = v[2];
-    let (sin_roll, cos_roll) = roll.sin_cos();
-    let t0 = cos_roll * p.k3;
-    let t1 = t0 * roll_dot;
-    let t2 = cos_roll * pitch_dot;
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t3 = sin_roll * t1;
-    let t4 = cos_pitch * yaw_dot;
-    let t5 = t2 * t0;
-    let t6 = sin_pitch * t4;
-    let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
+    let t0 = cos_pitch * yaw_dot;
+    let t1 = sin_pitch * t0;
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t2 = cos_roll * p.k3;
+    let t3 = t2 * roll_dot;
+    let t4 = cos_roll * pitch_dot;
+    let t5 = t4 * t2;
+    let t6 = sin_roll * t3;
+    let t7 = t1 * (pitch_dot * p.k4) + t3 * (t4 * cos_pitch);
     let t8 = sin_roll * p.k0;
-    let t9 = pitch_dot * t2 * t8;
+    let t9 = pitch_dot * t4 * t8;
     let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
-    let t11 = yaw_dot * t6;
-    let t12 = cos_roll * t4;
-    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t3;
-    let t14 = t4 * p.k5;
-    let h_yaw = t7 + (t5 * t6 + t6 * (pitch_dot * p.k4)) - t10;
-    let h_pitch = roll_dot * t14 - (t13 + (t11 * p.k1 - t1 * t12));
-    let h_roll = -(pitch_dot * t14 + t5 * t4 + (t12 * (t4 * t8) - t9));
+    let t11 = yaw_dot * t1;
+    let t12 = cos_roll * t0;
+    let t13 = t11 * p.k1 + cos_roll * p.k0 * (cos_roll * t11);
+    let t14 = t0 * p.k5;
+    let h_yaw = t7 + (t5 * t1 + t6 * (cos_pitch * t0)) - t10;
+    let h_pitch = roll_dot * t14 - (t13 + (pitch_dot * t6 - t3 * t12));
+    let h_roll = -(pitch_dot * t14 + t5 * t0 + (t12 * (t0 * t8) - t9));
     [h_yaw, h_pitch, h_roll]
 }
 
@@ -287,26 +287,26 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let yaw_dot = v[0];
     let pitch_dot = v[1];
     let roll_dot = v[2];
-    let (sin_roll, cos_roll) = roll.sin_cos();
-    let t0 = cos_roll * p.k3;
-    let t1 = t0 * roll_dot;
-    let t2 = cos_roll * pitch_dot;
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t3 = sin_roll * t1;
-    let t4 = cos_pitch * yaw_dot;
-    let t5 = t2 * t0;
-    let t6 = sin_pitch * t4;
-    let t7 = t1 * (t2 * cos_pitch) + t3 * (cos_pitch * t4);
+    let t0 = cos_pitch * yaw_dot;
+    let t1 = sin_pitch * t0;
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let t2 = cos_roll * p.k3;
+    let t3 = t2 * roll_dot;
+    let t4 = cos_roll * pitch_dot;
+    let t5 = t4 * t2;
+    let t6 = sin_roll * t3;
+    let t7 = t1 * (pitch_dot * p.k4) + t3 * (t4 * cos_pitch);
     let t8 = sin_roll * p.k0;
-    let t9 = pitch_dot * t2 * t8;
+    let t9 = pitch_dot * t4 * t8;
     let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
-    let t11 = yaw_dot * t6;
-    let t12 = cos_roll * t4;
-    let t13 = cos_roll * p.k0 * (cos_roll * t11) + pitch_dot * t3;
-    let t14 = t4 * p.k5;
-    let f_yaw = t10 - (t7 + (t5 * t6 + t6 * (pitch_dot * p.k4)));
-    let f_pitch = t13 + (t11 * p.k1 - t1 * t12) - roll_dot * t14;
-    let f_roll = pitch_dot * t14 + t5 * t4 + (t12 * (t4 * t8) - t9);
+    let t11 = yaw_dot * t1;
+    let t12 = cos_roll * t0;
+    let t13 = t11 * p.k1 + cos_roll * p.k0 * (cos_roll * t11);
+    let t14 = t0 * p.k5;
+    let f_yaw = t10 - (t7 + (t5 * t1 + t6 * (cos_pitch * t0)));
+    let f_pitch = t13 + (pitch_dot * t6 - t3 * t12) - roll_dot * t14;
+    let f_roll = pitch_dot * t14 + t5 * t0 + (t12 * (t0 * t8) - t9);
     [f_yaw, f_pitch, f_roll]
 }
 
@@ -355,9 +355,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t4 = sin_roll * cos_roll;
         let t5 = t4 * n(p.k3);
         let t6 = roll_dot * pitch_dot;
-        let t7 = t0 * roll_dot;
+        let t7 = roll_dot * t0;
         let t8 = t2 * n(p.k3);
-        let t9 = t3.mul_add(t1, t5 * t6) + n(p.k1).mul_sub(t1, t7 * t8);
+        let t9 = n(p.k1).mul_add(t1, t3 * t1) + t5.mul_sub(t6, t7 * t8);
         let t10 = t7.neg_mul_add(n(p.k5), t9);
         let t11 = t3 + n(p.C);
         let t11 = checked(t11, t11, 2.6645352591003757e-15, 1)?;
@@ -365,13 +365,13 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t13 = n(p.k0) * t4;
         let t14 = t13 * cos_pitch;
         let t15 = t12 * t14;
-        let t16 = cos_pitch * t6;
-        let t17 = t0 * pitch_dot;
-        let t18 = sin_pitch * t17;
-        let t19 = t7.mul_add(cos_pitch * t5, t8 * t16);
+        let t16 = pitch_dot * t0;
+        let t17 = sin_pitch * t16;
+        let t18 = cos_pitch * t6;
+        let t19 = t8.mul_add(t17, t7 * (cos_pitch * t5));
         let t20 = t13 * (pitch_dot * pitch_dot);
-        let t21 = sin_pitch.mul_add(t20, t16 * n(p.k2));
-        let t22 = t19 + t8.mul_add(t18, t18 * n(p.k4)) - t21;
+        let t21 = sin_pitch.mul_add(t20, t18 * n(p.k2));
+        let t22 = t17.mul_add(n(p.k4), t8 * t18) + t19 - t21;
         let t23 = t15.mul_add(t10, t22);
         let t24 = cos_pitch * cos_pitch;
         let t25 = t3.neg_mul_add(t24, t24.neg_mul_add(n(p.k1), n(p.A)));
@@ -380,7 +380,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t27 = N::ONE / t26;
         let t28 = sin_pitch * n(p.A);
         let t29 = t27 * t28;
-        let t30 = n(p.k5).mul_add(t17, t8 * t17) + t0.mul_sub(t13 * t0, t20);
+        let t30 = n(p.k5).mul_add(t16, t8 * t16) + t0.mul_sub(t13 * t0, t20);
         let t31 = t28.neg_mul_add(t29, n(p.A));
         let t31 = checked(t31, n(p.A), 2.6645352591003757e-15, 2)?;
         let roll_ddot = t29.neg_mul_add(t23, t30) / t31;

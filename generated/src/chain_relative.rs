@@ -6,12 +6,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 31 | 3 | 1 | 0 | 0 | 35 |
-//! | `mass_matrix` | 259 | 301 | 0 | 8 | 0 | 576 |
+//! | `prepare` | 35 | 5 | 1 | 0 | 0 | 41 |
+//! | `mass_matrix` | 110 | 103 | 0 | 8 | 0 | 229 |
 //! | `bias` | 110 | 81 | 0 | 8 | 0 | 207 |
 //! | `applied` | 8 | 22 | 0 | 8 | 0 | 38 |
 //! | `forces` | 111 | 89 | 0 | 8 | 0 | 216 |
-//! | `accelerations` | 319 | 222 | 7 | 8 | 0 | 564 |
+//! | `accelerations` | 294 | 203 | 7 | 8 | 0 | 520 |
 //! | `kinetic_energy` | 88 | 61 | 0 | 8 | 0 | 165 |
 //! | `potential_energy` | 22 | 28 | 0 | 8 | 0 | 58 |
 //!
@@ -73,36 +73,41 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
         let k1 = self.l * k4;
         let t0 = self.g * k4;
         let t1 = k1 * S::from_f64(0.25);
-        let k10 = self.J + t1;
-        let t2 = S::ONE / k10;
-        let k19 = t1 * t2;
-        let k27 = k1 * S::from_f64(2.0);
+        let k6 = self.J + t1;
+        let k28 = self.J + k1 * S::from_f64(1.25);
+        let k30 = S::ONE / k6;
+        let k27 = t1 * k30;
         let k0 = self.l * S::from_f64(0.5);
         let k2 = self.m * self.g;
         let k3 = S::from_f64(0.5) * t0;
         let k5 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
-        let k6 = S::from_f64(0.5) * k4;
-        let k7 = self.m * S::from_f64(0.5);
-        let k8 = k4 * S::from_f64(0.25);
-        let k9 = self.J * S::from_f64(2.0);
-        let k11 = t0 * S::from_f64(1.5);
-        let k12 = t0 * S::from_f64(2.5);
-        let k13 = t0 * S::from_f64(3.5);
-        let k14 = t0 * S::from_f64(4.5);
-        let k15 = t0 * S::from_f64(5.5);
-        let k16 = t0 * S::from_f64(6.5);
-        let k17 = t0 * S::from_f64(7.5);
-        let k18 = S::from_f64(0.5) * k1;
-        let k20 = k1 * k19;
-        let k21 = self.J + k1 * S::from_f64(1.25);
-        let k22 = self.g * S::from_f64(0.5);
-        let k23 = S::from_f64(0.25) * t2;
-        let k24 = self.l * k1;
-        let k25 = k1 * k27;
-        let k26 = self.l * S::from_f64(0.25);
-        let k28 = k4 * t2;
-        let singular = if vanishes(k10, k10, 7.105427357601002e-15) {
-            Some(singular(7, k10, k10))
+        let k7 = S::from_f64(0.5) * k4;
+        let k8 = self.m * S::from_f64(0.5);
+        let k9 = k4 * S::from_f64(0.25);
+        let k10 = t0 * S::from_f64(1.5);
+        let k11 = t0 * S::from_f64(2.5);
+        let k12 = t0 * S::from_f64(3.5);
+        let k13 = t0 * S::from_f64(4.5);
+        let k14 = t0 * S::from_f64(5.5);
+        let k15 = t0 * S::from_f64(6.5);
+        let k16 = t0 * S::from_f64(7.5);
+        let k17 = S::from_f64(0.5) * k1;
+        let k18 = k4 * S::from_f64(1.5);
+        let k19 = k6 + k28;
+        let k20 = k4 * S::from_f64(2.0);
+        let k21 = k4 * S::from_f64(3.0);
+        let k22 = k4 * S::from_f64(4.0);
+        let k23 = k4 * S::from_f64(5.0);
+        let k24 = k4 * S::from_f64(6.0);
+        let k25 = self.J + k1 * S::from_f64(7.25);
+        let k26 = k1 * k27;
+        let k29 = self.g * S::from_f64(0.5);
+        let k31 = S::from_f64(0.25) * k30;
+        let k32 = self.l * k1;
+        let k33 = k1 * k1;
+        let k34 = self.l * S::from_f64(0.25);
+        let singular = if vanishes(k6, k6, 7.105427357601002e-15) {
+            Some(singular(7, k6, k6))
         } else {
             None
         };
@@ -140,6 +145,12 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
             k26,
             k27,
             k28,
+            k29,
+            k30,
+            k31,
+            k32,
+            k33,
+            k34,
             singular,
         }
     }
@@ -216,52 +227,64 @@ pub struct Prepared<S = f64> {
     k4: S,
     /// `0.125*(l^2*m + 4*J)`
     k5: S,
-    /// `0.5*l*m`
-    k6: S,
-    /// `0.5*m`
-    k7: S,
-    /// `0.25*l*m`
-    k8: S,
-    /// `2*J`
-    k9: S,
     /// `J + 0.25*l^2*m`
-    k10: S,
+    k6: S,
+    /// `0.5*l*m`
+    k7: S,
+    /// `0.5*m`
+    k8: S,
+    /// `0.25*l*m`
+    k9: S,
     /// `1.5*l*m*g`
-    k11: S,
+    k10: S,
     /// `2.5*l*m*g`
-    k12: S,
+    k11: S,
     /// `3.5*l*m*g`
-    k13: S,
+    k12: S,
     /// `4.5*l*m*g`
-    k14: S,
+    k13: S,
     /// `5.5*l*m*g`
-    k15: S,
+    k14: S,
     /// `6.5*l*m*g`
-    k16: S,
+    k15: S,
     /// `7.5*l*m*g`
-    k17: S,
+    k16: S,
     /// `0.5*l^2*m`
+    k17: S,
+    /// `1.5*l*m`
     k18: S,
-    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    /// `J + J + 0.25*l^2*m + 1.25*l^2*m`
     k19: S,
-    /// `0.25*l^4*m^2/(J + 0.25*l^2*m)`
+    /// `2*l*m`
     k20: S,
-    /// `J + 1.25*l^2*m`
+    /// `3*l*m`
     k21: S,
-    /// `0.5*g`
+    /// `4*l*m`
     k22: S,
-    /// `0.25/(J + 0.25*l^2*m)`
+    /// `5*l*m`
     k23: S,
-    /// `l^3*m`
+    /// `6*l*m`
     k24: S,
-    /// `2*l^4*m^2`
+    /// `J + 7.25*l^2*m`
     k25: S,
-    /// `0.25*l`
+    /// `0.25*l^4*m^2/(J + 0.25*l^2*m)`
     k26: S,
-    /// `2*l^2*m`
+    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
     k27: S,
-    /// `l*m/(J + 0.25*l^2*m)`
+    /// `J + 1.25*l^2*m`
     k28: S,
+    /// `0.5*g`
+    k29: S,
+    /// `1/(J + 0.25*l^2*m)`
+    k30: S,
+    /// `0.25/(J + 0.25*l^2*m)`
+    k31: S,
+    /// `l^3*m`
+    k32: S,
+    /// `l^4*m^2`
+    k33: S,
+    /// `0.25*l`
+    k34: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -292,224 +315,91 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
     let q_8 = q[7];
     let t0 = q_2 + q_1;
     let t1 = t0 + q_3;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t2 = cos_t0 + cos_q_1;
-    let t3 = cos_t1 + t2;
-    let t4 = t1 + q_4;
-    let (sin_t4, cos_t4) = t4.sin_cos();
-    let t5 = cos_t4 + t3;
-    let t6 = t4 + q_5;
+    let t2 = t1 + q_4;
+    let t3 = t2 + q_5;
+    let t4 = t3 + q_6;
+    let t5 = t4 + q_7;
+    let t6 = t5 + q_8;
     let (sin_t6, cos_t6) = t6.sin_cos();
-    let t7 = cos_t6 + t5;
-    let t8 = t6 + q_6;
-    let (sin_t8, cos_t8) = t8.sin_cos();
-    let t9 = cos_t8 + t7;
-    let t10 = t8 + q_7;
-    let (sin_t10, cos_t10) = t10.sin_cos();
-    let t11 = t10 + q_8;
-    let (sin_t11, cos_t11) = t11.sin_cos();
-    let t12 = p.k0 * cos_t11;
-    let t13 = t12 + p.l * (cos_t10 + t9);
-    let t14 = p.k0 * cos_t10;
-    let t15 = t14 + p.l * t9;
-    let t16 = p.l * cos_t10;
-    let t17 = sin_t0 + sin_q_1;
-    let t18 = sin_t1 + t17;
-    let t19 = sin_t4 + t18;
-    let t20 = sin_t6 + t19;
-    let t21 = sin_t8 + t20;
-    let t22 = p.k0 * sin_t11;
-    let t23 = t22 + p.l * (sin_t10 + t21);
-    let t24 = p.k0 * sin_t10;
-    let t25 = t24 + p.l * t21;
-    let t26 = p.l * sin_t10;
-    let m81 = p.k6 * (cos_t11 * t13 + sin_t11 * t23) + p.J;
-    let t27 = m81 + (t16 * (t13 * p.m + p.k7 * t15) + t26 * (t23 * p.m + p.k7 * t25));
-    let m71 = p.J + t27;
-    let t28 = t13 + t15;
-    let t29 = p.k0 * cos_t8;
-    let t30 = t29 + p.l * t7;
-    let t31 = p.l * cos_t8;
-    let t32 = t23 + t25;
-    let t33 = p.k0 * sin_t8;
-    let t34 = t33 + p.l * t20;
-    let t35 = p.l * sin_t8;
-    let t36 = m71 + (t31 * (p.m * t28 + p.k7 * t30) + t35 * (p.m * t32 + p.k7 * t34));
-    let m61 = p.J + t36;
-    let t37 = t28 + t30;
-    let t38 = p.k0 * cos_t6;
-    let t39 = t38 + p.l * t5;
-    let t40 = p.l * cos_t6;
-    let t41 = t32 + t34;
-    let t42 = p.k0 * sin_t6;
-    let t43 = t42 + p.l * t19;
-    let t44 = p.l * sin_t6;
-    let t45 = m61 + (t40 * (p.m * t37 + p.k7 * t39) + t44 * (p.m * t41 + p.k7 * t43));
-    let m51 = p.J + t45;
-    let t46 = t37 + t39;
-    let t47 = p.k0 * cos_t4;
-    let t48 = t47 + p.l * t3;
-    let t49 = p.l * cos_t4;
-    let t50 = t41 + t43;
-    let t51 = p.k0 * sin_t4;
-    let t52 = t51 + p.l * t18;
-    let t53 = p.l * sin_t4;
-    let t54 = m51 + (t49 * (p.m * t46 + p.k7 * t48) + t53 * (p.m * t50 + p.k7 * t52));
-    let m41 = p.J + t54;
-    let t55 = t46 + t48;
-    let t56 = p.k0 * cos_t1;
-    let t57 = t56 + p.l * t2;
-    let t58 = p.l * cos_t1;
-    let t59 = t50 + t52;
-    let t60 = p.k0 * sin_t1;
-    let t61 = t60 + p.l * t17;
-    let t62 = p.l * sin_t1;
-    let t63 = m41 + (t58 * (p.m * t55 + p.k7 * t57) + t62 * (p.m * t59 + p.k7 * t61));
-    let m31 = p.J + t63;
-    let t64 = p.m * (t55 + t57);
-    let t65 = p.l * cos_q_1;
-    let t66 = p.k0 * cos_t0 + t65;
-    let t67 = p.l * cos_t0;
-    let t68 = p.m * (t59 + t61);
-    let t69 = p.l * sin_q_1;
-    let t70 = p.k0 * sin_t0 + t69;
-    let t71 = p.l * sin_t0;
-    let t72 = m31 + (t67 * (t64 + p.k7 * t66) + t71 * (t68 + p.k7 * t70));
-    let t73 = t69 * (p.m * t70 + (t68 + sin_q_1 * p.k8));
-    let t74 = cos_t1 + cos_t0;
-    let t75 = cos_t4 + t74;
-    let t76 = cos_t6 + t75;
-    let t77 = cos_t8 + t76;
-    let t78 = t12 + p.l * (cos_t10 + t77);
-    let t79 = t14 + p.l * t77;
-    let t80 = sin_t1 + sin_t0;
-    let t81 = sin_t4 + t80;
-    let t82 = sin_t6 + t81;
-    let t83 = sin_t8 + t82;
-    let t84 = t22 + p.l * (sin_t10 + t83);
-    let t85 = t24 + p.l * t83;
-    let m82 = p.J + p.k6 * (cos_t11 * t78 + sin_t11 * t84);
-    let t86 = m82 + (t16 * (p.m * t78 + p.k7 * t79) + t26 * (p.m * t84 + p.k7 * t85));
-    let m72 = p.J + t86;
-    let t87 = t78 + t79;
-    let t88 = t29 + p.l * t76;
-    let t89 = t84 + t85;
-    let t90 = t33 + p.l * t82;
-    let t91 = m72 + (t31 * (p.m * t87 + p.k7 * t88) + t35 * (p.m * t89 + p.k7 * t90));
-    let m62 = p.J + t91;
-    let t92 = t87 + t88;
-    let t93 = t38 + p.l * t75;
-    let t94 = t89 + t90;
-    let t95 = t42 + p.l * t81;
-    let t96 = m62 + (t40 * (p.m * t92 + p.k7 * t93) + t44 * (p.m * t94 + p.k7 * t95));
-    let m52 = p.J + t96;
-    let t97 = t92 + t93;
-    let t98 = t47 + p.l * t74;
-    let t99 = t94 + t95;
-    let t100 = t51 + p.l * t80;
-    let t101 = m52 + (t49 * (p.m * t97 + p.k7 * t98) + t53 * (p.m * t99 + p.k7 * t100));
-    let m42 = p.J + t101;
-    let t102 = t97 + t98;
-    let t103 = t56 + t67;
-    let t104 = t99 + t100;
-    let t105 = t60 + t71;
-    let t106 = t58 * (p.m * t102 + p.k7 * t103) + t62 * (p.m * t104 + p.k7 * t105);
-    let m32 = p.J + (m42 + t106);
-    let t107 = t71 * (p.m * (t104 + t105) + sin_t0 * p.k8);
-    let t108 = cos_t4 + cos_t1;
-    let t109 = cos_t6 + t108;
-    let t110 = cos_t8 + t109;
-    let t111 = t12 + p.l * (cos_t10 + t110);
-    let t112 = t14 + p.l * t110;
-    let t113 = sin_t4 + sin_t1;
-    let t114 = sin_t6 + t113;
-    let t115 = sin_t8 + t114;
-    let t116 = t22 + p.l * (sin_t10 + t115);
-    let t117 = t24 + p.l * t115;
-    let m83 = p.J + p.k6 * (cos_t11 * t111 + sin_t11 * t116);
-    let t118 = t16 * (p.m * t111 + p.k7 * t112) + t26 * (p.m * t116 + p.k7 * t117);
-    let m73 = p.J + (m83 + t118);
-    let t119 = t111 + t112;
-    let t120 = t29 + p.l * t109;
-    let t121 = t116 + t117;
-    let t122 = t33 + p.l * t114;
-    let t123 = t31 * (p.m * t119 + p.k7 * t120) + t35 * (p.m * t121 + p.k7 * t122);
-    let m63 = p.J + (m73 + t123);
-    let t124 = t119 + t120;
-    let t125 = t38 + p.l * t108;
-    let t126 = t121 + t122;
-    let t127 = t42 + p.l * t113;
-    let t128 = t40 * (p.m * t124 + p.k7 * t125) + t44 * (p.m * t126 + p.k7 * t127);
-    let m53 = p.J + (m63 + t128);
-    let t129 = t124 + t125;
-    let t130 = t47 + t58;
-    let t131 = t126 + t127;
-    let t132 = t51 + t62;
-    let t133 = t49 * (p.m * t129 + p.k7 * t130) + t53 * (p.m * t131 + p.k7 * t132);
-    let m43 = p.J + (m53 + t133);
-    let t134 = t62 * (p.m * (t131 + t132) + sin_t1 * p.k8);
-    let t135 = cos_t6 + cos_t4;
-    let t136 = cos_t8 + t135;
-    let t137 = t12 + p.l * (cos_t10 + t136);
-    let t138 = t14 + p.l * t136;
-    let t139 = sin_t6 + sin_t4;
-    let t140 = sin_t8 + t139;
-    let t141 = t22 + p.l * (sin_t10 + t140);
-    let t142 = t24 + p.l * t140;
-    let m84 = p.J + p.k6 * (cos_t11 * t137 + sin_t11 * t141);
-    let t143 = t16 * (p.m * t137 + p.k7 * t138) + t26 * (p.m * t141 + p.k7 * t142);
-    let m74 = p.J + (m84 + t143);
-    let t144 = t137 + t138;
-    let t145 = t29 + p.l * t135;
-    let t146 = t141 + t142;
-    let t147 = t33 + p.l * t139;
-    let t148 = t31 * (p.m * t144 + p.k7 * t145) + t35 * (p.m * t146 + p.k7 * t147);
-    let m64 = p.J + (m74 + t148);
-    let t149 = t144 + t145;
-    let t150 = t38 + t49;
-    let t151 = t146 + t147;
-    let t152 = t42 + t53;
-    let t153 = t40 * (p.m * t149 + p.k7 * t150) + t44 * (p.m * t151 + p.k7 * t152);
-    let m54 = p.J + (m64 + t153);
-    let t154 = t53 * (p.m * (t151 + t152) + sin_t4 * p.k8);
-    let t155 = cos_t8 + cos_t6;
-    let t156 = t12 + p.l * (cos_t10 + t155);
-    let t157 = t14 + p.l * t155;
-    let t158 = sin_t8 + sin_t6;
-    let t159 = t22 + p.l * (sin_t10 + t158);
-    let t160 = t24 + p.l * t158;
-    let m85 = p.J + p.k6 * (cos_t11 * t156 + sin_t11 * t159);
-    let t161 = t16 * (p.m * t156 + p.k7 * t157) + t26 * (p.m * t159 + p.k7 * t160);
-    let m75 = p.J + (m85 + t161);
-    let t162 = t156 + t157;
-    let t163 = t29 + t40;
-    let t164 = t159 + t160;
-    let t165 = t33 + t44;
-    let t166 = t31 * (p.m * t162 + p.k7 * t163) + t35 * (p.m * t164 + p.k7 * t165);
-    let m65 = p.J + (m75 + t166);
-    let t167 = t44 * (p.m * (t164 + t165) + sin_t6 * p.k8);
-    let t168 = t12 + p.l * (cos_t10 + cos_t8);
-    let t169 = t14 + t31;
-    let t170 = t22 + p.l * (sin_t10 + sin_t8);
-    let t171 = t24 + t35;
-    let m86 = p.J + p.k6 * (cos_t11 * t168 + sin_t11 * t170);
-    let t172 = t16 * (p.m * t168 + p.k7 * t169) + t26 * (p.m * t170 + p.k7 * t171);
-    let m76 = p.J + (m86 + t172);
-    let t173 = t35 * (p.m * (t170 + t171) + sin_t8 * p.k8);
-    let t174 = t12 + t16;
-    let t175 = t22 + t26;
-    let m87 = p.J + p.k6 * (cos_t11 * t174 + sin_t11 * t175);
-    let t176 = t26 * (p.m * t175 + sin_t10 * p.k8);
-    let m11 = t72 + p.k9 + (t65 * (p.m * t66 + (t64 + cos_q_1 * p.k8)) + t73);
-    let m21 = p.J + t72;
-    let m22 = p.J + (m32 + (t67 * (p.m * (t102 + t103) + cos_t0 * p.k8) + t107));
-    let m33 = p.J + (m43 + (t58 * (p.m * (t129 + t130) + cos_t1 * p.k8) + t134));
-    let m44 = p.J + (m54 + (t49 * (p.m * (t149 + t150) + cos_t4 * p.k8) + t154));
-    let m55 = p.J + (m65 + (t40 * (p.m * (t162 + t163) + cos_t6 * p.k8) + t167));
-    let m66 = p.J + (m76 + (t31 * (p.m * (t168 + t169) + cos_t8 * p.k8) + t173));
-    let m77 = p.J + (m87 + (t16 * (p.m * t174 + cos_t10 * p.k8) + t176));
+    let (sin_t5, cos_t5) = t5.sin_cos();
+    let t7 = p.k7 * cos_t6 + p.k18 * cos_t5;
+    let (sin_t4, cos_t4) = t4.sin_cos();
+    let t8 = cos_t4 * p.k20 + t7;
+    let t9 = p.k7 * cos_t4 + t8;
+    let (sin_t3, cos_t3) = t3.sin_cos();
+    let t10 = cos_t3 * p.k21 + t9;
+    let t11 = p.k7 * cos_t3 + t10;
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let t12 = cos_t2 * p.k22 + t11;
+    let t13 = p.k7 * cos_t2 + t12;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t14 = cos_t1 * p.k23 + t13;
+    let t15 = p.k7 * cos_t1 + t14;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t16 = t15 + cos_t0 * p.k24;
+    let (sin_q_1, cos_q_1) = q_1.sin_cos();
+    let t17 = p.l * cos_q_1;
+    let t18 = p.k7 * sin_t6 + p.k18 * sin_t5;
+    let t19 = sin_t4 * p.k20 + t18;
+    let t20 = p.k7 * sin_t4 + t19;
+    let t21 = sin_t3 * p.k21 + t20;
+    let t22 = p.k7 * sin_t3 + t21;
+    let t23 = sin_t2 * p.k22 + t22;
+    let t24 = p.k7 * sin_t2 + t23;
+    let t25 = sin_t1 * p.k23 + t24;
+    let t26 = p.k7 * sin_t1 + t25;
+    let t27 = t26 + sin_t0 * p.k24;
+    let t28 = p.l * sin_q_1;
+    let t29 = cos_t0 * (p.k17 * cos_q_1) + sin_t0 * (p.k17 * sin_q_1);
+    let t30 = t16 * t17 + t27 * t28 + t29;
+    let t31 = cos_t6 * cos_t5 + sin_t6 * sin_t5;
+    let m77 = t31 * p.k1 + p.k19;
+    let t32 = p.l * sin_t4;
+    let t33 = p.l * cos_t4;
+    let m76 = t7 * t33 + (t18 * t32 + m77);
+    let m66 = m76 + p.k6 + (t8 * t33 + t19 * t32);
+    let t34 = p.l * sin_t3;
+    let t35 = p.l * cos_t3;
+    let m65 = t9 * t35 + (t20 * t34 + m66);
+    let m55 = p.k6 + m65 + (t10 * t35 + t21 * t34);
+    let t36 = p.l * sin_t2;
+    let t37 = p.l * cos_t2;
+    let m54 = t11 * t37 + (t22 * t36 + m55);
+    let m44 = p.k6 + m54 + (t12 * t37 + t23 * t36);
+    let t38 = p.l * sin_t1;
+    let t39 = p.l * cos_t1;
+    let m43 = t13 * t39 + (t24 * t38 + m44);
+    let m33 = p.k6 + m43 + (t14 * t39 + t25 * t38);
+    let t40 = sin_t0 * p.l;
+    let t41 = cos_t0 * p.l;
+    let m32 = t41 * t15 + (t40 * t26 + m33);
+    let m22 = p.k6 + m32 + (t41 * t16 + t40 * t27);
+    let m42 = t41 * t13 + (m43 + t40 * t24);
+    let m53 = t11 * t39 + (m54 + t22 * t38);
+    let m52 = t41 * t11 + (t40 * t22 + m53);
+    let m64 = t9 * t37 + (m65 + t20 * t36);
+    let m63 = t9 * t39 + (t20 * t38 + m64);
+    let m62 = t41 * t9 + (t40 * t20 + m63);
+    let m75 = t7 * t35 + (m76 + t18 * t34);
+    let m74 = t7 * t37 + (t18 * t36 + m75);
+    let m73 = t7 * t39 + (t18 * t38 + m74);
+    let m72 = t41 * t7 + (t40 * t18 + m73);
+    let m87 = p.k6 + t31 * p.k17;
+    let t42 = sin_t6 * p.k17;
+    let t43 = cos_t6 * p.k17;
+    let m86 = cos_t4 * t43 + (sin_t4 * t42 + m87);
+    let m85 = cos_t3 * t43 + (sin_t3 * t42 + m86);
+    let m84 = cos_t2 * t43 + (sin_t2 * t42 + m85);
+    let m83 = cos_t1 * t43 + (sin_t1 * t42 + m84);
+    let m82 = cos_t0 * t43 + (sin_t0 * t42 + m83);
+    let m11 = t30 * S::from_f64(2.0) + (m22 + p.k25);
+    let m21 = m22 + t30;
+    let m31 = m32 + p.l * (t15 * cos_q_1 + t26 * sin_q_1);
+    let m41 = t13 * t17 + (t24 * t28 + m42);
+    let m51 = t11 * t17 + (t22 * t28 + m52);
+    let m61 = t9 * t17 + (t20 * t28 + m62);
+    let m71 = t7 * t17 + (t18 * t28 + m72);
+    let m81 = cos_q_1 * t43 + (sin_q_1 * t42 + m82);
     [
         [m11, m21, m31, m41, m51, m61, m71, m81],
         [m21, m22, m32, m42, m52, m62, m72, m82],
@@ -518,7 +408,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
         [m51, m52, m53, m54, m55, m65, m75, m85],
         [m61, m62, m63, m64, m65, m66, m76, m86],
         [m71, m72, m73, m74, m75, m76, m77, m87],
-        [m81, m82, m83, m84, m85, m86, m87, p.k10],
+        [m81, m82, m83, m84, m85, m86, m87, p.k6],
     ]
 }
 
@@ -608,42 +498,42 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t46 = t45 + t44;
     let t47 = t28 * sin_t29;
     let t48 = t32 * sin_t33 + p.l * (t47 + t46);
-    let h_q_8 = (sin_t33 * t34 - cos_t33 * t48) * p.k6;
+    let h_q_8 = (sin_t33 * t34 - cos_t33 * t48) * p.k7;
     let t49 = p.k0 * t47 + p.l * t46;
-    let t50 = (p.m * t34 + t35 * p.k7) * (p.l * sin_t29) + h_q_8;
-    let h_q_7 = t50 - (p.m * t48 + t49 * p.k7) * (p.l * cos_t29);
+    let t50 = (p.m * t34 + t35 * p.k8) * (p.l * sin_t29) + h_q_8;
+    let h_q_7 = t50 - (p.m * t48 + t49 * p.k8) * (p.l * cos_t29);
     let t51 = t34 + t35;
     let t52 = p.k0 * t25 + p.l * t21;
     let t53 = t48 + t49;
     let t54 = p.k0 * t45 + p.l * t44;
-    let t55 = (p.m * t51 + t52 * p.k7) * (p.l * sin_t24) + h_q_7;
-    let h_q_6 = t55 - (p.m * t53 + t54 * p.k7) * (p.l * cos_t24);
+    let t55 = (p.m * t51 + t52 * p.k8) * (p.l * sin_t24) + h_q_7;
+    let h_q_6 = t55 - (p.m * t53 + t54 * p.k8) * (p.l * cos_t24);
     let t56 = t51 + t52;
     let t57 = p.k0 * t20 + p.l * t16;
     let t58 = t53 + t54;
     let t59 = p.k0 * t43 + p.l * t42;
-    let t60 = (p.m * t56 + t57 * p.k7) * (p.l * sin_t19) + h_q_6;
-    let h_q_5 = t60 - (p.m * t58 + t59 * p.k7) * (p.l * cos_t19);
+    let t60 = (p.m * t56 + t57 * p.k8) * (p.l * sin_t19) + h_q_6;
+    let h_q_5 = t60 - (p.m * t58 + t59 * p.k8) * (p.l * cos_t19);
     let t61 = t56 + t57;
     let t62 = p.k0 * t15 + p.l * t11;
     let t63 = t58 + t59;
     let t64 = p.k0 * t41 + p.l * t40;
-    let t65 = (p.m * t61 + t62 * p.k7) * (p.l * sin_t14) + h_q_5;
-    let h_q_4 = t65 - (p.m * t63 + t64 * p.k7) * (p.l * cos_t14);
+    let t65 = (p.m * t61 + t62 * p.k8) * (p.l * sin_t14) + h_q_5;
+    let h_q_4 = t65 - (p.m * t63 + t64 * p.k8) * (p.l * cos_t14);
     let t66 = t61 + t62;
     let t67 = p.k0 * t5 + p.l * t10;
     let t68 = t63 + t64;
     let t69 = p.k0 * t36 + p.l * t39;
-    let t70 = (p.m * t66 + t67 * p.k7) * (p.l * sin_t4) + h_q_4;
-    let h_q_3 = t70 - (p.m * t68 + t69 * p.k7) * (p.l * cos_t4);
+    let t70 = (p.m * t66 + t67 * p.k8) * (p.l * sin_t4) + h_q_4;
+    let h_q_3 = t70 - (p.m * t68 + t69 * p.k8) * (p.l * cos_t4);
     let t71 = p.m * (t66 + t67);
     let t72 = p.k0 * t7 + p.l * t9;
     let t73 = p.m * (t68 + t69);
     let t74 = p.k0 * t37 + p.l * t38;
-    let t75 = (t71 + t72 * p.k7) * (p.l * sin_t3) + h_q_3;
-    let h_q_2 = t75 - (t73 + t74 * p.k7) * (p.l * cos_t3);
-    let t76 = (p.m * t72 + (t71 + p.k8 * t9)) * (sin_q_1 * p.l) + h_q_2;
-    let h_q_1 = t76 - (p.m * t74 + (t73 + t38 * p.k8)) * (cos_q_1 * p.l);
+    let t75 = (t71 + t72 * p.k8) * (p.l * sin_t3) + h_q_3;
+    let h_q_2 = t75 - (t73 + t74 * p.k8) * (p.l * cos_t3);
+    let t76 = (p.m * t72 + (t71 + p.k9 * t9)) * (sin_q_1 * p.l) + h_q_2;
+    let h_q_1 = t76 - (p.m * t74 + (t73 + t38 * p.k9)) * (cos_q_1 * p.l);
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -704,19 +594,19 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [S; 8] {
     let sin_t6 = t6.sin();
     let t7 = p.k3 * sin_t6;
     let sin_t5 = t5.sin();
-    let t8 = t7 + p.k11 * sin_t5;
+    let t8 = t7 + p.k10 * sin_t5;
     let sin_t4 = t4.sin();
-    let t9 = p.k12 * sin_t4 + t8;
+    let t9 = p.k11 * sin_t4 + t8;
     let sin_t3 = t3.sin();
-    let t10 = p.k13 * sin_t3 + t9;
+    let t10 = p.k12 * sin_t3 + t9;
     let sin_t2 = t2.sin();
-    let t11 = p.k14 * sin_t2 + t10;
+    let t11 = p.k13 * sin_t2 + t10;
     let sin_t1 = t1.sin();
-    let t12 = p.k15 * sin_t1 + t11;
+    let t12 = p.k14 * sin_t1 + t11;
     let sin_t0 = t0.sin();
-    let t13 = p.k16 * sin_t0 + t12;
+    let t13 = p.k15 * sin_t0 + t12;
     let sin_q_1 = q_1.sin();
-    let q_q_1 = -(p.k17 * sin_q_1 + t13);
+    let q_q_1 = -(p.k16 * sin_q_1 + t13);
     let q_q_2 = -t13;
     let q_q_3 = -t12;
     let q_q_4 = -t11;
@@ -801,43 +691,43 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t45 = t44 + t43;
     let t46 = t28 * cos_t29;
     let t47 = p.g + (t32 * cos_t33 + p.l * (t46 + t45));
-    let f_q_8 = (cos_t33 * t34 - sin_t33 * t47) * p.k6;
+    let f_q_8 = (cos_t33 * t34 - sin_t33 * t47) * p.k7;
     let t48 = p.k0 * t30 + p.l * t26;
     let t49 = p.g + (p.k0 * t46 + p.l * t45);
-    let t50 = f_q_8 + (p.m * t34 + p.k7 * t48) * (p.l * cos_t29);
-    let f_q_7 = t50 - (p.m * t47 + t49 * p.k7) * (p.l * sin_t29);
+    let t50 = f_q_8 + (p.m * t34 + p.k8 * t48) * (p.l * cos_t29);
+    let f_q_7 = t50 - (p.m * t47 + t49 * p.k8) * (p.l * sin_t29);
     let t51 = t34 + t48;
     let t52 = p.k0 * t25 + p.l * t21;
     let t53 = t47 + t49;
     let t54 = p.g + (p.k0 * t44 + p.l * t43);
-    let t55 = f_q_7 + (p.m * t51 + p.k7 * t52) * (p.l * cos_t24);
-    let f_q_6 = t55 - (p.m * t53 + t54 * p.k7) * (p.l * sin_t24);
+    let t55 = f_q_7 + (p.m * t51 + p.k8 * t52) * (p.l * cos_t24);
+    let f_q_6 = t55 - (p.m * t53 + t54 * p.k8) * (p.l * sin_t24);
     let t56 = t51 + t52;
     let t57 = p.k0 * t20 + p.l * t16;
     let t58 = t53 + t54;
     let t59 = p.g + (p.k0 * t42 + p.l * t41);
-    let t60 = f_q_6 + (p.m * t56 + p.k7 * t57) * (p.l * cos_t19);
-    let f_q_5 = t60 - (p.m * t58 + t59 * p.k7) * (p.l * sin_t19);
+    let t60 = f_q_6 + (p.m * t56 + p.k8 * t57) * (p.l * cos_t19);
+    let f_q_5 = t60 - (p.m * t58 + t59 * p.k8) * (p.l * sin_t19);
     let t61 = t56 + t57;
     let t62 = p.k0 * t15 + p.l * t11;
     let t63 = t58 + t59;
     let t64 = p.g + (p.k0 * t40 + p.l * t39);
-    let t65 = f_q_5 + (p.m * t61 + p.k7 * t62) * (p.l * cos_t14);
-    let f_q_4 = t65 - (p.m * t63 + t64 * p.k7) * (p.l * sin_t14);
+    let t65 = f_q_5 + (p.m * t61 + p.k8 * t62) * (p.l * cos_t14);
+    let f_q_4 = t65 - (p.m * t63 + t64 * p.k8) * (p.l * sin_t14);
     let t66 = t61 + t62;
     let t67 = p.k0 * t5 + p.l * t10;
     let t68 = t63 + t64;
     let t69 = p.g + (p.k0 * t35 + p.l * t38);
-    let t70 = f_q_4 + (p.m * t66 + p.k7 * t67) * (p.l * cos_t4);
-    let f_q_3 = t70 - (p.m * t68 + t69 * p.k7) * (p.l * sin_t4);
+    let t70 = f_q_4 + (p.m * t66 + p.k8 * t67) * (p.l * cos_t4);
+    let f_q_3 = t70 - (p.m * t68 + t69 * p.k8) * (p.l * sin_t4);
     let t71 = p.m * (t66 + t67);
     let t72 = p.k0 * t7 + p.l * t9;
     let t73 = p.m * (t68 + t69);
     let t74 = p.g + (p.k0 * t36 + p.l * t37);
-    let t75 = f_q_3 + (t71 + p.k7 * t72) * (p.l * cos_t3);
-    let f_q_2 = t75 - (t73 + t74 * p.k7) * (p.l * sin_t3);
-    let t76 = (p.m * t74 + (t73 + p.k7 * (p.g + p.k0 * t37))) * (sin_q_1 * p.l);
-    let f_q_1 = f_q_2 + (p.m * t72 + (t71 + t9 * p.k8)) * (cos_q_1 * p.l) - t76;
+    let t75 = f_q_3 + (t71 + p.k8 * t72) * (p.l * cos_t3);
+    let f_q_2 = t75 - (t73 + t74 * p.k8) * (p.l * sin_t3);
+    let t76 = (p.m * t74 + (t73 + p.k8 * (p.g + p.k0 * t37))) * (sin_q_1 * p.l);
+    let f_q_1 = f_q_2 + (p.m * t72 + (t71 + t9 * p.k9)) * (cos_q_1 * p.l) - t76;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
@@ -907,261 +797,233 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_t0, cos_t0) = circular[6];
         let (sin_q_1, cos_q_1) = circular[7];
         let t7 = cos_t6.mul_add(cos_t5, sin_t6 * sin_t5);
-        let t8 = t7.neg_mul_add(t7 * n(p.k20), n(p.k21));
+        let t8 = t7.neg_mul_add(t7 * n(p.k26), n(p.k28));
         let t8 = checked(t8, t8, 7.105427357601002e-15, 6)?;
         let t9 = N::ONE / t8;
-        let t10 = t9 * n(p.k1);
-        let t11 = sin_t6 * n(p.k19);
-        let t12 = t7 * t11;
-        let t13 = sin_t5.mul_sub(N::from_f64(1.5), t12);
-        let t14 = t13 * t10;
-        let t15 = sin_t6.neg_mul_add(t11, N::from_f64(2.0));
-        let t16 = t13.neg_mul_add(t14, t15);
-        let t17 = q_2_dot + q_1_dot;
-        let t18 = t17 + q_3_dot;
-        let t19 = t18 + q_4_dot;
-        let t20 = t19 + q_5_dot;
-        let t21 = t20 + q_6_dot;
-        let t22 = t21 * t21;
-        let t23 = cos_t4 * t22;
-        let t24 = n(p.l) * t23;
-        let t25 = t21 + q_7_dot;
-        let t26 = t25 * t25;
-        let t27 = n(p.l) * t26;
-        let t28 = t25 + q_8_dot;
-        let t29 = t28 * (n(p.k0) * t28);
-        let t30 = n(p.g) + cos_t6.mul_add(t29, cos_t5 * t27);
-        let t31 = sin_t6.mul_add(t29, sin_t5 * t27);
-        let t32 = sin_t6.mul_sub(t30, cos_t6 * t31);
-        let t33 = n(p.k0) * t26;
-        let t34 = t30 + cos_t5.mul_add(t33, n(p.g));
-        let t35 = cos_t6 * n(p.k19);
-        let t36 = t7 * t35;
-        let t37 = sin_t5.mul_add(t30, sin_t5 * n(p.k22));
-        let t38 = t12.neg_mul_add(t30, t37 + t36.mul_sub(t31, cos_t5 * t31));
-        let t39 = t14.neg_mul_add(t38, t34 + t16.mul_sub(t24, t11 * t32));
-        let t40 = n(p.k0).mul_add(t23, n(p.g));
-        let t41 = sin_t4 * t16;
-        let t42 = sin_t4 * N::from_f64(0.5);
-        let t43 = cos_t5.mul_sub(N::from_f64(1.5), t36);
-        let t44 = t9 * t43;
-        let t45 = t44.mul_add(t13, cos_t6 * (sin_t6 * n(p.k23)));
-        let t46 = cos_t4 * n(p.k1);
-        let t47 = t45.neg_mul_add(t46, t41 + t42);
-        let t48 = t43 * t10;
-        let t49 = cos_t6.neg_mul_add(t35, N::from_f64(2.0));
-        let t50 = t43.neg_mul_add(t48, t49);
-        let t51 = cos_t4 * t50;
-        let t52 = sin_t4 * n(p.k1);
-        let t53 = t51.mul_sub(t46, n(p.k25) * sin_t4 * (t45 * cos_t4));
-        let t54 = t41.mul_add(t52, n(p.k10)) + t53;
-        let t54 = checked(t54, t54, 7.105427357601002e-15, 5)?;
+        let t10 = sin_t6 * n(p.k27);
+        let t11 = t7.neg_mul_add(t10, sin_t5 * N::from_f64(1.5));
+        let t12 = cos_t6 * n(p.k27);
+        let t13 = t7.neg_mul_add(t12, cos_t5 * N::from_f64(1.5));
+        let t14 = t9.mul_add(t11 * t13, cos_t6 * (sin_t6 * n(p.k31)));
+        let t15 = n(p.k1) * sin_t4;
+        let t16 = n(p.k1) * t9;
+        let t17 = t13 * t16;
+        let t18 = cos_t6.neg_mul_add(t12, N::from_f64(2.0));
+        let t19 = t13.neg_mul_add(t17, t18);
+        let t20 = cos_t4.mul_sub(t19, t15 * t14);
+        let t21 = n(p.k1) * cos_t4;
+        let t22 = t11 * t16;
+        let t23 = sin_t6.neg_mul_add(t10, N::from_f64(2.0));
+        let t24 = t11.neg_mul_add(t22, t23);
+        let t25 = sin_t4.mul_sub(t24, t21 * t14);
+        let t26 = t21.mul_add(t20, t15.mul_add(t25, n(p.k6)));
+        let t26 = checked(t26, t26, 7.105427357601002e-15, 5)?;
+        let t27 = N::ONE / t26;
+        let t28 = sin_t4.mul_add(N::from_f64(0.5), t25);
+        let t29 = cos_t4.mul_add(N::from_f64(0.5), t20);
+        let t30 = t27.mul_add(t28 * t29, t14);
+        let t31 = n(p.k1) * sin_t3;
+        let t32 = n(p.k1) * t27;
+        let t33 = t29 * t32;
+        let t34 = t29.neg_mul_add(t33, N::ONE + t19);
+        let t35 = cos_t3.mul_sub(t34, t31 * t30);
+        let t36 = n(p.k1) * cos_t3;
+        let t37 = t28 * t32;
+        let t38 = t28.neg_mul_add(t37, N::ONE + t24);
+        let t39 = sin_t3.mul_sub(t38, t36 * t30);
+        let t40 = t36.mul_add(t35, t31.mul_add(t39, n(p.k6)));
+        let t40 = checked(t40, t40, 7.105427357601002e-15, 4)?;
+        let t41 = N::ONE / t40;
+        let t42 = sin_t3.mul_add(N::from_f64(0.5), t39);
+        let t43 = cos_t3.mul_add(N::from_f64(0.5), t35);
+        let t44 = t41.mul_add(t42 * t43, t30);
+        let t45 = n(p.k1) * sin_t2;
+        let t46 = n(p.k1) * t41;
+        let t47 = t43 * t46;
+        let t48 = t43.neg_mul_add(t47, N::ONE + t34);
+        let t49 = cos_t2.mul_sub(t48, t45 * t44);
+        let t50 = n(p.k1) * cos_t2;
+        let t51 = t42 * t46;
+        let t52 = t42.neg_mul_add(t51, N::ONE + t38);
+        let t53 = sin_t2.mul_sub(t52, t50 * t44);
+        let t54 = t50.mul_add(t49, t45.mul_add(t53, n(p.k6)));
+        let t54 = checked(t54, t54, 7.105427357601002e-15, 3)?;
         let t55 = N::ONE / t54;
-        let t56 = n(p.k1) * t55;
-        let t57 = t47 * t56;
-        let t58 = t47.neg_mul_add(t57, N::ONE + t16);
-        let t59 = t20 * t20;
-        let t60 = cos_t3 * t59;
-        let t61 = n(p.l) * t60;
-        let t62 = t45 * n(p.k24);
-        let t63 = sin_t4 * t22;
-        let t64 = t63 * t62;
-        let t65 = n(p.l) * t63;
-        let t66 = sin_t5.mul_add(t33, t31) + t48.mul_add(t38, t35 * t32);
-        let t67 = t50.mul_add(t65, t23 * t62) + t66;
-        let t68 = cos_t4.neg_mul_add(t67, t42 * t40);
-        let t69 = sin_t4.mul_add(t39, sin_t4 * t64) + t68;
-        let t70 = t63.neg_mul_add(cos_t4 * n(p.k26), t69);
-        let t71 = t57.neg_mul_add(t70, t40 + t39 + t58.mul_add(t61, t64));
-        let t72 = n(p.k0).mul_add(t60, n(p.g));
-        let t73 = sin_t3 * t58;
-        let t74 = N::from_f64(0.5) * sin_t3;
-        let t75 = cos_t4.mul_add(N::from_f64(0.5), t51);
-        let t76 = t45.neg_mul_add(t52, t75);
-        let t77 = t55 * t76;
-        let t78 = t77.mul_add(t47, t45);
-        let t79 = n(p.k1) * cos_t3;
-        let t80 = t78.neg_mul_add(t79, t73 + t74);
-        let t81 = t76 * t56;
-        let t82 = t76.neg_mul_add(t81, N::ONE + t50);
-        let t83 = cos_t3 * t82;
-        let t84 = n(p.k1) * sin_t3;
-        let t85 = t83.mul_sub(t79, n(p.k25) * sin_t3 * (t78 * cos_t3));
-        let t86 = t73.mul_add(t84, n(p.k10)) + t85;
-        let t86 = checked(t86, t86, 7.105427357601002e-15, 4)?;
-        let t87 = N::ONE / t86;
-        let t88 = n(p.k1) * t87;
-        let t89 = t80 * t88;
-        let t90 = t80.neg_mul_add(t89, N::ONE + t58);
-        let t91 = t19 * t19;
-        let t92 = cos_t2 * t91;
-        let t93 = n(p.l) * t92;
-        let t94 = t78 * n(p.k24);
-        let t95 = sin_t3 * t59;
-        let t96 = t95 * t94;
+        let t56 = sin_t2.mul_add(N::from_f64(0.5), t53);
+        let t57 = cos_t2.mul_add(N::from_f64(0.5), t49);
+        let t58 = t55.mul_add(t56 * t57, t44);
+        let t59 = n(p.k1) * sin_t1;
+        let t60 = n(p.k1) * t55;
+        let t61 = t57 * t60;
+        let t62 = t57.neg_mul_add(t61, N::ONE + t48);
+        let t63 = cos_t1.mul_sub(t62, t59 * t58);
+        let t64 = n(p.k1) * cos_t1;
+        let t65 = t56 * t60;
+        let t66 = t56.neg_mul_add(t65, N::ONE + t52);
+        let t67 = sin_t1.mul_sub(t66, t64 * t58);
+        let t68 = t64.mul_add(t63, t59.mul_add(t67, n(p.k6)));
+        let t68 = checked(t68, t68, 7.105427357601002e-15, 2)?;
+        let t69 = N::ONE / t68;
+        let t70 = sin_t1.mul_add(N::from_f64(0.5), t67);
+        let t71 = cos_t1.mul_add(N::from_f64(0.5), t63);
+        let t72 = t69.mul_add(t70 * t71, t58);
+        let t73 = t72 * n(p.k32);
+        let t74 = q_1_dot + q_2_dot;
+        let t75 = t74 * t74;
+        let t76 = sin_t0 * t75;
+        let t77 = q_1_dot * q_1_dot;
+        let t78 = sin_q_1 * t77;
+        let t79 = t76 + t78;
+        let t80 = n(p.k1) * t69;
+        let t81 = t70 * t80;
+        let t82 = t70.neg_mul_add(t81, N::ONE + t66);
+        let t83 = cos_t0 * t75;
+        let t84 = cos_q_1 * t77;
+        let t85 = t84 + t83;
+        let t86 = n(p.l) * t85;
+        let t87 = t58 * n(p.k32);
+        let t88 = t74 + q_3_dot;
+        let t89 = t88 * t88;
+        let t90 = sin_t1 * t89;
+        let t91 = n(p.l) * t89;
+        let t92 = cos_t1 * t91;
+        let t93 = t44 * n(p.k32);
+        let t94 = t88 + q_4_dot;
+        let t95 = t94 * t94;
+        let t96 = sin_t2 * t95;
         let t97 = n(p.l) * t95;
-        let t98 = n(p.k0).mul_add(t63, t67) + t60.mul_add(t94, t81 * t70);
-        let t99 = t82.mul_add(t97, t98);
-        let t100 = cos_t3.neg_mul_add(t99, t74 * t72);
-        let t101 = sin_t3.mul_add(t71, sin_t3 * t96) + t100;
-        let t102 = t95.neg_mul_add(cos_t3 * n(p.k26), t101);
-        let t103 = t89.neg_mul_add(t102, t72 + t71 + t90.mul_add(t93, t96));
-        let t104 = n(p.k0).mul_add(t92, n(p.g));
-        let t105 = sin_t2 * t90;
-        let t106 = N::from_f64(0.5) * sin_t2;
-        let t107 = N::from_f64(0.5).mul_add(cos_t3, t83);
-        let t108 = t78.neg_mul_add(t84, t107);
-        let t109 = t87 * t108;
-        let t110 = t109.mul_add(t80, t78);
-        let t111 = n(p.k1) * cos_t2;
-        let t112 = t110.neg_mul_add(t111, t105 + t106);
-        let t113 = t108 * t88;
-        let t114 = t108.neg_mul_add(t113, N::ONE + t82);
-        let t115 = cos_t2 * t114;
-        let t116 = n(p.k1) * sin_t2;
-        let t117 = t115.mul_sub(t111, n(p.k25) * sin_t2 * (t110 * cos_t2));
-        let t118 = t105.mul_add(t116, n(p.k10)) + t117;
-        let t118 = checked(t118, t118, 7.105427357601002e-15, 3)?;
-        let t119 = N::ONE / t118;
-        let t120 = n(p.k1) * t119;
-        let t121 = t112 * t120;
-        let t122 = t112.neg_mul_add(t121, N::ONE + t90);
-        let t123 = t18 * t18;
-        let t124 = cos_t1 * t123;
-        let t125 = n(p.l) * t124;
-        let t126 = t110 * n(p.k24);
-        let t127 = sin_t2 * t91;
-        let t128 = t127 * t126;
-        let t129 = n(p.l) * t127;
-        let t130 = n(p.k0).mul_add(t95, t99) + t92.mul_add(t126, t113 * t102);
-        let t131 = t114.mul_add(t129, t130);
-        let t132 = cos_t2.neg_mul_add(t131, t106 * t104);
-        let t133 = sin_t2.mul_add(t103, sin_t2 * t128) + t132;
-        let t134 = t127.neg_mul_add(cos_t2 * n(p.k26), t133);
-        let t135 = t104 + t103 + t122.mul_add(t125, t128);
-        let t136 = t121.neg_mul_add(t134, t135);
-        let t137 = n(p.k0).mul_add(t124, n(p.g));
-        let t138 = sin_t1 * t122;
-        let t139 = N::from_f64(0.5) * sin_t1;
-        let t140 = N::from_f64(0.5).mul_add(cos_t2, t115);
-        let t141 = t110.neg_mul_add(t116, t140);
-        let t142 = t119 * t141;
-        let t143 = t142.mul_add(t112, t110);
-        let t144 = n(p.k1) * cos_t1;
-        let t145 = t143.neg_mul_add(t144, t138 + t139);
-        let t146 = t141 * t120;
-        let t147 = t141.neg_mul_add(t146, N::ONE + t114);
-        let t148 = cos_t1 * t147;
-        let t149 = n(p.k1) * sin_t1;
-        let t150 = t148.mul_sub(t144, n(p.k25) * sin_t1 * (t143 * cos_t1));
-        let t151 = t138.mul_add(t149, n(p.k10)) + t150;
-        let t151 = checked(t151, t151, 7.105427357601002e-15, 2)?;
-        let t152 = N::ONE / t151;
-        let t153 = n(p.k1) * t152;
-        let t154 = t145 * t153;
-        let t155 = t145.neg_mul_add(t154, N::ONE + t122);
-        let t156 = t17 * t17;
-        let t157 = cos_t0 * t156;
-        let t158 = q_1_dot * q_1_dot;
-        let t159 = cos_q_1 * t158;
-        let t160 = t157 + t159;
-        let t161 = n(p.l) * t160;
-        let t162 = t143 * n(p.k24);
-        let t163 = sin_t1 * t123;
-        let t164 = t163 * t162;
-        let t165 = t124.mul_add(t162, t146 * t134);
-        let t166 = n(p.l) * t163;
-        let t167 = t147.mul_add(t166, n(p.k0).mul_add(t127, t131) + t165);
-        let t168 = cos_t1.neg_mul_add(t167, t139 * t137);
-        let t169 = sin_t1.mul_add(t136, sin_t1 * t164) + t168;
-        let t170 = t163.neg_mul_add(cos_t1 * n(p.k26), t169);
-        let t171 = t137 + t136 + t155.mul_add(t161, t164);
-        let t172 = t154.neg_mul_add(t170, t171);
-        let t173 = N::from_f64(0.5).mul_add(cos_t1, t148);
-        let t174 = t143.neg_mul_add(t149, t173);
-        let t175 = t152 * t174;
-        let t176 = t175.mul_add(t145, t143);
-        let t177 = t176 * sin_t0;
-        let t178 = sin_t0 * t156;
-        let t179 = sin_q_1 * t158;
-        let t180 = t178 + t179;
-        let t181 = n(p.k24) * t180;
-        let t182 = t174 * t153;
-        let t183 = t160.mul_add(t176 * n(p.k24), t182 * t170);
-        let t184 = t174.neg_mul_add(t182, N::ONE + t147);
-        let t185 = n(p.l) * t180;
-        let t186 = t184.mul_add(t185, n(p.k0).mul_add(t163, t167) + t183);
-        let t187 = n(p.g) + n(p.k0).mul_add(t157, n(p.l) * t159);
-        let t188 = t187 * (N::from_f64(0.5) * sin_t0);
-        let t189 = sin_t0.mul_add(t172, t177 * t181);
-        let t190 = t178.mul_add(n(p.k0), t179 * n(p.l));
-        let t191 = t189 + cos_t0.neg_mul_add(t186, t188);
-        let t192 = t190.neg_mul_add(N::from_f64(0.5) * cos_t0, t191);
-        let t193 = t176 * sin_q_1;
-        let t194 = t193.mul_add(t181, sin_q_1 * t187);
-        let t195 = cos_t0 * cos_q_1;
-        let t196 = sin_t0 * sin_q_1;
-        let t197 = N::from_f64(0.5).mul_add(t195, N::from_f64(0.5) * t196);
-        let t198 = n(p.k1) * sin_q_1;
-        let t199 = n(p.k1) * cos_q_1;
-        let t200 = t198.mul_add(t176 * cos_t0, t177 * t199);
-        let t201 = t184.mul_add(t195, t155 * t196) + t197 - t200;
-        let t202 = n(p.k1) * cos_t0;
-        let t203 = n(p.k1) * sin_t0;
-        let t204 = t202.mul_sub(cos_t0 * t184, t177 * (n(p.k25) * cos_t0));
-        let t205 = t203.mul_add(sin_t0 * t155, n(p.k10)) + t204;
-        let t205 = checked(t205, t205, 7.105427357601002e-15, 1)?;
-        let t206 = n(p.k1).mul_add(t201, t205);
-        let t207 = N::ONE / t205;
-        let t208 = t207 * t206;
-        let t209 = n(p.k0).mul_add(t159, n(p.g));
-        let t210 = t209 * (N::from_f64(0.5) * sin_q_1);
-        let t211 = t208.mul_add(t192, cos_q_1 * t190);
-        let t212 = cos_q_1.neg_mul_add(t186, t210) - t211;
-        let t213 = sin_q_1.mul_add(t172, t192) + t194 + t212;
-        let t214 = t206.neg_mul_add(t208, t201 * n(p.k27));
-        let t215 = t199.mul_add(t184 * cos_q_1, t198 * (t155 * sin_q_1));
-        let t216 = t193.neg_mul_add(n(p.k25) * cos_q_1, t214);
-        let t217 = n(p.k21) + t205 + t215 + t216;
-        let t217 = checked(t217, t217, 7.105427357601002e-15, 0)?;
-        let t218 = N::ONE / t217 * t159.neg_mul_add(sin_q_1 * n(p.k26), t213);
-        let t219 = t207 * t206.neg_mul_add(t218, t192);
-        let t220 = t218 + t219;
-        let t221 = t202.mul_add(t220, t199.mul_add(t218, t185));
-        let t222 = t203.neg_mul_add(t220, t198.neg_mul_add(t218, t161));
-        let t223 = t222.mul_add(t152 * t145, t152 * t170);
-        let t224 = t175.mul_add(t221, t220) - t223;
-        let t225 = t220 - t224;
-        let t226 = t144.mul_add(t225, t166 + t221);
-        let t227 = t149.neg_mul_add(t225, t125 + t222);
-        let t228 = t227.mul_add(t119 * t112, t119 * t134);
-        let t229 = t142.mul_add(t226, t225) - t228;
-        let t230 = t225 - t229;
-        let t231 = t111.mul_add(t230, t129 + t226);
-        let t232 = t116.neg_mul_add(t230, t93 + t227);
-        let t233 = t232.mul_add(t87 * t80, t87 * t102);
-        let t234 = t109.mul_add(t231, t230) - t233;
-        let t235 = t230 - t234;
-        let t236 = t79.mul_add(t235, t97 + t231);
-        let t237 = t84.neg_mul_add(t235, t61 + t232);
-        let t238 = t237.mul_add(t55 * t47, t55 * t70);
-        let t239 = t77.mul_add(t236, t235) - t238;
-        let t240 = t235 - t239;
-        let t241 = t46.mul_add(t240, t65 + t236);
-        let t242 = t52.neg_mul_add(t240, t24 + t237);
-        let t243 = t44.mul_add(t241, t240) - t242.mul_add(t9 * t13, t9 * t38);
-        let t244 = t241 * (cos_t6 * N::from_f64(0.5));
-        let t245 = t7.mul_add(n(p.k18), n(p.k10));
-        let t246 = sin_t6 * N::from_f64(0.5);
-        let t247 = t242.mul_add(t246, N::from_f64(0.5) * t32);
-        let q_1_ddot = -(t218 * n(p.k4));
-        let q_2_ddot = -(n(p.k4) * t219);
-        let q_3_ddot = n(p.k4) * t224;
-        let q_4_ddot = n(p.k4) * t229;
-        let q_5_ddot = n(p.k4) * t234;
-        let q_6_ddot = n(p.k4) * t239;
-        let q_7_ddot = n(p.k4) * t243;
-        let q_8_ddot = n(p.k28) * ((t240 - t243).mul_add(t245, t244) - t247);
+        let t98 = cos_t2 * t97;
+        let t99 = t30 * n(p.k32);
+        let t100 = t94 + q_5_dot;
+        let t101 = t100 * t100;
+        let t102 = sin_t3 * t101;
+        let t103 = n(p.l) * t101;
+        let t104 = cos_t3 * t103;
+        let t105 = t14 * n(p.k32);
+        let t106 = t100 + q_6_dot;
+        let t107 = t106 * t106;
+        let t108 = sin_t4 * t107;
+        let t109 = n(p.l) * t107;
+        let t110 = cos_t4 * t109;
+        let t111 = t106 + q_7_dot;
+        let t112 = t111 * t111;
+        let t113 = n(p.l) * t112;
+        let t114 = t111 + q_8_dot;
+        let t115 = t114 * (n(p.k0) * t114);
+        let t116 = n(p.g) + cos_t6.mul_add(t115, cos_t5 * t113);
+        let t117 = n(p.k0) * t112;
+        let t118 = t116 + cos_t5.mul_add(t117, n(p.g));
+        let t119 = sin_t6.mul_add(t115, sin_t5 * t113);
+        let t120 = sin_t6.mul_sub(t116, cos_t6 * t119);
+        let t121 = t120.mul_add(t7 * n(p.k27), cos_t5 * t119);
+        let t122 = sin_t5.mul_add(t116, sin_t5 * n(p.k29)) - t121;
+        let t123 = t118 + t24.mul_add(t110, t105 * t108);
+        let t124 = t123 - t22.mul_add(t122, t10 * t120);
+        let t125 = cos_t4 * t107;
+        let t126 = t124 + n(p.k0).mul_add(t125, n(p.g));
+        let t127 = sin_t4 * t109;
+        let t128 = sin_t5.mul_add(t117, t119) + t17.mul_add(t122, t12 * t120);
+        let t129 = t19.mul_add(t127, t125 * t105) + t128;
+        let t130 = sin_t4.mul_add(t124, sin_t4 * n(p.k29));
+        let t131 = cos_t4.neg_mul_add(t129, t130);
+        let t132 = t126 + t38.mul_add(t104, t99 * t102);
+        let t133 = t37.neg_mul_add(t131, t132);
+        let t134 = cos_t3 * t101;
+        let t135 = t133 + n(p.k0).mul_add(t134, n(p.g));
+        let t136 = t134.mul_add(t99, t33 * t131);
+        let t137 = sin_t3 * t103;
+        let t138 = t34.mul_add(t137, n(p.k0).mul_add(t108, t129) + t136);
+        let t139 = sin_t3.mul_add(t133, sin_t3 * n(p.k29));
+        let t140 = cos_t3.neg_mul_add(t138, t139);
+        let t141 = t51.neg_mul_add(t140, t135 + t52.mul_add(t98, t93 * t96));
+        let t142 = cos_t2 * t95;
+        let t143 = t141 + n(p.k0).mul_add(t142, n(p.g));
+        let t144 = t142.mul_add(t93, t47 * t140);
+        let t145 = sin_t2 * t97;
+        let t146 = t48.mul_add(t145, n(p.k0).mul_add(t102, t138) + t144);
+        let t147 = sin_t2.mul_add(t141, sin_t2 * n(p.k29));
+        let t148 = cos_t2.neg_mul_add(t146, t147);
+        let t149 = t65.neg_mul_add(t148, t143 + t66.mul_add(t92, t87 * t90));
+        let t150 = cos_t1 * t89;
+        let t151 = t149 + n(p.k0).mul_add(t150, n(p.g));
+        let t152 = sin_t1 * t91;
+        let t153 = n(p.k0).mul_add(t96, t146) + t150.mul_add(t87, t61 * t148);
+        let t154 = t62.mul_add(t152, t153);
+        let t155 = sin_t1.mul_add(t149, sin_t1 * n(p.k29));
+        let t156 = cos_t1.neg_mul_add(t154, t155);
+        let t157 = t81.neg_mul_add(t156, t151 + t82.mul_add(t86, t79 * t73));
+        let t158 = n(p.g) + n(p.k0).mul_add(t83, t84 * n(p.l));
+        let t159 = t71 * t80;
+        let t160 = t71.neg_mul_add(t159, N::ONE + t62);
+        let t161 = n(p.l) * t79;
+        let t162 = n(p.k0).mul_add(t90, t154) + t73.mul_add(t85, t159 * t156);
+        let t163 = t160.mul_add(t161, t162);
+        let t164 = n(p.k0).mul_add(t76, t78 * n(p.l));
+        let t165 = N::from_f64(0.5) * cos_t0;
+        let t166 = sin_t0.mul_add(t157, t158 * (N::from_f64(0.5) * sin_t0));
+        let t167 = t166 - cos_t0.mul_add(t163, t165 * t164);
+        let t168 = n(p.k1) * t72;
+        let t169 = cos_t0.mul_sub(t160, t168 * sin_t0);
+        let t170 = sin_t0.mul_sub(t82, t168 * cos_t0);
+        let t171 = N::from_f64(0.5) * sin_q_1;
+        let t172 = t169.mul_add(cos_q_1, t170 * sin_q_1);
+        let t173 = t172 + t165.mul_add(cos_q_1, sin_t0 * t171);
+        let t174 = t170.mul_add(n(p.k1) * sin_t0, n(p.k6));
+        let t175 = t169.mul_add(n(p.k1) * cos_t0, t174);
+        let t175 = checked(t175, t175, 7.105427357601002e-15, 1)?;
+        let t176 = N::ONE / t175;
+        let t177 = n(p.k1) * t176;
+        let t178 = t167.mul_add(t173 * t177, cos_q_1 * t164);
+        let t179 = t171 * t84.mul_add(n(p.k0), n(p.g));
+        let t180 = sin_q_1.mul_add(t157, sin_q_1 * t158);
+        let t181 = t180 + cos_q_1.neg_mul_add(t163, t179);
+        let t182 = t160.mul_sub(cos_q_1, t168 * sin_q_1);
+        let t183 = t182 * (n(p.k1) * cos_q_1);
+        let t184 = t82.mul_sub(sin_q_1, t168 * cos_q_1);
+        let t185 = (t173 * n(p.k33)).neg_mul_add(t176 * t173, t183);
+        let t186 = t184.mul_add(n(p.k1) * sin_q_1, n(p.k28)) + t185;
+        let t186 = checked(t186, t186, 7.105427357601002e-15, 0)?;
+        let t187 = t181 - t84.mul_add(sin_q_1 * n(p.k34), t178);
+        let t188 = N::ONE / t186 * t187;
+        let t189 = n(p.k1) * t188;
+        let t190 = t173.neg_mul_add(t189, t167);
+        let t191 = t176 * t190;
+        let t192 = t177 * t190;
+        let t193 = sin_t0.neg_mul_add(t192, sin_q_1.neg_mul_add(t189, t86));
+        let t194 = cos_t0.mul_add(t192, cos_q_1.mul_add(t189, t161));
+        let t195 = t71.neg_mul_add(t194, t70.mul_add(t193, t156));
+        let t196 = t69 * t195;
+        let t197 = t80 * t195;
+        let t198 = sin_t1.neg_mul_add(t197, t92 + t193);
+        let t199 = cos_t1.mul_add(t197, t152 + t194);
+        let t200 = t57.neg_mul_add(t199, t56.mul_add(t198, t148));
+        let t201 = t55 * t200;
+        let t202 = t60 * t200;
+        let t203 = sin_t2.neg_mul_add(t202, t98 + t198);
+        let t204 = cos_t2.mul_add(t202, t145 + t199);
+        let t205 = t43.neg_mul_add(t204, t42.mul_add(t203, t140));
+        let t206 = t41 * t205;
+        let t207 = t46 * t205;
+        let t208 = sin_t3.neg_mul_add(t207, t104 + t203);
+        let t209 = cos_t3.mul_add(t207, t137 + t204);
+        let t210 = t29.neg_mul_add(t209, t28.mul_add(t208, t131));
+        let t211 = t27 * t210;
+        let t212 = t32 * t210;
+        let t213 = sin_t4.neg_mul_add(t212, t110 + t208);
+        let t214 = cos_t4.mul_add(t212, t127 + t209);
+        let t215 = t9 * t13.neg_mul_add(t214, t11.mul_add(t213, t122));
+        let t216 = t214 * (cos_t6 * N::from_f64(0.5));
+        let t217 = sin_t6 * N::from_f64(0.5);
+        let t218 = t213.mul_add(t217, N::from_f64(0.5) * t120);
+        let t219 = t218 - t215.mul_add(t7 * n(p.k17), t216);
+        let q_1_ddot = -(t188 * n(p.k4));
+        let q_2_ddot = n(p.k4) * (t188 - t191);
+        let q_3_ddot = -(n(p.k4) * (t196 - t191));
+        let q_4_ddot = -(n(p.k4) * (t201 - t196));
+        let q_5_ddot = -(n(p.k4) * (t206 - t201));
+        let q_6_ddot = -(n(p.k4) * (t211 - t206));
+        let q_7_ddot = -(n(p.k4) * (t215 - t211));
+        let q_8_ddot = n(p.k4) * t219.neg_mul_add(n(p.k30), t215);
         let accelerations = [
             q_1_ddot.store(),
             q_2_ddot.store(),

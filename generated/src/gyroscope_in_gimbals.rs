@@ -22,12 +22,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 6 | 6 | 1 | 0 | 0 | 13 |
-//! | `mass_matrix` | 3 | 1 | 0 | 1 | 0 | 6 |
-//! | `bias` | 12 | 3 | 0 | 1 | 0 | 17 |
+//! | `prepare` | 5 | 12 | 1 | 0 | 0 | 18 |
+//! | `mass_matrix` | 3 | 1 | 0 | 1 | 0 | 5 |
+//! | `bias` | 13 | 4 | 0 | 1 | 0 | 19 |
 //! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
-//! | `forces` | 13 | 5 | 0 | 1 | 0 | 20 |
-//! | `accelerations` | 22 | 8 | 2 | 1 | 0 | 34 |
+//! | `forces` | 14 | 5 | 0 | 1 | 0 | 21 |
+//! | `accelerations` | 16 | 9 | 1 | 1 | 0 | 28 |
 //! | `kinetic_energy` | 17 | 9 | 0 | 1 | 0 | 28 |
 //! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_rotor_momentum` | 2 | 1 | 0 | 1 | 0 | 4 |
@@ -139,19 +139,23 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.d * self.w;
         let t1 = self.d * t0;
-        let t2 = self.A3 + t1;
-        let k0 = self.C2 + t2;
-        let k2 = self.A2 + t2;
-        let t3 = self.B2 + self.C3;
-        let k5 = t3 - k0;
-        let k1 = t0 * self.g;
-        let k3 = self.A1 * S::from_f64(0.5);
-        let k4 = t1 * S::from_f64(0.5);
-        let k6 = k5 * S::from_f64(2.0);
-        let k7 = self.A1 + t3;
-        let k8 = S::ONE / k2;
-        let singular = if vanishes(k2, k2, 2.6645352591003757e-15) {
-            Some(singular(1, k2, k2))
+        let k0 = self.A3 + (self.C2 + t1);
+        let k1 = self.A3 + (self.A2 + t1);
+        let k2 = self.B2 - k0;
+        let t2 = k1 - k2;
+        let t3 = self.C3 + (k1 + k2);
+        let k3 = self.A1 + k0;
+        let k4 = t0 * self.g;
+        let k5 = self.C3 + k2;
+        let k6 = t2 - t3;
+        let k7 = self.A1 * S::from_f64(0.5);
+        let k8 = t1 * S::from_f64(0.5);
+        let k9 = S::ONE / k1;
+        let k10 = t3 - t2;
+        let singular = if vanishes(self.C3, self.C3, 2.6645352591003757e-15) {
+            Some(singular(2, self.C3, self.C3))
+        } else if vanishes(k1, k1, 2.6645352591003757e-15) {
+            Some(singular(1, k1, k1))
         } else {
             None
         };
@@ -171,6 +175,8 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
             k6,
             k7,
             k8,
+            k9,
+            k10,
             singular,
         }
     }
@@ -256,22 +262,28 @@ pub struct Prepared<S = f64> {
     C3: S,
     /// `C2 + A3 + w*d^2`
     k0: S,
-    /// `w*d*g`
+    /// `A3 + A2 + w*d^2`
     k1: S,
-    /// `A2 + A3 + w*d^2`
+    /// `B2 - (A3 + C2 + w*d^2)`
     k2: S,
-    /// `0.5*A1`
+    /// `A1 + A3 + C2 + w*d^2`
     k3: S,
-    /// `0.5*w*d^2`
+    /// `w*d*g`
     k4: S,
-    /// `B2 - C2 - A3 + C3 - w*d^2`
+    /// `C3 + B2 - (A3 + C2 + w*d^2)`
     k5: S,
-    /// `2*(B2 - C2 - A3 + C3 - w*d^2)`
+    /// `A3 + A2 + w*d^2 - (B2 - (A3 + C2 + w*d^2)) - (C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 +
+    /// w*d^2))`
     k6: S,
-    /// `A1 + B2 + C3`
+    /// `0.5*A1`
     k7: S,
-    /// `1/(A2 + A3 + w*d^2)`
+    /// `0.5*w*d^2`
     k8: S,
+    /// `1/(A3 + A2 + w*d^2)`
+    k9: S,
+    /// `C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 + w*d^2) - (A3 + A2 + w*d^2 - (B2 - (A3 + C2 +
+    /// w*d^2)))`
+    k10: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -279,26 +291,26 @@ pub struct Prepared<S = f64> {
 /// Mass matrix `M`, row by row.
 ///
 /// ```text
-/// M[alpha, alpha] = (C2 - B2 + A3 - C3 + w*d^2)*cos(beta)^2 + A1 + B2 + C3
+/// M[alpha, alpha] = (B2 + C3)*sin(beta)^2 + (C2 + A3 + w*d^2)*cos(beta)^2 + A1
 /// M[beta, beta] = A2 + A3 + w*d^2
 /// M[gamma, alpha] = C3*sin(beta)
 /// M[gamma, gamma] = C3
 /// ```
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let beta = q[1];
-    let (sin_beta, cos_beta) = beta.sin_cos();
-    let m11 = p.k7 - cos_beta * (cos_beta * p.k5);
+    let sin_beta = beta.sin();
+    let m11 = sin_beta * (sin_beta * p.k5) + p.k3;
     let zero = S::ZERO;
     let m31 = sin_beta * p.C3;
-    [[m11, zero, m31], [zero, p.k2, zero], [m31, zero, p.C3]]
+    [[m11, zero, m31], [zero, p.k1, zero], [m31, zero, p.C3]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
 ///
 /// ```text
-/// h[alpha] = C3*cos(beta)*der(beta)*der(gamma)
-///     - 2*(C2 - B2 + A3 - C3 + w*d^2)*sin(beta)*cos(beta)*der(alpha)*der(beta)
-/// h[beta] = (C2 - B2 + A3 - C3 + w*d^2)*sin(beta)*cos(beta)*der(alpha)^2
+/// h[alpha] = 2*(B2 - C2 - A3 + C3 - w*d^2)*sin(beta)*cos(beta)*der(alpha)*der(beta)
+///     + C3*cos(beta)*der(beta)*der(gamma)
+/// h[beta] = -(B2 - C2 - A3 + C3 - w*d^2)*sin(beta)*cos(beta)*der(alpha)^2
 ///     - C3*cos(beta)*der(alpha)*der(gamma)
 /// h[gamma] = C3*cos(beta)*der(alpha)*der(beta)
 /// ```
@@ -307,13 +319,14 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let alpha_dot = v[0];
     let beta_dot = v[1];
     let gamma_dot = v[2];
+    let t0 = beta_dot * p.C3;
     let (sin_beta, cos_beta) = beta.sin_cos();
-    let t0 = cos_beta * alpha_dot;
-    let t1 = sin_beta * t0;
-    let t2 = beta_dot * p.C3;
-    let h_alpha = t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot);
-    let h_beta = -(t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot));
-    let h_gamma = t0 * t2;
+    let t1 = sin_beta * alpha_dot;
+    let t2 = t1 + gamma_dot;
+    let t3 = cos_beta * alpha_dot;
+    let h_alpha = t0 * (cos_beta * t2) - sin_beta * p.k6 * (beta_dot * t3);
+    let h_beta = -(t3 * (p.C3 * t2) + t3 * (t1 * p.k2));
+    let h_gamma = t0 * t3;
     [h_alpha, h_beta, h_gamma]
 }
 
@@ -326,7 +339,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let beta = q[1];
     let cos_beta = beta.cos();
     let zero = S::ZERO;
-    let q_beta = -(p.k1 * cos_beta);
+    let q_beta = -(p.k4 * cos_beta);
     [zero, q_beta, zero]
 }
 
@@ -338,11 +351,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
     let t0 = cos_beta * alpha_dot;
-    let t1 = sin_beta * t0;
-    let t2 = beta_dot * p.C3;
-    let f_alpha = -(t1 * (beta_dot * p.k6) + t2 * (cos_beta * gamma_dot));
-    let f_beta = t1 * (alpha_dot * p.k5) + t0 * (p.C3 * gamma_dot) - cos_beta * p.k1;
-    let f_gamma = -(t0 * t2);
+    let t1 = beta_dot * p.C3;
+    let t2 = sin_beta * alpha_dot;
+    let t3 = t2 + gamma_dot;
+    let f_alpha = sin_beta * p.k6 * (beta_dot * t0) - t1 * (cos_beta * t3);
+    let f_beta = t0 * (p.C3 * t3) - (cos_beta * p.k4 - t0 * (t2 * p.k2));
+    let f_gamma = -(t1 * t0);
     [f_alpha, f_beta, f_gamma]
 }
 
@@ -383,24 +397,19 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let beta_dot = n(v[1]);
         let gamma_dot = n(v[2]);
         let (sin_beta, cos_beta) = beta.sin_cos();
-        let t0 = cos_beta * alpha_dot;
-        let t1 = sin_beta * t0;
-        let t2 = n(p.C3) * beta_dot;
-        let t3 = t2 * (cos_beta * gamma_dot);
-        let t4 = t1.mul_add(beta_dot * n(p.k6), t3);
-        let t5 = cos_beta.neg_mul_add(n(p.k5) * cos_beta, n(p.k7));
-        let t5 = checked(t5, t5, 2.6645352591003757e-15, 0)?;
-        let t6 = N::ONE / t5;
-        let t7 = sin_beta * n(p.C3);
-        let t8 = t6 * t7;
-        let t9 = t7.neg_mul_add(t8, n(p.C3));
-        let t9 = checked(t9, n(p.C3), 2.6645352591003757e-15, 2)?;
-        let t10 = t8.neg_mul_add(t4, t0 * t2) / t9;
-        let t11 = t0 * (n(p.C3) * gamma_dot);
-        let t12 = t1.mul_add(n(p.k5) * alpha_dot, t11);
-        let alpha_ddot = t8.mul_sub(t10, t6 * t4);
-        let beta_ddot = n(p.k8) * cos_beta.neg_mul_add(n(p.k1), t12);
-        let gamma_ddot = -t10;
+        let t0 = sin_beta * alpha_dot;
+        let t1 = gamma_dot * n(p.C3);
+        let t2 = sin_beta * sin_beta;
+        let t3 = t2.mul_add(n(p.k2), n(p.k3));
+        let t4 = N::ONE / t3 * t0.mul_add(n(p.k10), t1);
+        let t5 = cos_beta * beta_dot;
+        let t6 = alpha_dot.neg_mul_add(t1, n(p.k4));
+        let t7 = t0.neg_mul_add(alpha_dot * n(p.k5), t6);
+        let t8 = t2.mul_add(n(p.k5), n(p.k3));
+        checked(t3, t8, 2.6645352591003757e-15, 0)?;
+        let alpha_ddot = -(t4 * t5);
+        let beta_ddot = -(t7 * (cos_beta * n(p.k9)));
+        let gamma_ddot = -(t5 * sin_beta.neg_mul_add(t4, alpha_dot));
         let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
         Ok(accelerations)
     }
@@ -426,7 +435,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let t4 = S::from_f64(0.5) * (t1 * p.C2 + (t2 * (t2 * p.B2) + t3 * p.A2));
     let t5 = t2 + gamma_dot;
     let t6 = S::from_f64(0.5) * (t5 * (t5 * p.C3) + (t1 * p.A3 + p.A3 * t3));
-    t4 + alpha_dot * (alpha_dot * p.k3) + (t6 + p.k4 * (t1 + t3))
+    t4 + alpha_dot * (alpha_dot * p.k7) + (t6 + p.k8 * (t1 + t3))
 }
 
 /// Potential energy `V`, in J.
@@ -437,7 +446,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let beta = q[1];
     let sin_beta = beta.sin();
-    p.k1 * sin_beta
+    p.k4 * sin_beta
 }
 
 /// Angular momentum of the rotor about its axis, H: conserved. Unit: J*s.

@@ -22,7 +22,7 @@
 //! | `mass_matrix` | 2 | 0 | 0 | 1 | 0 | 3 |
 //! | `bias` | 6 | 1 | 0 | 1 | 0 | 9 |
 //! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
-//! | `forces` | 8 | 3 | 0 | 1 | 0 | 13 |
+//! | `forces` | 7 | 2 | 0 | 1 | 0 | 11 |
 //! | `accelerations` | 9 | 3 | 1 | 1 | 0 | 15 |
 //! | `kinetic_energy` | 4 | 1 | 0 | 1 | 0 | 6 |
 //! | `potential_energy` | 1 | 1 | 0 | 1 | 0 | 3 |
@@ -92,12 +92,12 @@ impl<S> SphericalPendulum<S> {
 impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k4 = self.m * self.l;
-        let k0 = self.l * k4;
+        let t0 = self.m * self.l;
+        let k0 = self.l * t0;
         let k1 = k0 * S::from_f64(0.5);
-        let k2 = self.g * k4;
+        let k2 = self.g * t0;
         let k3 = k0 * S::from_f64(2.0);
-        let k5 = S::ONE / self.l;
+        let k4 = S::ONE / self.l;
         let singular = if vanishes(k0, k0, 1.7763568394002505e-15) {
             Some(singular(1, k0, k0))
         } else {
@@ -112,7 +112,6 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
             k2,
             k3,
             k4,
-            k5,
             singular,
         }
     }
@@ -197,10 +196,8 @@ pub struct Prepared<S = f64> {
     k2: S,
     /// `2*m*l^2`
     k3: S,
-    /// `m*l`
-    k4: S,
     /// `1/l`
-    k5: S,
+    k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -257,7 +254,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * cos_theta * phi_dot;
     let f_phi = -(t0 * (p.k3 * theta_dot));
-    let f_theta = -(p.k4 * (sin_theta * p.g - t0 * (phi_dot * p.l)));
+    let f_theta = t0 * (phi_dot * p.k0) - sin_theta * p.k2;
     [f_phi, f_theta]
 }
 
@@ -302,7 +299,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t2 = sin_theta * (sin_theta * n(p.k0));
         checked(t2, t2, 1.7763568394002505e-15, 0)?;
         let phi_ddot = -(t0 * (N::from_f64(2.0) * theta_dot) / sin_theta);
-        let theta_ddot = -(t1 * (sin_theta * n(p.k5)));
+        let theta_ddot = -(t1 * (sin_theta * n(p.k4)));
         let accelerations = [phi_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
     }

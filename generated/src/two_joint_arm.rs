@@ -14,13 +14,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 15 | 4 | 1 | 0 | 0 | 20 |
+//! | `prepare` | 16 | 5 | 1 | 0 | 0 | 22 |
 //! | `start` | 2 | 0 | 0 | 0 | 0 | 2 |
-//! | `mass_matrix` | 14 | 10 | 0 | 2 | 0 | 28 |
+//! | `mass_matrix` | 4 | 4 | 0 | 2 | 0 | 12 |
 //! | `bias` | 18 | 10 | 0 | 2 | 0 | 32 |
 //! | `applied` | 2 | 4 | 0 | 2 | 0 | 8 |
 //! | `forces` | 20 | 13 | 0 | 2 | 0 | 37 |
-//! | `accelerations` | 26 | 16 | 1 | 2 | 0 | 47 |
+//! | `accelerations` | 28 | 17 | 1 | 2 | 0 | 50 |
 //! | `kinetic_energy` | 14 | 7 | 0 | 2 | 0 | 25 |
 //! | `potential_energy` | 4 | 3 | 0 | 2 | 0 | 9 |
 //! | `work_rate` | 2 | 1 | 0 | 0 | 0 | 3 |
@@ -113,21 +113,24 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
         let k10 = self.c1 * self.m1;
         let k1 = self.c1 * k10;
         let k2 = self.g * k10;
-        let t0 = self.J1 + k1;
-        let k5 = self.c2 * self.m2;
-        let k6 = self.l1 * self.m2;
-        let k7 = self.J2 + self.c2 * k5;
-        let k11 = self.c2 * k6;
-        let k12 = S::ONE / k7;
+        let t0 = k1 + self.J1;
+        let k6 = self.c2 * self.m2;
+        let k5 = self.J2 + self.c2 * k6;
+        let k7 = self.l1 * self.m2;
+        let k11 = self.c2 * k7;
+        let k16 = t0 + self.l1 * k7;
+        let k17 = S::ONE / k5;
+        let k15 = k11 * k17;
         let k0 = self.l1 * self.l2;
         let k3 = self.m2 * self.g;
         let k4 = S::from_f64(0.5) * t0;
-        let k8 = self.g * k5;
-        let k9 = k2 + self.g * k6;
-        let k13 = k12 * (k11 * k11);
-        let k14 = t0 + self.l1 * k6;
-        let singular = if vanishes(k7, k7, 1.7763568394002505e-15) {
-            Some(singular(1, k7, k7))
+        let k8 = self.g * k6;
+        let k9 = k2 + self.g * k7;
+        let k12 = k11 * S::from_f64(2.0);
+        let k13 = k5 + k16;
+        let k14 = k11 * k15;
+        let singular = if vanishes(k5, k5, 1.7763568394002505e-15) {
+            Some(singular(1, k5, k5))
         } else {
             None
         };
@@ -137,7 +140,6 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
             c1: self.c1,
             c2: self.c2,
             m2: self.m2,
-            J1: self.J1,
             J2: self.J2,
             g: self.g,
             k0,
@@ -155,6 +157,9 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
             k12,
             k13,
             k14,
+            k15,
+            k16,
+            k17,
             singular,
         }
     }
@@ -255,8 +260,6 @@ pub struct Prepared<S = f64> {
     c2: S,
     /// `m2`
     m2: S,
-    /// `J1`
-    J1: S,
     /// `J2`
     J2: S,
     /// `g`
@@ -271,11 +274,11 @@ pub struct Prepared<S = f64> {
     k3: S,
     /// `0.5*(J1 + c1^2*m1)`
     k4: S,
-    /// `c2*m2`
-    k5: S,
-    /// `l1*m2`
-    k6: S,
     /// `J2 + c2^2*m2`
+    k5: S,
+    /// `c2*m2`
+    k6: S,
+    /// `l1*m2`
     k7: S,
     /// `c2*m2*g`
     k8: S,
@@ -285,12 +288,18 @@ pub struct Prepared<S = f64> {
     k10: S,
     /// `l1*c2*m2`
     k11: S,
-    /// `1/(J2 + c2^2*m2)`
+    /// `2*l1*c2*m2`
     k12: S,
-    /// `l1^2*c2^2*m2^2/(J2 + c2^2*m2)`
+    /// `J1 + c1^2*m1 + J2 + c2^2*m2 + l1^2*m2`
     k13: S,
-    /// `J1 + c1^2*m1 + l1^2*m2`
+    /// `l1^2*c2^2*m2^2/(J2 + c2^2*m2)`
     k14: S,
+    /// `l1*c2*m2/(J2 + c2^2*m2)`
+    k15: S,
+    /// `J1 + c1^2*m1 + l1^2*m2`
+    k16: S,
+    /// `1/(J2 + c2^2*m2)`
+    k17: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -305,15 +314,13 @@ pub struct Prepared<S = f64> {
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let q1 = q[0];
     let q2 = q[1];
-    let t0 = q1 + q2;
+    let t0 = q2 + q1;
     let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_q1, cos_q1) = q1.sin_cos();
-    let t1 = sin_t0 * p.c2 + sin_q1 * p.l1;
-    let t2 = cos_t0 * p.c2 + cos_q1 * p.l1;
-    let m21 = t1 * (sin_t0 * p.k5) + (t2 * (cos_t0 * p.k5) + p.J2);
-    let t3 = cos_q1 * (p.k6 * t2 + cos_q1 * p.k1);
-    let m11 = m21 + p.J1 + (sin_q1 * (p.k6 * t1 + sin_q1 * p.k1) + t3);
-    [[m11, m21], [m21, p.k7]]
+    let t1 = sin_t0 * sin_q1 + cos_t0 * cos_q1;
+    let m11 = t1 * p.k12 + p.k13;
+    let m21 = t1 * p.k11 + p.k5;
+    [[m11, m21], [m21, p.k5]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -336,10 +343,10 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let (sin_q1, cos_q1) = q1.sin_cos();
     let t5 = t1 * sin_t2 + t4 * sin_q1;
     let t6 = t1 * cos_t2 + t4 * cos_q1;
-    let t7 = (cos_t2 * t5 - sin_t2 * t6) * p.k5;
+    let t7 = (cos_t2 * t5 - sin_t2 * t6) * p.k6;
     let t8 = t3 * p.k1;
-    let t9 = t7 + cos_q1 * (t5 * p.k6 + sin_q1 * t8);
-    let h_q1 = sin_q1 * (t6 * p.k6 + cos_q1 * t8) - t9;
+    let t9 = t7 + cos_q1 * (t5 * p.k7 + sin_q1 * t8);
+    let h_q1 = sin_q1 * (t6 * p.k7 + cos_q1 * t8) - t9;
     let h_q2 = -t7;
     [h_q1, h_q2]
 }
@@ -382,9 +389,9 @@ pub fn forces<S: ::lagrangian::Scalar>(
     let (sin_q1, cos_q1) = q1.sin_cos();
     let t5 = p.g - (t1 * sin_t2 + t4 * sin_q1);
     let t6 = t1 * cos_t2 + t4 * cos_q1;
-    let t7 = cos_q1 * (t5 * p.k6 + p.k10 * (p.g - t3 * (sin_q1 * p.c1)));
-    let t8 = (cos_t2 * t5 + sin_t2 * t6) * p.k5;
-    let f_q1 = u.tau1 - (t8 + (t7 + sin_q1 * (t6 * p.k6 + t3 * (cos_q1 * p.k1))));
+    let t7 = cos_q1 * (t5 * p.k7 + p.k10 * (p.g - t3 * (sin_q1 * p.c1)));
+    let t8 = (cos_t2 * t5 + sin_t2 * t6) * p.k6;
+    let f_q1 = u.tau1 - (t8 + (t7 + sin_q1 * (t6 * p.k7 + t3 * (cos_q1 * p.k1))));
     let f_q2 = u.tau2 - t8;
     [f_q1, f_q2]
 }
@@ -436,19 +443,19 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t1 = q2_dot + q1_dot;
         let t2 = t1 * (t1 * n(p.c2));
         let t3 = q1_dot * (q1_dot * n(p.l1));
-        let t4 = n(p.g) - sin_t0.mul_add(t2, sin_q1 * t3);
-        let t5 = cos_t0.mul_add(t2, cos_q1 * t3);
-        let t6 = cos_t0.mul_add(t4, sin_t0 * t5) * n(p.k5);
-        let t7 = cos_q1.neg_mul_add(n(p.k2), n(u.tau1));
-        let t8 = n(u.tau2) - t6;
+        let t4 = cos_t0.mul_add(t2, cos_q1 * t3);
+        let t5 = n(p.g) - sin_t0.mul_add(t2, sin_q1 * t3);
+        let t6 = t5.mul_add(cos_q1 * n(p.k7), t4 * (sin_q1 * n(p.k7)));
+        let t7 = t4.neg_mul_add(sin_t0 * n(p.k6), n(u.tau2));
+        let t8 = t5.neg_mul_add(cos_t0 * n(p.k6), t7);
         let t9 = sin_t0.mul_add(sin_q1, cos_t0 * cos_q1);
-        let t10 = t9.mul_add(n(p.k11), n(p.k7));
-        let t11 = t8.mul_add(n(p.k12) * t10, t5 * (sin_q1 * n(p.k6)));
-        let t12 = t9.neg_mul_add(t9 * n(p.k13), n(p.k14));
-        let t12 = checked(t12, t12, 1.7763568394002505e-15, 0)?;
-        let t13 = t7 - t4.mul_add(cos_q1 * n(p.k6), t6) - t11;
-        let q1_ddot = N::ONE / t12 * t13;
-        let q2_ddot = n(p.k12) * t10.neg_mul_add(q1_ddot, t8);
+        let t10 = cos_q1.neg_mul_add(n(p.k2), n(u.tau1) - n(u.tau2)) - t6;
+        let t11 = t9.neg_mul_add(t9 * n(p.k14), n(p.k16));
+        let q1_ddot = N::ONE / t11 * t8.neg_mul_add(t9 * n(p.k15), t10);
+        let t12 = q1_ddot.neg_mul_add(t9 * n(p.k11), t8);
+        let t13 = t9.mul_add(n(p.k12), n(p.k13));
+        checked(t11, t13, 1.7763568394002505e-15, 0)?;
+        let q2_ddot = n(p.k17).mul_sub(t12, q1_ddot);
         let accelerations = [q1_ddot.store(), q2_ddot.store()];
         Ok(accelerations)
     }
