@@ -1,14 +1,17 @@
-//! Several numbers side by side, as they are kept in memory, and the arithmetic on them for every processor.
+//! Several numbers side by side, as they are kept in memory, and the arithmetic on them for every
+//! processor.
 
 use core::array::from_fn;
 use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 use crate::Scalar;
 
-/// `N` numbers side by side: the same quantity of `N` states, or of `N` sets of parameters. `N` is 2, 4 or 8.
+/// `N` numbers side by side: the same quantity of `N` states, or of `N` sets of parameters. `N` is
+/// 2, 4 or 8.
 ///
-/// This is what is kept in memory: `N` `f64`, one after another, at an address that `malloc` may return. Arithmetic on them
-/// goes through [`Number::run`](crate::Number::run), in whatever registers the processor has.
+/// This is what is kept in memory: `N` `f64`, one after another, at an address that `malloc` may
+/// return. Arithmetic on them goes through [`Number::run`](crate::Number::run), in whatever
+/// registers the processor has.
 ///
 /// ```
 /// use lagrangian_native::Lanes;
@@ -59,7 +62,8 @@ impl<const N: usize> IndexMut<usize> for Lanes<N> {
     }
 }
 
-/// Lanes whose arithmetic is that of `f64`, each by itself: where there is no fused multiply-add, or none is wanted.
+/// Lanes whose arithmetic is that of `f64`, each by itself: where there is no fused multiply-add,
+/// or none is wanted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plain<const N: usize>([f64; N]);
 

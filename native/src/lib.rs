@@ -1,33 +1,37 @@
 //! Arithmetic at the speed of the processor.
 //!
-//! Generated code is written once, for any [`Scalar`]. This crate has the scalars that make it fast, and chooses among them
-//! when a machine runs: [`Number::run`] takes a computation on numbers that are kept as `f64`, or as [`Lanes`] of them, and
-//! does it with whatever instructions the processor has.
+//! Generated code is written once, for any [`Scalar`]. This crate has the scalars that make it
+//! fast, and chooses among them when a machine runs: [`Number::run`] takes a computation on numbers
+//! that are kept as `f64`, or as [`Lanes`] of them, and does it with whatever instructions the
+//! processor has.
 //!
 //! | processor | `f64` | `Lanes<2>` | `Lanes<4>` | `Lanes<8>` |
 //! | --- | --- | --- | --- | --- |
-//! | x86-64 with AVX-512 | fused, angles four by four | 128 bits | 256 bits | 512 bits |
-//! | x86-64 with AVX2 and FMA | fused, angles four by four | 128 bits | 256 bits | twice 256 bits |
-//! | AArch64 | fused | fused, one by one | fused, one by one | fused, one by one |
-//! | others, or with the feature `strict-libm` | `f64` itself | as `f64`, one by one | as `f64`, one by one | as `f64`, one by one |
+//! | x86-64 with AVX-512 | fused | 128 bits | 256 bits | 512 bits |
+//! | x86-64 with AVX2 and FMA | fused | 128 bits | 256 bits | twice 256 bits |
+//! | AArch64 | fused | one by one | one by one | one by one |
+//! | others, or `strict-libm` | plain | one by one | one by one | one by one |
 //!
-//! All rows but the last give the same bits: fused multiply-add where generated code asks for it, and the sine and cosine of
-//! [this crate](self#sine-and-cosine). The last row's bits are those of separate multiplications and additions and of `libm`,
-//! the same on every machine. In every row a lane's result is that of `f64`, whatever its neighbours hold.
+//! All rows but the last give the same bits: fused multiply-add where generated code asks for it,
+//! and the sine and cosine of [this crate](self#sine-and-cosine). The last row's bits are those of
+//! separate multiplications and additions and of `libm`, the same on every machine. In every row a
+//! lane's result is that of `f64`, whatever its neighbours hold.
 //!
 //! # Sine and cosine
 //!
-//! Within 0.96 units in the last place for |x| ≤ 100 000, `libm`'s beyond. `src/sincos.rs` has the proof.
+//! Within 0.96 units in the last place for |x| ≤ 100 000, `libm`'s beyond. `src/sincos.rs` has the
+//! proof.
 //!
 //! # Unsafe code
 //!
-//! This is the only crate of the project that has any: instructions which only some processors have cannot be used without
-//! it. Types of registers are not public; a kernel meets them only where the processor has been asked.
+//! This is the only crate of the project that has any: instructions which only some processors have
+//! cannot be used without it. Types of registers are not public; a kernel meets them only where the
+//! processor has been asked.
 //!
 //! # Features
 //!
-//! * `std` (default): asks the processor what it can do. Without it only what the compiler was told counts, and AArch64 is among
-//!   the others, as `core` has no fused multiply-add.
+//! * `std` (default): asks the processor what it can do. Without it only what the compiler was told
+//!   counts, and AArch64 is among the others, as `core` has no fused multiply-add.
 //! * `strict-libm`: the last row everywhere.
 
 #![cfg_attr(not(feature = "std"), no_std)]
@@ -60,8 +64,9 @@ pub use lanes::Lanes;
 use lagrangian_scalar::Piece;
 use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};
 
-/// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an instruction where that is one
-/// for the compiler, correct but slow elsewhere. [`Number::run`] has the same bits at full speed.
+/// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an
+/// instruction where that is one for the compiler, correct but slow elsewhere. [`Number::run`] has
+/// the same bits at full speed.
 ///
 /// ```
 /// use lagrangian_native::Fused;
@@ -95,16 +100,25 @@ macro_rules! fastest {
                         Err(kernel) => kernel,
                     };
                 )*
-                #[cfg(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm")))]
+                #[cfg(all(
+                    target_arch = "aarch64",
+                    feature = "std",
+                    not(feature = "strict-libm")
+                ))]
                 return kernel.run::<register::Register<$fused>>();
-                #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
+                #[cfg(not(all(
+                    target_arch = "aarch64",
+                    feature = "std",
+                    not(feature = "strict-libm")
+                )))]
                 return plainly::<$plain, K>(kernel);
             }
         }
     )*};
 }
 
-/// Runs a kernel as any processor can. Out of line, so that a call of [`Number::run`] is a question and a jump.
+/// Runs a kernel as any processor can. Out of line, so that a call of [`Number::run`] is a question
+/// and a jump.
 #[inline(never)]
 fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {
     kernel.run::<N>()

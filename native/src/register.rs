@@ -1,4 +1,5 @@
-//! Numbers in registers, as scalars: fused multiply-add and polynomial sines, one number or several at once.
+//! Numbers in registers, as scalars: fused multiply-add and polynomial sines, one number or several
+//! at once.
 
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,4 +1,5 @@
-//! Every register gives the same bits; a lane never hears of its neighbours; the polynomials are as good as they claim.
+//! Every register gives the same bits; a lane never hears of its neighbours; the polynomials are as
+//! good as they claim.
 
 use std::vec::Vec;
 
@@ -122,7 +123,8 @@ fn by_array<const N: usize>(angles: &[f64]) -> Option<Vec<(f64, f64)>> {
     Some(flat(Sines(&in_lanes(angles)).run::<Register<[f64; N]>>()))
 }
 
-/// Four million angles: uniform up to a little more than the polynomials take, of all sizes, and extremes.
+/// Four million angles: uniform up to a little more than the polynomials take, of all sizes, and
+/// extremes.
 #[test]
 fn sines_have_the_same_bits_in_every_register() {
     let mut random = Random(0x5eed_0001);

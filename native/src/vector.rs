@@ -1,5 +1,5 @@
-//! What sine, cosine and the lanes ask of a processor: one trait, implemented by plain numbers, by arrays of them, and by the
-//! registers of x86-64.
+//! What sine, cosine and the lanes ask of a processor: one trait, implemented by plain numbers, by
+//! arrays of them, and by the registers of x86-64.
 
 use core::fmt::Debug;
 
@@ -9,8 +9,8 @@ use crate::{Lanes, Piece, Scalar};
 
 /// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
 ///
-/// Every operation is IEEE 754's on each number by itself, so the same sequence of them gives the same bits in every
-/// implementation, whatever the neighbours hold.
+/// Every operation is IEEE 754's on each number by itself, so the same sequence of them gives the
+/// same bits in every implementation, whatever the neighbours hold.
 pub trait Vector: Copy {
     /// What the numbers are kept as in memory.
     type Stored: Copy + Debug + PartialEq;
@@ -75,8 +75,8 @@ pub trait Vector: Copy {
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
     /// A function of every number and its counterpart by itself.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
-    /// Sine and cosine by the scalar library of those angles that are above [`MOST`](crate::sincos::MOST) or undefined; the
-    /// others keep the given ones.
+    /// Sine and cosine by the scalar library of those angles that are above
+    /// [`MOST`](crate::sincos::MOST) or undefined; the others keep the given ones.
     fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self);
 
     /// Sines and cosines of several angles.
@@ -84,7 +84,8 @@ pub trait Vector: Copy {
     fn sin_cos_all<const K: usize>(
         angles: [Register<Self>; K],
     ) -> [(Register<Self>, Register<Self>); K] {
-        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but the oldest.
+        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but
+        // the oldest.
         let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
         for (pair, angle) in all.iter_mut().zip(angles) {
             let (sin, cos) = sin_cos(angle.0);
@@ -134,12 +135,14 @@ fn fused(a: f64, b: f64, c: f64) -> f64 {
     #[cfg(not(feature = "std"))]
     {
         use core::arch::x86_64::*;
-        // SAFETY: without the standard library this is compiled only where the compiler was told of the instruction.
+        // SAFETY: without the standard library this is compiled only where the compiler was told of
+        // the instruction.
         unsafe { _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c))) }
     }
 }
 
-/// One number, with the standard library's fused multiply-add: an instruction where it is one, and correct, if slow, elsewhere.
+/// One number, with the standard library's fused multiply-add: an instruction where it is one, and
+/// correct, if slow, elsewhere.
 impl Vector for f64 {
     type Stored = f64;
     type Mask = bool;

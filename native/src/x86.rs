@@ -1,7 +1,8 @@
 //! The registers of x86-64: AVX2 with fused multiply-add, and AVX-512.
 //!
-//! The types here are valid only on a processor that has their instructions. Nobody outside the crate can name them; they are
-//! handed to kernels by [`run`], which asks first. That is what every SAFETY comment below stands on.
+//! The types here are valid only on a processor that has their instructions. Nobody outside the
+//! crate can name them; they are handed to kernels by [`run`], which asks first. That is what every
+//! SAFETY comment below stands on.
 
 use core::arch::x86_64::*;
 use core::marker::PhantomData;
@@ -12,7 +13,8 @@ use crate::{Kernel, Lanes, Piece, sincos};
 
 /// A type of this module, and whether the processor has it.
 pub trait Native: Vector {
-    /// Whether the instructions are there. Asked of the processor once, and known to the compiler if it was told.
+    /// Whether the instructions are there. Asked of the processor once, and known to the compiler
+    /// if it was told.
     fn is_here() -> bool;
 }
 
@@ -75,10 +77,11 @@ fn has_avx512() -> bool {
 /// Implements [`Vector`] by intrinsics.
 macro_rules! register {
     (
-        $(#[$doc:meta])* $name:ident: $raw:ty, $lanes:literal lanes, mask $mask:ty, $here:ident, $with:ident;
+        $(#[$doc:meta])*
+        $name:ident: $raw:ty, $lanes:literal lanes, mask $mask:ty, $here:ident, $with:ident;
         $load:ident $store:ident $splat:ident $first:ident
-        $add:ident $sub:ident $mul:ident $div:ident $mul_add:ident $mul_sub:ident $neg_mul_add:ident $sqrt:ident
-        $and:ident $xor:ident;
+        $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident
+        $mul_add:ident $mul_sub:ident $neg_mul_add:ident $and:ident $xor:ident;
         shift_left |$x:ident| $shift_left:expr;
         is_odd |$odd:ident| $is_odd:expr;
         compare $compare:ident;
@@ -97,8 +100,8 @@ macro_rules! register {
             }
         }
 
-        // SAFETY, of every block: a value of this type is only asked for where the processor has been asked (see the module).
-        // What is loaded and stored is as long as the register.
+        // SAFETY, of every block: a value of this type is only asked for where the processor has
+        // been asked (see the module). What is loaded and stored is as long as the register.
         impl Vector for $name {
             type Stored = Lanes<$lanes>;
             type Mask = $mask;
@@ -113,9 +116,15 @@ macro_rules! register {
             register!(@ sub(self, b: Self) -> Self { $name($sub(self.0, b.0)) });
             register!(@ mul(self, b: Self) -> Self { $name($mul(self.0, b.0)) });
             register!(@ div(self, b: Self) -> Self { $name($div(self.0, b.0)) });
-            register!(@ mul_add(self, b: Self, c: Self) -> Self { $name($mul_add(self.0, b.0, c.0)) });
-            register!(@ mul_sub(self, b: Self, c: Self) -> Self { $name($mul_sub(self.0, b.0, c.0)) });
-            register!(@ neg_mul_add(self, b: Self, c: Self) -> Self { $name($neg_mul_add(self.0, b.0, c.0)) });
+            register!(@ mul_add(self, b: Self, c: Self) -> Self {
+                $name($mul_add(self.0, b.0, c.0))
+            });
+            register!(@ mul_sub(self, b: Self, c: Self) -> Self {
+                $name($mul_sub(self.0, b.0, c.0))
+            });
+            register!(@ neg_mul_add(self, b: Self, c: Self) -> Self {
+                $name($neg_mul_add(self.0, b.0, c.0))
+            });
             register!(@ sqrt(self) -> Self { $name($sqrt(self.0)) });
             register!(@ and(self, b: Self) -> Self { $name($and(self.0, b.0)) });
             register!(@ xor(self, b: Self) -> Self { $name($xor(self.0, b.0)) });
@@ -166,7 +175,11 @@ macro_rules! register {
             }
         }
     };
-    (@ $method:ident $(<$P:ident: $bound:ident>)? ($($arguments:tt)*) -> $result:ty { $($body:tt)* }) => {
+    (
+        @ $method:ident $(<$P:ident: $bound:ident>)? ($($arguments:tt)*) -> $result:ty {
+            $($body:tt)*
+        }
+    ) => {
         #[inline(always)]
         fn $method $(<$P: $bound>)? ($($arguments)*) -> $result {
             // SAFETY: as above.
@@ -179,9 +192,11 @@ register! {
     /// Two numbers.
     Two: __m128d, 2 lanes, mask __m128d, has_avx2, with_avx2;
     _mm_loadu_pd _mm_storeu_pd _mm_set1_pd _mm_cvtsd_f64
-    _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_fmadd_pd _mm_fmsub_pd _mm_fnmadd_pd _mm_sqrt_pd
-    _mm_and_pd _mm_xor_pd;
-    shift_left |x| _mm_castsi128_pd(_mm_sll_epi64(_mm_castpd_si128(x), _mm_cvtsi32_si128(PLACES as i32)));
+    _mm_add_pd _mm_sub_pd _mm_mul_pd _mm_div_pd _mm_sqrt_pd
+    _mm_fmadd_pd _mm_fmsub_pd _mm_fnmadd_pd _mm_and_pd _mm_xor_pd;
+    shift_left |x| _mm_castsi128_pd(
+        _mm_sll_epi64(_mm_castpd_si128(x), _mm_cvtsi32_si128(PLACES as i32))
+    );
     is_odd |x| _mm_castsi128_pd(_mm_slli_epi64::<63>(_mm_castpd_si128(x)));
     compare _mm_cmp_pd;
     select |mask, yes, no| _mm_blendv_pd(no, yes, mask);
@@ -192,9 +207,11 @@ register! {
     /// Four numbers.
     Four: __m256d, 4 lanes, mask __m256d, has_avx2, with_avx2;
     _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_cvtsd_f64
-    _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_fmadd_pd _mm256_fmsub_pd _mm256_fnmadd_pd _mm256_sqrt_pd
-    _mm256_and_pd _mm256_xor_pd;
-    shift_left |x| _mm256_castsi256_pd(_mm256_sll_epi64(_mm256_castpd_si256(x), _mm_cvtsi32_si128(PLACES as i32)));
+    _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd
+    _mm256_fmadd_pd _mm256_fmsub_pd _mm256_fnmadd_pd _mm256_and_pd _mm256_xor_pd;
+    shift_left |x| _mm256_castsi256_pd(
+        _mm256_sll_epi64(_mm256_castpd_si256(x), _mm_cvtsi32_si128(PLACES as i32))
+    );
     is_odd |x| _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(x)));
     compare _mm256_cmp_pd;
     select |mask, yes, no| _mm256_blendv_pd(no, yes, mask);
@@ -205,8 +222,8 @@ register! {
     /// Eight numbers, of AVX-512.
     Eight: __m512d, 8 lanes, mask __mmask8, has_avx512, with_avx512;
     _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_cvtsd_f64
-    _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_fmadd_pd _mm512_fmsub_pd _mm512_fnmadd_pd _mm512_sqrt_pd
-    _mm512_and_pd _mm512_xor_pd;
+    _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd
+    _mm512_fmadd_pd _mm512_fmsub_pd _mm512_fnmadd_pd _mm512_and_pd _mm512_xor_pd;
     shift_left |x| _mm512_castsi512_pd(_mm512_slli_epi64::<PLACES>(_mm512_castpd_si512(x)));
     is_odd |x| _mm512_movepi64_mask(_mm512_slli_epi64::<63>(_mm512_castpd_si512(x)));
     compare _mm512_cmp_pd_mask;
@@ -421,7 +438,8 @@ impl Vector for One {
         angles: [Register<One>; K],
     ) -> [(Register<One>, Register<One>); K] {
         let mut all = [(Register(One::ZERO), Register(One::ONE)); K];
-        // Straight code as far as most states reach, so that angles stay in registers; a loop over the rest.
+        // Straight code as far as most states reach, so that angles stay in registers; a loop over
+        // the rest.
         macro_rules! straight {
             ($($start:literal)*) => {$(
                 if const { $start < K } {

@@ -1,4 +1,5 @@
-//! Sine and cosine against 106 bits: within the bound that `sincos.rs` proves, everywhere up to 100 000.
+//! Sine and cosine against 106 bits: within the bound that `sincos.rs` proves, everywhere up to 100
+//! 000.
 //!
 //! ```text
 //! cargo test -p lagrangian-native --test sines -- --nocapture
@@ -90,7 +91,8 @@ fn the_bound_holds_within_a_turn() {
     worst("a turn", &angles);
 }
 
-/// Sines are small here, and angles have lost most of their places: what is left must be right all the same.
+/// Sines are small here, and angles have lost most of their places: what is left must be right all
+/// the same.
 #[test]
 fn the_bound_holds_next_to_every_multiple_of_a_right_angle() {
     let mut angles = Vec::new();
@@ -112,7 +114,8 @@ fn the_bound_holds_where_quarters_meet() {
     worst("odd multiples of π/4", &angles);
 }
 
-/// sin x = x − x³/6 + … and cos x = 1 − x²/2 + … differ from x and 1 by less than half a place up to 2⁻²⁷.
+/// sin x = x − x³/6 + … and cos x = 1 − x²/2 + … differ from x and 1 by less than half a place up
+/// to 2⁻²⁷.
 #[test]
 fn small_angles_are_their_own_sines() {
     let mut angles = vec![0.0, 5e-324, 1e-310, f64::MIN_POSITIVE, 2.0_f64.powi(-27)];
