@@ -1,5 +1,5 @@
 //! What one evaluation of the accelerations costs: time and operations for every machine of the
-//! library, compiled and interpreted, and how exact it is.
+//! library, compiled, in lanes and interpreted, and how exact it is.
 //!
 //! ```text
 //! cargo bench --bench evaluation_cost
@@ -12,7 +12,7 @@ mod timing;
 use std::hint::black_box;
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Machine, System, Vector};
+use lagrangian::{Abreast, Lanes, Machine, Number, Several, System, Vector};
 use lagrangian_spec::program::{Program, Role};
 use support::accuracy::Judge;
 use support::library;
@@ -35,9 +35,11 @@ struct Cost {
 
 fn main() {
     println!(
-        "| machine | n | mul | add | div | sin cos | compiled: ns, in a row | independent | interpreted: ns, in a row | ratio | median error | worst |"
+        "| machine | n | mul | add | div | sin cos | compiled: ns, in a row | independent | 2 lanes: ns a state | 4 | 8 | interpreted: ns, in a row | ratio | median error | worst |"
     );
-    println!("| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |");
+    println!(
+        "| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |"
+    );
     macro_rules! measure {
         ($machine:ident, $name:literal) => {
             row(
@@ -49,11 +51,20 @@ fn main() {
     for_each_machine!(measure);
 }
 
-fn row<M: Machine>(machine: &M, program: &Program) {
+fn row<M: Machine>(machine: &M, program: &Program)
+where
+    M::System: Abreast<2> + Abreast<4> + Abreast<8>,
+{
     let mut random = Random::new(machine, 20_260_001);
     let samples: Vec<Sample> = (0..STATES).map(|_| random.sample()).collect();
     let interpreted = InterpretedMachine::new(program.clone());
     let compiled = cost(&machine.prepare(), &samples);
+    let system = machine.prepare();
+    let [two, four, eight] = [
+        cost_in_lanes::<_, 2>(&system, &samples),
+        cost_in_lanes::<_, 4>(&system, &samples),
+        cost_in_lanes::<_, 8>(&system, &samples),
+    ];
     let by_interpreter = cost(&interpreted.prepare(), &samples);
     let errors = errors(machine, program, &samples[..JUDGED]);
     let counts = program
@@ -61,7 +72,7 @@ fn row<M: Machine>(machine: &M, program: &Program) {
         .expect("a machine accelerates")
         .counts();
     println!(
-        "| {} | {} | {} | {} | {} | {} | {:.1} | {:.1} | {:.0} | {:.1} | {:.1e} | {:.1e} |",
+        "| {} | {} | {} | {} | {} | {} | {:.1} | {:.1} | {two:.1} | {four:.1} | {eight:.1} | {:.0} | {:.1} | {:.1e} | {:.1e} |",
         program.name,
         program.dimension(),
         counts.multiplications,
@@ -117,6 +128,35 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
         throughput: 1e9 * throughput,
         latency: 1e9 * latency,
     }
+}
+
+/// Nanoseconds for each of several states at once; calls do not wait for one another.
+fn cost_in_lanes<S: Abreast<N>, const N: usize>(system: &S, samples: &[Sample]) -> f64
+where
+    Lanes<N>: Number,
+{
+    let several = Several::of(system);
+    let u = several.default_inputs(system);
+    let states: Vec<(Lanes<N>, S::Vectors, S::Vectors)> = samples
+        .as_chunks()
+        .0
+        .iter()
+        .map(|states: &[Sample; N]| {
+            let q = states.each_ref().map(|at| vector::<S>(&at.q));
+            let v = states.each_ref().map(|at| vector::<S>(&at.v));
+            (
+                Lanes(states.each_ref().map(|at| at.t)),
+                several.vectors(q.each_ref()),
+                several.vectors(v.each_ref()),
+            )
+        })
+        .collect();
+    let seconds = per_call(|calls| {
+        for (t, q, v) in states.iter().cycle().take(calls) {
+            black_box(several.accelerations(*t, q, v, &u));
+        }
+    });
+    1e9 * seconds / N as f64
 }
 
 /// The greatest error of an acceleration over the greatest acceleration, at each state, against 30

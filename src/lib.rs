@@ -53,6 +53,7 @@ extern crate std;
 
 mod balance;
 mod compensated;
+mod lanes;
 mod math;
 pub mod methods;
 mod piece;
@@ -79,6 +80,7 @@ mod simulation;
 mod solution;
 
 pub use balance::{Alongside, Energies, EnergyBalance, EnergyIntegrals, NoBalance};
+pub use lanes::{Abreast, LaneVector, Several};
 pub use methods::{METHODS, Method};
 pub use piece::Piece;
 pub use stepper::{
@@ -102,7 +104,7 @@ pub use solution::{Ending, Observation, Solution, Statistics};
 #[cfg(feature = "macros")]
 pub use lagrangian_macros::machine;
 
-pub use lagrangian_native::{self as native, Number};
+pub use lagrangian_native::{self as native, Lanes, Number};
 /// The numbers that emitted code is generic over.
 pub use lagrangian_scalar as scalar;
 pub use lagrangian_scalar::Scalar;

@@ -423,6 +423,48 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 1];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m: lanes(|p| p.m),
+            l: lanes(|p| p.l),
+            g: lanes(|p| p.g),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        _: &Self::Vectors,
+        _: &Self::SeveralInputs,
+    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
+        accelerations(p, q)
+    }
+}
+
 /// A name with its unit.
 fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
     ::lagrangian::Quantity { name, unit }

@@ -1671,6 +1671,116 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 6];
+    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            h: lanes(|p| p.h),
+            a: lanes(|p| p.a),
+            b: lanes(|p| p.b),
+            c: lanes(|p| p.c),
+            m2: lanes(|p| p.m2),
+            m3: lanes(|p| p.m3),
+            m4: lanes(|p| p.m4),
+            m5: lanes(|p| p.m5),
+            m6: lanes(|p| p.m6),
+            friction: lanes(|p| p.friction),
+            g: lanes(|p| p.g),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
+            k23: lanes(|p| p.k23),
+            k24: lanes(|p| p.k24),
+            k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            k37: lanes(|p| p.k37),
+            k38: lanes(|p| p.k38),
+            k39: lanes(|p| p.k39),
+            k40: lanes(|p| p.k40),
+            k41: lanes(|p| p.k41),
+            k42: lanes(|p| p.k42),
+            k43: lanes(|p| p.k43),
+            k44: lanes(|p| p.k44),
+            k45: lanes(|p| p.k45),
+            k46: lanes(|p| p.k46),
+            k47: lanes(|p| p.k47),
+            k48: lanes(|p| p.k48),
+            k49: lanes(|p| p.k49),
+            k50: lanes(|p| p.k50),
+            k51: lanes(|p| p.k51),
+            k52: lanes(|p| p.k52),
+            k53: lanes(|p| p.k53),
+            k54: lanes(|p| p.k54),
+            k55: lanes(|p| p.k55),
+        }
+    }
+
+    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        Inputs {
+            tau: [
+                lanes(|u| u.tau[0]),
+                lanes(|u| u.tau[1]),
+                lanes(|u| u.tau[2]),
+                lanes(|u| u.tau[3]),
+                lanes(|u| u.tau[4]),
+                lanes(|u| u.tau[5]),
+            ],
+        }
+    }
+
+    fn is_singular(&self) -> bool {
+        false
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        u: &Self::SeveralInputs,
+    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
+        accelerations(p, q, v, u)
+    }
+}
+
 /// A name with its unit.
 fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
     ::lagrangian::Quantity { name, unit }

@@ -1205,6 +1205,87 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m0: lanes(|p| p.m0),
+            m1: lanes(|p| p.m1),
+            m2: lanes(|p| p.m2),
+            J1: lanes(|p| p.J1),
+            J2: lanes(|p| p.J2),
+            omega: lanes(|p| p.omega),
+            cx: lanes(|p| p.cx),
+            cy: lanes(|p| p.cy),
+            bx: lanes(|p| p.bx),
+            by: lanes(|p| p.by),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
+            k23: lanes(|p| p.k23),
+            k24: lanes(|p| p.k24),
+            k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        t: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
+        accelerations(p, t, q, v)
+    }
+}
+
 /// A name with its unit.
 fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
     ::lagrangian::Quantity { name, unit }

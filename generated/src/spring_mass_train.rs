@@ -655,6 +655,50 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 8];
+    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m: lanes(|p| p.m),
+            k: lanes(|p| p.k),
+            d: lanes(|p| p.d),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        Inputs {
+            pull: lanes(|u| u.pull),
+        }
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        _: &Self::Vectors,
+        u: &Self::SeveralInputs,
+    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
+        accelerations(p, q, u)
+    }
+}
+
 /// A name with its unit.
 fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
     ::lagrangian::Quantity { name, unit }

@@ -709,6 +709,69 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 2];
+    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            l1: lanes(|p| p.l1),
+            l2: lanes(|p| p.l2),
+            c1: lanes(|p| p.c1),
+            c2: lanes(|p| p.c2),
+            m2: lanes(|p| p.m2),
+            J2: lanes(|p| p.J2),
+            g: lanes(|p| p.g),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        Inputs {
+            tau1: lanes(|u| u.tau1),
+            tau2: lanes(|u| u.tau2),
+        }
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        u: &Self::SeveralInputs,
+    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
+        accelerations(p, q, v, u)
+    }
+}
+
 /// A name with its unit.
 fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
     ::lagrangian::Quantity { name, unit }

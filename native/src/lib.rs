@@ -37,6 +37,8 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 mod lanes;
+#[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
+mod plain;
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
 mod register;
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
@@ -119,6 +121,7 @@ macro_rules! fastest {
 
 /// Runs a kernel as any processor can. Out of line, so that a call of [`Number::run`] is a question
 /// and a jump.
+#[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
 #[inline(never)]
 fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {
     kernel.run::<N>()
@@ -126,9 +129,9 @@ fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {
 
 fastest! {
     f64: One else f64, f64;
-    Lanes<2>: Two else [f64; 2], lanes::Plain<2>;
-    Lanes<4>: Four else [f64; 4], lanes::Plain<4>;
-    Lanes<8>: Eight, TwiceFour else [f64; 8], lanes::Plain<8>;
+    Lanes<2>: Two else [f64; 2], plain::Plain<2>;
+    Lanes<4>: Four else [f64; 4], plain::Plain<4>;
+    Lanes<8>: Eight, TwiceFour else [f64; 8], plain::Plain<8>;
 }
 
 macro_rules! plain {

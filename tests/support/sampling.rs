@@ -19,6 +19,7 @@ pub struct Random<M: Machine> {
     random: SplitMix,
 }
 
+#[derive(Debug)]
 pub struct Sample {
     pub t: f64,
     pub q: Vec<f64>,

@@ -7,6 +7,7 @@ mod derivatives;
 mod docs;
 mod functions;
 mod kernel;
+mod lanes;
 mod language;
 mod structs;
 mod stub;
@@ -174,6 +175,7 @@ impl<'a> Emitter<'a> {
         self.impl_machine();
         self.impl_system();
         self.impl_linearize();
+        self.impl_abreast();
         self.helpers();
         self.writer.finish()
     }

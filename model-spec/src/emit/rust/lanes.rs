@@ -1,0 +1,141 @@
+//! Several systems at once: what the runtime's `Several` asks of emitted code.
+
+use super::Emitter;
+use super::types::{Types, literal};
+use crate::emit::layout::Layout;
+use crate::program::Role;
+
+impl Emitter<'_> {
+    /// `Abreast`: fields put side by side, and the function that runs them.
+    pub(super) fn impl_abreast(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            prepared,
+            inputs,
+            register: lanes,
+            ..
+        } = self.types.clone();
+        let [f64, usize, bool, result] =
+            ["f64", "usize", "bool", "Result"].map(|name| self.types.known(name));
+        let number = format!("{runtime}::Lanes<{lanes}>");
+        let has_inputs = !self.inputs.is_empty();
+        let several_inputs = match has_inputs {
+            true => format!("{inputs}<{number}>"),
+            false => inputs.clone(),
+        };
+        let n = self.program.dimension();
+        self.writer.gap();
+        self.writer.line(format!(
+            "impl<const {lanes}: {usize}> {runtime}::Abreast<{lanes}> for {prepared}"
+        ));
+        self.writer.line("where");
+        self.writer
+            .line(format!("    {number}: {runtime}::Number,"));
+        self.writer.open("{");
+        self.writer
+            .line(format!("type Several = {prepared}<{number}>;"));
+        self.writer.line(format!("type Vectors = [{number}; {n}];"));
+        self.writer
+            .line(format!("type SeveralInputs = {several_inputs};"));
+
+        // A number of every system as lanes.
+        let gather = format!("let lanes = |number: fn(&Self) -> {f64}|");
+        self.writer.gap();
+        let fields = |name: &String| {
+            let value = format!("lanes(|p| p.{name})");
+            (name.clone(), Layout::Atom(value))
+        };
+        let mut equations: Vec<_> = self.prepared.iter().map(fields).collect();
+        let argument = match equations.is_empty() {
+            true => "_",
+            false => "systems",
+        };
+        self.writer.signature(
+            "fn abreast",
+            &[format!("{argument}: [&Self; {lanes}]")],
+            Some("Self::Several"),
+        );
+        if !equations.is_empty() {
+            self.writer
+                .line(format!("{gather} {runtime}::Lanes(systems.map(number));"));
+        }
+        let has_guards = !self.program.prepare.guards.is_empty();
+        let mut value = literal(&prepared, std::mem::take(&mut equations));
+        if let (Layout::Struct(_, fields), true) = (&mut value, has_guards) {
+            fields.push(("singular".into(), Layout::Atom("None".into())));
+        }
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+
+        self.writer.gap();
+        let argument = if has_inputs { "inputs" } else { "_" };
+        self.writer.signature(
+            "fn inputs_abreast",
+            &[format!("{argument}: [&{inputs}; {lanes}]")],
+            Some("Self::SeveralInputs"),
+        );
+        let value = match has_inputs {
+            true => {
+                self.writer.line(format!(
+                    "let lanes = |number: fn(&{inputs}) -> {f64}| {runtime}::Lanes(inputs.map(number));"
+                ));
+                let paths = &self.inputs.paths;
+                self.inputs
+                    .literal(&inputs, |slot| format!("lanes(|u| u.{})", paths[slot]))
+            }
+            false => Layout::Struct(inputs.clone(), Vec::new()),
+        };
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+
+        self.writer.gap();
+        self.writer
+            .signature("fn is_singular", &["&self".into()], Some(&bool));
+        self.writer.line(match has_guards {
+            true => "self.singular.is_some()",
+            false => "false",
+        });
+        self.writer.close("}");
+
+        self.accelerations_abreast(
+            &number,
+            &format!("{result}<Self::Vectors, {runtime}::Singular>"),
+        );
+        self.writer.close("}");
+    }
+
+    fn accelerations_abreast(&mut self, number: &str, result: &str) {
+        let n = self.program.dimension();
+        let (call, used) = match self.emitted(Role::Accelerations) {
+            Some(function) => {
+                let arguments = self.arguments(self.needs(function));
+                let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
+                let name = self.function_name(Role::Accelerations);
+                (format!("{name}({})", names.join(", ")), names)
+            }
+            None => {
+                let runtime = &self.options.runtime;
+                (
+                    format!("Ok([{runtime}::Lanes::splat(0.0); {n}])"),
+                    Vec::new(),
+                )
+            }
+        };
+        let arguments = [
+            ("p", "&Self::Several"),
+            ("t", number),
+            ("q", "&Self::Vectors"),
+            ("v", "&Self::Vectors"),
+            ("u", "&Self::SeveralInputs"),
+        ]
+        .map(|(name, kind)| {
+            let shown = if used.contains(&name) { name } else { "_" };
+            format!("{shown}: {kind}")
+        });
+        self.writer.gap();
+        self.writer
+            .signature("fn accelerations_abreast", &arguments, Some(result));
+        self.writer.line(call);
+        self.writer.close("}");
+    }
+}

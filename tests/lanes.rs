@@ -1,0 +1,130 @@
+//! Several systems at once: each lane is the system alone, bit for bit, whatever the others hold.
+
+mod support;
+
+use lagrangian::{Abreast, Lanes, Machine, Number, Several, System, Vector};
+use support::sampling::{Random, Sample};
+use support::states::vector;
+
+/// Neighbours that no lane should hear of.
+const HOSTILE: [f64; 6] = [f64::NAN, f64::INFINITY, -1e300, 1e22, 5e-324, -0.0];
+
+/// Systems with other parameters and other states in every lane, some of them absurd.
+fn check<M: Machine, const N: usize>(name: &str, machines: [M; N], random: &mut Random<M>)
+where
+    Lanes<N>: Number,
+    M::System: Abreast<N>,
+{
+    let systems = machines.map(|machine| machine.prepare());
+    let several = Several::new(systems.each_ref());
+    let u = several.default_inputs(&systems[0]);
+    let mut compared = 0;
+    for round in 0..50 {
+        let mut samples: [Sample; N] = std::array::from_fn(|_| random.sample());
+        // From the second round on, a lane is spoiled; in some rounds all but one are.
+        for lane in 0..N {
+            if round > 0 && (lane == round % N) != (round % 3 == 0) {
+                let absurd = HOSTILE[(round + lane) % HOSTILE.len()];
+                match round % 4 {
+                    0 => samples[lane].q.fill(absurd),
+                    1 => samples[lane].v.fill(absurd),
+                    2 => samples[lane].t = absurd,
+                    _ => samples[lane].q[0] = absurd,
+                }
+            }
+        }
+        let q: [<M::System as System>::Vector; N] =
+            samples.each_ref().map(|at| vector::<M::System>(&at.q));
+        let v: [<M::System as System>::Vector; N] =
+            samples.each_ref().map(|at| vector::<M::System>(&at.v));
+        let t = Lanes(samples.each_ref().map(|at| at.t));
+        let found = several.accelerations(
+            t,
+            &several.vectors(q.each_ref()),
+            &several.vectors(v.each_ref()),
+            &u,
+        );
+        for lane in 0..N {
+            let system = &systems[lane];
+            let mut alone = q[lane].zeros_like();
+            let (t, u) = (samples[lane].t, system.default_inputs());
+            let is_defined = system
+                .accelerations(t, &q[lane], &v[lane], &u, &mut alone)
+                .is_ok();
+            let row: Vec<f64> = found.as_ref().iter().map(|numbers| numbers[lane]).collect();
+            let at = format!("{name}, lane {lane} of {N}, {:?}", samples[lane]);
+            // Where the system alone refuses, a lane divides all the same.
+            if !is_defined {
+                continue;
+            }
+            compared += 1;
+            for (found, alone) in row.iter().zip(alone.as_slice()) {
+                let is_same = found.to_bits() == alone.to_bits()
+                    // The sign and the payload of what is undefined mean nothing.
+                    || found.is_nan() && alone.is_nan();
+                assert!(is_same, "{at}: {row:?} instead of {alone:?}");
+            }
+        }
+    }
+    // In each round at least one lane is whole.
+    assert!(compared >= 50, "{name}: {compared}");
+}
+
+macro_rules! check_machine {
+    ($machine:ident, $name:literal, $($lanes:literal)*) => {{
+        use lagrangian_machines::$machine;
+        let mut random = Random::new(&$machine::default(), 20_260_004);
+        // Other parameters in every lane, all of them near the description's.
+        let machine = |lane: usize| {
+            let factor = 1.0 + lane as f64 / 64.0;
+            $machine::default().map(|x| x * factor)
+        };
+        $(check::<_, $lanes>($name, std::array::from_fn(machine), &mut random);)*
+    }};
+}
+
+#[test]
+fn a_lane_is_the_system_alone_in_every_machine_of_the_library() {
+    macro_rules! four {
+        ($machine:ident, $name:literal) => {
+            check_machine!($machine, $name, 4)
+        };
+    }
+    for_each_machine!(four);
+}
+
+/// Every copy of a machine takes its time to compile: a few stand for the others, which differ in
+/// nothing that a width could matter to. (The tests of `native` have every operation in every
+/// width.)
+#[test]
+fn there_may_be_two_or_eight_lanes() {
+    check_machine!(CartPole, "cart_pole", 2 8);
+    check_machine!(VibratingCrusher, "vibrating_crusher", 2 8);
+}
+
+/// No mass, no accelerations: the lane says so, and the other goes on.
+#[test]
+fn a_system_without_accelerations_is_undefined_in_its_lane_only() {
+    use lagrangian_machines::CartPole;
+    let broken = CartPole {
+        cart: 0.0,
+        pole: 0.0,
+        ..Default::default()
+    };
+    let systems = [CartPole::default().prepare(), broken.prepare()];
+    let two = Several::new(systems.each_ref());
+    let (q, v) = ([0.1, 0.2], [0.3, 0.4]);
+    let a = two.accelerations(
+        Lanes::splat(0.0),
+        &q.map(Lanes::splat),
+        &v.map(Lanes::splat),
+        &two.default_inputs(&systems[0]),
+    );
+    let mut alone = [0.0; 2];
+    let u = systems[0].default_inputs();
+    systems[0]
+        .accelerations(0.0, &q, &v, &u, &mut alone)
+        .expect("it has mass");
+    assert_eq!(a.map(|row| row[0]), alone);
+    assert!(a.iter().any(|row| row[1].is_nan()));
+}
