@@ -21,6 +21,8 @@ pub enum Command {
     Check(Check),
     /// Print the derived equations, or the code, with operation counts.
     Derive(Derive),
+    /// Make a shared library that C, Python and others can call.
+    Library(Library),
     /// Print numbers at given states, as JSON.
     Evaluate(Evaluate),
     /// Integrate the equations of motion.
@@ -90,6 +92,25 @@ pub enum Form {
     Program,
     /// The code as C99.
     C,
+}
+
+/// Arguments of `library`.
+#[derive(Debug, Args)]
+pub struct Library {
+    #[command(flatten)]
+    pub spec: Spec,
+    /// Where to write the library; its C header is written beside it.
+    #[arg(long, value_name = "FILE.so")]
+    pub out: PathBuf,
+    /// For how many states at once there are functions besides `eval`: 2, 4, 8, or several of them, as in `--lanes 4,8`.
+    #[arg(long, value_name = "N", value_delimiter = ',', default_value = "4", value_parser = lanes)]
+    pub lanes: Vec<u8>,
+    /// The processor that it is for, as rustc names it: x86-64-v3 for any with AVX2.
+    #[arg(long, value_name = "NAME", default_value = "native")]
+    pub target_cpu: String,
+    /// Write the one file of Rust from which it is compiled as well.
+    #[arg(long, value_name = "FILE.rs")]
+    pub source: Option<PathBuf>,
 }
 
 /// Arguments of `evaluate`.
@@ -168,6 +189,16 @@ fn constant(text: &str) -> Result<(String, Rational), String> {
     match Rational::parse_decimal(digits) {
         Some(value) => Ok((name.trim().to_owned(), &value * &sign)),
         None => Err(format!("`{value}` is not a number (as in 8, 2.5, 1e-3)")),
+    }
+}
+
+/// Reads for how many states at once there is to be a function.
+fn lanes(text: &str) -> Result<u8, String> {
+    match text.trim() {
+        "2" => Ok(2),
+        "4" => Ok(4),
+        "8" => Ok(8),
+        _ => Err("expected 2, 4 or 8".into()),
     }
 }
 

@@ -8,6 +8,7 @@ mod derive;
 mod diagnostics;
 mod evaluate;
 mod failure;
+mod library;
 mod output;
 mod plot;
 mod reading;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     let (json, result) = match &call.command {
         Command::Check(call) => (call.spec.json, check::run(call)),
         Command::Derive(call) => (call.spec.json, derive::run(call)),
+        Command::Library(call) => (call.spec.json, library::run(call)),
         // Its result is JSON in any case.
         Command::Evaluate(call) => (true, evaluate::run(call)),
         Command::Simulate(call) => (call.spec.json, simulate::run(call)),

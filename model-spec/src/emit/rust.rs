@@ -9,6 +9,7 @@ mod functions;
 mod kernel;
 mod lanes;
 mod language;
+mod library;
 mod structs;
 mod stub;
 mod traits;
@@ -59,6 +60,13 @@ pub fn module_name(machine: &str) -> String {
 /// The content of the module of a machine.
 pub fn module(program: &Program, options: &Options) -> String {
     Emitter::new(program, options).module()
+}
+
+/// The content of a module for a library that is called from C: the accelerations alone, and what they need.
+///
+/// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`.
+pub fn library(program: &Program, options: &Options) -> String {
+    Emitter::new(program, options).library()
 }
 
 /// What the macro expands to: the module of a machine, and the machine's type beside it.

@@ -371,6 +371,11 @@ impl Emitter<'_> {
             self.writer.expression("", &literal, "");
             self.writer.close("}");
         }
+        self.helpers_of_guards();
+    }
+
+    /// The checks of pivots, as far as there are any.
+    pub(super) fn helpers_of_guards(&mut self) {
         let is_guarded = |function: &Function| !function.guards.is_empty();
         let is_for_speed = |function: &&Function| function.role.inverts();
         let (fast, others): (Vec<_>, Vec<_>) = self

@@ -1,0 +1,208 @@
+// What the library exports. This text is no module of the command: `library.rs` puts it at the root of the generated file,
+// beside the module `machine` of the machine and the modules of the crates `lagrangian-scalar` and `lagrangian-native`.
+
+use core::cell::UnsafeCell;
+use core::ffi::{CStr, c_char, c_int};
+use core::ptr::null;
+
+use lanes::Lanes;
+use machine::{COORDINATES, INPUTS, PARAMETERS, Prepared};
+use register::Register;
+use scalar::{Kernel, Piece, Scalar};
+
+/// The functions of `libm` that generated code may call, by the C library. Sines and cosines are polynomials of this library
+/// up to 1e5 rad, where the processor has fused multiply-add.
+mod libm {
+    macro_rules! functions {
+        ($($name:ident $method:ident($($argument:ident)?);)*) => {$(
+            pub fn $name(x: f64 $(, $argument: f64)?) -> f64 {
+                x.$method($($argument)?)
+            }
+        )*};
+    }
+
+    functions! {
+        tan tan(); asin asin(); acos acos(); atan atan(); atan2 atan2(x2); sinh sinh(); cosh cosh(); tanh tanh();
+        exp exp(); log ln(); sqrt sqrt(); pow powf(exponent);
+    }
+
+    pub fn sincos(x: f64) -> (f64, f64) {
+        x.sin_cos()
+    }
+}
+
+/// A number, and the registers in which the processor that the library is compiled for works on it.
+pub trait Number: Copy {
+    fn run<K: Kernel<Self>>(kernel: K) -> K::Output;
+}
+
+macro_rules! numbers {
+    ($($stored:ty: $register:ident, $fused:ty, $plain:ty;)*) => {$(
+        impl Number for $stored {
+            #[inline(always)]
+            fn run<K: Kernel<Self>>(kernel: K) -> K::Output {
+                #[cfg(all(target_arch = "x86_64", target_feature = "avx2", target_feature = "fma"))]
+                return kernel.run::<Register<x86::$register>>();
+                #[cfg(target_arch = "aarch64")]
+                return kernel.run::<Register<$fused>>();
+                #[cfg(not(any(
+                    all(target_arch = "x86_64", target_feature = "avx2", target_feature = "fma"),
+                    target_arch = "aarch64",
+                )))]
+                return kernel.run::<$plain>();
+            }
+        }
+    )*};
+}
+
+numbers! {
+    f64: One, f64, f64;
+    Lanes<2>: Two, [f64; 2], lanes::Plain<2>;
+    Lanes<4>: Four, [f64; 4], lanes::Plain<4>;
+}
+
+#[cfg(target_feature = "avx512vl")]
+numbers! { Lanes<8>: Eight, [f64; 8], lanes::Plain<8>; }
+#[cfg(not(target_feature = "avx512vl"))]
+numbers! { Lanes<8>: TwiceFour, [f64; 8], lanes::Plain<8>; }
+
+/// The mass matrix cannot be inverted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Singular;
+
+impl Singular {
+    #[cold]
+    pub fn new(_coordinate: usize, _pivot: f64, _diagonal: f64) -> Self {
+        Singular
+    }
+}
+
+const N: usize = COORDINATES.len();
+const P: usize = PARAMETERS.len();
+const U: usize = INPUTS.len();
+
+/// What `eval_setup` leaves for the evaluations.
+struct Slot<T>(UnsafeCell<Option<T>>);
+
+// SAFETY: the header asks that `eval_setup` is not called while another function of the library runs.
+unsafe impl<T> Sync for Slot<T> {}
+
+static ONE: Slot<Prepared<f64>> = Slot(UnsafeCell::new(None));
+
+/// The numbers of a table.
+fn values<const K: usize>(table: &[(&CStr, &CStr, f64); K]) -> [f64; K] {
+    table.map(|(_, _, value)| value)
+}
+
+/// # Safety
+/// `p` is null or points to the parameters.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eval_setup(p: *const f64) {
+    // SAFETY: what the caller promises.
+    let row = match unsafe { p.cast::<[f64; P]>().as_ref() } {
+        Some(row) => *row,
+        None => values(&PARAMETERS),
+    };
+    let prepared = machine::prepared(&row);
+    // SAFETY: nobody else runs.
+    unsafe {
+        *ONE.0.get() = Some(prepared);
+        set_up_lanes(&prepared);
+    }
+}
+
+/// The values of the inputs, which follow the parameters.
+///
+/// # Safety
+/// `p` is null or points to parameters and inputs.
+#[inline(always)]
+unsafe fn given(p: *const f64) -> [f64; U] {
+    if U == 0 || p.is_null() {
+        return values(&INPUTS);
+    }
+    // SAFETY: what the caller promises.
+    unsafe { p.add(P).cast::<[f64; U]>().read() }
+}
+
+/// # Safety
+/// `y` and `qdd` point to as many numbers as the header says; `p` to parameters and inputs, or nowhere.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f64) {
+    // SAFETY: what the caller promises; nobody writes the slot meanwhile.
+    unsafe {
+        let (q, v) = (&*y.cast::<[f64; N]>(), &*y.add(N).cast::<[f64; N]>());
+        let a = (*ONE.0.get()).as_ref().and_then(|prepared| machine::evaluate(prepared, t, q, v, &given(p)));
+        *qdd.cast::<[f64; N]>() = a.unwrap_or([f64::NAN; N]);
+    }
+}
+
+/// The functions for several states at once: `library.rs` says which.
+macro_rules! several {
+    ($($name:ident: $lanes:literal;)*) => {
+        /// # Safety
+        /// Nobody else runs.
+        unsafe fn set_up_lanes(prepared: &Prepared) {
+            // SAFETY: what the caller promises.
+            $(unsafe { *$name::SLOT.0.get() = Some(prepared.map(Lanes::splat)) };)*
+        }
+
+        $(
+            mod $name {
+                use super::*;
+
+                pub static SLOT: Slot<Prepared<Lanes<$lanes>>> = Slot(UnsafeCell::new(None));
+
+                /// # Safety
+                /// As of `eval`; `t` points to a time for each state.
+                #[unsafe(no_mangle)]
+                pub unsafe extern "C" fn $name(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
+                    // SAFETY: as of `eval`; numbers of C are aligned as numbers, not as lanes.
+                    unsafe {
+                        let [q, v] = y.cast::<[[Lanes<$lanes>; N]; 2]>().read_unaligned();
+                        let t = t.cast::<Lanes<$lanes>>().read_unaligned();
+                        let a = (*SLOT.0.get())
+                            .as_ref()
+                            .and_then(|prepared| machine::evaluate(prepared, t, &q, &v, &given(p).map(Lanes::splat)));
+                        let a = a.unwrap_or([Lanes::splat(f64::NAN); N]);
+                        qdd.cast::<[Lanes<$lanes>; N]>().write_unaligned(a);
+                    }
+                }
+            }
+        )*
+    };
+}
+
+macro_rules! tables {
+    ($($table:ident: $count:ident { $($column:ident: $type:ty = $pattern:pat => $value:expr, else $none:expr;)* })*) => {$(
+        #[unsafe(no_mangle)]
+        pub extern "C" fn $count() -> c_int {
+            $table.len() as c_int
+        }
+        $(
+            #[unsafe(no_mangle)]
+            pub extern "C" fn $column(i: c_int) -> $type {
+                match usize::try_from(i).ok().and_then(|i| $table.get(i)) {
+                    Some($pattern) => $value,
+                    None => $none,
+                }
+            }
+        )*
+    )*};
+}
+
+tables! {
+    COORDINATES: coordinates {
+        coordinate_name: *const c_char = (name, ..) => name.as_ptr(), else null();
+        coordinate_unit: *const c_char = (_, unit, _) => unit.as_ptr(), else null();
+    }
+    PARAMETERS: parameters {
+        parameter_name: *const c_char = (name, ..) => name.as_ptr(), else null();
+        parameter_unit: *const c_char = (_, unit, _) => unit.as_ptr(), else null();
+        parameter_default: f64 = (.., value) => *value, else f64::NAN;
+    }
+    INPUTS: inputs {
+        input_name: *const c_char = (name, ..) => name.as_ptr(), else null();
+        input_unit: *const c_char = (_, unit, _) => unit.as_ptr(), else null();
+        input_default: f64 = (.., value) => *value, else f64::NAN;
+    }
+}
