@@ -3,7 +3,7 @@
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::emit;
 use lagrangian_spec::emit::document::Document;
-use lagrangian_spec::program::Program;
+use lagrangian_spec::program::{Candidate, Counts, Program};
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
@@ -30,7 +30,12 @@ pub fn run(call: &call::Derive) -> Result<(), Failure> {
         let form = form.map_or_else(String::new, |form| form.get_name().to_owned());
         output::line(format_args!(
             "{:#}",
-            json!({ "form": form, "text": text, "counts": counts(&compiled.program) })
+            json!({
+                "form": form,
+                "text": text,
+                "counts": counts(&compiled.program),
+                "choices": choices(&compiled.program),
+            })
         ));
     } else if call.out.is_none() {
         output::text(&text);
@@ -69,17 +74,37 @@ fn counts(program: &Program) -> Value {
     let functions = program
         .all_functions()
         .filter(|function| !function.results.is_empty());
-    let entries = functions.map(|function| {
-        let counts = function.counts();
-        let entry = json!({
-            "multiplications": counts.multiplications,
-            "additions": counts.additions,
-            "divisions": counts.divisions,
-            "sincos": counts.sincos,
-            "other": counts.other,
-            "guards": counts.guards,
-        });
-        (program.title(function.role), entry)
+    let entries =
+        functions.map(|function| (program.title(function.role), by_kind(&function.counts())));
+    Value::Object(entries.collect::<Map<_, _>>())
+}
+
+fn by_kind(counts: &Counts) -> Value {
+    json!({
+        "multiplications": counts.multiplications,
+        "additions": counts.additions,
+        "divisions": counts.divisions,
+        "sincos": counts.sincos,
+        "other": counts.other,
+        "guards": counts.guards,
+    })
+}
+
+/// For each function that could be made in several ways, the ways; the one that was taken first.
+fn choices(program: &Program) -> Value {
+    let candidate = |candidate: &Candidate| {
+        json!({
+            "made": candidate.form.to_string(),
+            "counts": by_kind(&candidate.counts),
+            // From tenths of a cycle.
+            "cycles_alone": candidate.cost.alone() as f64 / 10.0,
+            "cycles_among_others": candidate.cost.throughput as f64 / 10.0,
+        })
+    };
+    let entries = program.choices.iter().map(|choice| {
+        let candidates = [choice.chosen()].into_iter().chain(choice.others());
+        let candidates: Vec<Value> = candidates.map(candidate).collect();
+        (program.title(choice.role()), Value::Array(candidates))
     });
     Value::Object(entries.collect::<Map<_, _>>())
 }

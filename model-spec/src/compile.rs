@@ -6,14 +6,14 @@ use crate::diagnostic::Report;
 use crate::emit::formulas;
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::program::{Counts, Program, Role};
+use crate::program::{self, Basis, Program, Role};
 
 /// A machine, through every stage.
 #[derive(Clone)]
 pub struct Compiled<'d> {
     /// What it is.
     pub model: Model<'d>,
-    /// Its equations of motion.
+    /// Its equations of motion, in the form that the accelerations are computed from.
     pub equations: Equations<'d>,
     /// How they are computed.
     pub program: Program,
@@ -26,7 +26,14 @@ impl<'d> Compiled<'d> {
         if report.has_errors() {
             return None;
         }
-        let (equations, program) = cheapest(&model, equations);
+        let expanded = equations.expanded();
+        let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::cheapest);
+        let choice = program.choice(Role::Accelerations);
+        let is_expanded = choice.is_some_and(|c| c.chosen().form.basis == Basis::Expanded);
+        let equations = match expanded {
+            Some(expanded) if is_expanded => expanded,
+            _ => equations,
+        };
         Some(Compiled {
             model,
             equations,
@@ -38,32 +45,4 @@ impl<'d> Compiled<'d> {
     pub fn formulas(&self) -> BTreeMap<Role, Vec<String>> {
         formulas::formulas(&self.model, &self.equations)
     }
-}
-
-/// The equations as they were derived, or multiplied out, whichever makes the cheaper program.
-fn cheapest<'d>(model: &Model<'d>, equations: Equations<'d>) -> (Equations<'d>, Program) {
-    let program = Program::lower(model, &equations);
-    let other = equations.expanded().map(|expanded| {
-        let program = Program::lower(model, &expanded);
-        (expanded, program)
-    });
-    match other {
-        Some((expanded, other)) if cycles(&other) < cycles(&program) => (expanded, other),
-        _ => (equations, program),
-    }
-}
-
-/// About how many cycles the accelerations take where independent operations run side by side: 2.5
-/// multiplications or additions in one cycle, 4.5 cycles for a division, 3 for an angle among
-/// others.
-fn cycles(program: &Program) -> f64 {
-    let accelerations = program
-        .functions
-        .iter()
-        .filter(|f| f.role == Role::Accelerations);
-    let cost = |function| {
-        let counts = Counts::of(function);
-        counts.ops() as f64 / 2.5 + counts.divisions as f64 * 4.5 + counts.sincos as f64 * 3.0
-    };
-    accelerations.map(cost).sum()
 }

@@ -30,8 +30,10 @@ use crate::model::{Name, Variable};
 use crate::unit::Unit;
 
 mod articulated;
+mod choose;
 mod cost;
 mod count;
+mod factor;
 mod formula;
 mod fusion;
 mod graph;
@@ -46,7 +48,8 @@ mod schedule;
 mod solve;
 mod verify;
 
-pub use cost::Cost;
+pub use choose::{Basis, Candidate, Choice, Form, cheapest};
+pub use cost::{Cost, cycles};
 pub use count::Counts;
 pub use fusion::{Contracted, Contraction, Contractions, Side, fused, uses};
 pub use interpret::{Arguments, Interpreter};
@@ -88,6 +91,9 @@ pub struct Program {
     pub start: Function,
     /// Everything else, in the order of [`Role`].
     pub functions: Vec<Function>,
+    /// For each of these that could be made in several ways, which there were, in the order of
+    /// [`Role`].
+    pub choices: Vec<Choice>,
 }
 
 /// An argument: a parameter, a coordinate, an input; or an output.

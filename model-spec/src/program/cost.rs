@@ -19,6 +19,7 @@
 //! | comparison of a pivot | 0.8 | – |
 
 use std::cmp::Ordering;
+use std::fmt;
 
 use lagrangian_symbolic as symbolic;
 
@@ -70,6 +71,19 @@ impl Cost {
         let both = |cost: Cost| cost.alone() + cost.throughput;
         both(self).cmp(&both(other))
     }
+}
+
+/// `130 cycles alone, 63 among others`.
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (alone, among_others) = (cycles(self.alone()), cycles(self.throughput));
+        write!(f, "{alone} cycles alone, {among_others} among others")
+    }
+}
+
+/// Whole cycles, rounded up.
+pub fn cycles(tenths: u64) -> String {
+    tenths.div_ceil(10).to_string()
 }
 
 /// The work of a multiplication or an addition.

@@ -438,6 +438,22 @@ impl Graph {
         }
     }
 
+    /// The same value with its sign in the factor.
+    pub(super) fn with_signed_factor(&mut self, x: Scaled) -> Scaled {
+        let factor = match self.node(x.factor) {
+            Node::Constant(value) if x.negative => {
+                let value = -value;
+                self.intern(Node::Constant(value))
+            }
+            _ => self.signed(Scaled { core: Id::ONE, ..x }),
+        };
+        Scaled {
+            negative: false,
+            factor,
+            core: x.core,
+        }
+    }
+
     /// The same value, computed on its own wherever it is used: not multiplied out.
     pub(super) fn whole(&mut self, x: Scaled) -> Scaled {
         if x.is_known() {

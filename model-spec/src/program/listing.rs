@@ -1,7 +1,8 @@
 //! The plain text of a program: `derive --as program`, and the file beside generated code that a
 //! reviewer reads.
 //!
-//! One operation a line, `_7 = _3 * prepared[2]`; sine and cosine of one angle on one line; what a
+//! Below the head of a function stands how it was made, where there was a choice. One operation a
+//! line, `_7 = _3 * prepared[2]`; sine and cosine of one angle on one line; what a
 //! line computes for the outside stands behind it.
 
 use std::fmt::{self, Write as _};
@@ -149,6 +150,7 @@ impl<'a> Listing<'a> {
             self.arguments(),
             self.function.counts()
         );
+        text.push_str(&self.choice());
         let mut notes: FxHashMap<Value, Vec<String>> = FxHashMap::default();
         for (index, result) in results.iter().enumerate() {
             let mut note = self.program.result_name(*role, *shape, index);
@@ -221,6 +223,23 @@ impl<'a> Listing<'a> {
                 self.name(guard.scale),
                 coordinate.unwrap_or_default(),
             );
+        }
+        text
+    }
+
+    /// How the function is made, if there were several ways; of the accelerations, the other ways
+    /// too.
+    fn choice(&self) -> String {
+        let mut text = String::new();
+        let Some(choice) = self.program.choice(self.function.role) else {
+            return text;
+        };
+        let chosen = choice.chosen();
+        let _ = writeln!(text, "  // {}; {}", chosen.form, chosen.cost);
+        if self.function.role == Role::Accelerations {
+            for other in choice.others() {
+                let _ = writeln!(text, "  // not {other}");
+            }
         }
         text
     }

@@ -6,12 +6,13 @@ use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, r
 use rustc_hash::FxHashMap;
 
 use super::articulated;
+use super::choose::{Basis, Candidate, Choice, Form, cheapest};
 use super::formula::formula;
 use super::graph::{Graph, Id, Scaled};
 use super::net::Net;
 use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution};
-use super::{Counts, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
+use super::{Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
 use crate::mechanics::{Equations, Unprojected};
 use crate::model::{Model, Name};
 use crate::unit::Unit;
@@ -28,47 +29,71 @@ pub struct Quantity<'d> {
 }
 
 impl Program {
-    /// The program of a machine: every function that [`Role`] names.
+    /// The program of a machine: every function that [`Role`] names, each in the cheapest way that
+    /// is known.
     pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
-        let quantities = quantities(model, equations);
-        let unprojected = equations.unprojected.as_ref();
-        Program::build(
-            model,
-            &quantities,
-            unprojected,
-            &equations.slopes_in_forms(model),
-        )
+        let expanded = equations.expanded();
+        Program::lower_by(model, equations, expanded.as_ref(), &cheapest)
+    }
+
+    /// The same with a choice of one's own: `choose` is given the programs for one function, two or
+    /// more, and says which it is to be.
+    ///
+    /// `expanded` are the same equations, [multiplied out](Equations::expanded).
+    pub fn lower_by<'d>(
+        model: &Model<'d>,
+        equations: &Equations<'d>,
+        expanded: Option<&Equations<'d>>,
+        choose: &dyn Fn(&[Candidate]) -> usize,
+    ) -> Program {
+        let slopes = |basis| match (basis, expanded) {
+            (Basis::Expanded, Some(expanded)) => expanded.slopes_in_forms(model),
+            _ => equations.slopes_in_forms(model),
+        };
+        let source = Origin {
+            quantities: &quantities(model, equations),
+            expanded: &expanded
+                .map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
+            unprojected: equations.unprojected.as_ref(),
+            slopes: &slopes,
+        };
+        Program::build(model, source, choose)
     }
 
     /// The program that computes the quantities.
     ///
     /// If a mass matrix and forces are among them, there are accelerations too.
     pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Program {
-        Program::build(model, quantities, None, &[])
+        let source = Origin {
+            quantities,
+            expanded: &[],
+            unprojected: None,
+            slopes: &|_| Vec::new(),
+        };
+        Program::build(model, source, &cheapest)
     }
 
     fn build<'d>(
         model: &Model<'d>,
-        quantities: &[Quantity<'d>],
-        unprojected: Option<&Unprojected<'d>>,
-        slopes: &[Vec<Vec<Expr<'d>>>],
+        source: Origin<'_, 'd>,
+        choose: &dyn Fn(&[Candidate]) -> usize,
     ) -> Program {
-        let mut quantities = quantities.to_vec();
-        if let Some(machine) = unprojected {
+        let mut quantities = source.quantities.to_vec();
+        if let Some(machine) = source.unprojected {
             shorten_mass_matrix(model, machine, &mut quantities);
         }
-        let quantities = &quantities;
-        let roots: Vec<Expr<'d>> = quantities
-            .iter()
-            .flat_map(|quantity| quantity.values.iter().copied())
-            .collect();
+        let source = Origin {
+            quantities: &quantities,
+            ..source
+        };
         let mut starts: Vec<Expr<'d>> = model.coordinates.iter().map(|c| c.start).collect();
         if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
             starts.extend(model.coordinates.iter().map(|c| c.start_rate));
         }
         let mut lowering = Lowering::new(model);
-        lowering.lower(&roots);
+        lowering.lower(&all_values(source.quantities));
         lowering.lower(&starts);
+        lowering.lower(&all_values(source.expanded));
         let mut default = |constant| default(&mut lowering, constant);
         let parameters = model
             .parameters
@@ -107,51 +132,35 @@ impl Program {
             .map(|o| slot(&o.name, &o.docs, o.unit, &o.unit_text, None))
             .collect();
 
-        let planned: Vec<Planned> = quantities
-            .iter()
-            .map(|quantity| Planned {
-                role: quantity.role,
-                shape: quantity.shape,
-                results: lowering.values(&quantity.values),
-                pivots: Vec::new(),
-            })
-            .collect();
         let start = Planned {
             role: Role::Start,
             shape: Shape::Vector(starts.len()),
             results: lowering.values(&starts),
             pivots: Vec::new(),
         };
-        let start = start.function(&mut lowering.graph, false).0;
-        let results = |role| {
-            planned
-                .iter()
-                .find(|p| p.role == role)
-                .map(|p| p.results.clone())
+        let start = start.only(&mut lowering.graph).function;
+        let mut choices = Vec::new();
+        let mut drafts: Vec<Draft> = Vec::new();
+        let mut take = |candidates: Vec<Draft>| {
+            let (draft, choice) = taken(candidates, choose);
+            choices.extend(choice);
+            drafts.extend(draft);
         };
-        let mut functions: Vec<(Function, Vec<Id>)> = planned
-            .iter()
-            .map(|p| p.function(&mut lowering.graph, true))
-            .collect();
-        let mut known_pivots = Vec::new();
-        if let (Some(matrix), Some(forces)) = (results(Role::MassMatrix), results(Role::Forces)) {
-            let accelerations = accelerations(&mut lowering, &matrix, &forces, unprojected);
-            known_pivots = accelerations.known_pivots;
-            functions.push(accelerations.function);
-            if !slopes.is_empty() {
-                let asked = derivatives::Asked {
-                    matrix: &matrix,
-                    forces: &forces,
-                    unprojected,
-                    slopes,
-                    known_pivots: &known_pivots,
-                };
-                functions.push(derivatives::derivatives(&mut lowering, &asked));
-            }
+        for quantity in source.quantities {
+            take(of_quantity(&mut lowering, quantity, source.expanded));
         }
-        functions.sort_by_key(|(function, _)| function.role);
-        let graph = &mut lowering.graph;
-        let (prepare, prepared, functions) = prepare(graph, functions, known_pivots, model);
+        take(accelerations(&mut lowering, source));
+        let derivatives = match drafts.last() {
+            Some(last) if last.form.role == Role::Accelerations => {
+                derivatives(&mut lowering, source, last)
+            }
+            _ => None,
+        };
+        let has_derivatives = derivatives.is_some();
+        drafts.extend(derivatives);
+        drafts.sort_by_key(|draft| draft.function.role);
+        choices.sort_by_key(Choice::role);
+        let (prepare, prepared, functions) = prepare(&mut lowering.graph, drafts, model);
         let program = Program {
             name: model.name.clone(),
             docs: model.docs.clone(),
@@ -160,18 +169,36 @@ impl Program {
             inputs,
             outputs,
             assumptions: facts(model),
-            derivatives: match slopes.is_empty() {
-                true => Vec::new(),
-                false => model.derivatives.clone(),
+            derivatives: match has_derivatives {
+                true => model.derivatives.clone(),
+                false => Vec::new(),
             },
             prepare,
             prepared,
             start,
             functions,
+            choices,
         };
         debug_assert_eq!(program.verify(), Ok(()));
         program
     }
+}
+
+fn all_values<'d>(quantities: &[Quantity<'d>]) -> Vec<Expr<'d>> {
+    let values = quantities.iter().flat_map(|quantity| &quantity.values);
+    values.copied().collect()
+}
+
+/// What a program is made from.
+#[derive(Clone, Copy)]
+struct Origin<'a, 'd> {
+    quantities: &'a [Quantity<'d>],
+    /// Some of the same quantities, multiplied out.
+    expanded: &'a [Quantity<'d>],
+    unprojected: Option<&'a Unprojected<'d>>,
+    /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
+    /// they were derived or multiplied out.
+    slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
 }
 
 /// What there is to compute of a machine, in the order of [`Role`]; accelerations follow from it.
@@ -182,26 +209,20 @@ pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quant
         shape: Shape::Scalar,
         values: vec![value],
     };
-    let vector = |role, values: &[Expr<'d>]| Quantity {
-        role,
+    let applied = Quantity {
+        role: Role::Applied,
         shape: Shape::Vector(n),
-        values: values.to_vec(),
+        values: equations.applied.clone(),
     };
-    let mut quantities = vec![
-        Quantity {
-            role: Role::MassMatrix,
-            shape: Shape::Symmetric(n),
-            values: equations.mass_matrix.lower().to_vec(),
-        },
-        vector(Role::Bias, &equations.bias),
-        vector(Role::Applied, &equations.applied),
-        vector(Role::Forces, &equations.forces),
+    let mut quantities = matrix_and_forces(model, equations);
+    quantities.insert(2, applied);
+    quantities.extend([
         scalar(Role::KineticEnergy, equations.kinetic_energy),
         scalar(Role::PotentialEnergy, equations.potential_energy),
         scalar(Role::Dissipation, equations.dissipation),
         scalar(Role::WorkRate, equations.work_rate),
         scalar(Role::DissipationRate, equations.dissipation_rate),
-    ];
+    ]);
     let outputs = equations.outputs.iter().enumerate();
     quantities.extend(outputs.map(|(index, value)| scalar(Role::Output(index), *value)));
     let assumptions = model.assumptions.iter().enumerate();
@@ -239,6 +260,22 @@ fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
         _ => 0,
     };
     reachable(dag, roots).into_iter().map(each).sum()
+}
+
+/// `M`, `h` and `f`: what is different in equations that are multiplied out.
+fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
+    let n = model.coordinates.len();
+    let quantity = |role, shape, values: &[Expr<'d>]| Quantity {
+        role,
+        shape,
+        values: values.to_vec(),
+    };
+    let matrix = equations.mass_matrix.lower();
+    vec![
+        quantity(Role::MassMatrix, Shape::Symmetric(n), matrix),
+        quantity(Role::Bias, Shape::Vector(n), &equations.bias),
+        quantity(Role::Forces, Shape::Vector(n), &equations.forces),
+    ]
 }
 
 /// Expressions on their way into the graph.
@@ -305,6 +342,15 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
+    /// M and f, if both are there.
+    fn system(&self, quantities: &[Quantity<'d>]) -> Option<(Vec<Scaled>, Vec<Scaled>)> {
+        let values = |role| {
+            let quantity = quantities.iter().find(|quantity| quantity.role == role)?;
+            Some(self.values(&quantity.values))
+        };
+        Some((values(Role::MassMatrix)?, values(Role::Forces)?))
+    }
+
     fn values(&self, expressions: &[Expr<'d>]) -> Vec<Scaled> {
         expressions
             .iter()
@@ -321,22 +367,62 @@ struct Planned {
     pivots: Vec<Pivot>,
 }
 
+/// A function of which it is not yet decided whether it is taken.
+struct Draft {
+    form: Form,
+    function: Function,
+    /// The nodes that its `Read(Prepared(k))` stand for.
+    prepared: Vec<Id>,
+    /// Pivots that parameters alone decide.
+    known_pivots: Vec<Pivot>,
+}
+
+impl Draft {
+    fn is_same(&self, other: &Draft) -> bool {
+        self.function == other.function && self.prepared == other.prepared
+    }
+}
+
 impl Planned {
-    /// The function, and the nodes that its `Read(Prepared(k))` stand for.
-    fn function(&self, graph: &mut Graph, cut: bool) -> (Function, Vec<Id>) {
+    /// The function in the ways that there are: common pairs shared, and before that, factors taken
+    /// out of sums.
+    fn drafts(self, graph: &mut Graph, basis: Basis) -> Vec<Draft> {
+        let net = self.net(graph, true);
+        let mut factored = net.clone();
+        let has_factors = factored.factor();
+        let mut drafts = vec![self.draft(net, basis, false)];
+        if has_factors {
+            drafts.push(self.draft(factored, basis, true));
+        }
+        drafts
+    }
+
+    /// The function without a choice, of parameters.
+    fn only(self, graph: &mut Graph) -> Draft {
+        let net = self.net(graph, false);
+        self.draft(net, Basis::Derived, false)
+    }
+
+    fn net(&self, graph: &mut Graph, cut: bool) -> Net {
         let guarded = self.pivots.iter().flat_map(|p| [p.pivot, p.scale]);
         let roots: Vec<(Id, bool)> = self
             .results
             .iter()
             .copied()
             .chain(guarded)
-            .map(|x| match cut && x.negative && x.is_known() {
+            .map(|x| match cut && x.negative && x.factor != Id::ONE {
                 // A sign is prepared with the value that it belongs to.
-                true => (graph.signed(x), false),
+                true => {
+                    let x = graph.with_signed_factor(x);
+                    (graph.unsigned(x), false)
+                }
                 false => (graph.unsigned(x), x.negative),
             })
             .collect();
-        let mut net = Net::new(graph, &roots, cut);
+        Net::new(graph, &roots, cut)
+    }
+
+    fn draft(&self, mut net: Net, basis: Basis, factored: bool) -> Draft {
         net.share_pairs();
         let Code {
             code,
@@ -356,66 +442,145 @@ impl Planned {
                 coordinate: p.coordinate,
             })
             .collect();
-        let function = Function {
-            role: self.role,
-            code,
-            shape: self.shape,
-            results: results.to_vec(),
-            guards,
-        };
-        (function, prepared)
-    }
-}
-
-/// The function that computes the accelerations.
-struct Accelerations {
-    function: (Function, Vec<Id>),
-    /// Pivots that parameters alone decide.
-    known_pivots: Vec<Pivot>,
-}
-
-impl Accelerations {
-    fn new(graph: &mut Graph, solution: Solution) -> Accelerations {
-        let known = |p: &Pivot| p.pivot.is_known() && p.scale.is_known();
-        let (known_pivots, pivots) = solution.pivots.into_iter().partition(known);
-        let planned = Planned {
-            role: Role::Accelerations,
-            shape: Shape::Vector(solution.accelerations.len()),
-            results: solution.accelerations,
-            pivots,
-        };
-        Accelerations {
-            function: planned.function(graph, true),
-            known_pivots,
+        Draft {
+            form: Form {
+                role: self.role,
+                basis,
+                factored,
+            },
+            function: Function {
+                role: self.role,
+                code,
+                shape: self.shape,
+                results: results.to_vec(),
+                guards,
+            },
+            prepared,
+            known_pivots: Vec::new(),
         }
     }
-
-    fn counts(&self) -> Counts {
-        self.function.0.counts()
-    }
 }
 
-/// The accelerations by the way that is cheaper to run: from the mass matrix, or along the machine.
-fn accelerations<'d>(
+/// The one that is chosen, and the record of the choice if there was one.
+fn taken(
+    mut drafts: Vec<Draft>,
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> (Option<Draft>, Option<Choice>) {
+    let mut different: Vec<Draft> = Vec::with_capacity(drafts.len());
+    for draft in drafts.drain(..) {
+        if !different.iter().any(|other| draft.is_same(other)) {
+            different.push(draft);
+        }
+    }
+    if different.len() < 2 {
+        return (different.pop(), None);
+    }
+    let candidate = |draft: &Draft| Candidate {
+        form: draft.form,
+        counts: draft.function.counts(),
+        cost: draft.function.cost(),
+    };
+    let candidates: Vec<Candidate> = different.iter().map(candidate).collect();
+    let chosen = choose(&candidates).min(candidates.len() - 1);
+    let draft = different.swap_remove(chosen);
+    (Some(draft), Some(Choice { candidates, chosen }))
+}
+
+/// A quantity as it was derived and multiplied out.
+fn of_quantity<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    matrix: &[Scaled],
-    forces: &[Scaled],
-    unprojected: Option<&Unprojected<'d>>,
-) -> Accelerations {
-    let along = unprojected.and_then(|machine| along_the_machine(lowering, matrix, machine));
-    let elimination = Elimination::of(matrix, forces.len());
-    let along = match along {
+    quantity: &Quantity<'d>,
+    expanded: &[Quantity<'d>],
+) -> Vec<Draft> {
+    let planned = |values: &[Expr<'d>], lowering: &Lowering<'_, 'd>| Planned {
+        role: quantity.role,
+        shape: quantity.shape,
+        results: lowering.values(values),
+        pivots: Vec::new(),
+    };
+    let derived = planned(&quantity.values, lowering);
+    let other = expanded
+        .iter()
+        .find(|other| other.role == quantity.role)
+        .map(|other| planned(&other.values, lowering))
+        .filter(|other| other.results != derived.results);
+    let mut drafts = derived.drafts(&mut lowering.graph, Basis::Derived);
+    if let Some(other) = other {
+        drafts.extend(other.drafts(&mut lowering.graph, Basis::Expanded));
+    }
+    drafts
+}
+
+/// The accelerations from the mass matrix, and along the machine.
+fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
+    let Some((matrix, forces)) = lowering.system(source.quantities) else {
+        return Vec::new();
+    };
+    let mut systems = vec![(Basis::Derived, matrix, forces)];
+    let expanded = lowering
+        .system(source.expanded)
+        .filter(|(m, f)| *m != systems[0].1 || *f != systems[0].2);
+    systems.extend(expanded.map(|(matrix, forces)| (Basis::Expanded, matrix, forces)));
+    let mut drafts = match source.unprojected {
+        Some(machine) => along_the_machine(lowering, &systems[0].1, machine),
+        None => Vec::new(),
+    };
+    let shortest = drafts
+        .iter()
+        .map(|draft| draft.function.counts().ops())
+        .min();
+    for (basis, matrix, forces) in systems {
+        let elimination = Elimination::of(&matrix, forces.len());
         // What is certainly longer is not even written down: it grows with the cube of the number
         // of coordinates.
-        Some(along) if elimination.multiplications > along.counts().ops() => return along,
-        other => other,
-    };
-    let by_matrix = solve::solve(&mut lowering.graph, matrix, forces, elimination);
-    let by_matrix = Accelerations::new(&mut lowering.graph, by_matrix);
-    match along {
-        Some(along) if along.counts().cost() <= by_matrix.counts().cost() => along,
-        _ => by_matrix,
+        if shortest.is_some_and(|ops| elimination.multiplications > ops) {
+            continue;
+        }
+        let solution = solve::solve(&mut lowering.graph, &matrix, &forces, elimination);
+        drafts.extend(solved(&mut lowering.graph, solution, basis));
     }
+    drafts
+}
+
+/// The accelerations with their derivatives, if any are asked for: from the equations that the
+/// accelerations were taken from.
+fn derivatives<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+    accelerations: &Draft,
+) -> Option<Draft> {
+    let (quantities, unprojected) = match accelerations.form.basis {
+        Basis::Expanded => (source.expanded, None),
+        Basis::Derived | Basis::Along => (source.quantities, source.unprojected),
+    };
+    let slopes = (source.slopes)(accelerations.form.basis);
+    let (matrix, forces) = lowering.system(quantities)?;
+    let asked = derivatives::Asked {
+        matrix: &matrix,
+        forces: &forces,
+        unprojected,
+        slopes: &slopes,
+        known_pivots: &accelerations.known_pivots,
+    };
+    (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &asked))
+}
+
+/// The programs of a solution; pivots that parameters alone decide are kept apart.
+fn solved(graph: &mut Graph, solution: Solution, basis: Basis) -> Vec<Draft> {
+    let known = |p: &Pivot| p.pivot.is_known() && p.scale.is_known();
+    let (known_pivots, pivots): (Vec<Pivot>, Vec<Pivot>) =
+        solution.pivots.into_iter().partition(known);
+    let planned = Planned {
+        role: Role::Accelerations,
+        shape: Shape::Vector(solution.accelerations.len()),
+        results: solution.accelerations,
+        pivots,
+    };
+    let mut drafts = planned.drafts(graph, basis);
+    for draft in &mut drafts {
+        draft.known_pivots.clone_from(&known_pivots);
+    }
+    drafts
 }
 
 /// The accelerations by [`articulated::solve`].
@@ -423,12 +588,15 @@ fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     matrix: &[Scaled],
     machine: &Unprojected<'d>,
-) -> Option<Accelerations> {
-    let articulated::Solution {
+) -> Vec<Draft> {
+    let Some(articulated::Solution {
         accelerations,
         pivots,
         ..
-    } = articulated::solve(lowering.model, machine)?;
+    }) = articulated::solve(lowering.model, machine)
+    else {
+        return Vec::new();
+    };
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
     lowering.lower(&accelerations);
     lowering.lower(&values);
@@ -449,7 +617,7 @@ fn along_the_machine<'d>(
             accelerations: results.clone(),
             columns: Vec::new(),
         };
-        Accelerations::new(&mut lowering.graph, solution)
+        solved(&mut lowering.graph, solution, Basis::Along)
     };
     let diagonal = |i: usize| matrix[Shape::index(i, i)];
     let full = with_scales(&|i, _| diagonal(i));
@@ -460,8 +628,12 @@ fn along_the_machine<'d>(
             pivot
         }
     });
-    let is_cheap = 100 * full.counts().ops() <= (100 + DEAREST_GUARDS) * lean.counts().ops();
-    Some(if is_cheap { full } else { lean })
+    let ops = |drafts: &[Draft]| {
+        let counts = drafts.iter().map(|draft| draft.function.counts().ops());
+        counts.min().unwrap_or(0)
+    };
+    let is_cheap = 100 * ops(&full) <= (100 + DEAREST_GUARDS) * ops(&lean);
+    if is_cheap { full } else { lean }
 }
 
 /// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may
@@ -473,13 +645,12 @@ const DEAREST_GUARDS: usize = 10;
 /// with their final indices.
 fn prepare(
     graph: &mut Graph,
-    functions: Vec<(Function, Vec<Id>)>,
-    pivots: Vec<Pivot>,
+    drafts: Vec<Draft>,
     model: &Model<'_>,
 ) -> (Function, Vec<String>, Vec<Function>) {
-    let mut ids: Vec<Id> = functions
+    let mut ids: Vec<Id> = drafts
         .iter()
-        .flat_map(|(_, prepared)| prepared.iter().copied())
+        .flat_map(|draft| draft.prepared.iter().copied())
         .collect();
     ids.sort_unstable();
     ids.dedup();
@@ -488,9 +659,12 @@ fn prepare(
         .zip(0..)
         .map(|(&id, index)| (id, index))
         .collect();
-    let functions = functions
+    let mut pivots = Vec::new();
+    let functions = drafts
         .into_iter()
-        .map(|(mut function, prepared)| {
+        .map(|draft| {
+            pivots.extend(draft.known_pivots);
+            let (mut function, prepared) = (draft.function, draft.prepared);
             for op in &mut function.code {
                 if let Op::Read(Source::Prepared(index)) = op {
                     *index = index_of[&prepared[*index as usize]];
@@ -526,7 +700,7 @@ fn prepare(
             .collect(),
         pivots,
     };
-    let mut prepare = planned.function(graph, false).0;
+    let mut prepare = planned.only(graph).function;
     for guard in &mut prepare.guards {
         guard.tolerance = solve::pivot_tolerance(model.coordinates.len());
     }

@@ -49,6 +49,7 @@ pub(super) type Stage = u8;
 /// The stage of what time decides, and nothing that comes after it.
 pub(super) const TIME: Stage = 1;
 
+#[derive(Clone)]
 pub(super) struct Net {
     pub(super) items: Vec<Item>,
     pub(super) stages: Vec<Stage>,

@@ -1,8 +1,20 @@
-//! From products and sums to operations, in an order that keeps few values waiting.
+//! From products and sums to operations, in an order that lets few values wait and keeps few of
+//! them at hand.
+//!
+//! A product of many factors, or a sum of many terms, is computed in the order in which they are
+//! known: the two that are known first become one, and so on, as D. A. Huffman's code merges the
+//! two rarest letters. So what takes long, a sine or a quotient, passes through one operation and
+//! not through several; of values known at once a balanced tree is made. No other order has its
+//! result known earlier (M. C. Golumbic, *Combinatorial merging*, IEEE Trans. Comput. C-25 (1976)
+//! 1164–1167).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 use lagrangian_symbolic::Rational;
 use rustc_hash::FxHashMap;
 
+use super::cost::latency;
 use super::graph::Id;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
 use super::{Op, Value};
@@ -17,10 +29,11 @@ pub(super) struct Code {
 
 /// Writes the items down as operations.
 pub(super) fn schedule(net: &Net) -> Code {
+    let merged = merged(net);
     let mut builder = Builder::default();
     let mut value_of: Vec<Option<Value>> = vec![None; net.items.len()];
-    for index in in_order(net) {
-        value_of[index as usize] = Some(builder.item(net, index, &value_of));
+    for index in in_order(net, &merged) {
+        value_of[index as usize] = Some(builder.item(net, index, &merged, &value_of));
     }
     let value = |index: Index| value_of[index as usize].expect("operands come first");
     let roots: Vec<Value> = net
@@ -42,8 +55,8 @@ pub(super) fn schedule(net: &Net) -> Code {
     }
 }
 
-/// The items that the roots need, operands first.
-fn in_order(net: &Net) -> Vec<Index> {
+/// The items that the roots need, operands first, but for those that are merged into others.
+fn in_order(net: &Net, merged: &[bool]) -> Vec<Index> {
     let mut order = Vec::with_capacity(net.items.len());
     let mut entered = vec![false; net.items.len()];
     let mut stack: Vec<(Index, bool)> = net
@@ -54,7 +67,9 @@ fn in_order(net: &Net) -> Vec<Index> {
         .collect();
     while let Some((index, done)) = stack.pop() {
         if done {
-            order.push(index);
+            if !merged[index as usize] {
+                order.push(index);
+            }
         } else if !std::mem::replace(&mut entered[index as usize], true) {
             stack.push((index, true));
             operands(&net.items[index as usize], |operand| {
@@ -65,9 +80,44 @@ fn in_order(net: &Net) -> Vec<Index> {
     order
 }
 
+/// Sums that are only a term of another sum, and products that are only a factor of another
+/// product. What has a part that is known before stays by itself: two such parts are not to meet.
+fn merged(net: &Net) -> Vec<bool> {
+    let uses = net.uses();
+    let mut merged = vec![false; net.items.len()];
+    let varies = |index: &Index| net.stages[*index as usize] > 0;
+    let is_sum = |index: Index| match &net.items[index as usize] {
+        Item::Sum(terms) => terms.iter().all(|(term, _)| varies(term)),
+        _ => false,
+    };
+    let is_product = |index: Index| match &net.items[index as usize] {
+        Item::Product { up, down } => down.is_empty() && up.iter().all(varies),
+        _ => false,
+    };
+    let mut merge = |index: Index| merged[index as usize] = uses[index as usize] == 1;
+    for item in &net.items {
+        match item {
+            Item::Sum(terms) => {
+                let inner = terms.iter().map(|(term, _)| *term);
+                inner.filter(|&term| is_sum(term)).for_each(&mut merge);
+            }
+            Item::Product { up, .. } => {
+                let inner = up.iter().copied();
+                inner
+                    .filter(|&factor| is_product(factor))
+                    .for_each(&mut merge);
+            }
+            _ => {}
+        }
+    }
+    merged
+}
+
 #[derive(Default)]
 struct Builder {
     code: Vec<Op>,
+    /// How long after the arguments each value is known, in tenths of a cycle.
+    ready: Vec<u64>,
     values: FxHashMap<Op, Value>,
     prepared: Vec<Id>,
     prepared_index: FxHashMap<Id, u32>,
@@ -86,12 +136,20 @@ impl Builder {
         }
         let value =
             Value(u32::try_from(self.code.len()).expect("memory ends before 2^32 operations"));
+        let operands = op.operands().map(|operand| self.ready[operand.index()]);
+        self.ready.push(operands.max().unwrap_or(0) + latency(&op));
         self.code.push(op.clone());
         self.values.insert(op, value);
         value
     }
 
-    fn item(&mut self, net: &Net, index: Index, value_of: &[Option<Value>]) -> Value {
+    fn item(
+        &mut self,
+        net: &Net,
+        index: Index,
+        merged: &[bool],
+        value_of: &[Option<Value>],
+    ) -> Value {
         let value = |index: Index| value_of[index as usize].expect("operands come first");
         match &net.items[index as usize] {
             Item::Leaf(Leaf::Op(op)) => self.op(op.clone()),
@@ -114,12 +172,19 @@ impl Builder {
                 }
             }
             Item::Product { up, down } => {
-                let earlier_first = |list: &[Index]| {
-                    let mut list = list.to_vec();
+                let mut factors = Vec::with_capacity(up.len());
+                let mut open = up.clone();
+                while let Some(factor) = open.pop() {
+                    match &net.items[factor as usize] {
+                        Item::Product { up, .. } if merged[factor as usize] => open.extend(up),
+                        _ => factors.push(factor),
+                    }
+                }
+                let earlier_first = |mut list: Vec<Index>| {
                     list.sort_by_key(|&index| (net.stages[index as usize], index));
                     list.into_iter().map(value).collect::<Vec<Value>>()
                 };
-                let (up, down) = (earlier_first(up), earlier_first(down));
+                let (up, down) = (earlier_first(factors), earlier_first(down.clone()));
                 if down.is_empty() {
                     return self.product(up);
                 }
@@ -128,13 +193,23 @@ impl Builder {
                 self.op(Op::Div(numerator, denominator))
             }
             Item::Sum(terms) => {
-                let mut terms: Vec<Signed> = terms.clone();
-                terms.sort_by_key(|&(index, negative)| {
+                let mut list: Vec<Signed> = Vec::with_capacity(terms.len());
+                let mut open = terms.clone();
+                while let Some((term, negative)) = open.pop() {
+                    match &net.items[term as usize] {
+                        Item::Sum(inner) if merged[term as usize] => {
+                            let inner = inner.iter();
+                            open.extend(inner.map(|&(term, minus)| (term, minus ^ negative)));
+                        }
+                        _ => list.push((term, negative)),
+                    }
+                }
+                list.sort_by_key(|&(index, negative)| {
                     (negative, net.stages[index as usize], index)
                 });
+                let terms = list.into_iter();
                 self.sum(
                     terms
-                        .into_iter()
                         .map(|(index, negative)| (value(index), negative))
                         .collect(),
                 )
@@ -196,46 +271,54 @@ impl Builder {
         Some(error)
     }
 
-    /// The product as a balanced tree; of none, 1.
-    fn product(&mut self, mut factors: Vec<Value>) -> Value {
-        while factors.len() > 1 {
-            factors = factors
-                .chunks(2)
-                .map(|pair| {
-                    if let &[a, b] = pair {
-                        self.op(Op::Mul(a, b))
-                    } else {
-                        pair[0]
-                    }
-                })
-                .collect();
-        }
-        match factors.first() {
-            Some(&value) => value,
+    /// The product, factors that are known first multiplied first; of none, 1.
+    fn product(&mut self, factors: Vec<Value>) -> Value {
+        let factors = factors.into_iter().map(|factor| (factor, false)).collect();
+        let product = self.merge(factors, |builder, a, b| {
+            (builder.op(Op::Mul(a.0, b.0)), false)
+        });
+        match product {
+            Some((value, _)) => value,
             None => self.op(Op::Constant(Rational::ONE)),
         }
     }
 
-    /// The sum of terms, positive ones first: three in a row, more as a balanced tree.
-    fn sum(&mut self, mut terms: Vec<(Value, bool)>) -> Value {
-        while terms.len() > 1 {
-            terms = terms
-                .chunks(2)
-                .map(|pair| match *pair {
-                    [(a, minus_a), (b, minus_b)] if minus_a == minus_b => {
-                        (self.op(Op::Add(a, b)), minus_a)
-                    }
-                    // Positive terms stand first.
-                    [(a, _), (b, _)] => (self.op(Op::Sub(a, b)), false),
-                    _ => pair[0],
-                })
-                .collect();
-        }
-        match terms.first() {
-            Some(&(value, false)) => value,
-            Some(&(value, true)) => self.negative(value),
+    /// The sum of terms, those that are known first added first.
+    fn sum(&mut self, terms: Vec<(Value, bool)>) -> Value {
+        let sum = self.merge(terms, |builder, a, b| match (a, b) {
+            ((a, minus_a), (b, minus_b)) if minus_a == minus_b => {
+                (builder.op(Op::Add(a, b)), minus_a)
+            }
+            ((a, false), (b, _)) | ((b, _), (a, _)) => (builder.op(Op::Sub(a, b)), false),
+        });
+        match sum {
+            Some((value, false)) => value,
+            Some((value, true)) => self.negative(value),
             None => self.op(Op::Constant(Rational::ZERO)),
         }
+    }
+
+    /// Makes one of all parts: each time of the two that are known first, the earlier in the list
+    /// if several are.
+    fn merge(
+        &mut self,
+        parts: Vec<(Value, bool)>,
+        combine: impl Fn(&mut Builder, (Value, bool), (Value, bool)) -> (Value, bool),
+    ) -> Option<(Value, bool)> {
+        let mut next = parts.len();
+        let parts = parts.into_iter().enumerate();
+        let mut queue: BinaryHeap<_> = parts
+            .map(|(place, part)| Reverse((self.ready[part.0.index()], place, part)))
+            .collect();
+        while let Some(Reverse((_, _, first))) = queue.pop() {
+            let Some(Reverse((_, _, second))) = queue.pop() else {
+                return Some(first);
+            };
+            let part = combine(self, first, second);
+            queue.push(Reverse((self.ready[part.0.index()], next, part)));
+            next += 1;
+        }
+        None
     }
 
     fn negative(&mut self, value: Value) -> Value {

@@ -9,7 +9,7 @@ use lagrangian_spec::program::{
 
 use crate::harness::{all_machines, compiled, machine};
 
-fn assert_proved(machine: &Compiled<'_>) {
+pub fn assert_proved(machine: &Compiled<'_>) {
     let Compiled {
         model,
         equations,
@@ -83,7 +83,7 @@ fn a_spun_body_in_space_obeys_lagranges_equations() {
 }
 
 /// A mistake in a program is found, unless it changes nothing: terms that cancel may be wrong in the same way.
-fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
+pub fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
     let Compiled {
         model,
         equations,

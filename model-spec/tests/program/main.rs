@@ -1,6 +1,7 @@
 //! Programs: that they compute what they were made from, that they are short, and that a wrong one is found out.
 
 mod accuracy;
+mod candidates;
 mod derivatives;
 mod harness;
 mod lowering;

@@ -1,8 +1,9 @@
 //! What the code costs.
 
-use super::{Chapter, code, head, words};
+use super::{Chapter, code, counted, head, words};
 use crate::emit::document::{Block, Words};
 use crate::mechanics::Route;
+use crate::program::{Candidate, Role, cycles};
 
 impl Chapter<'_, '_> {
     pub(super) fn program(&self) -> Vec<Block> {
@@ -21,7 +22,11 @@ impl Chapter<'_, '_> {
             ];
             let name: Words = words![code(program.title(function.role))];
             let numbers = numbers.map(|n| words![n.to_string()]);
-            [name].into_iter().chain(numbers).collect()
+            let form = program
+                .choice(function.role)
+                .map_or_else(String::new, |choice| choice.chosen().form.to_string());
+            let row = [name].into_iter().chain(numbers);
+            row.chain([words![form]]).collect()
         });
         let head = head(&[
             "",
@@ -30,6 +35,7 @@ impl Chapter<'_, '_> {
             "divisions",
             "sine–cosine pairs",
             "other",
+            "made",
         ]);
         let route = match self.compiled.equations.route {
             Route::Projected => {
@@ -46,6 +52,45 @@ impl Chapter<'_, '_> {
             code("prepare"),
             " is called once for a set of parameters:",
         ];
-        vec![Block::Paragraph(words), Block::Table(head, rows.collect())]
+        let mut blocks = vec![Block::Paragraph(words), Block::Table(head, rows.collect())];
+        blocks.extend(self.ways_to_accelerations());
+        blocks
+    }
+
+    /// The programs from which that of the accelerations was chosen.
+    fn ways_to_accelerations(&self) -> Vec<Block> {
+        let Some(choice) = self.compiled.program.choice(Role::Accelerations) else {
+            return Vec::new();
+        };
+        let words = words![
+            "The accelerations were made in ",
+            counted(choice.candidates.len(), "form"),
+            ". The first of the following was taken, for the least sum of the cycles that a processor is estimated to take for \
+             a call by itself and for one among many that run side by side:",
+        ];
+        let head = head(&[
+            "",
+            "multiplications",
+            "additions",
+            "divisions",
+            "cycles alone",
+            "among others",
+        ]);
+        let row = |candidate: &Candidate| {
+            let Candidate { form, counts, cost } = candidate;
+            let numbers = [
+                counts.multiplications.to_string(),
+                counts.additions.to_string(),
+                counts.divisions.to_string(),
+                cycles(cost.alone()),
+                cycles(cost.throughput),
+            ];
+            let form = words![form.to_string()];
+            let numbers = numbers.into_iter().map(|number| words![number]);
+            [form].into_iter().chain(numbers).collect()
+        };
+        let candidates = [choice.chosen()].into_iter().chain(choice.others());
+        let rows = candidates.map(row).collect();
+        vec![Block::Paragraph(words), Block::Table(head, rows)]
     }
 }

@@ -80,6 +80,7 @@ fn standstill(spec: &Spec) -> Program {
         prepared: Vec::new(),
         start: zeros(Role::Start, Shape::Vector(n)),
         functions,
+        choices: Vec::new(),
     }
 }
 

@@ -8,10 +8,10 @@
 
 use lagrangian_symbolic::Expr;
 
-use super::super::graph::{Graph, Id, Scaled};
+use super::super::graph::{Graph, Scaled};
 use super::super::solve::{self, Elimination, Pivot};
-use super::super::{Function, Role, Shape, articulated};
-use super::{Lowering, Planned};
+use super::super::{Basis, Role, Shape, articulated};
+use super::{Draft, Lowering, Planned};
 use crate::mechanics::Unprojected;
 
 /// One unknown that leaves the equations: `x_of = r_of/pivot + Σ c x_part`, and its load moves on:
@@ -46,18 +46,15 @@ pub(super) struct Asked<'a, 'd> {
 }
 
 /// The function of the accelerations and their derivatives, by the way that is cheapest to run.
-pub(super) fn derivatives<'d>(
-    lowering: &mut Lowering<'_, 'd>,
-    asked: &Asked<'_, 'd>,
-) -> (Function, Vec<Id>) {
+pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
     let elimination = Elimination::of(asked.matrix, asked.forces.len());
     let along = asked
         .unprojected
         .and_then(|machine| along_the_machine(lowering, asked, machine));
     let mut candidates = functions(lowering, asked, along.as_ref());
     // What is certainly longer is not even written down: each column passes through the matrix too.
-    let is_shorter = |function: &(Function, Vec<Id>)| {
-        elimination.multiplications * asked.columns() <= function.0.counts().ops()
+    let is_shorter = |draft: &Draft| {
+        elimination.multiplications * asked.columns() <= draft.function.counts().ops()
     };
     if candidates.iter().all(is_shorter) {
         let by_matrix = by_matrix(&mut lowering.graph, asked, elimination);
@@ -65,7 +62,7 @@ pub(super) fn derivatives<'d>(
     }
     candidates
         .into_iter()
-        .min_by_key(|(function, _)| function.counts().cost())
+        .min_by(|a, b| a.function.cost().compare(b.function.cost()))
         .expect("the mass matrix always leads to one")
 }
 
@@ -75,7 +72,7 @@ fn functions<'d>(
     lowering: &mut Lowering<'_, 'd>,
     asked: &Asked<'_, 'd>,
     solved: Option<&Solved>,
-) -> Vec<(Function, Vec<Id>)> {
+) -> Vec<Draft> {
     let forms = solved.into_iter().flat_map(|solved| {
         asked
             .slopes
@@ -168,7 +165,7 @@ fn function<'d>(
     asked: &Asked<'_, 'd>,
     solved: &Solved,
     slopes: &[Vec<Expr<'d>>],
-) -> (Function, Vec<Id>) {
+) -> Draft {
     let n = asked.forces.len();
     let rights = right_hand_sides(lowering, slopes, &solved.accelerations);
     let graph = &mut lowering.graph;
@@ -199,7 +196,8 @@ fn function<'d>(
             .filter(|pivot| !asked.known_pivots.contains(pivot))
             .collect(),
     };
-    planned.function(graph, true)
+    let net = planned.net(graph, true);
+    planned.draft(net, Basis::Derived, false)
 }
 
 /// The right-hand sides with the values of the accelerations in them.

@@ -1,0 +1,142 @@
+//! Every program that could have been taken, whether it was or not.
+
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::program::{Candidate, Program, Role};
+
+use crate::harness::{all_machines, machine, program_of_output};
+use crate::machines::{assert_mistakes_are_found, assert_proved};
+
+/// The programs of a machine: in the first all functions are their first candidates, in the
+/// second their second ones, or their last where there are fewer.
+fn every_program(machine: &Compiled<'_>) -> Vec<Program> {
+    let Compiled {
+        model, equations, ..
+    } = machine;
+    let expanded = equations.expanded();
+    let lower = |choose: &dyn Fn(&[Candidate]) -> usize| {
+        Program::lower_by(model, equations, expanded.as_ref(), choose)
+    };
+    let cheapest = &machine.program;
+    let ways = cheapest
+        .choices
+        .iter()
+        .map(|choice| choice.candidates.len());
+    let ways = ways.max().unwrap_or(1);
+    (0..ways).map(|index| lower(&|_| index)).collect()
+}
+
+/// The same machine with each of these programs.
+fn for_every_program(machine: &Compiled<'_>, mut check: impl FnMut(&Compiled<'_>)) {
+    for program in every_program(machine) {
+        check(&Compiled {
+            program,
+            ..machine.clone()
+        });
+    }
+}
+
+#[test]
+fn every_candidate_obeys_lagranges_equations() {
+    for name in all_machines() {
+        machine(&name, &[], |machine| {
+            for_every_program(machine, assert_proved);
+        });
+    }
+}
+
+#[test]
+fn every_candidate_for_a_chain_obeys_lagranges_equations() {
+    for n in 1..=5 {
+        for name in ["chain", "chain_relative"] {
+            machine(name, &[("N", n)], |machine| {
+                for_every_program(machine, assert_proved);
+            });
+        }
+    }
+}
+
+#[test]
+fn no_mistake_in_any_candidate_survives() {
+    for (name, stride) in [("double_pendulum", 1), ("heavy_top", 2), ("crusher9", 13)] {
+        machine(name, &[], |machine| {
+            for_every_program(machine, |machine| {
+                assert_mistakes_are_found(machine, stride);
+            });
+        });
+    }
+}
+
+#[test]
+fn there_is_a_machine_for_every_way() {
+    let mut ways: Vec<String> = Vec::new();
+    for name in ["crusher9", "double_pendulum"] {
+        machine(name, &[], |machine| {
+            let choice = machine.program.choice(Role::Accelerations);
+            let candidates = &choice.expect("several ways").candidates;
+            ways.extend(
+                candidates
+                    .iter()
+                    .map(|candidate| candidate.form.to_string()),
+            );
+        });
+    }
+    ways.sort();
+    ways.dedup();
+    let all = [
+        "eliminated along the machine",
+        "eliminated along the machine, factored",
+        "from the mass matrix",
+        "from the mass matrix multiplied out",
+        "from the mass matrix multiplied out, factored",
+        "from the mass matrix, factored",
+    ];
+    assert_eq!(ways, all);
+}
+
+#[test]
+fn the_record_tells_what_was_taken() {
+    for name in all_machines() {
+        machine(&name, &[], |machine| {
+            let program = &machine.program;
+            for choice in &program.choices {
+                let function = program
+                    .function(choice.role())
+                    .expect("what was chosen for");
+                let chosen = choice.chosen();
+                assert_eq!(chosen.counts, function.counts(), "{name}: {}", chosen.form);
+                assert_eq!(chosen.cost, function.cost(), "{name}: {}", chosen.form);
+                for other in choice.others() {
+                    assert!(
+                        chosen.compare(other).is_le(),
+                        "{name}: {chosen}, but {other}"
+                    );
+                    assert_ne!(chosen.form, other.form);
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn common_factors_are_taken_out() {
+    // x (y cos y + x (sin y + x y)), against x² y x + x² sin y + x y cos y with x y and x² shared.
+    let program = program_of_output("", "x^3*y + x^2*sin(y) + x*y*cos(y)");
+    let choice = program.choice(Role::Output(0)).expect("two ways");
+    let counts = choice.candidates.iter().map(|candidate| {
+        let multiplications = candidate.counts.multiplications;
+        (
+            candidate.form.factored,
+            multiplications,
+            candidate.counts.additions,
+        )
+    });
+    assert_eq!(counts.collect::<Vec<_>>(), [(false, 5, 2), (true, 4, 2)]);
+}
+
+#[test]
+fn a_common_reciprocal_is_taken_out() {
+    let program = program_of_output("", "sin(x)/(1 + y) + cos(x)/(1 + y)");
+    let function = program.function(Role::Output(0)).expect("the output");
+    let counts = function.counts().to_string();
+    assert_eq!(counts, "1 mul, 2 add, 1 div, 1 sincos");
+}
