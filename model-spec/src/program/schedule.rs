@@ -80,34 +80,21 @@ fn in_order(net: &Net, merged: &[bool]) -> Vec<Index> {
     order
 }
 
-/// Sums that are only a term of another sum, and products that are only a factor of another
-/// product. What has a part that is known before stays by itself: two such parts are not to meet.
+/// Products that are only a factor of another product. What has a factor that is known before stays
+/// by itself: two such factors are not to meet.
 fn merged(net: &Net) -> Vec<bool> {
     let uses = net.uses();
     let mut merged = vec![false; net.items.len()];
     let varies = |index: &Index| net.stages[*index as usize] > 0;
-    let is_sum = |index: Index| match &net.items[index as usize] {
-        Item::Sum(terms) => terms.iter().all(|(term, _)| varies(term)),
-        _ => false,
-    };
     let is_product = |index: Index| match &net.items[index as usize] {
         Item::Product { up, down } => down.is_empty() && up.iter().all(varies),
         _ => false,
     };
-    let mut merge = |index: Index| merged[index as usize] = uses[index as usize] == 1;
     for item in &net.items {
-        match item {
-            Item::Sum(terms) => {
-                let inner = terms.iter().map(|(term, _)| *term);
-                inner.filter(|&term| is_sum(term)).for_each(&mut merge);
+        if let Item::Product { up, .. } = item {
+            for &factor in up.iter().filter(|&&factor| is_product(factor)) {
+                merged[factor as usize] = uses[factor as usize] == 1;
             }
-            Item::Product { up, .. } => {
-                let inner = up.iter().copied();
-                inner
-                    .filter(|&factor| is_product(factor))
-                    .for_each(&mut merge);
-            }
-            _ => {}
         }
     }
     merged
@@ -193,17 +180,7 @@ impl Builder {
                 self.op(Op::Div(numerator, denominator))
             }
             Item::Sum(terms) => {
-                let mut list: Vec<Signed> = Vec::with_capacity(terms.len());
-                let mut open = terms.clone();
-                while let Some((term, negative)) = open.pop() {
-                    match &net.items[term as usize] {
-                        Item::Sum(inner) if merged[term as usize] => {
-                            let inner = inner.iter();
-                            open.extend(inner.map(|&(term, minus)| (term, minus ^ negative)));
-                        }
-                        _ => list.push((term, negative)),
-                    }
-                }
+                let mut list: Vec<Signed> = terms.clone();
                 list.sort_by_key(|&(index, negative)| {
                     (negative, net.stages[index as usize], index)
                 });
