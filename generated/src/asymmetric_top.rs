@@ -19,11 +19,11 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 2 | 4 | 0 | 0 | 0 | 6 |
-//! | `mass_matrix` | 9 | 4 | 0 | 2 | 0 | 17 |
-//! | `bias` | 35 | 13 | 0 | 2 | 0 | 52 |
-//! | `forces` | 35 | 12 | 0 | 2 | 0 | 51 |
-//! | `accelerations` | 47 | 22 | 3 | 2 | 0 | 76 |
+//! | `prepare` | 3 | 6 | 1 | 0 | 0 | 10 |
+//! | `mass_matrix` | 9 | 3 | 0 | 2 | 0 | 16 |
+//! | `bias` | 25 | 12 | 0 | 2 | 0 | 41 |
+//! | `forces` | 28 | 11 | 0 | 2 | 0 | 43 |
+//! | `accelerations` | 51 | 19 | 3 | 2 | 0 | 77 |
 //! | `kinetic_energy` | 13 | 5 | 0 | 2 | 0 | 22 |
 //! | `output_momentum_x` | 18 | 7 | 0 | 3 | 0 | 31 |
 //! | `output_momentum_y` | 18 | 7 | 0 | 3 | 0 | 31 |
@@ -100,11 +100,20 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.B - self.C;
-        let k1 = self.A - self.B;
-        let k2 = self.A + k0;
-        let k3 = k0 * S::from_f64(2.0);
-        let k4 = k1 * S::from_f64(2.0);
-        let k5 = self.A - k0;
+        let k2 = self.A - self.B;
+        let k1 = self.A - self.C;
+        let k3 = self.A + k0;
+        let k4 = k0 * S::from_f64(2.0);
+        let k5 = k2 * S::from_f64(2.0);
+        let k6 = self.A - k0;
+        let k7 = -self.A;
+        let k8 = S::ONE / self.A;
+        let k9 = k0 * k0;
+        let singular = if vanishes(self.A, self.A, 2.6645352591003757e-15) {
+            Some(singular(2, self.A, self.A))
+        } else {
+            None
+        };
         Prepared {
             A: self.A,
             B: self.B,
@@ -115,6 +124,11 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
             k3,
             k4,
             k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            singular,
         }
     }
 
@@ -198,24 +212,34 @@ pub struct Prepared<S = f64> {
     C: S,
     /// `B - C`
     k0: S,
-    /// `A - B`
+    /// `A - C`
     k1: S,
-    /// `A + B - C`
+    /// `A - B`
     k2: S,
-    /// `2*(B - C)`
+    /// `A + B - C`
     k3: S,
-    /// `2*(A - B)`
+    /// `2*(B - C)`
     k4: S,
-    /// `A - B + C`
+    /// `2*(A - B)`
     k5: S,
+    /// `A - B + C`
+    k6: S,
+    /// `-A`
+    k7: S,
+    /// `1/A`
+    k8: S,
+    /// `(B - C)^2`
+    k9: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
 }
 
 /// Mass matrix `M`, row by row.
 ///
 /// ```text
-/// M[yaw, yaw] = (C - B)*cos(roll)^2*cos(pitch)^2 - (A - B)*cos(pitch)^2 + A
+/// M[yaw, yaw] = A*sin(pitch)^2 + C*cos(roll)^2*cos(pitch)^2 + B*sin(roll)^2*cos(pitch)^2
 /// M[pitch, yaw] = -(C - B)*cos(roll)*sin(roll)*cos(pitch)
-/// M[pitch, pitch] = (B - C)*cos(roll)^2 + C
+/// M[pitch, pitch] = B*cos(roll)^2 + C*sin(roll)^2
 /// M[roll, yaw] = -A*sin(pitch)
 /// M[roll, roll] = A
 /// ```
@@ -226,10 +250,10 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
     let (sin_roll, cos_roll) = roll.sin_cos();
     let t0 = cos_pitch * cos_roll;
     let t1 = t0 * p.k0;
-    let m11 = p.A - cos_pitch * (cos_pitch * p.k1) - t0 * t1;
+    let m11 = p.A - cos_pitch * (cos_pitch * p.k2) - t0 * t1;
     let m21 = sin_roll * t1;
     let m22 = cos_roll * (cos_roll * p.k0) + p.C;
-    let m31 = -(sin_pitch * p.A);
+    let m31 = sin_pitch * p.k7;
     let zero = S::ZERO;
     [[m11, m21, m31], [m21, m22, zero], [m31, zero, p.A]]
 }
@@ -237,19 +261,19 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// Bias `h`: velocity products and explicit time in the inertia forces.
 ///
 /// ```text
-/// h[yaw] = 2*(B - C)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)*der(pitch)
-///     + 2*(A - B)*sin(pitch)*cos(pitch)*der(yaw)*der(pitch)
+/// h[yaw] = 2*A*sin(pitch)*cos(pitch)*der(yaw)*der(pitch)
+///     - 2*C*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)*der(pitch)
+///     - 2*B*sin(pitch)*sin(roll)^2*cos(pitch)*der(yaw)*der(pitch)
 ///     + 2*(B - C)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)*der(roll)
 ///     - (B - C)*sin(pitch)*cos(roll)*sin(roll)*der(pitch)^2
-///     + 2*(B - C)*cos(roll)^2*cos(pitch)*der(pitch)*der(roll)
-///     - (A + B - C)*cos(pitch)*der(pitch)*der(roll)
-/// h[pitch] = 2*(B - C)*cos(roll)^2*cos(pitch)*der(yaw)*der(roll)
-///     - (B - C)*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)^2
-///     - (A - B)*sin(pitch)*cos(pitch)*der(yaw)^2 + (A - B + C)*cos(pitch)*der(yaw)*der(roll)
+///     + (B - C)*cos(pitch)*cos(2*roll)*der(pitch)*der(roll) - A*cos(pitch)*der(pitch)*der(roll)
+/// h[pitch] = C*sin(pitch)*cos(roll)^2*cos(pitch)*der(yaw)^2
+///     + B*sin(pitch)*sin(roll)^2*cos(pitch)*der(yaw)^2 - A*sin(pitch)*cos(pitch)*der(yaw)^2
+///     + (B - C)*cos(pitch)*cos(2*roll)*der(yaw)*der(roll) + A*cos(pitch)*der(yaw)*der(roll)
 ///     - 2*(B - C)*cos(roll)*sin(roll)*der(pitch)*der(roll)
-/// h[roll] = (B - C)*cos(roll)*sin(roll)*der(pitch)^2
-///     - (B - C)*cos(roll)*sin(roll)*cos(pitch)^2*der(yaw)^2
-///     - (B - C)*cos(pitch)*cos(2*roll)*der(yaw)*der(pitch) - A*cos(pitch)*der(yaw)*der(pitch)
+/// h[roll] = (C - B)*(sin(roll)*cos(pitch)*der(yaw) +
+///     cos(roll)*der(pitch))*(cos(roll)*cos(pitch)*der(yaw) - sin(roll)*der(pitch))
+///     - A*cos(pitch)*der(yaw)*der(pitch)
 /// ```
 pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let pitch = q[1];
@@ -258,25 +282,20 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let pitch_dot = v[1];
     let roll_dot = v[2];
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t0 = cos_pitch * yaw_dot;
-    let t1 = sin_pitch * t0;
+    let t0 = sin_pitch * yaw_dot;
     let (sin_roll, cos_roll) = roll.sin_cos();
-    let t2 = cos_roll * p.k3;
-    let t3 = t2 * roll_dot;
-    let t4 = cos_roll * pitch_dot;
-    let t5 = t4 * t2;
-    let t6 = sin_roll * t3;
-    let t7 = t1 * (pitch_dot * p.k4) + t3 * (t4 * cos_pitch);
-    let t8 = sin_roll * p.k0;
-    let t9 = pitch_dot * t4 * t8;
-    let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
-    let t11 = yaw_dot * t1;
-    let t12 = cos_roll * t0;
-    let t13 = t11 * p.k1 + cos_roll * p.k0 * (cos_roll * t11);
-    let t14 = t0 * p.k5;
-    let h_yaw = t7 + (t5 * t1 + t6 * (cos_pitch * t0)) - t10;
-    let h_pitch = roll_dot * t14 - (t13 + (pitch_dot * t6 - t3 * t12));
-    let h_roll = -(pitch_dot * t14 + t5 * t0 + (t12 * (t0 * t8) - t9));
+    let t1 = p.k4 * cos_roll;
+    let t2 = cos_roll * t1;
+    let t3 = cos_roll * p.k0;
+    let t4 = sin_roll * t3;
+    let t5 = pitch_dot * t4;
+    let t6 = cos_pitch * (roll_dot * (t2 - p.k3) + t0 * (t2 + p.k5)) - sin_pitch * t5;
+    let t7 = t1 * (roll_dot * sin_roll);
+    let t8 = cos_pitch * yaw_dot;
+    let t9 = t2 + p.k6;
+    let h_yaw = pitch_dot * t6 + t7 * (cos_pitch * t8);
+    let h_pitch = -(t8 * (t0 * (p.k2 + cos_roll * t3) - roll_dot * t9) + pitch_dot * t7);
+    let h_roll = pitch_dot * t5 - t8 * (pitch_dot * t9 + t4 * t8);
     [h_yaw, h_pitch, h_roll]
 }
 
@@ -288,25 +307,19 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let pitch_dot = v[1];
     let roll_dot = v[2];
     let (sin_pitch, cos_pitch) = pitch.sin_cos();
-    let t0 = cos_pitch * yaw_dot;
-    let t1 = sin_pitch * t0;
     let (sin_roll, cos_roll) = roll.sin_cos();
-    let t2 = cos_roll * p.k3;
-    let t3 = t2 * roll_dot;
-    let t4 = cos_roll * pitch_dot;
-    let t5 = t4 * t2;
-    let t6 = sin_roll * t3;
-    let t7 = t1 * (pitch_dot * p.k4) + t3 * (t4 * cos_pitch);
-    let t8 = sin_roll * p.k0;
-    let t9 = pitch_dot * t4 * t8;
-    let t10 = sin_pitch * t9 + cos_pitch * p.k2 * (pitch_dot * roll_dot);
-    let t11 = yaw_dot * t1;
-    let t12 = cos_roll * t0;
-    let t13 = t11 * p.k1 + cos_roll * p.k0 * (cos_roll * t11);
-    let t14 = t0 * p.k5;
-    let f_yaw = t10 - (t7 + (t5 * t1 + t6 * (cos_pitch * t0)));
-    let f_pitch = t13 + (pitch_dot * t6 - t3 * t12) - roll_dot * t14;
-    let f_roll = pitch_dot * t14 + t5 * t0 + (t12 * (t0 * t8) - t9);
+    let t0 = cos_pitch * sin_roll;
+    let t1 = yaw_dot * t0 + cos_roll * pitch_dot;
+    let t2 = roll_dot - sin_pitch * yaw_dot;
+    let t3 = yaw_dot * pitch_dot;
+    let t4 = sin_pitch * t3;
+    let t5 = t1 * (t2 * p.k2) + (t1 * roll_dot + cos_roll * t4) * p.C;
+    let t6 = cos_pitch * cos_roll;
+    let t7 = sin_roll * pitch_dot - t6 * yaw_dot;
+    let f_roll = cos_pitch * (t3 * p.A) - t7 * (t1 * p.k0);
+    let t8 = t7 * (t2 * p.k1) + (t7 * roll_dot + sin_roll * t4) * p.B;
+    let f_yaw = t0 * t8 + (t6 * t5 - sin_pitch * f_roll);
+    let f_pitch = cos_roll * t8 - sin_roll * t5;
     [f_yaw, f_pitch, f_roll]
 }
 
@@ -339,6 +352,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
     fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
         let pitch = n(q[1]);
         let roll = n(q[2]);
         let yaw_dot = n(v[0]);
@@ -349,45 +365,36 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_pitch, cos_pitch) = circular[0];
         let (sin_roll, cos_roll) = circular[1];
         let t0 = cos_pitch * yaw_dot;
-        let t1 = t0 * (sin_pitch * yaw_dot);
-        let t2 = cos_roll * cos_roll;
-        let t3 = t2 * n(p.k0);
-        let t4 = sin_roll * cos_roll;
-        let t5 = t4 * n(p.k3);
-        let t6 = roll_dot * pitch_dot;
-        let t7 = roll_dot * t0;
-        let t8 = t2 * n(p.k3);
-        let t9 = n(p.k1).mul_add(t1, t3 * t1) + t5.mul_sub(t6, t7 * t8);
-        let t10 = t7.neg_mul_add(n(p.k5), t9);
-        let t11 = t3 + n(p.C);
-        let t11 = checked(t11, t11, 2.6645352591003757e-15, 1)?;
-        let t12 = N::ONE / t11;
-        let t13 = n(p.k0) * t4;
-        let t14 = t13 * cos_pitch;
-        let t15 = t12 * t14;
-        let t16 = pitch_dot * t0;
-        let t17 = sin_pitch * t16;
-        let t18 = cos_pitch * t6;
-        let t19 = t8.mul_add(t17, t7 * (cos_pitch * t5));
-        let t20 = t13 * (pitch_dot * pitch_dot);
-        let t21 = sin_pitch.mul_add(t20, t18 * n(p.k2));
-        let t22 = t17.mul_add(n(p.k4), t8 * t18) + t19 - t21;
-        let t23 = t15.mul_add(t10, t22);
-        let t24 = cos_pitch * cos_pitch;
-        let t25 = t3.neg_mul_add(t24, t24.neg_mul_add(n(p.k1), n(p.A)));
-        let t26 = t14.neg_mul_add(t15, t25);
-        let t26 = checked(t26, t25, 2.6645352591003757e-15, 0)?;
-        let t27 = N::ONE / t26;
-        let t28 = sin_pitch * n(p.A);
-        let t29 = t27 * t28;
-        let t30 = n(p.k5).mul_add(t16, t8 * t16) + t0.mul_sub(t13 * t0, t20);
-        let t31 = t28.neg_mul_add(t29, n(p.A));
-        let t31 = checked(t31, n(p.A), 2.6645352591003757e-15, 2)?;
-        let roll_ddot = t29.neg_mul_add(t23, t30) / t31;
-        let t32 = t29 * roll_ddot;
-        let t33 = t27 * t23;
-        let yaw_ddot = t32 - t33;
-        let pitch_ddot = t15.mul_add(t33 - t32, t12 * t10);
+        let t1 = sin_roll.mul_add(t0, cos_roll * pitch_dot);
+        let t2 = sin_pitch.neg_mul_add(yaw_dot, roll_dot);
+        let t3 = yaw_dot * pitch_dot;
+        let t4 = sin_pitch * t3;
+        let t5 = roll_dot.mul_add(t1, cos_roll * t4);
+        let t6 = n(p.C).mul_add(t5, t1 * (t2 * n(p.k2)));
+        let t7 = cos_roll.neg_mul_add(t0, sin_roll * pitch_dot);
+        let t8 = t7.mul_add(roll_dot, sin_roll * t4);
+        let t9 = n(p.B).mul_add(t8, t7 * (t2 * n(p.k1)));
+        let t10 = sin_roll.mul_sub(t6, cos_roll * t9);
+        let t11 = cos_roll * cos_roll;
+        let t12 = sin_roll * sin_roll;
+        let t13 = t11.mul_add(n(p.B), t12 * n(p.C));
+        let t13 = checked(t13, t13, 2.6645352591003757e-15, 1)?;
+        let t14 = N::ONE / t13;
+        let t15 = sin_roll * (cos_roll * n(p.k0));
+        let t16 = sin_roll.mul_add(t9, cos_roll * t6);
+        let t17 = t11 * n(p.C);
+        let t18 = t12 * n(p.B);
+        let t19 = t14.neg_mul_add(t12 * (t11 * n(p.k9)), t17 + t18);
+        let t20 = N::ONE / t19 * t10.mul_add(t14 * t15, t16);
+        let yaw_ddot = t20 * (N::ONE / cos_pitch);
+        let t21 = t7.neg_mul_add(n(p.k0) * t1, cos_pitch * (t3 * n(p.A)));
+        let t22 = cos_pitch * cos_pitch;
+        let t23 = t17.mul_add(t22, sin_pitch * (sin_pitch * n(p.A)));
+        let t24 = t19 * t22;
+        let t25 = t18.mul_add(t22, t23);
+        checked(t24, t25, 2.6645352591003757e-15, 0)?;
+        let pitch_ddot = -(t14 * t15.mul_add(t20, t10));
+        let roll_ddot = sin_pitch.mul_add(yaw_ddot, n(p.k8) * t21);
         let accelerations = [yaw_ddot.store(), pitch_ddot.store(), roll_ddot.store()];
         Ok(accelerations)
     }
@@ -437,7 +444,7 @@ pub fn output_momentum_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     let (sin_yaw, cos_yaw) = yaw.sin_cos();
     let t1 = cos_yaw * sin_pitch;
     let t2 = (sin_yaw * cos_roll - sin_roll * t1) * p.B;
-    let t3 = cos_pitch * p.A * (cos_yaw * (roll_dot - sin_pitch * yaw_dot));
+    let t3 = (roll_dot - sin_pitch * yaw_dot) * (cos_yaw * (cos_pitch * p.A));
     let t4 = (sin_yaw * sin_roll + cos_roll * t1) * p.C;
     let t5 = t3 - (sin_roll * t0 + cos_roll * pitch_dot) * t2;
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
@@ -464,7 +471,7 @@ pub fn output_momentum_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     let (sin_yaw, cos_yaw) = yaw.sin_cos();
     let t1 = sin_yaw * sin_pitch;
     let t2 = (sin_roll * t1 + cos_yaw * cos_roll) * p.B;
-    let t3 = cos_pitch * p.A * (sin_yaw * (roll_dot - sin_pitch * yaw_dot));
+    let t3 = (roll_dot - sin_pitch * yaw_dot) * (sin_yaw * (cos_pitch * p.A));
     let t4 = (cos_roll * t1 - cos_yaw * sin_roll) * p.C;
     let t5 = (sin_roll * t0 + cos_roll * pitch_dot) * t2 + t3;
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
@@ -755,6 +762,13 @@ fn checked<N: ::lagrangian::Scalar>(
         Some(pivot) => Ok(pivot),
         None => Err(singular(coordinate, pivot, diagonal)),
     }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -7,9 +7,9 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 8 | 2 | 1 | 0 | 0 | 11 |
+//! | `prepare` | 8 | 4 | 1 | 0 | 0 | 13 |
 //! | `mass_matrix` | 1 | 0 | 0 | 1 | 0 | 2 |
-//! | `bias` | 3 | 1 | 0 | 1 | 0 | 5 |
+//! | `bias` | 3 | 0 | 0 | 1 | 0 | 4 |
 //! | `applied` | 3 | 2 | 0 | 1 | 0 | 6 |
 //! | `forces` | 6 | 3 | 0 | 1 | 0 | 10 |
 //! | `accelerations` | 12 | 7 | 1 | 1 | 0 | 22 |
@@ -19,7 +19,7 @@
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `dissipation_rate` | 4 | 1 | 0 | 0 | 0 | 5 |
 //! | `output_tip` | 1 | 0 | 0 | 1 | 0 | 2 |
-//! | `output_hinge_force` | 5 | 3 | 0 | 1 | 0 | 10 |
+//! | `output_hinge_force` | 5 | 2 | 0 | 1 | 0 | 9 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -98,7 +98,9 @@ impl<S: ::lagrangian::Scalar> CartPole<S> {
         let k4 = self.rail * S::from_f64(0.5);
         let k6 = S::from_f64(0.5) * self.cart;
         let k8 = self.J + self.l * k5;
-        let k9 = S::ONE / k7;
+        let k9 = -k5;
+        let k10 = -self.pole;
+        let k11 = S::ONE / k7;
         let singular = if vanishes(k7, k7, 1.7763568394002505e-15) {
             Some(singular(0, k7, k7))
         } else {
@@ -120,6 +122,8 @@ impl<S: ::lagrangian::Scalar> CartPole<S> {
             k7,
             k8,
             k9,
+            k10,
+            k11,
             singular,
         }
     }
@@ -230,8 +234,12 @@ pub struct Prepared<S = f64> {
     k7: S,
     /// `J + pole*l^2`
     k8: S,
-    /// `1/(cart + pole)`
+    /// `-pole*l`
     k9: S,
+    /// `-pole`
+    k10: S,
+    /// `1/(cart + pole)`
+    k11: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -259,7 +267,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let theta = q[1];
     let theta_dot = v[1];
     let sin_theta = theta.sin();
-    let h_x = -(p.k5 * sin_theta * (theta_dot * theta_dot));
+    let h_x = sin_theta * (theta_dot * (theta_dot * p.k9));
     let zero = S::ZERO;
     [h_x, zero]
 }
@@ -296,7 +304,7 @@ pub fn forces<S: ::lagrangian::Scalar>(
     let x_dot = v[0];
     let theta_dot = v[1];
     let sin_theta = theta.sin();
-    let f_x = sin_theta * p.k5 * (theta_dot * theta_dot) + (u.push - x_dot * p.rail);
+    let f_x = sin_theta * (theta_dot * (theta_dot * p.k5)) + (u.push - x_dot * p.rail);
     let f_theta = sin_theta * p.k2 - theta_dot * p.hinge;
     [f_x, f_theta]
 }
@@ -341,14 +349,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let theta_dot = n(v[1]);
         let (sin_theta, cos_theta) = theta.sin_cos();
         let t0 = x_dot.neg_mul_add(n(p.rail), n(u.push));
-        let t1 = (n(p.k5) * sin_theta).mul_add(theta_dot * theta_dot, t0);
+        let t1 = sin_theta.mul_add(theta_dot * (n(p.k5) * theta_dot), t0);
         let t2 = n(p.k5) * cos_theta;
-        let t3 = n(p.k9) * t2;
+        let t3 = n(p.k11) * t2;
         let t4 = sin_theta.neg_mul_add(n(p.k2), theta_dot * n(p.hinge));
         let t5 = t2.neg_mul_add(t3, n(p.k8));
         let t5 = checked(t5, n(p.k8), 1.7763568394002505e-15, 1)?;
         let t6 = t1.mul_add(t3, t4) / t5;
-        let x_ddot = t3.mul_add(t6, n(p.k9) * t1);
+        let x_ddot = t3.mul_add(t6, n(p.k11) * t1);
         let theta_ddot = -t6;
         let accelerations = [x_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
@@ -366,9 +374,9 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
     let x_dot = v[0];
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = theta_dot * theta_dot;
-    let t1 = theta_dot * (cos_theta * p.l) + x_dot;
-    let t2 = (sin_theta * p.k1 * (t0 * sin_theta) + t1 * t1) * p.pole + t0 * p.J;
+    let t0 = cos_theta * (theta_dot * p.l) + x_dot;
+    let t1 = theta_dot * theta_dot;
+    let t2 = (sin_theta * (sin_theta * (t1 * p.k1)) + t0 * t0) * p.pole + t1 * p.J;
     S::from_f64(0.5) * t2 + x_dot * (x_dot * p.k6)
 }
 
@@ -442,8 +450,8 @@ pub fn output_hinge_force<S: ::lagrangian::Scalar>(
     let x_ddot = a[0];
     let theta_ddot = a[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = (cos_theta * theta_ddot - theta_dot * (theta_dot * sin_theta)) * p.l;
-    -((t0 + x_ddot) * p.pole)
+    let t0 = (cos_theta * theta_ddot - sin_theta * (theta_dot * theta_dot)) * p.l;
+    p.k10 * (t0 + x_ddot)
 }
 
 /// Everything that the description asks to observe.

@@ -7,13 +7,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 26 | 7 | 4 | 0 | 0 | 37 |
-//! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
+//! | `prepare` | 26 | 10 | 4 | 0 | 0 | 40 |
+//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 16 | 15 | 0 | 0 | 0 | 31 |
-//! | `forces` | 68 | 41 | 0 | 4 | 0 | 117 |
-//! | `accelerations` | 87 | 57 | 2 | 4 | 0 | 154 |
-//! | `kinetic_energy` | 43 | 26 | 0 | 4 | 0 | 77 |
+//! | `forces` | 68 | 42 | 0 | 4 | 0 | 118 |
+//! | `accelerations` | 89 | 55 | 2 | 4 | 0 | 154 |
+//! | `kinetic_energy` | 41 | 26 | 0 | 4 | 0 | 75 |
 //! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
 //! | `dissipation` | 10 | 5 | 0 | 0 | 0 | 15 |
 //! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
@@ -167,9 +167,9 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
         let pivot_1 = self.m + self.m0;
         let k14 = k11 + pivot_1;
         let k20 = self.J + (self.y0 * k12 + self.x0 * k13);
-        let k26 = S::ONE / pivot_1;
-        let pivot_2 = k20 - (k26 * (k13 * k13) + k26 * (k12 * k12));
-        let k24 = S::ONE / pivot_2;
+        let k28 = S::ONE / pivot_1;
+        let pivot_2 = k20 - k28 * (k12 * k12) - k28 * (k13 * k13);
+        let k26 = S::ONE / pivot_2;
         let k1_ = self.cx * S::from_f64(0.5);
         let k2_ = self.cy * S::from_f64(0.5);
         let k3 = self.k1 * S::from_f64(0.5);
@@ -185,10 +185,13 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
         let k17 = self.cy * self.xc;
         let k18 = self.cx * self.yc;
         let k19 = self.m0 * k0;
-        let k21 = S::ONE / self.m2;
-        let k22 = S::ONE / self.m1;
-        let k23 = self.m0 * k26;
-        let k25 = self.m0 * k24;
+        let k21 = -k11;
+        let k22 = -self.m2;
+        let k23 = S::ONE / self.m2;
+        let k24 = S::ONE / self.m1;
+        let k25 = self.m0 * k28;
+        let k27 = self.m0 * k26;
+        let k29 = -k28;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -258,6 +261,9 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
             k24,
             k25,
             k26,
+            k27,
+            k28,
+            k29,
             singular,
         }
     }
@@ -451,18 +457,24 @@ pub struct Prepared<S = f64> {
     k19: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k20: S,
-    /// `1/m2`
+    /// `-(m1 + m2)`
     k21: S,
-    /// `1/m1`
+    /// `-m2`
     k22: S,
-    /// `m0/(m + m0)`
+    /// `1/m2`
     k23: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `1/m1`
     k24: S,
-    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `m0/(m + m0)`
     k25: S,
-    /// `1/(m + m0)`
+    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k26: S,
+    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    k27: S,
+    /// `1/(m + m0)`
+    k28: S,
+    /// `-1/(m + m0)`
+    k29: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -502,29 +514,30 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let phi2 = q[7];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k11 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m31 = -(p.k13 * sin_theta + cos_theta * p.k12);
     let m32 = p.k13 * cos_theta - sin_theta * p.k12;
     let m41 = p.k11 * cos_phi1;
     let m42 = p.k11 * sin_phi1;
-    let m51 = -(p.k11 * t0);
-    let m52 = p.k11 * t1;
-    let m55 = s1 * (p.k11 * s1);
+    let m51 = sin_phi1 * (s1 * p.k21);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k22);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k14, zero, m31, m41, m51, zero, m71, m81, zero],
         [zero, p.k14, m32, m42, m52, zero, m72, m82, zero],
@@ -579,11 +592,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t6 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t7 = cos_phi2 * s2;
-    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t8 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let t9 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t10 = cos_phi1 * s1;
-    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t11 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let t12 = t11 * sin_phi1 + t9 * t10;
     let t13 = t8 * sin_phi2 + t6 * t7 + t12;
     let t14 = t13 * p.m2 + t12 * p.m1;
@@ -600,8 +613,8 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
     let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
-    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
+    let h_s2 = p.k22 * (cos_phi2 * t13 + sin_phi2 * t19);
+    let h_phi2 = p.k22 * (t7 * t19 - t13 * t16);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -666,11 +679,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t6 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t7 = cos_phi2 * s2;
-    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t8 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let t9 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t10 = cos_phi1 * s1;
-    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t11 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let t12 = t11 * sin_phi1 + t9 * t10;
     let t13 = t8 * sin_phi2 + t6 * t7 + t12;
     let t14 = t13 * p.m2;
@@ -686,15 +699,15 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t24 = t23 + p.m1 * t21;
     let t25 = theta_dot * p.xb + y_dot;
     let t26 = theta * p.xc + y;
-    let t27 = t25 * p.k15 + sin_theta * (t18 * p.k12 + t5 * p.k13);
-    let t28 = t26 * p.k17 + cos_theta * (t5 * p.k12 - t18 * p.k13) + t27;
-    let f_x = t5 * p.m0 + t15 - (t16 * p.bx + t17 * p.cx);
-    let f_y = p.m0 * t18 + t24 - (t25 * p.by + t26 * p.cy);
-    let f_theta = t16 * p.k16 + t17 * p.k18 - t28;
-    let f_s1 = (p.r1 - s1) * p.k1 + sin_phi1 * t24 + (cos_phi1 * t15 - s1_dot * p.d1);
+    let t27 = t25 * p.k15 + t26 * p.k17 - (t16 * p.k16 + t17 * p.k18);
+    let t28 = cos_theta * (t5 * p.k12 - t18 * p.k13) + t27;
+    let f_x = t5 * p.m0 + (t15 - (t16 * p.bx + t17 * p.cx));
+    let f_y = p.m0 * t18 + (t24 - (t25 * p.by + t26 * p.cy));
+    let f_theta = -(sin_theta * (t18 * p.k12 + t5 * p.k13) + t28);
+    let f_s1 = cos_phi1 * t15 + (sin_phi1 * t24 + ((p.r1 - s1) * p.k1 - s1_dot * p.d1));
     let f_phi1 = t10 * t24 - t15 * t20;
     let zero = S::ZERO;
-    let f_s2 = cos_phi2 * t14 + sin_phi2 * t23 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2);
+    let f_s2 = cos_phi2 * t14 - (s2_dot * p.d2 - (p.r2 - s2) * p.k2 - sin_phi2 * t23);
     let f_phi2 = p.m2 * (t7 * t22 - t13 * t19);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
@@ -749,75 +762,76 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let s2_dot = n(v[6]);
         let phi2_dot = n(v[7]);
         let t0 = n(p.w) * n(t);
-        let angles = [t0, theta, phi1, phi2];
+        let angles = [theta, t0, phi1, phi2];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
         let (sin_phi1, cos_phi1) = circular[2];
         let (sin_phi2, cos_phi2) = circular[3];
-        let t1 = n(p.w).product_error(n(t));
-        let t2 = cos_theta * n(p.y0);
-        let t3 = theta_dot * theta_dot;
-        let t4 = sin_theta * n(p.x0);
-        let t5 = n(p.k9).mul_add(t1.mul_add(cos_t0, sin_t0), t2 * t3);
-        let t6 = n(p.m0) * t4.mul_add(t3, t5);
-        let t7 = (n(p.r1) - s1).neg_mul_add(n(p.k1), s1_dot * n(p.d1));
-        let t8 = theta_dot.mul_add(n(p.xb), y_dot);
-        let t9 = theta.mul_add(n(p.xc), y);
-        let t10 = t8.mul_add(n(p.by), t9 * n(p.cy));
-        let t11 = t10 - t7.mul_add(sin_phi1, t6);
-        let t12 = cos_theta * n(p.x0);
-        let t13 = sin_theta * n(p.y0);
-        let t14 = t12 - t13;
-        let t15 = theta_dot.neg_mul_add(n(p.yb), x_dot);
-        let t16 = theta.neg_mul_add(n(p.yc), x);
-        let t17 = t11.mul_add(n(p.k23) * t14, t14 * t6);
-        let t18 = n(p.k9).mul_add(t1.neg_mul_add(sin_t0, cos_t0), t3 * t12);
-        let t19 = t13.neg_mul_add(t3, t18) * n(p.m0);
-        let t20 = t15.mul_add(n(p.bx), t16 * n(p.cx));
-        let t21 = t20 - t7.mul_add(cos_phi1, t19);
-        let t22 = t4 + t2;
-        let t23 = t21.mul_add(n(p.k23) * t22, t22 * t19);
-        let t24 = t15.mul_add(n(p.k16), t16 * n(p.k18)) + t17;
-        let t25 = t24 - (t8.mul_add(n(p.k15), t9 * n(p.k17)) + t23);
-        let t26 = n(p.k25) * t25;
-        let t27 = n(p.k26) * t22.neg_mul_add(t26, t21);
-        let t28 = n(p.k26) * t14.mul_add(t26, t11);
-        let t29 = sin_phi1 * t28;
-        let t30 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
-        let t31 = phi1_dot * (s1 * phi1_dot);
-        let t32 = s1_dot * phi1_dot * N::from_f64(2.0);
-        let t33 = sin_phi1.mul_sub(t31, cos_phi1 * t32);
-        let t34 = n(p.m1).mul_add(t33, t30 * sin_phi2);
-        let t35 = sin_phi1.mul_add(t32, cos_phi1 * t31);
-        let t36 = n(p.m1).mul_add(t35, t30 * cos_phi2);
-        let t37 = cos_phi1.neg_mul_add(t36, sin_phi1.neg_mul_add(t34, t7));
-        let t38 = cos_phi1.neg_mul_add(t27, n(p.k22) * t37);
-        let t39 = n(p.k22) * cos_phi1.mul_sub(t34, sin_phi1 * t36);
-        let t40 = sin_phi1.neg_mul_add(t27, cos_phi1.mul_add(t28, t39));
-        let t41 = t38 - t29;
-        let t42 = cos_phi1.neg_mul_add(t40, t28);
-        let t43 = sin_phi1.mul_add(t41, t33) + t42;
-        let t44 = cos_phi1.mul_add(t41, t35) + sin_phi1.mul_add(t40, t27);
-        let t45 = s2 * n(p.m2);
-        let t46 = phi2_dot.neg_mul_add(t45 * phi2_dot, t30);
-        let t47 = sin_phi2.mul_add(t43, cos_phi2 * t44);
-        let t48 = phi2_dot * (s2_dot * N::from_f64(2.0));
-        let t49 = cos_phi2.neg_mul_add(t43, sin_phi2.mul_add(t44, t48)) / s2;
-        let t50 = s2 * t45;
-        checked(t50, t50, 7.993605777301127e-15, 7)?;
-        let t51 = s1 * s1;
-        let t52 = n(p.m1) * t51;
-        let t53 = t51 * n(p.k11);
-        checked(t52, t53, 7.993605777301127e-15, 4)?;
-        let x_ddot = -t27;
-        let y_ddot = -t28;
-        let theta_ddot = t25 * n(p.k24);
-        let s1_ddot = t29 - t38;
-        let phi1_ddot = t40 / s1;
+        let t1 = sin_theta * n(p.x0);
+        let t2 = theta_dot * theta_dot;
+        let t3 = cos_theta * n(p.y0);
+        let t4 = n(p.w).product_error(n(t));
+        let t5 = t4.mul_add(cos_t0, sin_t0);
+        let t6 = n(p.m0) * n(p.k9).mul_add(t5, t1.mul_add(t2, t3 * t2));
+        let t7 = cos_theta * n(p.x0);
+        let t8 = sin_theta * n(p.y0);
+        let t9 = t7 - t8;
+        let t10 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+        let t11 = theta.neg_mul_add(n(p.yc), x);
+        let t12 = theta_dot.mul_add(n(p.xb), y_dot);
+        let t13 = theta.mul_add(n(p.xc), y);
+        let t14 = t12.mul_add(n(p.k15), t13 * n(p.k17));
+        let t15 = t10.mul_add(n(p.k16), t11 * n(p.k18)) - t14;
+        let t16 = (n(p.r1) - s1).neg_mul_add(n(p.k1), s1_dot * n(p.d1));
+        let t17 = t10.mul_add(n(p.bx), t11 * n(p.cx));
+        let t18 = t4.neg_mul_add(sin_t0, cos_t0);
+        let t19 = n(p.k9).mul_add(t18, t2.mul_sub(t7, t8 * t2)) * n(p.m0);
+        let t20 = t16.neg_mul_add(cos_phi1, t17) - t19;
+        let t21 = t1 + t3;
+        let t22 = t12.mul_add(n(p.by), t13 * n(p.cy));
+        let t23 = t16.neg_mul_add(sin_phi1, t22) - t6;
+        let t24 = t20.neg_mul_add(n(p.k25) * t21, t9.mul_add(t6, t15));
+        let t25 = t23.mul_sub(n(p.k25) * t9, t21 * t19) + t24;
+        let t26 = n(p.k27) * t25;
+        let t27 = t21.neg_mul_add(t26, t20);
+        let t28 = t9.mul_add(t26, t23);
+        let t29 = t28 * n(p.k28);
+        let t30 = sin_phi1 * t29;
+        let t31 = t27 * n(p.k28);
+        let t32 = (n(p.r2) - s2).neg_mul_add(n(p.k2), s2_dot * n(p.d2));
+        let t33 = phi1_dot * (s1 * phi1_dot);
+        let t34 = phi1_dot * (s1_dot * N::from_f64(2.0));
+        let t35 = sin_phi1.mul_sub(t33, cos_phi1 * t34);
+        let t36 = n(p.m1).mul_add(t35, t32 * sin_phi2);
+        let t37 = sin_phi1.mul_add(t34, cos_phi1 * t33);
+        let t38 = n(p.m1).mul_add(t37, t32 * cos_phi2);
+        let t39 = cos_phi1.neg_mul_add(t38, sin_phi1.neg_mul_add(t36, t16));
+        let t40 = cos_phi1.neg_mul_add(t31, n(p.k24) * t39);
+        let t41 = n(p.k24) * cos_phi1.mul_sub(t36, sin_phi1 * t38);
+        let t42 = sin_phi1.neg_mul_add(t31, cos_phi1.mul_add(t29, t41));
+        let t43 = t40 - t30;
+        let t44 = sin_phi1.mul_add(t43, t29 + t35);
+        let t45 = cos_phi1.neg_mul_add(t42, t44);
+        let t46 = sin_phi1.mul_add(t42, cos_phi1.mul_add(t43, t31 + t37));
+        let t47 = s2 * n(p.m2);
+        let t48 = n(p.k23) * t47.neg_mul_add(phi2_dot * phi2_dot, t32);
+        let t49 = phi2_dot * (s2_dot * N::from_f64(2.0));
+        let t50 = cos_phi2.neg_mul_add(t45, sin_phi2.mul_add(t46, t49)) / s2;
+        let t51 = s2 * t47;
+        checked(t51, t51, 7.993605777301127e-15, 7)?;
+        let t52 = s1 * s1;
+        let t53 = n(p.m1) * t52;
+        let t54 = t52 * n(p.k11);
+        checked(t53, t54, 7.993605777301127e-15, 4)?;
+        let x_ddot = n(p.k29) * t27;
+        let y_ddot = n(p.k29) * t28;
+        let theta_ddot = t25 * n(p.k26);
+        let s1_ddot = t30 - t40;
+        let phi1_ddot = t42 / s1;
         let zero = N::ZERO;
-        let s2_ddot = n(p.k21).neg_mul_add(t46, t47);
-        let phi2_ddot = -t49;
+        let s2_ddot = sin_phi2.mul_add(t45, cos_phi2.mul_sub(t46, t48));
+        let phi2_ddot = -t50;
         let accelerations = [
             x_ddot.store(),
             y_ddot.store(),
@@ -860,28 +874,26 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = p.w.product_error(t);
-    let t1 = p.w * t;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = theta_dot * p.x0;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t3 = theta_dot * p.y0;
-    let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
-    let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
-    let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
-    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t8 = phi2_dot * s2;
+    let t0 = phi2_dot * s2;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t9 = phi1_dot * s1;
+    let t1 = phi1_dot * s1;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
-    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
-    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
-    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
-    let t14 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t15 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t16 = p.k10 * (t5 * t5 + t6 * t6) + S::from_f64(0.5) * t7;
-    t16 + (S::from_f64(0.5) * t14 + S::from_f64(0.5) * t15)
+    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
+    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
+    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
+    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
+    let t6 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t6;
+    let t8 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t7;
+    let t9 = p.w.product_error(t);
+    let t10 = p.w * t;
+    let (sin_t10, cos_t10) = t10.sin_cos();
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t11 = y_dot + theta_dot * (cos_theta * p.x0 - sin_theta * p.y0);
+    let t12 = p.k0 * (cos_t10 - t9 * sin_t10) + t11;
+    let t13 = x_dot - theta_dot * (cos_theta * p.y0 + sin_theta * p.x0);
+    let t14 = t13 - p.k0 * (sin_t10 + t9 * cos_t10);
+    t8 * S::from_f64(0.5) + p.k10 * (t12 * t12 + t14 * t14)
 }
 
 /// Potential energy `V`, in J.
@@ -895,12 +907,12 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
     let theta = q[2];
     let s1 = q[3];
     let s2 = q[6];
-    let t0 = theta * p.xc + y;
-    let t1 = x - theta * p.yc;
-    let t2 = p.r2 - s2;
-    let t3 = p.r1 - s1;
-    let t4 = t0 * (t0 * p.k2_) + t1 * (t1 * p.k1_);
-    t4 + (t2 * (t2 * p.k4) + t3 * (t3 * p.k3))
+    let t0 = p.r2 - s2;
+    let t1 = p.r1 - s1;
+    let t2 = theta * p.xc + y;
+    let t3 = x - theta * p.yc;
+    let t4 = t2 * (t2 * p.k2_) + t3 * (t3 * p.k1_);
+    t0 * (t0 * p.k4) + t1 * (t1 * p.k3) + t4
 }
 
 /// Dissipation function `D`, in W.
@@ -915,10 +927,10 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let theta_dot = v[2];
     let s1_dot = v[3];
     let s2_dot = v[6];
-    let t0 = theta_dot * p.xb + y_dot;
-    let t1 = x_dot - theta_dot * p.yb;
-    let t2 = s2_dot * (s2_dot * p.k8) + s1_dot * (s1_dot * p.k7);
-    t0 * (t0 * p.k6) + t1 * (t1 * p.k5) + t2
+    let t0 = x_dot - theta_dot * p.yb;
+    let t1 = theta_dot * p.xb + y_dot;
+    let t2 = t0 * (t0 * p.k5) + (s2_dot * (s2_dot * p.k8) + s1_dot * (s1_dot * p.k7));
+    t1 * (t1 * p.k6) + t2
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -964,10 +976,10 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
     let theta_dot = v[2];
     let s1_dot = v[3];
     let s2_dot = v[6];
-    let t0 = theta_dot * p.xb + y_dot;
-    let t1 = x_dot - theta_dot * p.yb;
-    let t2 = s2_dot * (s2_dot * p.d2) + s1_dot * (s1_dot * p.d1);
-    t0 * (t0 * p.by) + t1 * (t1 * p.bx) + t2
+    let t0 = x_dot - theta_dot * p.yb;
+    let t1 = theta_dot * p.xb + y_dot;
+    let t2 = t0 * (t0 * p.bx) + (s2_dot * (s2_dot * p.d2) + s1_dot * (s1_dot * p.d1));
+    t1 * (t1 * p.by) + t2
 }
 
 /// By how much `s1 > 0` holds.

@@ -8,17 +8,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 30 | 7 | 6 | 0 | 0 | 43 |
-//! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
-//! | `applied` | 32 | 34 | 0 | 0 | 0 | 66 |
-//! | `forces` | 84 | 58 | 0 | 4 | 0 | 150 |
-//! | `accelerations` | 108 | 79 | 2 | 4 | 0 | 197 |
+//! | `prepare` | 30 | 15 | 6 | 0 | 0 | 51 |
+//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
+//! | `applied` | 32 | 31 | 0 | 0 | 0 | 63 |
+//! | `forces` | 84 | 57 | 0 | 4 | 0 | 149 |
+//! | `accelerations` | 110 | 75 | 2 | 4 | 0 | 195 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
-//! | `potential_energy` | 14 | 11 | 0 | 0 | 0 | 25 |
-//! | `dissipation` | 24 | 15 | 0 | 0 | 0 | 39 |
+//! | `potential_energy` | 12 | 11 | 0 | 0 | 0 | 23 |
+//! | `dissipation` | 22 | 15 | 0 | 0 | 0 | 37 |
 //! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
-//! | `dissipation_rate` | 24 | 15 | 0 | 0 | 0 | 39 |
+//! | `dissipation_rate` | 22 | 15 | 0 | 0 | 0 | 37 |
 //! | `output_mortar_force` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `output_crushing_force` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `output_amplitude` | 2 | 1 | 0 | 0 | 1 | 4 |
@@ -193,11 +193,11 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
         let k15 = self.m0 * self.x0;
         let pivot_1 = self.m + self.m0;
         let k16 = k13 + pivot_1;
-        let k18 = self.drag2 * self.r2;
-        let k22 = self.J + (self.y0 * k14 + self.x0 * k15);
-        let k31 = S::ONE / pivot_1;
-        let pivot_2 = k22 - (k31 * (k15 * k15) + k31 * (k14 * k14));
-        let k29 = S::ONE / pivot_2;
+        let k21 = self.J + (self.y0 * k14 + self.x0 * k15);
+        let t0 = self.drag2 * self.r2;
+        let k33 = S::ONE / pivot_1;
+        let pivot_2 = k21 - k33 * (k14 * k14) - k33 * (k15 * k15);
+        let k31 = S::ONE / pivot_2;
         let k1_ = self.omega * (self.omega * self.J0);
         let k2_ = self.cx * S::from_f64(0.5);
         let k3 = self.cy * S::from_f64(0.5);
@@ -211,16 +211,22 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
         let k11 = self.d2 * S::from_f64(0.5);
         let k12 = self.omega * k0;
         let k17 = self.drag2 * self.rho;
-        let k19 = self.drag1 * self.R;
-        let k20 = self.drag1 * self.r1;
-        let k21 = self.m0 * k0;
-        let k23 = S::ONE / self.J1;
-        let k24 = k18 / self.J2;
-        let k25 = S::ONE / self.m2;
-        let k26 = self.m2 * S::from_f64(2.0);
-        let k27 = S::ONE / self.m1;
-        let k28 = self.m0 * k31;
-        let k30 = self.m0 * k29;
+        let k18 = self.drag1 * self.R;
+        let k19 = self.drag1 * self.r1;
+        let k20 = self.m0 * k0;
+        let k22 = -k13;
+        let k23 = -self.m2;
+        let k24 = -self.drag1;
+        let k25 = -self.drag2;
+        let k26 = -t0;
+        let k27 = S::ONE / self.m2;
+        let k28 = self.m2 * S::from_f64(2.0);
+        let k29 = S::ONE / self.m1;
+        let k30 = self.m0 * k33;
+        let k32 = self.m0 * k31;
+        let k34 = -k33;
+        let k35 = -(S::ONE / self.J1);
+        let k36 = -(t0 / self.J2);
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -233,8 +239,8 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
             Some(singular(1, pivot_1, k16))
         } else if vanishes(pivot_1, k16, 7.993605777301127e-15) {
             Some(singular(0, pivot_1, k16))
-        } else if vanishes(pivot_2, k22, 7.993605777301127e-15) {
-            Some(singular(2, pivot_2, k22))
+        } else if vanishes(pivot_2, k21, 7.993605777301127e-15) {
+            Some(singular(2, pivot_2, k21))
         } else {
             None
         };
@@ -299,6 +305,11 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
             k29,
             k30,
             k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
             singular,
         }
     }
@@ -498,34 +509,44 @@ pub struct Prepared<S = f64> {
     k16: S,
     /// `drag2*rho`
     k17: S,
-    /// `drag2*r2`
-    k18: S,
     /// `drag1*R`
-    k19: S,
+    k18: S,
     /// `drag1*r1`
-    k20: S,
+    k19: S,
     /// `m0*e*omega`
-    k21: S,
+    k20: S,
     /// `J + m0*x0^2 + m0*y0^2`
+    k21: S,
+    /// `-(m1 + m2)`
     k22: S,
-    /// `1/J1`
+    /// `-m2`
     k23: S,
-    /// `drag2*r2/J2`
+    /// `-drag1`
     k24: S,
-    /// `1/m2`
+    /// `-drag2`
     k25: S,
-    /// `2*m2`
+    /// `-drag2*r2`
     k26: S,
-    /// `1/m1`
+    /// `1/m2`
     k27: S,
-    /// `m0/(m + m0)`
+    /// `2*m2`
     k28: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `1/m1`
     k29: S,
-    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `m0/(m + m0)`
     k30: S,
-    /// `1/(m + m0)`
+    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k31: S,
+    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    k32: S,
+    /// `1/(m + m0)`
+    k33: S,
+    /// `-1/(m + m0)`
+    k34: S,
+    /// `-1/J1`
+    k35: S,
+    /// `-drag2*r2/J2`
+    k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -565,33 +586,34 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let phi2 = q[7];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k13 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m31 = -(p.k15 * sin_theta + cos_theta * p.k14);
     let m32 = p.k15 * cos_theta - sin_theta * p.k14;
     let m41 = p.k13 * cos_phi1;
     let m42 = p.k13 * sin_phi1;
-    let m51 = -(p.k13 * t0);
-    let m52 = p.k13 * t1;
-    let m55 = s1 * (p.k13 * s1);
+    let m51 = sin_phi1 * (s1 * p.k22);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k23);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k16, zero, m31, m41, m51, zero, m71, m81, zero],
         [zero, p.k16, m32, m42, m52, zero, m72, m82, zero],
-        [m31, m32, p.k22, zero, zero, zero, zero, zero, zero],
+        [m31, m32, p.k21, zero, zero, zero, zero, zero, zero],
         [m41, m42, zero, p.k13, zero, zero, m74, m84, zero],
         [m51, m52, zero, zero, m55, zero, m75, m85, zero],
         [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
@@ -642,11 +664,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t6 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t7 = cos_phi2 * s2;
-    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t8 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let t9 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t10 = cos_phi1 * s1;
-    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t11 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let t12 = t11 * sin_phi1 + t9 * t10;
     let t13 = t8 * sin_phi2 + t6 * t7 + t12;
     let t14 = t13 * p.m2 + t12 * p.m1;
@@ -663,8 +685,8 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
     let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
-    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
+    let h_s2 = p.k23 * (cos_phi2 * t13 + sin_phi2 * t19);
+    let h_phi2 = p.k23 * (t7 * t19 - t13 * t16);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -710,13 +732,13 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9])
     let t9 = p.r2 * theta2_dot + s2 * phi2_dot - theta1_dot * p.rho;
     let q_x = -(t2 + t3);
     let q_y = -(t6 + t7);
-    let q_theta = t8 * p.k19 - (p.yc * (t3 - t2) + p.xc * (t7 - t6));
+    let q_theta = t8 * p.k18 - (p.yc * (t3 - t2) + p.xc * (t7 - t6));
     let q_s1 = -((s1 - p.gap1) * p.k1 + p.d1 * s1_dot);
-    let q_phi1 = -(t8 * (s1 * p.drag1));
-    let q_theta1 = t9 * p.k17 - t8 * p.k20;
+    let q_phi1 = t8 * (s1 * p.k24);
+    let q_theta1 = t9 * p.k17 - t8 * p.k19;
     let q_s2 = -((s2 - p.gap2) * p.k2 + p.d2 * s2_dot);
-    let q_phi2 = -(t9 * (s2 * p.drag2));
-    let q_theta2 = -(t9 * p.k18);
+    let q_phi2 = t9 * (s2 * p.k25);
+    let q_theta2 = t9 * p.k26;
     [
         q_x, q_y, q_theta, q_s1, q_phi1, q_theta1, q_s2, q_phi2, q_theta2,
     ]
@@ -740,53 +762,53 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = p.omega.product_error(t);
-    let t1 = p.omega * t;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = theta_dot * theta_dot;
-    let t3 = t2 * p.x0;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t4 = t2 * p.y0;
-    let t5 = p.k12 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
-    let t6 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t0 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t7 = phi2_dot * s2;
-    let t8 = phi2_dot * t7;
-    let t9 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t1 = phi2_dot * s2;
+    let t2 = phi2_dot * t1;
+    let t3 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t10 = phi1_dot * s1;
-    let t11 = phi1_dot * t10;
-    let t12 = t9 * sin_phi1 + cos_phi1 * t11;
-    let t13 = t6 * sin_phi2 + cos_phi2 * t8 + t12;
-    let t14 = t13 * p.m2;
-    let t15 = t14 + t12 * p.m1;
-    let t16 = theta_dot * p.yc;
-    let t17 = p.yc * theta;
-    let t18 = p.bx * (x_dot - t16) + p.cx * (x - t17);
-    let t19 = p.bx * (t16 + x_dot) + p.cx * (t17 + x);
-    let t20 = p.k12 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
-    let t21 = sin_phi1 * t11 - t9 * cos_phi1;
-    let t22 = sin_phi2 * t8 - t6 * cos_phi2 + t21;
-    let t23 = p.m2 * t22;
-    let t24 = t23 + p.m1 * t21;
-    let t25 = theta_dot * p.xc;
-    let t26 = theta * p.xc;
-    let t27 = p.by * (y_dot - t25) + p.cy * (y - t26);
-    let t28 = p.by * (t25 + y_dot) + p.cy * (t26 + y);
-    let t29 = cos_theta * (t5 * p.k14 - t20 * p.k15);
-    let t30 = sin_theta * (t20 * p.k14 + t5 * p.k15) + t29;
-    let t31 = t10 + theta1_dot * p.r1 - theta_dot * p.R;
-    let t32 = t7 + p.r2 * theta2_dot - theta1_dot * p.rho;
-    let t33 = p.m2 * (t22 * (cos_phi2 * s2) - t13 * (sin_phi2 * s2));
-    let f_x = t5 * p.m0 + t15 - (t18 + t19);
-    let f_y = p.m0 * t20 + t24 - (t27 + t28);
-    let f_theta = t31 * p.k19 - (t30 + (p.yc * (t19 - t18) + p.xc * (t28 - t27)));
-    let f_s1 = cos_phi1 * t15 + sin_phi1 * t24 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1);
-    let f_phi1 = t24 * (cos_phi1 * s1) - t15 * (sin_phi1 * s1) - t31 * (s1 * p.drag1);
-    let f_theta1 = t32 * p.k17 - t31 * p.k20;
-    let f_s2 = cos_phi2 * t14 + sin_phi2 * t23 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2);
+    let t4 = phi1_dot * s1;
+    let t5 = phi1_dot * t4;
+    let t6 = t3 * sin_phi1 + cos_phi1 * t5;
+    let t7 = t0 * sin_phi2 + cos_phi2 * t2 + t6;
+    let t8 = t7 * p.m2;
+    let t9 = t8 + t6 * p.m1;
+    let t10 = theta_dot * p.yc;
+    let t11 = p.yc * theta;
+    let t12 = p.bx * (x_dot - t10) + p.cx * (x - t11);
+    let t13 = p.bx * (t10 + x_dot) + p.cx * (t11 + x);
+    let t14 = p.omega.product_error(t);
+    let t15 = p.omega * t;
+    let (sin_t15, cos_t15) = t15.sin_cos();
+    let t16 = theta_dot * theta_dot;
+    let t17 = t16 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t18 = t16 * p.y0;
+    let t19 = p.k12 * (cos_t15 - t14 * sin_t15) + (cos_theta * t17 - t18 * sin_theta);
+    let t20 = sin_phi1 * t5 - t3 * cos_phi1;
+    let t21 = sin_phi2 * t2 - t0 * cos_phi2 + t20;
+    let t22 = p.m2 * t21;
+    let t23 = t22 + p.m1 * t20;
+    let t24 = theta_dot * p.xc;
+    let t25 = theta * p.xc;
+    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
+    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
+    let t28 = p.k12 * (sin_t15 + t14 * cos_t15) + (sin_theta * t17 + t18 * cos_theta);
+    let t29 = p.yc * (t13 - t12) + p.xc * (t27 - t26);
+    let t30 = cos_theta * (t19 * p.k14 - t28 * p.k15) + t29;
+    let t31 = t4 + theta1_dot * p.r1 - theta_dot * p.R;
+    let t32 = t1 + p.r2 * theta2_dot - theta1_dot * p.rho;
+    let t33 = p.m2 * (t21 * (cos_phi2 * s2) - t7 * (sin_phi2 * s2));
+    let f_x = t19 * p.m0 + (t9 - (t12 + t13));
+    let f_y = p.m0 * t28 + (t23 - (t26 + t27));
+    let f_theta = t31 * p.k18 - (sin_theta * (t28 * p.k14 + t19 * p.k15) + t30);
+    let f_s1 = cos_phi1 * t9 - ((s1 - p.gap1) * p.k1 + s1_dot * p.d1 - sin_phi1 * t23);
+    let f_phi1 = t23 * (cos_phi1 * s1) - t9 * (sin_phi1 * s1) - t31 * (s1 * p.drag1);
+    let f_theta1 = t32 * p.k17 - t31 * p.k19;
+    let f_s2 = cos_phi2 * t8 - ((s2 - p.gap2) * p.k2 + s2_dot * p.d2 - sin_phi2 * t22);
     let f_phi2 = t33 - t32 * (s2 * p.drag2);
-    let f_theta2 = -(t32 * p.k18);
+    let f_theta2 = t32 * p.k26;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, f_theta1, f_s2, f_phi2, f_theta2,
     ]
@@ -844,89 +866,94 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let phi2_dot = n(v[7]);
         let theta2_dot = n(v[8]);
         let t0 = n(p.omega) * n(t);
-        let angles = [t0, theta, phi1, phi2];
+        let angles = [theta, t0, phi1, phi2];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
         let (sin_phi1, cos_phi1) = circular[2];
         let (sin_phi2, cos_phi2) = circular[3];
-        let t1 = theta_dot * n(p.xc);
-        let t2 = theta * n(p.xc);
-        let t3 = n(p.by).mul_add(y_dot - t1, n(p.cy) * (y - t2));
-        let t4 = phi1_dot * s1;
-        let t5 = theta1_dot.mul_add(n(p.r1), t4);
-        let t6 = theta_dot.neg_mul_add(n(p.R), t5);
-        let t7 = n(p.omega).product_error(n(t));
-        let t8 = cos_theta * n(p.y0);
-        let t9 = theta_dot * theta_dot;
-        let t10 = sin_theta * n(p.x0);
-        let t11 = n(p.k12).mul_add(t7.mul_add(cos_t0, sin_t0), t8 * t9);
-        let t12 = n(p.m0) * t10.mul_add(t9, t11);
-        let t13 = cos_theta * n(p.x0);
-        let t14 = sin_theta * n(p.y0);
-        let t15 = t13 - t14;
-        let t16 = theta_dot * n(p.yc);
-        let t17 = theta * n(p.yc);
-        let t18 = n(p.bx).mul_add(x_dot - t16, n(p.cx) * (x - t17));
-        let t19 = n(p.xc).mul_add(t3, t6 * n(p.k19));
-        let t20 = n(p.by).mul_add(t1 + y_dot, n(p.cy) * (t2 + y));
-        let t21 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
-        let t22 = t6 * n(p.drag1);
-        let t23 = t3 + t20 - sin_phi1.mul_add(t21, t12);
-        let t24 = t22.neg_mul_add(cos_phi1, t23);
-        let t25 = n(p.k12).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t9 * t13);
-        let t26 = t14.neg_mul_add(t9, t25) * n(p.m0);
-        let t27 = t10 + t8;
-        let t28 = n(p.bx).mul_add(t16 + x_dot, n(p.cx) * (t17 + x));
-        let t29 = t24.mul_sub(n(p.k28) * t15, n(p.xc) * t20);
-        let t30 = t29 - t27.mul_add(t26, n(p.yc) * t28);
-        let t31 = t18 + t28 + t22.mul_sub(sin_phi1, cos_phi1 * t21) - t26;
-        let t32 = t19 + t15.mul_add(t12, n(p.yc) * t18) + t30;
-        let t33 = t31.neg_mul_add(n(p.k28) * t27, t32);
-        let t34 = n(p.k30) * t33;
-        let t35 = n(p.k31) * t27.neg_mul_add(t34, t31);
-        let t36 = n(p.k31) * t15.mul_add(t34, t24);
-        let t37 = sin_phi1 * t36;
-        let t38 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
-        let t39 = phi1_dot * t4;
-        let t40 = phi1_dot * s1_dot * N::from_f64(2.0);
-        let t41 = sin_phi1.mul_sub(t39, cos_phi1 * t40);
-        let t42 = n(p.r2).mul_add(theta2_dot, phi2_dot * s2);
-        let t43 = theta1_dot.neg_mul_add(n(p.rho), t42);
-        let t44 = t43 * n(p.drag2);
-        let t45 = n(p.m1).mul_add(t41, sin_phi2 * t38);
-        let t46 = t44.mul_add(cos_phi2, t45);
-        let t47 = sin_phi1.mul_add(t40, cos_phi1 * t39);
-        let t48 = n(p.m1).mul_add(t47, cos_phi2 * t38);
-        let t49 = t44.neg_mul_add(sin_phi2, t48);
-        let t50 = cos_phi1.neg_mul_add(t49, sin_phi1.neg_mul_add(t46, t21));
-        let t51 = cos_phi1.neg_mul_add(t35, n(p.k27) * t50);
-        let t52 = n(p.k27) * (cos_phi1.mul_sub(t46, sin_phi1 * t49) - t22);
-        let t53 = sin_phi1.neg_mul_add(t35, cos_phi1.mul_add(t36, t52));
-        let t54 = t51 - t37;
-        let t55 = cos_phi1.neg_mul_add(t53, t36);
-        let t56 = sin_phi1.mul_add(t54, t41) + t55;
-        let t57 = cos_phi1.mul_add(t54, t47) + sin_phi1.mul_add(t53, t35);
-        let t58 = s2 * n(p.m2);
-        let t59 = phi2_dot.neg_mul_add(phi2_dot * t58, t38);
-        let t60 = sin_phi2.mul_add(t56, cos_phi2 * t57);
-        let t61 = n(p.k25) * phi2_dot.mul_add(s2_dot * n(p.k26), t44);
-        let t62 = cos_phi2.neg_mul_add(t56, sin_phi2.mul_add(t57, t61)) / s2;
-        let t63 = s2 * t58;
-        checked(t63, t63, 7.993605777301127e-15, 7)?;
-        let t64 = s1 * s1;
-        let t65 = n(p.m1) * t64;
-        let t66 = t64 * n(p.k13);
-        checked(t65, t66, 7.993605777301127e-15, 4)?;
-        let x_ddot = -t35;
-        let y_ddot = -t36;
-        let theta_ddot = t33 * n(p.k29);
-        let s1_ddot = t37 - t51;
-        let phi1_ddot = t53 / s1;
-        let theta1_ddot = -(n(p.k23) * t6.mul_sub(n(p.k20), t43 * n(p.k17)));
-        let s2_ddot = n(p.k25).neg_mul_add(t59, t60);
-        let phi2_ddot = -t62;
-        let theta2_ddot = -(t43 * n(p.k24));
+        let t1 = theta_dot * n(p.yc);
+        let t2 = theta * n(p.yc);
+        let t3 = n(p.bx).mul_add(x_dot - t1, n(p.cx) * (x - t2));
+        let t4 = theta_dot * n(p.xc);
+        let t5 = theta * n(p.xc);
+        let t6 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t5 + y));
+        let t7 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t5));
+        let t8 = phi1_dot * s1;
+        let t9 = theta1_dot.mul_add(n(p.r1), t8);
+        let t10 = theta_dot.neg_mul_add(n(p.R), t9);
+        let t11 = n(p.bx).mul_add(t1 + x_dot, n(p.cx) * (t2 + x));
+        let t12 = n(p.xc).mul_add(t7, t10 * n(p.k18));
+        let t13 = n(p.yc).mul_sub(t3, n(p.xc) * t6);
+        let t14 = sin_theta * n(p.x0);
+        let t15 = theta_dot * theta_dot;
+        let t16 = cos_theta * n(p.y0);
+        let t17 = n(p.omega).product_error(n(t));
+        let t18 = t14.mul_add(t15, t16 * t15);
+        let t19 = n(p.k12).mul_add(t17.mul_add(cos_t0, sin_t0), t18);
+        let t20 = n(p.m0) * t19;
+        let t21 = cos_theta * n(p.x0);
+        let t22 = sin_theta * n(p.y0);
+        let t23 = t21 - t22;
+        let t24 = t10 * n(p.drag1);
+        let t25 = (s1 - n(p.gap1)).mul_add(n(p.k1), s1_dot * n(p.d1));
+        let t26 = t17.neg_mul_add(sin_t0, cos_t0);
+        let t27 = n(p.k12).mul_add(t26, t15.mul_sub(t21, t22 * t15));
+        let t28 = t27 * n(p.m0);
+        let t29 = cos_phi1.neg_mul_add(t25, t24.mul_add(sin_phi1, t3 + t11));
+        let t30 = t29 - t28;
+        let t31 = t14 + t16;
+        let t32 = t23.mul_add(t20, t13 + n(p.yc).neg_mul_add(t11, t12));
+        let t33 = sin_phi1.neg_mul_add(t25, t7 + t6);
+        let t34 = t24.neg_mul_add(cos_phi1, t33) - t20;
+        let t35 = t34.mul_sub(n(p.k30) * t23, t31 * t28);
+        let t36 = t35 + t30.neg_mul_add(n(p.k30) * t31, t32);
+        let t37 = n(p.k32) * t36;
+        let t38 = t31.neg_mul_add(t37, t30);
+        let t39 = t23.mul_add(t37, t34);
+        let t40 = t39 * n(p.k33);
+        let t41 = sin_phi1 * t40;
+        let t42 = t38 * n(p.k33);
+        let t43 = n(p.r2).mul_add(theta2_dot, phi2_dot * s2);
+        let t44 = theta1_dot.neg_mul_add(n(p.rho), t43);
+        let t45 = t44 * n(p.drag2);
+        let t46 = (s2 - n(p.gap2)).mul_add(n(p.k2), s2_dot * n(p.d2));
+        let t47 = phi1_dot * t8;
+        let t48 = phi1_dot * (s1_dot * N::from_f64(2.0));
+        let t49 = sin_phi1.mul_sub(t47, cos_phi1 * t48);
+        let t50 = t45.mul_add(cos_phi2, sin_phi2 * t46);
+        let t51 = n(p.m1).mul_add(t49, t50);
+        let t52 = sin_phi1.mul_add(t48, cos_phi1 * t47);
+        let t53 = cos_phi2.mul_sub(t46, t45 * sin_phi2);
+        let t54 = n(p.m1).mul_add(t52, t53);
+        let t55 = cos_phi1.neg_mul_add(t54, sin_phi1.neg_mul_add(t51, t25));
+        let t56 = cos_phi1.neg_mul_add(t42, n(p.k29) * t55);
+        let t57 = sin_phi1.neg_mul_add(t54, cos_phi1.mul_sub(t51, t24));
+        let t58 = cos_phi1.mul_add(t40, n(p.k29) * t57);
+        let t59 = sin_phi1.neg_mul_add(t42, t58);
+        let t60 = t56 - t41;
+        let t61 = sin_phi1.mul_add(t60, t40 + t49);
+        let t62 = cos_phi1.neg_mul_add(t59, t61);
+        let t63 = sin_phi1.mul_add(t59, cos_phi1.mul_add(t60, t42 + t52));
+        let t64 = s2 * n(p.m2);
+        let t65 = n(p.k27) * t64.neg_mul_add(phi2_dot * phi2_dot, t46);
+        let t66 = n(p.k27) * phi2_dot.mul_add(s2_dot * n(p.k28), t45);
+        let t67 = cos_phi2.neg_mul_add(t62, sin_phi2.mul_add(t63, t66)) / s2;
+        let t68 = s2 * t64;
+        checked(t68, t68, 7.993605777301127e-15, 7)?;
+        let t69 = s1 * s1;
+        let t70 = n(p.m1) * t69;
+        let t71 = t69 * n(p.k13);
+        checked(t70, t71, 7.993605777301127e-15, 4)?;
+        let x_ddot = n(p.k34) * t38;
+        let y_ddot = n(p.k34) * t39;
+        let theta_ddot = t36 * n(p.k31);
+        let s1_ddot = t41 - t56;
+        let phi1_ddot = t59 / s1;
+        let theta1_ddot = n(p.k35) * t10.mul_sub(n(p.k19), t44 * n(p.k17));
+        let s2_ddot = sin_phi2.mul_add(t62, cos_phi2.mul_sub(t63, t65));
+        let phi2_ddot = -t67;
+        let theta2_ddot = t44 * n(p.k36);
         let accelerations = [
             x_ddot.store(),
             y_ddot.store(),
@@ -978,18 +1005,18 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
     let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
     let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
-    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t8 = phi2_dot * s2;
+    let t7 = phi2_dot * s2;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t9 = phi1_dot * s1;
+    let t8 = phi1_dot * s1;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
-    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
-    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
-    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
-    let t14 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t15 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t5 * t5 + t6 * t6) * p.m0 + p.k1_ + t7 + t15) * S::from_f64(0.5)
+    let t9 = y_dot + (t8 * cos_phi1 + sin_phi1 * s1_dot);
+    let t10 = t7 * cos_phi2 + sin_phi2 * s2_dot + t9;
+    let t11 = x_dot + (cos_phi1 * s1_dot - t8 * sin_phi1);
+    let t12 = cos_phi2 * s2_dot - t7 * sin_phi2 + t11;
+    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t14 = (t9 * t9 + t11 * t11) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
+    let t15 = (t10 * t10 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
+    ((t5 * t5 + t6 * t6) * p.m0 + p.k1_ + t15) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -1007,14 +1034,13 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
     let t0 = theta * p.yc;
     let t1 = t0 + x;
     let t2 = x - t0;
-    let t3 = theta * p.xc;
-    let t4 = t3 + y;
-    let t5 = y - t3;
-    let t6 = t1 * (p.k2_ * t1) + t2 * (p.k2_ * t2);
-    let t7 = s2 - p.gap2;
-    let t8 = s1 - p.gap1;
-    let t9 = t6 + (t4 * (p.k3 * t4) + t5 * (p.k3 * t5));
-    t7 * (t7 * p.k5) + t8 * (t8 * p.k4) + t9
+    let t3 = s2 - p.gap2;
+    let t4 = s1 - p.gap1;
+    let t5 = theta * p.xc;
+    let t6 = t5 + y;
+    let t7 = y - t5;
+    let t8 = (t1 * t1 + t2 * t2) * p.k2_ + (t3 * (t3 * p.k5) + t4 * (t4 * p.k4));
+    (t6 * t6 + t7 * t7) * p.k3 + t8
 }
 
 /// Dissipation function `D`, in W.
@@ -1038,18 +1064,17 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S;
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
-    let t1 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
-    let t2 = theta_dot * p.yc;
-    let t3 = t2 + x_dot;
-    let t4 = x_dot - t2;
-    let t5 = t3 * (p.k8 * t3) + t4 * (p.k8 * t4);
-    let t6 = theta_dot * p.xc;
-    let t7 = t6 + y_dot;
-    let t8 = y_dot - t6;
-    let t9 = s2_dot * (s2_dot * p.k11) + s1_dot * (s1_dot * p.k10);
-    let t10 = t7 * (p.k9 * t7) + t8 * (p.k9 * t8) + t9;
-    t0 * (t0 * p.k7) + t1 * (t1 * p.k6) + t5 + t10
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
+    let t4 = theta_dot * p.xc;
+    let t5 = t4 + y_dot;
+    let t6 = y_dot - t4;
+    let t7 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
+    let t8 = s2_dot * (s2_dot * p.k11) + s1_dot * (s1_dot * p.k10);
+    let t9 = (t5 * t5 + t6 * t6) * p.k9 + (t7 * (t7 * p.k6) + t8);
+    (t1 * t1 + t2 * t2) * p.k8 + t3 * (t3 * p.k7) + t9
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -1083,7 +1108,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let t5 = cos_t4 - t3 * sin_t4;
     let t6 = sin_t4 + t3 * cos_t4;
     let t7 = t5 * (t6 * p.k12 - (y_ddot - t2 * p.y0 - t1 * p.x0));
-    (t6 * (t5 * p.k12 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t7) * p.k21
+    (t6 * (t5 * p.k12 - (t1 * p.y0 + x_ddot - p.x0 * t2)) - t7) * p.k20
 }
 
 /// Power that dampers take out, in W.
@@ -1106,18 +1131,17 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v:
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
-    let t1 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
-    let t2 = theta_dot * p.yc;
-    let t3 = t2 + x_dot;
-    let t4 = x_dot - t2;
-    let t5 = t0 * (t0 * p.drag2) + t1 * (t1 * p.drag1);
-    let t6 = theta_dot * p.xc;
-    let t7 = t6 + y_dot;
-    let t8 = y_dot - t6;
-    let t9 = s2_dot * (s2_dot * p.d2) + s1_dot * (s1_dot * p.d1);
-    let t10 = t5 + (t3 * (t3 * p.bx) + t4 * (p.bx * t4));
-    t10 + (t7 * (t7 * p.by) + t8 * (p.by * t8) + t9)
+    let t0 = theta_dot * p.yc;
+    let t1 = t0 + x_dot;
+    let t2 = x_dot - t0;
+    let t3 = p.r2 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
+    let t4 = theta_dot * p.xc;
+    let t5 = t4 + y_dot;
+    let t6 = y_dot - t4;
+    let t7 = theta1_dot * p.r1 + phi1_dot * s1 - theta_dot * p.R;
+    let t8 = s2_dot * (s2_dot * p.d2) + s1_dot * (s1_dot * p.d1);
+    let t9 = (t5 * t5 + t6 * t6) * p.by + (t7 * (t7 * p.drag1) + t8);
+    (t1 * t1 + t2 * t2) * p.bx + t3 * (t3 * p.drag2) + t9
 }
 
 /// Force with which the mortar presses on the cylinder, positive outwards. Unit: N.

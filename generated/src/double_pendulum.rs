@@ -7,13 +7,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 14 | 2 | 1 | 0 | 0 | 17 |
+//! | `prepare` | 14 | 6 | 1 | 0 | 0 | 21 |
 //! | `start` | 2 | 0 | 0 | 0 | 0 | 2 |
 //! | `mass_matrix` | 3 | 1 | 0 | 2 | 0 | 8 |
-//! | `bias` | 10 | 4 | 0 | 2 | 0 | 18 |
-//! | `applied` | 2 | 2 | 0 | 2 | 0 | 6 |
+//! | `bias` | 8 | 1 | 0 | 2 | 0 | 13 |
+//! | `applied` | 2 | 0 | 0 | 2 | 0 | 4 |
 //! | `forces` | 12 | 4 | 0 | 2 | 0 | 20 |
-//! | `accelerations` | 20 | 9 | 1 | 2 | 0 | 34 |
+//! | `accelerations` | 18 | 9 | 1 | 2 | 0 | 32 |
 //! | `kinetic_energy` | 11 | 4 | 0 | 2 | 0 | 19 |
 //! | `potential_energy` | 4 | 3 | 0 | 2 | 0 | 9 |
 //!
@@ -76,21 +76,26 @@ impl<S> DoublePendulum<S> {
 impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let t0 = self.l1 * self.m1;
+        let t0 = self.g * self.m1;
         let k1 = self.g * self.m2;
-        let t1 = self.l1 * t0;
-        let t2 = self.l2 * self.m2;
-        let k8 = t1 + self.l1 * (self.l1 * self.m2);
-        let k0 = t0 * self.g;
-        let k2 = t1 * S::from_f64(0.5);
+        let t1 = self.l1 * self.l1;
+        let t2 = self.m1 * t1;
+        let t3 = self.l2 * self.m2;
+        let k4 = self.l1 * t3;
+        let k7 = self.g * t3;
+        let k8 = self.l1 * (t0 + k1);
+        let pivot_0 = t2 + self.m2 * t1;
+        let k0 = self.l1 * t0;
+        let k2 = t2 * S::from_f64(0.5);
         let k3 = self.m2 * S::from_f64(0.5);
-        let k4 = self.l1 * t2;
-        let k5 = self.l2 * t2;
-        let k6 = self.g * t2;
-        let k7 = self.l1 * (k1 + self.m1 * self.g);
-        let k9 = S::ONE / k8;
-        let singular = if vanishes(k8, k8, 1.7763568394002505e-15) {
-            Some(singular(0, k8, k8))
+        let k5 = t1 * (self.m1 + self.m2);
+        let k6 = self.l2 * t3;
+        let k9 = -k4;
+        let k10 = -k8;
+        let k11 = -k7;
+        let k12 = S::ONE / pivot_0;
+        let singular = if vanishes(pivot_0, pivot_0, 1.7763568394002505e-15) {
+            Some(singular(0, pivot_0, pivot_0))
         } else {
             None
         };
@@ -107,6 +112,9 @@ impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
             k7,
             k8,
             k9,
+            k10,
+            k11,
+            k12,
             singular,
         }
     }
@@ -182,16 +190,22 @@ pub struct Prepared<S = f64> {
     k3: S,
     /// `m2*l1*l2`
     k4: S,
-    /// `m2*l2^2`
+    /// `l1^2*(m1 + m2)`
     k5: S,
-    /// `m2*l2*g`
+    /// `m2*l2^2`
     k6: S,
-    /// `l1*(m2*g + m1*g)`
+    /// `m2*l2*g`
     k7: S,
-    /// `m1*l1^2 + m2*l1^2`
+    /// `l1*(m2*g + m1*g)`
     k8: S,
-    /// `1/(m1*l1^2 + m2*l1^2)`
+    /// `-m2*l1*l2`
     k9: S,
+    /// `-l1*(m2*g + m1*g)`
+    k10: S,
+    /// `-m2*l2*g`
+    k11: S,
+    /// `1/(m1*l1^2 + m2*l1^2)`
+    k12: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -209,7 +223,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let (sin_theta1, cos_theta1) = theta1.sin_cos();
     let m21 = (cos_theta2 * cos_theta1 + sin_theta2 * sin_theta1) * p.k4;
-    [[p.k8, m21], [m21, p.k5]]
+    [[p.k5, m21], [m21, p.k6]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -223,14 +237,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let theta2 = q[1];
     let theta1_dot = v[0];
     let theta2_dot = v[1];
-    let t0 = theta2_dot * theta2_dot;
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let (sin_theta1, cos_theta1) = theta1.sin_cos();
-    let t1 = sin_theta2 * cos_theta1;
-    let t2 = cos_theta2 * sin_theta1;
-    let t3 = theta1_dot * theta1_dot;
-    let h_theta1 = -(p.k4 * (t0 * t1 - t0 * t2));
-    let h_theta2 = -(p.k4 * (t2 * t3 - t1 * t3));
+    let t0 = cos_theta2 * sin_theta1 - sin_theta2 * cos_theta1;
+    let h_theta1 = t0 * (theta2_dot * (theta2_dot * p.k4));
+    let h_theta2 = t0 * (theta1_dot * (p.k9 * theta1_dot));
     [h_theta1, h_theta2]
 }
 
@@ -245,8 +256,8 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let theta2 = q[1];
     let sin_theta1 = theta1.sin();
     let sin_theta2 = theta2.sin();
-    let q_theta1 = -(p.k7 * sin_theta1);
-    let q_theta2 = -(p.k6 * sin_theta2);
+    let q_theta1 = p.k10 * sin_theta1;
+    let q_theta2 = p.k11 * sin_theta2;
     [q_theta1, q_theta2]
 }
 
@@ -257,13 +268,13 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
     let theta1_dot = v[0];
     let theta2_dot = v[1];
     let t0 = theta2_dot * theta2_dot;
-    let (sin_theta2, cos_theta2) = theta2.sin_cos();
     let (sin_theta1, cos_theta1) = theta1.sin_cos();
-    let t1 = p.k4 * (sin_theta2 * cos_theta1);
-    let t2 = cos_theta2 * sin_theta1 * p.k4;
+    let (sin_theta2, cos_theta2) = theta2.sin_cos();
+    let t1 = sin_theta2 * (cos_theta1 * p.k4);
+    let t2 = cos_theta2 * (sin_theta1 * p.k4);
     let t3 = theta1_dot * theta1_dot;
-    let f_theta1 = t0 * t1 - (t0 * t2 + sin_theta1 * p.k7);
-    let f_theta2 = t2 * t3 - (t1 * t3 + sin_theta2 * p.k6);
+    let f_theta1 = t0 * t1 - (t0 * t2 + sin_theta1 * p.k8);
+    let f_theta2 = t2 * t3 - (t1 * t3 + sin_theta2 * p.k7);
     [f_theta1, f_theta2]
 }
 
@@ -307,19 +318,19 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let circular = N::sin_cos_all(angles);
         let (sin_theta2, cos_theta2) = circular[0];
         let (sin_theta1, cos_theta1) = circular[1];
-        let t0 = n(p.k4) * (sin_theta2 * cos_theta1);
-        let t1 = theta1_dot * theta1_dot;
-        let t2 = cos_theta2 * sin_theta1 * n(p.k4);
-        let t3 = theta2_dot * theta2_dot;
-        let t4 = t3.neg_mul_add(t0, t3.mul_add(t2, sin_theta1 * n(p.k7)));
-        let t5 = cos_theta2.mul_add(cos_theta1, sin_theta2 * sin_theta1);
-        let t6 = n(p.k4) * t5;
-        let t7 = n(p.k9) * t6;
-        let t8 = t2.neg_mul_add(t1, t0.mul_add(t1, sin_theta2 * n(p.k6)));
-        let t9 = t6.neg_mul_add(t7, n(p.k5));
-        let t9 = checked(t9, n(p.k5), 1.7763568394002505e-15, 1)?;
-        let t10 = t4.neg_mul_add(t7, t8) / t9;
-        let theta1_ddot = t7.mul_sub(t10, n(p.k9) * t4);
+        let t0 = cos_theta2 * sin_theta1;
+        let t1 = sin_theta2 * cos_theta1;
+        let t2 = theta2_dot * (n(p.k4) * theta2_dot);
+        let t3 = (t0 - t1).mul_add(t2, sin_theta1 * n(p.k8));
+        let t4 = cos_theta2.mul_add(cos_theta1, sin_theta2 * sin_theta1);
+        let t5 = n(p.k4) * t4;
+        let t6 = n(p.k12) * t5;
+        let t7 = theta1_dot * (n(p.k4) * theta1_dot);
+        let t8 = (t1 - t0).mul_add(t7, sin_theta2 * n(p.k7));
+        let t9 = t5.neg_mul_add(t6, n(p.k6));
+        let t9 = checked(t9, n(p.k6), 1.7763568394002505e-15, 1)?;
+        let t10 = t3.neg_mul_add(t6, t8) / t9;
+        let theta1_ddot = t6.mul_sub(t10, n(p.k12) * t3);
         let theta2_ddot = -t10;
         let accelerations = [theta1_ddot.store(), theta2_ddot.store()];
         Ok(accelerations)

@@ -13,17 +13,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 24 | 8 | 2 | 0 | 0 | 34 |
-//! | `mass_matrix` | 28 | 6 | 0 | 2 | 0 | 38 |
-//! | `bias` | 76 | 58 | 0 | 3 | 0 | 140 |
+//! | `prepare` | 24 | 10 | 2 | 0 | 0 | 36 |
+//! | `mass_matrix` | 24 | 3 | 0 | 2 | 0 | 31 |
+//! | `bias` | 72 | 52 | 0 | 3 | 0 | 130 |
 //! | `applied` | 12 | 23 | 0 | 0 | 0 | 35 |
-//! | `forces` | 88 | 80 | 0 | 3 | 0 | 174 |
-//! | `accelerations` | 194 | 148 | 5 | 3 | 0 | 353 |
+//! | `forces` | 84 | 76 | 0 | 3 | 0 | 166 |
+//! | `accelerations` | 188 | 143 | 5 | 3 | 0 | 342 |
 //! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
-//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `work_rate` | 20 | 15 | 0 | 1 | 0 | 37 |
-//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `dissipation_rate` | 8 | 7 | 0 | 0 | 0 | 15 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -149,9 +149,9 @@ impl<S: ::lagrangian::Scalar> FrozenCrusher<S> {
         let t0 = self.m0 * self.y0;
         let k9 = self.y0 * t0 + (self.J + self.x0 * k8);
         let k10 = self.omega * k0;
-        let k22 = S::ONE / k9;
-        let k19 = t0 * k22;
-        let k20 = k8 * k22;
+        let k24 = S::ONE / k9;
+        let k21 = t0 * k24;
+        let k22 = k8 * k24;
         let k1 = self.omega * (self.omega * self.J0);
         let k2 = self.cx * S::from_f64(0.5);
         let k3 = self.cy * S::from_f64(0.5);
@@ -165,10 +165,12 @@ impl<S: ::lagrangian::Scalar> FrozenCrusher<S> {
         let k16 = self.by * self.xc;
         let k17 = self.bx * self.yc;
         let k18 = -t0;
-        let k21 = k8 * k19;
-        let k23 = S::ONE / k6;
-        let k24 = k7 - t0 * k19;
-        let k25 = k7 - k8 * k20;
+        let k19 = -k6;
+        let k20 = -self.m2;
+        let k23 = k8 * k21;
+        let k25 = S::ONE / k6;
+        let k26 = k7 - t0 * k21;
+        let k27 = k7 - k8 * k22;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -223,6 +225,8 @@ impl<S: ::lagrangian::Scalar> FrozenCrusher<S> {
             k23,
             k24,
             k25,
+            k26,
+            k27,
             singular,
         }
     }
@@ -393,20 +397,24 @@ pub struct Prepared<S = f64> {
     k17: S,
     /// `-m0*y0`
     k18: S,
-    /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
+    /// `-(m1 + m2)`
     k19: S,
-    /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
+    /// `-m2`
     k20: S,
-    /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
     k21: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
     k22: S,
-    /// `1/(m1 + m2)`
+    /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
     k23: S,
-    /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `1/(J + m0*x0^2 + m0*y0^2)`
     k24: S,
-    /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `1/(m1 + m2)`
     k25: S,
+    /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
+    k26: S,
+    /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
+    k27: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -444,27 +452,28 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let s2 = q[6];
     let phi2 = q[7];
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k6 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m41 = p.k6 * cos_phi1;
     let m42 = p.k6 * sin_phi1;
-    let m51 = -(p.k6 * t0);
-    let m52 = p.k6 * t1;
-    let m55 = s1 * (p.k6 * s1);
+    let m51 = sin_phi1 * (s1 * p.k19);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k20);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k7, zero, p.k18, m41, m51, zero, m71, m81, zero],
         [zero, p.k7, p.k8, m42, m52, zero, m72, m82, zero],
@@ -529,30 +538,32 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t21 = t15 + (t15 - phi2_dot * t16) + t20;
     let t22 = p.m2 * t21 + p.m1 * t20;
     let t23 = sin_t12 + t11 * cos_t12;
-    let t24 = t4 + t7 + y_dot;
-    let t25 = t0 + t3 + t24;
-    let t26 = p.m2 * t25 + p.m1 * t24;
-    let t27 = t26 * (cos_phi1 * phi1_dot);
-    let t28 = t17 - t19 + x_dot;
-    let t29 = t14 - t16 + t28;
-    let t30 = p.m2 * t29 + p.m1 * t28;
-    let t31 = t30 * (sin_phi1 * phi1_dot);
-    let t32 = t22 * (cos_phi1 * s1) + t17 * t26 - t19 * t26;
-    let t33 = sin_phi1 * (s1_dot * t30 + t6 * t26);
-    let t34 = t32 - (t7 * t30 + t4 * t30 - t10 * (sin_phi1 * s1));
-    let t35 = t25 * (cos_phi2 * phi2_dot);
-    let t36 = t29 * (sin_phi2 * phi2_dot);
-    let t37 = sin_phi2 * (s2_dot * t29 + t2 * t25);
-    let t38 = t21 * (cos_phi2 * s2) + t14 * t25 - t16 * t25;
-    let t39 = t38 - (t3 * t29 + t0 * t29 - t9 * (sin_phi2 * s2));
+    let t24 = t0 + t3;
+    let t25 = t4 + t7;
+    let t26 = t25 + y_dot;
+    let t27 = t24 + t26;
+    let t28 = p.m2 * t27 + p.m1 * t26;
+    let t29 = t28 * (cos_phi1 * phi1_dot);
+    let t30 = t14 - t16;
+    let t31 = t17 - t19;
+    let t32 = t31 + x_dot;
+    let t33 = t30 + t32;
+    let t34 = p.m2 * t33 + p.m1 * t32;
+    let t35 = t34 * (sin_phi1 * phi1_dot);
+    let t36 = sin_phi1 * (s1_dot * t34 + t6 * t28);
+    let t37 = t31 * t28 + t22 * (cos_phi1 * s1) - (t34 * t25 - t10 * (sin_phi1 * s1));
+    let t38 = t27 * (cos_phi2 * phi2_dot);
+    let t39 = t33 * (sin_phi2 * phi2_dot);
+    let t40 = sin_phi2 * (s2_dot * t33 + t2 * t27);
+    let t41 = t30 * t27 + t21 * (cos_phi2 * s2) - (t33 * t24 - t9 * (sin_phi2 * s2));
     let h_x = -(p.k11 * t13 + t10);
     let h_y = t22 - p.k11 * t23;
     let h_theta = t13 * p.k13 - t23 * p.k12;
-    let h_s1 = t27 + sin_phi1 * t22 - (t31 + cos_phi1 * t10) - (t27 - t31);
-    let h_phi1 = t34 - (cos_phi1 * (s1_dot * t26 - t6 * t30) - t33);
+    let h_s1 = t29 + sin_phi1 * t22 - (t35 + cos_phi1 * t10) - (t29 - t35);
+    let h_phi1 = t37 - (cos_phi1 * (s1_dot * t28 - t6 * t34) - t36);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t35 - t36 - (t35 + sin_phi2 * t21 - (t36 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t25 - t2 * t29) - t37 - t39));
+    let h_s2 = p.k20 * (t38 - t39 - (t38 + sin_phi2 * t21 - (t39 + cos_phi2 * t9)));
+    let h_phi2 = p.k20 * (cos_phi2 * (s2_dot * t27 - t2 * t33) - t40 - t41);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -647,30 +658,32 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t35 = sin_t12 + t11 * cos_t12;
     let t36 = p.k15 * (t19 - t18) + p.k14 * (t25 - t24);
     let t37 = p.k17 * (t16 - t15) + p.k16 * (t22 - t21) + t36;
-    let t38 = y_dot + (t4 + t7);
-    let t39 = t0 + t3 + t38;
-    let t40 = p.m2 * t39 + p.m1 * t38;
-    let t41 = t40 * (cos_phi1 * phi1_dot);
-    let t42 = x_dot + (t29 - t31);
-    let t43 = t26 - t28 + t42;
-    let t44 = p.m2 * t43 + p.m1 * t42;
-    let t45 = t44 * (sin_phi1 * phi1_dot);
-    let t46 = sin_phi1 * (s1_dot * t44 + t6 * t40);
-    let t47 = t34 * (cos_phi1 * s1) + t29 * t40 - t31 * t40;
-    let t48 = t47 - (t7 * t44 + t4 * t44 - t10 * (sin_phi1 * s1));
-    let t49 = t39 * (cos_phi2 * phi2_dot);
-    let t50 = t43 * (sin_phi2 * phi2_dot);
-    let t51 = sin_phi2 * (s2_dot * t43 + t2 * t39);
-    let t52 = t33 * (cos_phi2 * s2) + t26 * t39 - t28 * t39;
-    let t53 = t52 - (t3 * t43 + t0 * t43 - t9 * (sin_phi2 * s2));
+    let t38 = t0 + t3;
+    let t39 = t4 + t7;
+    let t40 = y_dot + t39;
+    let t41 = t38 + t40;
+    let t42 = p.m2 * t41 + p.m1 * t40;
+    let t43 = t42 * (cos_phi1 * phi1_dot);
+    let t44 = t26 - t28;
+    let t45 = t29 - t31;
+    let t46 = x_dot + t45;
+    let t47 = t44 + t46;
+    let t48 = p.m2 * t47 + p.m1 * t46;
+    let t49 = t48 * (sin_phi1 * phi1_dot);
+    let t50 = sin_phi1 * (s1_dot * t48 + t6 * t42);
+    let t51 = t45 * t42 + t34 * (cos_phi1 * s1) - (t48 * t39 - t10 * (sin_phi1 * s1));
+    let t52 = t41 * (cos_phi2 * phi2_dot);
+    let t53 = t47 * (sin_phi2 * phi2_dot);
+    let t54 = sin_phi2 * (s2_dot * t47 + t2 * t41);
+    let t55 = t44 * t41 + t33 * (cos_phi2 * s2) - (t47 * t38 - t9 * (sin_phi2 * s2));
     let f_x = p.k11 * t13 + t10 - ((t15 + t16) * p.bx + (t18 + t19) * p.cx);
     let f_y = -((t21 + t22) * p.by + (t24 + t25) * p.cy + (t34 - p.k11 * t35));
     let f_theta = t37 - (t13 * p.k13 - t35 * p.k12);
-    let f_s1 = t41 - t45 - (t41 + sin_phi1 * t34 - (t45 + cos_phi1 * t10));
-    let f_phi1 = cos_phi1 * (s1_dot * t40 - t6 * t44) - t46 - t48;
+    let f_s1 = t43 - t49 - (t43 + sin_phi1 * t34 - (t49 + cos_phi1 * t10));
+    let f_phi1 = cos_phi1 * (s1_dot * t42 - t6 * t48) - t50 - t51;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t49 - t50 - (t49 + sin_phi2 * t33 - (t50 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t39 - t2 * t43) - t51 - t53);
+    let f_s2 = p.m2 * (t52 - t53 - (t52 + sin_phi2 * t33 - (t53 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t41 - t2 * t47) - t54 - t55);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -730,148 +743,155 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_phi1, cos_phi1) = circular[1];
         let (sin_t0, cos_t0) = circular[2];
         let t1 = sin_phi2 * s2_dot;
-        let t2 = s2 * phi2_dot;
-        let t3 = cos_phi2 * t2;
-        let t4 = sin_phi1 * s1_dot;
-        let t5 = s1 * phi1_dot;
-        let t6 = cos_phi1 * t5;
-        let t7 = y_dot + (t4 + t6);
-        let t8 = t1 + t3 + t7;
-        let t9 = n(p.m2).mul_add(t8, n(p.m1) * t7);
-        let t10 = t9 * (cos_phi1 * phi1_dot);
-        let t11 = cos_phi2 * s2_dot;
-        let t12 = phi2_dot * t11;
-        let t13 = sin_phi2 * t2;
-        let t14 = cos_phi1 * s1_dot;
-        let t15 = phi1_dot * t14;
-        let t16 = sin_phi1 * t5;
-        let t17 = t15 + phi1_dot.neg_mul_add(t16, t15);
-        let t18 = t12 + phi2_dot.neg_mul_add(t13, t12) + t17;
-        let t19 = n(p.m2).mul_add(t18, n(p.m1) * t17);
-        let t20 = x_dot + (t14 - t16);
-        let t21 = t11 - t13 + t20;
-        let t22 = n(p.m2).mul_add(t21, t20 * n(p.m1));
-        let t23 = t22 * (sin_phi1 * phi1_dot);
-        let t24 = phi2_dot * t1;
-        let t25 = phi1_dot * t4;
-        let t26 = t25 + phi1_dot.mul_add(t6, t25);
-        let t27 = t24 + phi2_dot.mul_add(t3, t24) + t26;
-        let t28 = n(p.m2).mul_add(t27, n(p.m1) * t26);
-        let t29 = sin_phi1.mul_add(t19, t10) - cos_phi1.mul_add(t28, t23);
-        let t30 = t10 - t23 - t29;
-        let t31 = n(p.k6) * cos_phi1;
-        let t32 = n(p.k23) * t31;
-        let t33 = n(p.omega).product_error(n(t));
-        let t34 = t33.neg_mul_add(sin_t0, cos_t0);
-        let t35 = theta_dot * n(p.yc);
-        let t36 = t35 + x_dot;
-        let t37 = x_dot - t35;
-        let t38 = n(p.yc) * theta;
-        let t39 = t38 + x;
-        let t40 = x - t38;
-        let t41 = (t36 + t37).mul_add(n(p.bx), (t39 + t40) * n(p.cx));
-        let t42 = theta_dot * n(p.xc);
-        let t43 = y_dot - t42;
-        let t44 = t42 + y_dot;
-        let t45 = n(p.xc) * theta;
-        let t46 = y - t45;
-        let t47 = t45 + y;
-        let t48 = n(p.k15).mul_add(t40 - t39, n(p.k14) * (t46 - t47));
-        let t49 = t33.mul_add(cos_t0, sin_t0);
-        let t50 = n(p.k17).mul_add(t37 - t36, n(p.k16) * (t43 - t44)) + t48;
-        let t51 = t34.mul_sub(n(p.k13), t49 * n(p.k12)) - t50;
-        let t52 = t32.neg_mul_add(t30, t34.mul_add(n(p.k11), t28) - t41);
-        let t53 = t51.neg_mul_add(n(p.k19), t52);
-        let t54 = t31 * t32;
-        let t55 = N::ONE / (t54 - n(p.k24));
-        let t56 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t57 = n(p.k23) * t56;
-        let t58 = t31.neg_mul_add(t57, n(p.m2) * cos_phi2);
-        let t59 = t55 * t58;
-        let t60 = t8 * (cos_phi2 * phi2_dot);
-        let t61 = t21 * (sin_phi2 * phi2_dot);
-        let t62 = sin_phi2.mul_add(t18, t60) - cos_phi2.mul_add(t27, t61);
-        let t63 = n(p.k6) * sin_phi1;
-        let t64 = n(p.k23) * t63;
-        let t65 = (t44 + t43).mul_add(n(p.by), (t47 + t46) * n(p.cy));
-        let t66 = t31.neg_mul_add(t64, n(p.k21));
-        let t67 = t55 * t66;
-        let t68 = t64.mul_add(t30, t65 + t49.neg_mul_add(n(p.k11), t19));
-        let t69 = t68 - t67.mul_add(t53, n(p.k20) * t51);
-        let t70 = t66 * t67;
-        let t71 = t63.mul_sub(t64, n(p.k25));
-        let t72 = N::ONE / (t71 - t70);
-        let t73 = t63.neg_mul_add(t57, t66.mul_add(t59, n(p.m2) * sin_phi2));
-        let t74 = t72 * t73;
-        let t75 = t59.mul_add(t53, n(p.m2) * (t60 - t61 - t62));
-        let t76 = sin_phi1 * s1_dot.mul_add(t22, t5 * t9);
-        let t77 = cos_phi1 * s1;
-        let t78 = sin_phi1 * s1;
-        let t79 = t78.neg_mul_add(t28, t22.mul_add(t6, t22 * t4));
-        let t80 = t16.neg_mul_add(t9, t77.mul_add(t19, t14 * t9)) - t79;
-        let t81 = n(p.k6) * t78;
-        let t82 = t55 * t81;
-        let t83 = cos_phi1.mul_sub(s1_dot.mul_sub(t9, t5 * t22), t76) - t80;
-        let t84 = t66.neg_mul_add(t82, n(p.k6) * t77);
-        let t85 = t72 * t84;
-        let t86 = t85.neg_mul_add(t69, t82.neg_mul_add(t53, t83));
-        let t87 = s1 * (n(p.k6) * s1);
-        let t88 = t84.mul_add(t85, t81.mul_add(t82, t87));
-        let t89 = N::ONE / t88;
-        let t90 = n(p.m2) * t77.mul_sub(sin_phi2, t78 * cos_phi2);
-        let t91 = t81.neg_mul_add(t59, t84.mul_add(t74, t90));
-        let t92 = t89 * t91;
-        let t93 = t92.neg_mul_add(t86, t75 - t74.mul_add(t69, t57 * t30));
-        let t94 = t58.mul_add(t59, n(p.m2)) + t73.mul_sub(t74, t56 * t57);
-        let t95 = t91.neg_mul_add(t92, t94);
-        let t96 = N::ONE / t95;
-        let t97 = cos_phi2 * s2;
-        let t98 = sin_phi2 * s2;
-        let t99 = n(p.m2) * sin_phi1.mul_sub(t97, cos_phi1 * t98);
-        let t100 = n(p.k23) * t99;
-        let t101 = t31.mul_add(t100, n(p.m2) * t98);
-        let t102 = t55 * t101;
-        let t103 = t63.neg_mul_add(t100, n(p.m2) * t97);
-        let t104 = t66.neg_mul_add(t102, t103);
-        let t105 = t72 * t104;
-        let t106 = t81.mul_add(t102, n(p.m2) * t78.mul_add(t98, t77 * t97));
-        let t107 = t84.mul_add(t105, t106);
-        let t108 = t89 * t107;
-        let t109 = t91.mul_sub(t108, t73 * t105);
-        let t110 = t58.mul_add(t102, t56 * t100) + t109;
-        let t111 = t96 * t110;
-        let t112 = sin_phi2 * s2_dot.mul_add(t21, t2 * t8);
-        let t113 = t98.neg_mul_add(t27, t21.mul_add(t3, t21 * t1));
-        let t114 = t13.neg_mul_add(t8, t97.mul_add(t18, t11 * t8)) - t113;
-        let t115 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t21), t112);
-        let t116 = t111.mul_add(t93, n(p.m2) * (t115 - t114));
-        let t117 = t116 - t102.mul_add(t53, t100 * t30);
-        let t118 = s2 * (n(p.m2) * s2);
-        let t119 = t101.mul_add(t102, t118) + t104.mul_sub(t105, t99 * t100);
-        let t120 = t119 - t110.mul_add(t111, t107 * t108);
-        let phi2_ddot = (t117 - t108.mul_add(t86, t105 * t69)) / t120;
-        let s2_ddot = t111.mul_add(phi2_ddot, t96 * t93);
-        let t121 = t92.neg_mul_add(s2_ddot, t89 * t86);
-        let phi1_ddot = t108.neg_mul_add(phi2_ddot, t121);
-        let t122 = t74.mul_add(s2_ddot, t105 * phi2_ddot);
-        let y_ddot = t85.mul_add(phi1_ddot, t72 * t69) + t122;
-        let t123 = t67.neg_mul_add(y_ddot, t102 * phi2_ddot);
-        let t124 = t82.mul_add(phi1_ddot, t55 * t53) + t123;
-        let t125 = t59 * s2_ddot;
-        let t126 = t124 - t125;
-        let t127 = n(p.k20).mul_add(y_ddot, t51 * n(p.k22));
-        let t128 = t64.mul_add(y_ddot, t57 * s2_ddot);
-        let t129 = t32.mul_add(t126, n(p.k23) * t30) - t128;
-        let t130 = n(p.k24) - t54;
-        checked(t130, n(p.k7), 7.993605777301127e-15, 0)?;
-        let t131 = t70 - t71;
-        checked(t131, n(p.k7), 7.993605777301127e-15, 1)?;
-        checked(t88, t87, 7.993605777301127e-15, 4)?;
-        checked(t95, n(p.m2), 7.993605777301127e-15, 6)?;
-        checked(t120, t118, 7.993605777301127e-15, 7)?;
-        let x_ddot = t125 - t124;
-        let theta_ddot = -n(p.k19).mul_add(t126, t127);
-        let s1_ddot = t100.neg_mul_add(phi2_ddot, t129);
+        let t2 = phi2_dot * t1;
+        let t3 = s2 * phi2_dot;
+        let t4 = cos_phi2 * t3;
+        let t5 = sin_phi1 * s1_dot;
+        let t6 = phi1_dot * t5;
+        let t7 = s1 * phi1_dot;
+        let t8 = cos_phi1 * t7;
+        let t9 = t6 + phi1_dot.mul_add(t8, t6);
+        let t10 = t2 + phi2_dot.mul_add(t4, t2) + t9;
+        let t11 = n(p.m2).mul_add(t10, n(p.m1) * t9);
+        let t12 = n(p.omega).product_error(n(t));
+        let t13 = t12.neg_mul_add(sin_t0, cos_t0);
+        let t14 = theta_dot * n(p.yc);
+        let t15 = t14 + x_dot;
+        let t16 = x_dot - t14;
+        let t17 = n(p.yc) * theta;
+        let t18 = t17 + x;
+        let t19 = x - t17;
+        let t20 = (t15 + t16).mul_add(n(p.bx), (t18 + t19) * n(p.cx));
+        let t21 = theta_dot * n(p.xc);
+        let t22 = y_dot - t21;
+        let t23 = t21 + y_dot;
+        let t24 = n(p.xc) * theta;
+        let t25 = y - t24;
+        let t26 = t24 + y;
+        let t27 = n(p.k15).mul_add(t19 - t18, n(p.k14) * (t25 - t26));
+        let t28 = t12.mul_add(cos_t0, sin_t0);
+        let t29 = n(p.k17).mul_add(t16 - t15, n(p.k16) * (t22 - t23)) + t27;
+        let t30 = t13.mul_sub(n(p.k13), t28 * n(p.k12)) - t29;
+        let t31 = t13.mul_add(n(p.k11), t11) - t20;
+        let t32 = t1 + t4;
+        let t33 = t5 + t8;
+        let t34 = y_dot + t33;
+        let t35 = t32 + t34;
+        let t36 = n(p.m2).mul_add(t35, n(p.m1) * t34);
+        let t37 = t36 * (cos_phi1 * phi1_dot);
+        let t38 = cos_phi2 * s2_dot;
+        let t39 = phi2_dot * t38;
+        let t40 = sin_phi2 * t3;
+        let t41 = cos_phi1 * s1_dot;
+        let t42 = phi1_dot * t41;
+        let t43 = sin_phi1 * t7;
+        let t44 = t42 + phi1_dot.neg_mul_add(t43, t42);
+        let t45 = t39 + phi2_dot.neg_mul_add(t40, t39) + t44;
+        let t46 = n(p.m2).mul_add(t45, n(p.m1) * t44);
+        let t47 = t38 - t40;
+        let t48 = t41 - t43;
+        let t49 = x_dot + t48;
+        let t50 = t47 + t49;
+        let t51 = n(p.m2).mul_add(t50, t49 * n(p.m1));
+        let t52 = t51 * (sin_phi1 * phi1_dot);
+        let t53 = sin_phi1.mul_add(t46, t37) - cos_phi1.mul_add(t11, t52);
+        let t54 = t37 - t52 - t53;
+        let t55 = n(p.k6) * cos_phi1;
+        let t56 = n(p.k25) * t55;
+        let t57 = t56.neg_mul_add(t54, t30.neg_mul_add(n(p.k21), t31));
+        let t58 = t55 * t56;
+        let t59 = N::ONE / (t58 - n(p.k26));
+        let t60 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t61 = n(p.m2) * t60;
+        let t62 = n(p.k25) * t61;
+        let t63 = t55.neg_mul_add(t62, n(p.m2) * cos_phi2);
+        let t64 = t59 * t63;
+        let t65 = t35 * (cos_phi2 * phi2_dot);
+        let t66 = t50 * (sin_phi2 * phi2_dot);
+        let t67 = sin_phi2.mul_add(t45, t65) - cos_phi2.mul_add(t10, t66);
+        let t68 = t62.neg_mul_add(t54, n(p.m2) * (t65 - t66 - t67));
+        let t69 = n(p.k6) * sin_phi1;
+        let t70 = n(p.k25) * t69;
+        let t71 = (t23 + t22).mul_add(n(p.by), (t26 + t25) * n(p.cy));
+        let t72 = t71 + t28.neg_mul_add(n(p.k11), t46);
+        let t73 = t55.neg_mul_add(t70, n(p.k23));
+        let t74 = t59 * t73;
+        let t75 = t70.mul_add(t54, n(p.k22).neg_mul_add(t30, t72));
+        let t76 = t74.neg_mul_add(t57, t75);
+        let t77 = t73 * t74;
+        let t78 = t69.mul_sub(t70, n(p.k27));
+        let t79 = N::ONE / (t78 - t77);
+        let t80 = t73.mul_add(t64, t69.neg_mul_add(t62, n(p.m2) * sin_phi2));
+        let t81 = t79 * t80;
+        let t82 = sin_phi1 * s1_dot.mul_add(t51, t7 * t36);
+        let t83 = t11.neg_mul_add(sin_phi1 * s1, t51 * t33);
+        let t84 = cos_phi1.mul_sub(s1_dot.mul_sub(t36, t7 * t51), t82);
+        let t85 = n(p.k6) * s1;
+        let t86 = sin_phi1 * t85;
+        let t87 = t59 * t86;
+        let t88 = t84 - (t46.mul_add(cos_phi1 * s1, t48 * t36) - t83);
+        let t89 = t73.neg_mul_add(t87, cos_phi1 * t85);
+        let t90 = t79 * t89;
+        let t91 = t90.neg_mul_add(t76, t87.neg_mul_add(t57, t88));
+        let t92 = s1 * t85;
+        let t93 = t89.mul_add(t90, t86.mul_add(t87, t92));
+        let t94 = N::ONE / t93;
+        let t95 = cos_phi1 * sin_phi2;
+        let t96 = sin_phi1 * cos_phi2;
+        let t97 = s1 * n(p.m2);
+        let t98 = t89.mul_add(t81, t86.neg_mul_add(t64, (t95 - t96) * t97));
+        let t99 = t94 * t98;
+        let t100 = t81.neg_mul_add(t76, t64.mul_add(t57, t68));
+        let t101 = t99.neg_mul_add(t91, t100);
+        let t102 = t63.mul_add(t64, t61.neg_mul_add(t62, n(p.m2)));
+        let t103 = t98.neg_mul_add(t99, t80.mul_add(t81, t102));
+        let t104 = N::ONE / t103;
+        let t105 = n(p.m2) * s2;
+        let t106 = t105 * (t96 - t95);
+        let t107 = n(p.k25) * t106;
+        let t108 = t55.mul_add(t107, sin_phi2 * t105);
+        let t109 = t59 * t108;
+        let t110 = t69.neg_mul_add(t107, cos_phi2 * t105);
+        let t111 = t73.neg_mul_add(t109, t110);
+        let t112 = t79 * t111;
+        let t113 = t89.mul_add(t112, t86.mul_add(t109, t60 * (t97 * s2)));
+        let t114 = t94 * t113;
+        let t115 = t80.neg_mul_add(t112, t63.mul_add(t109, t61 * t107));
+        let t116 = t98.mul_add(t114, t115);
+        let t117 = t104 * t116;
+        let t118 = sin_phi2 * s2_dot.mul_add(t50, t3 * t35);
+        let t119 = t10.neg_mul_add(sin_phi2 * s2, t50 * t32);
+        let t120 = cos_phi2.mul_sub(s2_dot.mul_sub(t35, t3 * t50), t118);
+        let t121 = t120 - (t45.mul_add(cos_phi2 * s2, t47 * t35) - t119);
+        let t122 = t109.neg_mul_add(t57, n(p.m2).mul_sub(t121, t107 * t54));
+        let t123 = t114.neg_mul_add(t91, t112.neg_mul_add(t76, t122));
+        let t124 = s2 * t105;
+        let t125 = t108.mul_add(t109, t106.neg_mul_add(t107, t124));
+        let t126 = t113.neg_mul_add(t114, t111.mul_add(t112, t125));
+        let t127 = t116.neg_mul_add(t117, t126);
+        let phi2_ddot = t117.mul_add(t101, t123) / t127;
+        let s2_ddot = t117.mul_add(phi2_ddot, t104 * t101);
+        let t128 = t114.neg_mul_add(phi2_ddot, t94 * t91);
+        let phi1_ddot = t99.neg_mul_add(s2_ddot, t128);
+        let t129 = t81.mul_add(s2_ddot, t112.mul_add(phi2_ddot, t79 * t76));
+        let y_ddot = t90.mul_add(phi1_ddot, t129);
+        let t130 = t74 * y_ddot;
+        let t131 = t109.mul_add(phi2_ddot, t59 * t57);
+        let t132 = t87.mul_add(phi1_ddot, t64.neg_mul_add(s2_ddot, t131));
+        let t133 = t132 - t130;
+        let t134 = n(p.k22).mul_add(y_ddot, t30 * n(p.k24));
+        let t135 = t107.neg_mul_add(phi2_ddot, n(p.k25) * t54);
+        let t136 = t70.neg_mul_add(y_ddot, t62.neg_mul_add(s2_ddot, t135));
+        let t137 = n(p.k26) - t58;
+        checked(t137, n(p.k7), 7.993605777301127e-15, 0)?;
+        let t138 = t77 - t78;
+        checked(t138, n(p.k7), 7.993605777301127e-15, 1)?;
+        checked(t93, t92, 7.993605777301127e-15, 4)?;
+        checked(t103, n(p.m2), 7.993605777301127e-15, 6)?;
+        checked(t127, t124, 7.993605777301127e-15, 7)?;
+        let x_ddot = t130 - t132;
+        let theta_ddot = -n(p.k21).mul_add(t133, t134);
+        let s1_ddot = t56.mul_add(t133, t136);
         let zero = N::ZERO;
         let accelerations = [
             x_ddot.store(),
@@ -921,15 +941,15 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = p.omega.product_error(t);
-    let t8 = p.omega * t;
-    let (sin_t8, cos_t8) = t8.sin_cos();
-    let t9 = p.k0 * (cos_t8 - t7 * sin_t8) + (y_dot + theta_dot * p.x0);
-    let t10 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t8 + t7 * cos_t8);
-    let t11 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t9 * t9 + t10 * t10) * p.m0 + p.k1 + t11 + t12) * S::from_f64(0.5)
+    let t6 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t6;
+    let t8 = p.omega.product_error(t);
+    let t9 = p.omega * t;
+    let (sin_t9, cos_t9) = t9.sin_cos();
+    let t10 = p.k0 * (cos_t9 - t8 * sin_t9) + (y_dot + theta_dot * p.x0);
+    let t11 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t9 + t8 * cos_t9);
+    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t7;
+    ((t10 * t10 + t11 * t11) * p.m0 + p.k1 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -941,14 +961,13 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
     let x = q[0];
     let y = q[1];
     let theta = q[2];
-    let t0 = theta * p.yc;
-    let t1 = t0 + x;
-    let t2 = x - t0;
-    let t3 = theta * p.xc;
-    let t4 = t3 + y;
-    let t5 = y - t3;
-    let t6 = t4 * (p.k3 * t4) + t5 * (p.k3 * t5);
-    t1 * (p.k2 * t1) + t2 * (p.k2 * t2) + t6
+    let t0 = theta * p.xc;
+    let t1 = t0 + y;
+    let t2 = y - t0;
+    let t3 = theta * p.yc;
+    let t4 = t3 + x;
+    let t5 = x - t3;
+    (t1 * t1 + t2 * t2) * p.k3 + (t4 * t4 + t5 * t5) * p.k2
 }
 
 /// Dissipation function `D`, in W.
@@ -960,14 +979,13 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (p.k5 * t4) + t5 * (p.k5 * t5);
-    t1 * (p.k4 * t1) + t2 * (p.k4 * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.k5 + (t4 * t4 + t5 * t5) * p.k4
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -1008,14 +1026,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
-    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.by + (t4 * t4 + t5 * t5) * p.bx
 }
 
 /// By how much `s1 > 0` holds.

@@ -22,13 +22,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 5 | 12 | 1 | 0 | 0 | 18 |
+//! | `prepare` | 6 | 17 | 1 | 0 | 0 | 24 |
 //! | `mass_matrix` | 3 | 1 | 0 | 1 | 0 | 5 |
-//! | `bias` | 13 | 4 | 0 | 1 | 0 | 19 |
-//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
-//! | `forces` | 14 | 5 | 0 | 1 | 0 | 21 |
-//! | `accelerations` | 16 | 9 | 1 | 1 | 0 | 28 |
-//! | `kinetic_energy` | 17 | 9 | 0 | 1 | 0 | 28 |
+//! | `bias` | 10 | 3 | 0 | 1 | 0 | 15 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 13 | 4 | 0 | 1 | 0 | 19 |
+//! | `accelerations` | 15 | 8 | 1 | 1 | 0 | 26 |
+//! | `kinetic_energy` | 16 | 8 | 0 | 1 | 0 | 26 |
 //! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_rotor_momentum` | 2 | 1 | 0 | 1 | 0 | 4 |
 //! | `output_vertical_momentum` | 8 | 4 | 0 | 1 | 0 | 14 |
@@ -142,16 +142,20 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
         let k0 = self.A3 + (self.C2 + t1);
         let k1 = self.A3 + (self.A2 + t1);
         let k2 = self.B2 - k0;
+        let k4 = t0 * self.g;
         let t2 = k1 - k2;
         let t3 = self.C3 + (k1 + k2);
+        let k9 = self.B2 + self.C3 - k0;
         let k3 = self.A1 + k0;
-        let k4 = t0 * self.g;
         let k5 = self.C3 + k2;
         let k6 = t2 - t3;
         let k7 = self.A1 * S::from_f64(0.5);
         let k8 = t1 * S::from_f64(0.5);
-        let k9 = S::ONE / k1;
-        let k10 = t3 - t2;
+        let k10 = k9 * S::from_f64(2.0);
+        let k11 = -k4;
+        let k12 = -self.C3;
+        let k13 = t3 - t2;
+        let k14 = -(S::ONE / k1);
         let singular = if vanishes(self.C3, self.C3, 2.6645352591003757e-15) {
             Some(singular(2, self.C3, self.C3))
         } else if vanishes(k1, k1, 2.6645352591003757e-15) {
@@ -177,6 +181,10 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
             k8,
             k9,
             k10,
+            k11,
+            k12,
+            k13,
+            k14,
             singular,
         }
     }
@@ -279,11 +287,19 @@ pub struct Prepared<S = f64> {
     k7: S,
     /// `0.5*w*d^2`
     k8: S,
-    /// `1/(A3 + A2 + w*d^2)`
+    /// `B2 - C2 - A3 + C3 - w*d^2`
     k9: S,
+    /// `2*(B2 - C2 - A3 + C3 - w*d^2)`
+    k10: S,
+    /// `-w*d*g`
+    k11: S,
+    /// `-C3`
+    k12: S,
     /// `C3 + A3 + A2 + w*d^2 + B2 - (A3 + C2 + w*d^2) - (A3 + A2 + w*d^2 - (B2 - (A3 + C2 +
     /// w*d^2)))`
-    k10: S,
+    k13: S,
+    /// `-1/(A3 + A2 + w*d^2)`
+    k14: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -319,14 +335,13 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let alpha_dot = v[0];
     let beta_dot = v[1];
     let gamma_dot = v[2];
-    let t0 = beta_dot * p.C3;
+    let t0 = gamma_dot * p.C3;
     let (sin_beta, cos_beta) = beta.sin_cos();
     let t1 = sin_beta * alpha_dot;
-    let t2 = t1 + gamma_dot;
-    let t3 = cos_beta * alpha_dot;
-    let h_alpha = t0 * (cos_beta * t2) - sin_beta * p.k6 * (beta_dot * t3);
-    let h_beta = -(t3 * (p.C3 * t2) + t3 * (t1 * p.k2));
-    let h_gamma = t0 * t3;
+    let t2 = cos_beta * alpha_dot;
+    let h_alpha = (t0 + t1 * p.k10) * (cos_beta * beta_dot);
+    let h_beta = -(t2 * (t0 + t1 * p.k9));
+    let h_gamma = t2 * (beta_dot * p.C3);
     [h_alpha, h_beta, h_gamma]
 }
 
@@ -339,7 +354,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let beta = q[1];
     let cos_beta = beta.cos();
     let zero = S::ZERO;
-    let q_beta = -(p.k4 * cos_beta);
+    let q_beta = p.k11 * cos_beta;
     [zero, q_beta, zero]
 }
 
@@ -351,12 +366,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
     let t0 = cos_beta * alpha_dot;
-    let t1 = beta_dot * p.C3;
+    let t1 = beta_dot * t0;
     let t2 = sin_beta * alpha_dot;
-    let t3 = t2 + gamma_dot;
-    let f_alpha = sin_beta * p.k6 * (beta_dot * t0) - t1 * (cos_beta * t3);
-    let f_beta = t0 * (p.C3 * t3) - (cos_beta * p.k4 - t0 * (t2 * p.k2));
-    let f_gamma = -(t1 * t0);
+    let t3 = (t2 + gamma_dot) * p.C3;
+    let f_alpha = t1 * (sin_beta * p.k6) - t3 * (cos_beta * beta_dot);
+    let f_beta = t3 * t0 - (cos_beta * p.k4 - t0 * (t2 * p.k2));
+    let f_gamma = t1 * p.k12;
     [f_alpha, f_beta, f_gamma]
 }
 
@@ -401,14 +416,13 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t1 = gamma_dot * n(p.C3);
         let t2 = sin_beta * sin_beta;
         let t3 = t2.mul_add(n(p.k2), n(p.k3));
-        let t4 = N::ONE / t3 * t0.mul_add(n(p.k10), t1);
+        let t4 = N::ONE / t3 * t0.mul_add(n(p.k13), t1);
         let t5 = cos_beta * beta_dot;
-        let t6 = alpha_dot.neg_mul_add(t1, n(p.k4));
-        let t7 = t0.neg_mul_add(alpha_dot * n(p.k5), t6);
-        let t8 = t2.mul_add(n(p.k5), n(p.k3));
-        checked(t3, t8, 2.6645352591003757e-15, 0)?;
+        let t6 = alpha_dot.neg_mul_add(t0.mul_add(n(p.k5), t1), n(p.k4));
+        let t7 = t2.mul_add(n(p.k5), n(p.k3));
+        checked(t3, t7, 2.6645352591003757e-15, 0)?;
         let alpha_ddot = -(t4 * t5);
-        let beta_ddot = -(t7 * (cos_beta * n(p.k9)));
+        let beta_ddot = t6 * (cos_beta * n(p.k14));
         let gamma_ddot = -(t5 * sin_beta.neg_mul_add(t4, alpha_dot));
         let accelerations = [alpha_ddot.store(), beta_ddot.store(), gamma_ddot.store()];
         Ok(accelerations)
@@ -428,14 +442,14 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let beta_dot = v[1];
     let gamma_dot = v[2];
     let (sin_beta, cos_beta) = beta.sin_cos();
-    let t0 = cos_beta * alpha_dot;
-    let t1 = t0 * t0;
-    let t2 = sin_beta * alpha_dot;
-    let t3 = beta_dot * beta_dot;
-    let t4 = S::from_f64(0.5) * (t1 * p.C2 + (t2 * (t2 * p.B2) + t3 * p.A2));
-    let t5 = t2 + gamma_dot;
-    let t6 = S::from_f64(0.5) * (t5 * (t5 * p.C3) + (t1 * p.A3 + p.A3 * t3));
-    t4 + alpha_dot * (alpha_dot * p.k7) + (t6 + p.k8 * (t1 + t3))
+    let t0 = cos_beta * cos_beta;
+    let t1 = alpha_dot * alpha_dot;
+    let t2 = beta_dot * beta_dot;
+    let t3 = t0 * t1 + t2;
+    let t4 = sin_beta * alpha_dot + gamma_dot;
+    let t5 = t1 * (t0 * p.C2 + sin_beta * (sin_beta * p.B2)) + t2 * p.A2;
+    let t6 = (t3 * p.A3 + t4 * (t4 * p.C3) + t5) * S::from_f64(0.5);
+    t6 + (t3 * p.k8 + t1 * p.k7)
 }
 
 /// Potential energy `V`, in J.

@@ -10,14 +10,14 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 4 | 2 | 1 | 0 | 0 | 7 |
+//! | `prepare` | 4 | 5 | 1 | 0 | 0 | 10 |
 //! | `start` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `mass_matrix` | 3 | 1 | 0 | 1 | 0 | 5 |
-//! | `bias` | 12 | 3 | 0 | 1 | 0 | 17 |
+//! | `bias` | 10 | 2 | 0 | 1 | 0 | 14 |
 //! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `forces` | 13 | 3 | 0 | 1 | 0 | 18 |
-//! | `accelerations` | 22 | 8 | 2 | 1 | 0 | 34 |
-//! | `kinetic_energy` | 10 | 5 | 0 | 1 | 0 | 17 |
+//! | `accelerations` | 34 | 13 | 1 | 2 | 0 | 52 |
+//! | `kinetic_energy` | 9 | 4 | 0 | 1 | 0 | 15 |
 //! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_vertical_momentum` | 6 | 2 | 0 | 1 | 0 | 10 |
 //! | `output_axial_momentum` | 2 | 1 | 0 | 1 | 0 | 4 |
@@ -89,11 +89,16 @@ impl<S: ::lagrangian::Scalar> HeavyTop<S> {
         let t0 = self.l * self.m;
         let k0 = self.l * t0;
         let k1 = self.A + k0;
-        let k3 = k1 - self.C;
+        let k4 = k1 - self.C;
+        let k7 = S::ONE / k1;
         let k2 = t0 * self.g;
-        let k4 = k3 * S::from_f64(2.0);
-        let k5 = S::ONE / k1;
-        let singular = if vanishes(k1, k1, 2.6645352591003757e-15) {
+        let k3 = self.C - k1;
+        let k5 = k4 * S::from_f64(2.0);
+        let k6 = -self.C;
+        let k8 = -k7;
+        let singular = if vanishes(self.C, self.C, 2.6645352591003757e-15) {
+            Some(singular(2, self.C, self.C))
+        } else if vanishes(k1, k1, 2.6645352591003757e-15) {
             Some(singular(1, k1, k1))
         } else {
             None
@@ -107,6 +112,9 @@ impl<S: ::lagrangian::Scalar> HeavyTop<S> {
             k3,
             k4,
             k5,
+            k6,
+            k7,
+            k8,
             singular,
         }
     }
@@ -189,12 +197,18 @@ pub struct Prepared<S = f64> {
     k1: S,
     /// `m*l*g`
     k2: S,
-    /// `A - C + m*l^2`
+    /// `C - (A + m*l^2)`
     k3: S,
-    /// `2*(A - C + m*l^2)`
+    /// `A - C + m*l^2`
     k4: S,
-    /// `1/(A + m*l^2)`
+    /// `2*(A - C + m*l^2)`
     k5: S,
+    /// `-C`
+    k6: S,
+    /// `1/(A + m*l^2)`
+    k7: S,
+    /// `-1/(A + m*l^2)`
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -210,7 +224,7 @@ pub struct Prepared<S = f64> {
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let theta = q[1];
     let cos_theta = theta.cos();
-    let m11 = p.k1 - cos_theta * (cos_theta * p.k3);
+    let m11 = p.k1 - cos_theta * (cos_theta * p.k4);
     let zero = S::ZERO;
     let m31 = cos_theta * p.C;
     [[m11, zero, m31], [zero, p.k1, zero], [m31, zero, p.C]]
@@ -230,12 +244,12 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
     let theta_dot = v[1];
     let phi_dot = v[2];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = sin_theta * psi_dot;
-    let t1 = cos_theta * t0;
-    let t2 = theta_dot * p.C;
-    let h_psi = t1 * (theta_dot * p.k4) - t2 * (sin_theta * phi_dot);
-    let h_theta = t0 * (p.C * phi_dot) - t1 * (psi_dot * p.k3);
-    let h_phi = -(t0 * t2);
+    let t0 = cos_theta * psi_dot;
+    let t1 = phi_dot * p.C;
+    let t2 = sin_theta * psi_dot;
+    let h_psi = (t0 * p.k5 - t1) * (sin_theta * theta_dot);
+    let h_theta = t2 * (t1 - t0 * p.k4);
+    let h_phi = t2 * (theta_dot * p.k6);
     [h_psi, h_theta, h_phi]
 }
 
@@ -258,13 +272,13 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     let psi_dot = v[0];
     let theta_dot = v[1];
     let phi_dot = v[2];
-    let t0 = theta_dot * p.C;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = sin_theta * psi_dot;
-    let t2 = cos_theta * t1;
-    let f_psi = t0 * (sin_theta * phi_dot) - t2 * (theta_dot * p.k4);
-    let f_theta = t2 * (psi_dot * p.k3) - (t1 * (p.C * phi_dot) - sin_theta * p.k2);
-    let f_phi = t1 * t0;
+    let t0 = sin_theta * psi_dot;
+    let t1 = cos_theta * t0;
+    let t2 = theta_dot * p.C;
+    let f_psi = sin_theta * (t2 * phi_dot) - t1 * (theta_dot * p.k5);
+    let f_theta = t1 * (psi_dot * p.k4) + (sin_theta * p.k2 - t0 * (p.C * phi_dot));
+    let f_phi = t2 * t0;
     [f_psi, f_theta, f_phi]
 }
 
@@ -301,26 +315,32 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
             return Err(singular);
         }
         let theta = n(q[1]);
+        let phi = n(q[2]);
         let psi_dot = n(v[0]);
         let theta_dot = n(v[1]);
         let phi_dot = n(v[2]);
-        let t0 = n(p.C) * theta_dot;
-        let (sin_theta, cos_theta) = theta.sin_cos();
-        let t1 = sin_theta * psi_dot;
-        let t2 = t0 * (sin_theta * phi_dot);
-        let t3 = (cos_theta * n(p.k4)).neg_mul_add(t1 * theta_dot, t2);
-        let t4 = n(p.k3) * cos_theta;
-        let t5 = cos_theta.neg_mul_add(t4, n(p.k1));
-        let t5 = checked(t5, t5, 2.6645352591003757e-15, 0)?;
-        let t6 = N::ONE / t5;
-        let t7 = cos_theta * n(p.C);
-        let t8 = t6 * t7;
-        let t9 = t7.neg_mul_add(t8, n(p.C));
-        let t9 = checked(t9, n(p.C), 2.6645352591003757e-15, 2)?;
-        let phi_ddot = t8.neg_mul_add(t3, t1 * t0) / t9;
-        let t10 = t1.mul_sub(n(p.C) * phi_dot, sin_theta * n(p.k2));
-        let psi_ddot = t8.neg_mul_add(phi_ddot, t6 * t3);
-        let theta_ddot = -(n(p.k5) * t1.neg_mul_add(t4 * psi_dot, t10));
+        let angles = [theta, phi];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_phi, cos_phi) = circular[1];
+        let t0 = sin_theta * psi_dot;
+        let t1 = cos_phi.mul_sub(t0, sin_phi * theta_dot);
+        let t2 = n(p.k3) * cos_theta.mul_add(psi_dot, phi_dot);
+        let t3 = psi_dot * theta_dot;
+        let t4 = cos_theta * t3;
+        let t5 = phi_dot.mul_add(t1, sin_phi * t4);
+        let t6 = sin_theta * n(p.k2);
+        let t7 = t6.neg_mul_add(cos_phi, n(p.k1).mul_add(t5, t2 * t1));
+        let t8 = sin_phi.mul_add(t0, cos_phi * theta_dot);
+        let t9 = phi_dot.neg_mul_add(t8, cos_phi * t4);
+        let t10 = t6.mul_add(sin_phi, n(p.k1).mul_sub(t9, t2 * t8));
+        let t11 = N::ONE / sin_theta * sin_phi.mul_add(t7, cos_phi * t10);
+        let t12 = sin_theta * (sin_theta * n(p.k1));
+        let t13 = cos_theta.mul_add(cos_theta * n(p.C), t12);
+        checked(t12, t13, 2.6645352591003757e-15, 0)?;
+        let psi_ddot = t11 * n(p.k8);
+        let theta_ddot = n(p.k7) * sin_phi.mul_sub(t10, cos_phi * t7);
+        let phi_ddot = t11.mul_add(cos_theta * n(p.k7), sin_theta * t3);
         let accelerations = [psi_ddot.store(), theta_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
     }
@@ -339,11 +359,9 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     let phi_dot = v[2];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = sin_theta * psi_dot;
-    let t1 = t0 * t0;
+    let t1 = t0 * t0 + theta_dot * theta_dot;
     let t2 = cos_theta * psi_dot + phi_dot;
-    let t3 = theta_dot * theta_dot;
-    let t4 = (t1 + t3) * p.k0 + (t1 * p.A + (t3 * p.A + t2 * (t2 * p.C)));
-    S::from_f64(0.5) * t4
+    S::from_f64(0.5) * (t1 * p.k0 + (t1 * p.A + t2 * (t2 * p.C)))
 }
 
 /// Potential energy `V`, in J.

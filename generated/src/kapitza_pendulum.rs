@@ -15,10 +15,10 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 10 | 0 | 1 | 0 | 0 | 11 |
-//! | `bias` | 11 | 3 | 0 | 2 | 0 | 18 |
+//! | `prepare` | 11 | 0 | 1 | 0 | 0 | 12 |
+//! | `bias` | 5 | 1 | 0 | 2 | 0 | 9 |
 //! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
-//! | `forces` | 11 | 4 | 0 | 2 | 0 | 19 |
+//! | `forces` | 6 | 2 | 0 | 2 | 0 | 11 |
 //! | `accelerations` | 6 | 2 | 0 | 2 | 0 | 11 |
 //! | `kinetic_energy` | 11 | 3 | 0 | 2 | 0 | 18 |
 //! | `potential_energy` | 6 | 2 | 0 | 2 | 0 | 11 |
@@ -94,15 +94,16 @@ impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.a * self.omega;
-        let k4 = self.m * self.g;
-        let k6 = self.m * self.l;
-        let k5 = self.l * k6;
         let k1 = self.omega * k0;
+        let k4 = self.m * self.g;
+        let t0 = self.m * self.l;
+        let k5 = self.l * t0;
         let k2 = self.l * self.l;
         let k3 = self.m * S::from_f64(0.5);
-        let k7 = self.g * k6;
-        let k8 = k0 * k4;
-        let k9 = self.m * k0;
+        let k6 = self.g * t0;
+        let k7 = k0 * k4;
+        let k8 = self.m * k0;
+        let k9 = k1 * t0;
         let k10 = S::ONE / self.l;
         let singular = if vanishes(k5, k5, 8.881784197001252e-16) {
             Some(singular(0, k5, k5))
@@ -205,13 +206,13 @@ pub struct Prepared<S = f64> {
     k4: S,
     /// `m*l^2`
     k5: S,
-    /// `m*l`
-    k6: S,
     /// `m*l*g`
-    k7: S,
+    k6: S,
     /// `m*a*omega*g`
-    k8: S,
+    k7: S,
     /// `m*a*omega`
+    k8: S,
+    /// `m*l*a*omega^2`
     k9: S,
     /// `1/l`
     k10: S,
@@ -233,15 +234,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 /// ```text
 /// h[theta] = m*l*a*omega^2*cos(omega*t)*sin(theta)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
-    let theta_dot = v[0];
     let t0 = p.omega * t;
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = cos_theta * (theta_dot * theta_dot);
-    let t2 = t1 * p.l + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0);
-    let h_theta = t2 * (sin_theta * p.k6) - t1 * (sin_theta * p.k5);
+    let sin_theta = theta.sin();
+    let h_theta = (cos_t0 - p.omega.product_error(t) * sin_t0) * (p.k9 * sin_theta);
     [h_theta]
 }
 
@@ -253,20 +251,18 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 
 pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = p.k7 * sin_theta;
+    let q_theta = p.k6 * sin_theta;
     [q_theta]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
-    let theta_dot = v[0];
     let t0 = p.omega * t;
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = cos_theta * (theta_dot * theta_dot);
-    let t2 = p.g - (t1 * p.l + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0));
-    let f_theta = t2 * (sin_theta * p.k6) + t1 * (sin_theta * p.k5);
+    let sin_theta = theta.sin();
+    let t1 = (cos_t0 - p.omega.product_error(t) * sin_t0) * (sin_theta * p.k9);
+    let f_theta = sin_theta * p.k6 - t1;
     [f_theta]
 }
 
@@ -309,7 +305,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_t0, cos_t0) = circular[0];
         let (sin_theta, _) = circular[1];
         let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
-        let theta_ddot = sin_theta * (n(p.k10) * n(p.k1).neg_mul_add(t1, n(p.g)));
+        let theta_ddot = n(p.k1).neg_mul_add(t1, n(p.g)) * (n(p.k10) * sin_theta);
         let accelerations = [theta_ddot.store()];
         Ok(accelerations)
     }
@@ -327,7 +323,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
     let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t1 = p.k0 * (sin_t0 + p.omega.product_error(t) * cos_t0);
-    let t2 = theta_dot * (sin_theta * p.l) + t1;
+    let t2 = sin_theta * (theta_dot * p.l) + t1;
     let t3 = cos_theta * theta_dot;
     p.k3 * (t3 * (t3 * p.k2) + t2 * t2)
 }
@@ -366,9 +362,9 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let t0 = p.omega.product_error(t);
     let t1 = p.omega * t;
     let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
+    let t2 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
     let t3 = sin_t1 + t0 * cos_t1;
-    (t2 + (cos_t1 - t0 * sin_t1) * p.k1) * (t3 * p.k9) - t3 * p.k8
+    (t2 + (cos_t1 - t0 * sin_t1) * p.k1) * (t3 * p.k8) - t3 * p.k7
 }
 
 /// Force that shakes the pivot, upwards. Unit: N.
@@ -390,7 +386,7 @@ pub fn output_force<S: ::lagrangian::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = p.omega * t;
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let t1 = (theta_dot * (theta_dot * cos_theta) + sin_theta * theta_ddot) * p.l;
+    let t1 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
     (p.g - (t1 + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0))) * p.m
 }
 
@@ -484,16 +480,16 @@ impl ::lagrangian::System for Prepared {
         }
     }
 
-    fn bias(&self, t: f64, q: &[f64; 1], v: &[f64; 1], result: &mut [f64; 1]) {
-        *result = bias(self, t, q, v);
+    fn bias(&self, t: f64, q: &[f64; 1], _: &[f64; 1], result: &mut [f64; 1]) {
+        *result = bias(self, t, q);
     }
 
     fn applied(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
         *result = applied(self, q);
     }
 
-    fn forces(&self, t: f64, q: &[f64; 1], v: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = forces(self, t, q, v);
+    fn forces(&self, t: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = forces(self, t, q);
     }
 
     fn kinetic_energy(&self, t: f64, q: &[f64; 1], v: &[f64; 1]) -> f64 {

@@ -25,17 +25,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 20 | 6 | 2 | 0 | 0 | 28 |
-//! | `mass_matrix` | 41 | 13 | 0 | 4 | 0 | 62 |
-//! | `bias` | 54 | 28 | 0 | 4 | 0 | 90 |
+//! | `prepare` | 20 | 9 | 2 | 0 | 0 | 31 |
+//! | `mass_matrix` | 37 | 9 | 0 | 4 | 0 | 54 |
+//! | `bias` | 54 | 25 | 0 | 4 | 0 | 87 |
 //! | `applied` | 17 | 22 | 1 | 0 | 0 | 40 |
 //! | `forces` | 71 | 46 | 1 | 4 | 0 | 126 |
-//! | `accelerations` | 107 | 64 | 6 | 3 | 0 | 183 |
+//! | `accelerations` | 107 | 63 | 6 | 3 | 0 | 182 |
 //! | `kinetic_energy` | 40 | 25 | 0 | 4 | 0 | 73 |
-//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `work_rate` | 4 | 2 | 1 | 0 | 0 | 7 |
-//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `dissipation_rate` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `output_motor_torque` | 3 | 2 | 1 | 0 | 0 | 6 |
 //! | `output_motor_power` | 4 | 2 | 1 | 0 | 0 | 7 |
 //! | `output_amplitude` | 2 | 1 | 0 | 0 | 1 | 4 |
@@ -199,23 +199,26 @@ impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
         let k8 = self.m0 * self.e;
         let k9 = self.m0 * self.y0;
         let k10 = self.m0 * self.x0;
-        let k16 = self.m + self.m0;
+        let k19 = self.m + self.m0;
         let k12 = self.J0 + self.e * k8;
-        let k20 = S::ONE / k12;
-        let k15 = k8 * k20;
-        let k14 = k8 * k15;
+        let k23 = S::ONE / k12;
+        let k18 = k8 * k23;
+        let k17 = k8 * k18;
         let k0 = t0 * t0;
         let k1 = self.sk * self.sk;
-        let k2 = self.sk * self.Mk * (t0 * S::from_f64(2.0));
+        let k2 = t0 * (S::from_f64(2.0) * (self.sk * self.Mk));
         let k3 = self.cx * S::from_f64(0.5);
         let k4 = self.cy * S::from_f64(0.5);
         let k5 = self.bx * S::from_f64(0.5);
         let k6 = self.by * S::from_f64(0.5);
-        let k11 = k7 + k16;
+        let k11 = k7 + k19;
         let k13 = self.J + (self.y0 * k9 + self.x0 * k10);
-        let k17 = self.e * k15;
-        let k18 = k14 * k14;
-        let k19 = self.m0 * self.m0;
+        let k14 = -k7;
+        let k15 = -self.m2;
+        let k16 = -k8;
+        let k20 = self.e * k18;
+        let k21 = k17 * k17;
+        let k22 = self.m0 * self.m0;
         let singular = if vanishes(self.J1, self.J1, 8.881784197001252e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 8.881784197001252e-15) {
@@ -269,6 +272,9 @@ impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
             k18,
             k19,
             k20,
+            k21,
+            k22,
+            k23,
             singular,
         }
     }
@@ -458,20 +464,26 @@ pub struct Prepared<S = f64> {
     k12: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k13: S,
-    /// `m0^2*e^2/(J0 + m0*e^2)`
+    /// `-(m1 + m2)`
     k14: S,
-    /// `m0*e/(J0 + m0*e^2)`
+    /// `-m2`
     k15: S,
-    /// `m + m0`
+    /// `-m0*e`
     k16: S,
-    /// `m0*e^2/(J0 + m0*e^2)`
+    /// `m0^2*e^2/(J0 + m0*e^2)`
     k17: S,
-    /// `m0^4*e^4/(J0 + m0*e^2)^2`
+    /// `m0*e/(J0 + m0*e^2)`
     k18: S,
-    /// `m0^2`
+    /// `m + m0`
     k19: S,
-    /// `1/(J0 + m0*e^2)`
+    /// `m0*e^2/(J0 + m0*e^2)`
     k20: S,
+    /// `m0^4*e^4/(J0 + m0*e^2)^2`
+    k21: S,
+    /// `m0^2`
+    k22: S,
+    /// `1/(J0 + m0*e^2)`
+    k23: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -516,34 +528,35 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S
     let psi = q[9];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k7 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t5 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
+    let t6 = cos_psi * (cos_theta * p.x0 - sin_theta * p.y0);
     let zero = S::ZERO;
     let m3_1 = -(p.k10 * sin_theta + cos_theta * p.k9);
     let m3_2 = p.k10 * cos_theta - sin_theta * p.k9;
     let m4_1 = p.k7 * cos_phi1;
     let m4_2 = p.k7 * sin_phi1;
-    let m5_1 = -(p.k7 * t0);
-    let m5_2 = p.k7 * t1;
-    let m5_5 = s1 * (p.k7 * s1);
+    let m5_1 = sin_phi1 * (s1 * p.k14);
+    let m5_2 = cos_phi1 * t0;
+    let m5_5 = s1 * t0;
     let m7_1 = cos_phi2 * p.m2;
     let m7_2 = sin_phi2 * p.m2;
-    let m7_4 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m7_5 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m8_1 = -(sin_phi2 * t2);
-    let m8_2 = cos_phi2 * t2;
-    let m8_4 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m8_5 = p.m2 * (t0 * t4 + t1 * t3);
-    let m8_8 = s2 * t2;
-    let m10_1 = -(p.k8 * sin_psi);
-    let m10_2 = p.k8 * cos_psi;
-    let m10_3 = p.k8 * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t5);
+    let m7_4 = p.m2 * t1;
+    let m7_5 = (t2 - t3) * t4;
+    let m8_1 = sin_phi2 * (s2 * p.k15);
+    let m8_2 = cos_phi2 * t5;
+    let m8_4 = t5 * (t3 - t2);
+    let m8_5 = t1 * (t4 * s2);
+    let m8_8 = s2 * t5;
+    let m10_1 = sin_psi * p.k16;
+    let m10_2 = cos_psi * p.k8;
+    let m10_3 = p.k8 * (sin_psi * (sin_theta * p.x0 + cos_theta * p.y0) + t6);
     [
         [p.k11, zero, m3_1, m4_1, m5_1, zero, m7_1, m8_1, zero, m10_1],
         [zero, p.k11, m3_2, m4_2, m5_2, zero, m7_2, m8_2, zero, m10_2],
@@ -596,11 +609,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) 
     let t0 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t2 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let t3 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t5 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let t6 = t5 * sin_phi1 + t3 * t4;
     let t7 = t2 * sin_phi2 + t0 * t1 + t6;
     let t8 = t7 * p.m2 + t6 * p.m1;
@@ -624,9 +637,9 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) 
     let h_s1 = -(cos_phi1 * t8 + sin_phi1 * t18);
     let h_phi1 = t8 * t15 - t4 * t18;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t7 + sin_phi2 * t17));
-    let h_phi2 = -(p.m2 * (t1 * t17 - t7 * t14));
-    let h_psi = -((cos_psi * t19 - sin_psi * t13) * p.k8);
+    let h_s2 = p.k15 * (cos_phi2 * t7 + sin_phi2 * t17);
+    let h_phi2 = p.k15 * (t1 * t17 - t7 * t14);
+    let h_psi = p.k16 * (cos_psi * t19 - sin_psi * t13);
     [
         h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero, h_psi,
     ]
@@ -683,51 +696,45 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let psi_dot = v[9];
-    let t0 = phi2_dot * phi2_dot;
+    let t0 = S::from_f64(2.0) * s2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = cos_phi2 * s2;
-    let t2 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t3 = phi1_dot * phi1_dot;
+    let t1 = phi2_dot * s2;
+    let t2 = S::from_f64(2.0) * s1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t4 = cos_phi1 * s1;
-    let t5 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t6 = t5 * sin_phi1 + t3 * t4;
-    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
-    let t8 = t7 * p.m2 + t6 * p.m1;
-    let t9 = theta_dot * theta_dot;
-    let t10 = t9 * p.x0;
+    let t3 = phi1_dot * s1;
+    let t4 = phi1_dot * (t2 * sin_phi1 + cos_phi1 * t3);
+    let t5 = phi2_dot * (t0 * sin_phi2 + cos_phi2 * t1) + t4;
+    let t6 = t5 * p.m2 + t4 * p.m1;
+    let t7 = theta_dot * p.yc;
+    let t8 = p.yc * theta;
+    let t9 = p.bx * (x_dot - t7) + p.cx * (x - t8);
+    let t10 = p.bx * (t7 + x_dot) + p.cx * (t8 + x);
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t11 = t9 * p.y0;
+    let t11 = theta_dot * theta_dot;
     let t12 = psi_dot * (psi_dot * p.e);
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t13 = t12 * cos_psi + (cos_theta * t10 - t11 * sin_theta);
-    let t14 = theta_dot * p.yc;
-    let t15 = p.yc * theta;
-    let t16 = p.bx * (x_dot - t14) + p.cx * (x - t15);
-    let t17 = p.bx * (t14 + x_dot) + p.cx * (t15 + x);
-    let t18 = sin_phi2 * s2;
-    let t19 = sin_phi1 * s1;
-    let t20 = t3 * t19 - t5 * cos_phi1;
-    let t21 = t0 * t18 - t2 * cos_phi2 + t20;
-    let t22 = p.m2 * t21 + p.m1 * t20;
-    let t23 = t12 * sin_psi + (sin_theta * t10 + t11 * cos_theta);
-    let t24 = theta_dot * p.xc;
-    let t25 = theta * p.xc;
-    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
-    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
-    let t28 = cos_theta * (t13 * p.k9 - t23 * p.k10);
-    let t29 = sin_theta * (t23 * p.k9 + t13 * p.k10) + t28;
-    let t30 = p.omega - psi_dot;
-    let t31 = t30 * p.k2 / (t30 * (t30 * p.k0) + p.k1);
-    let f_x = t13 * p.m0 + t8 - (t16 + t17);
-    let f_y = p.m0 * t23 + t22 - (t26 + t27);
-    let f_theta = -(t29 + (p.yc * (t17 - t16) + p.xc * (t27 - t26)));
-    let f_s1 = cos_phi1 * t8 + sin_phi1 * t22;
-    let f_phi1 = t4 * t22 - t8 * t19;
+    let t13 = t12 * cos_psi + t11 * (cos_theta * p.x0 - sin_theta * p.y0);
+    let t14 = phi1_dot * (sin_phi1 * t3 - t2 * cos_phi1);
+    let t15 = phi2_dot * (sin_phi2 * t1 - t0 * cos_phi2) + t14;
+    let t16 = p.m2 * t15 + p.m1 * t14;
+    let t17 = theta_dot * p.xc;
+    let t18 = theta * p.xc;
+    let t19 = p.by * (y_dot - t17) + p.cy * (y - t18);
+    let t20 = p.by * (t17 + y_dot) + p.cy * (t18 + y);
+    let t21 = t12 * sin_psi + t11 * (sin_theta * p.x0 + cos_theta * p.y0);
+    let t22 = p.yc * (t10 - t9) + p.xc * (t20 - t19);
+    let t23 = cos_theta * (t13 * p.k9 - t21 * p.k10) + t22;
+    let t24 = p.omega - psi_dot;
+    let t25 = t24 * p.k2 / (t24 * (t24 * p.k0) + p.k1);
+    let f_x = t6 + (t13 * p.m0 - (t9 + t10));
+    let f_y = t16 + (p.m0 * t21 - (t19 + t20));
+    let f_theta = -(sin_theta * (t21 * p.k9 + t13 * p.k10) + t23);
+    let f_s1 = cos_phi1 * t6 + sin_phi1 * t16;
+    let f_phi1 = s1 * (cos_phi1 * t16 - sin_phi1 * t6);
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t21);
-    let f_phi2 = p.m2 * (t1 * t21 - t7 * t18);
-    let f_psi = (cos_psi * t23 - sin_psi * t13) * p.k8 + t31;
+    let f_s2 = p.m2 * (cos_phi2 * t5 + sin_phi2 * t15);
+    let f_phi2 = (cos_phi2 * t15 - sin_phi2 * t5) * (s2 * p.m2);
+    let f_psi = (cos_psi * t21 - sin_psi * t13) * p.k8 + t25;
     [
         f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero, f_psi,
     ]
@@ -785,81 +792,82 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_theta, cos_theta) = circular[0];
         let (sin_psi, cos_psi) = circular[1];
         let (sin_phi1, cos_phi1) = circular[2];
-        let t0 = sin_theta * n(p.x0);
-        let t1 = cos_theta * n(p.y0);
-        let t2 = t0 + t1;
-        let t3 = cos_theta * n(p.x0);
-        let t4 = sin_theta * n(p.y0);
-        let t5 = t3 - t4;
-        let t6 = sin_psi.mul_add(t2, cos_psi * t5);
-        let t7 = n(p.k17) * t6;
-        let t8 = cos_psi.neg_mul_add(t7, t5);
-        let t9 = cos_psi.neg_mul_add(cos_psi * n(p.k14), n(p.k16));
-        let t10 = N::ONE / t9;
-        let t11 = t10 * t8;
-        let t12 = sin_psi * cos_psi;
-        let t13 = t12 * n(p.k14);
-        let t14 = sin_psi.neg_mul_add(t7, t11.mul_add(t13, t2));
-        let t15 = sin_psi.neg_mul_add(sin_psi * n(p.k14), n(p.k16));
-        let t16 = (t10 * n(p.k18)).neg_mul_add(t12 * t12, t15);
-        let t17 = N::ONE / t16;
-        let t18 = t2 * n(p.m0);
-        let t19 = t5 * n(p.m0);
-        let t20 = t6.neg_mul_add(n(p.k14) * t6, t2 * t18);
-        let t21 = (t14 * n(p.k19)).mul_add(t17 * t14, t11 * (t8 * n(p.k19)));
-        let t22 = t5.mul_add(t19, n(p.J)) + t20 - t21;
-        let t23 = theta_dot * theta_dot;
-        let t24 = psi_dot * (psi_dot * n(p.e));
-        let t25 = sin_psi.mul_add(t24, t0.mul_add(t23, t1 * t23));
-        let t26 = cos_psi * n(p.k8);
-        let t27 = n(p.omega) - psi_dot;
-        let t28 = t27 * n(p.k2) / t27.mul_add(t27 * n(p.k0), n(p.k1));
-        let t29 = t4.neg_mul_add(t23, t3.mul_add(t23, cos_psi * t24));
-        let t30 = sin_psi * n(p.k8);
-        let t31 = t30.neg_mul_add(t29, t26.mul_add(t25, t28));
-        let t32 = n(p.k15) * t31;
-        let t33 = theta_dot * n(p.yc);
-        let t34 = theta * n(p.yc);
-        let t35 = n(p.bx).mul_add(x_dot - t33, n(p.cx) * (x - t34));
-        let t36 = n(p.bx).mul_add(t33 + x_dot, n(p.cx) * (t34 + x));
-        let t37 = theta_dot * n(p.xc);
-        let t38 = theta * n(p.xc);
-        let t39 = n(p.by).mul_add(y_dot - t37, n(p.cy) * (y - t38));
-        let t40 = n(p.by).mul_add(t37 + y_dot, n(p.cy) * (t38 + y));
-        let t41 = t39 + t40 + cos_psi.mul_sub(t32, n(p.m0) * t25);
-        let t42 = t35 + t36 - sin_psi.mul_add(t32, n(p.m0) * t29);
-        let t43 = t41.neg_mul_add(t10 * t13, t42);
-        let t44 = t14 * n(p.m0);
-        let t45 = t43.mul_sub(t17 * t44, n(p.xc) * t39);
-        let t46 = n(p.yc).mul_add(t36, n(p.xc) * t40);
-        let t47 = t45 - t19.mul_add(t25, n(p.yc) * t35);
-        let t48 = t46 + t6.mul_add(t32, t18 * t29) + t47;
-        let t49 = N::ONE / t22 * t41.neg_mul_add(t11 * n(p.m0), t48);
-        let t50 = t17 * t44.mul_add(t49, t43);
-        let t51 = t49.neg_mul_add(t8 * n(p.m0), t13.neg_mul_add(t50, t41));
-        let t52 = t10 * t51;
-        let t53 = t50.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
-        let t54 = phi1_dot * (N::from_f64(2.0) * s1_dot);
-        let t55 = t52.neg_mul_add(cos_phi1, t50.mul_add(sin_phi1, t54)) / s1;
-        let t56 = t30.neg_mul_add(t50, t49 * (t6 * n(p.k8)));
-        let t57 = s2 * (s2 * n(p.m2));
-        checked(t57, t57, 8.881784197001252e-15, 7)?;
-        let t58 = s1 * s1;
-        let t59 = t58 * n(p.m1);
-        let t60 = t58 * n(p.k7);
-        checked(t59, t60, 8.881784197001252e-15, 4)?;
-        checked(t9, n(p.k11), 8.881784197001252e-15, 1)?;
-        checked(t16, n(p.k11), 8.881784197001252e-15, 0)?;
-        checked(t22, n(p.k13), 8.881784197001252e-15, 2)?;
-        let x_ddot = -t50;
-        let y_ddot = -t52;
-        let theta_ddot = -t49;
-        let s1_ddot = t52.mul_add(sin_phi1, t53);
-        let phi1_ddot = -t55;
+        let t0 = theta_dot * n(p.yc);
+        let t1 = theta * n(p.yc);
+        let t2 = n(p.bx).mul_add(x_dot - t0, n(p.cx) * (x - t1));
+        let t3 = n(p.bx).mul_add(t0 + x_dot, n(p.cx) * (t1 + x));
+        let t4 = cos_theta * n(p.x0);
+        let t5 = theta_dot * theta_dot;
+        let t6 = psi_dot * (psi_dot * n(p.e));
+        let t7 = sin_theta * n(p.y0);
+        let t8 = t7.neg_mul_add(t5, t4.mul_add(t5, cos_psi * t6));
+        let t9 = sin_theta * n(p.x0);
+        let t10 = cos_theta * n(p.y0);
+        let t11 = t9.mul_add(t5, t10.mul_add(t5, sin_psi * t6));
+        let t12 = cos_psi * n(p.k8);
+        let t13 = n(p.omega) - psi_dot;
+        let t14 = t13 * n(p.k2) / t13.mul_add(t13 * n(p.k0), n(p.k1));
+        let t15 = sin_psi * n(p.k8);
+        let t16 = t15.neg_mul_add(t8, t12.mul_add(t11, t14));
+        let t17 = n(p.k18) * t16;
+        let t18 = theta_dot * n(p.xc);
+        let t19 = theta * n(p.xc);
+        let t20 = n(p.by).mul_add(y_dot - t18, n(p.cy) * (y - t19));
+        let t21 = n(p.by).mul_add(t18 + y_dot, n(p.cy) * (t19 + y));
+        let t22 = cos_psi.mul_add(t17, n(p.m0).neg_mul_add(t11, t20 + t21));
+        let t23 = cos_psi.neg_mul_add(cos_psi * n(p.k17), n(p.k19));
+        let t24 = N::ONE / t23;
+        let t25 = sin_psi * cos_psi;
+        let t26 = t25 * n(p.k17);
+        let t27 = sin_psi.neg_mul_add(t17, n(p.m0).neg_mul_add(t8, t2 + t3));
+        let t28 = t22.neg_mul_add(t24 * t26, t27);
+        let t29 = t9 + t10;
+        let t30 = t4 - t7;
+        let t31 = sin_psi.mul_add(t29, cos_psi * t30);
+        let t32 = n(p.k20) * t31;
+        let t33 = cos_psi.neg_mul_add(t32, t30);
+        let t34 = t24 * t33;
+        let t35 = t34.mul_add(t26, sin_psi.neg_mul_add(t32, t29));
+        let t36 = t35 * n(p.m0);
+        let t37 = sin_psi.neg_mul_add(sin_psi * n(p.k17), n(p.k19));
+        let t38 = t24.neg_mul_add(t25 * (t25 * n(p.k21)), t37);
+        let t39 = N::ONE / t38;
+        let t40 = n(p.yc).mul_add(t2, n(p.xc) * t20);
+        let t41 = t29 * n(p.m0);
+        let t42 = t30 * n(p.m0);
+        let t43 = t41.mul_add(t8, n(p.yc).mul_add(t3, n(p.xc) * t21) - t40);
+        let t44 = t31.mul_add(t17, t42.neg_mul_add(t11, t43));
+        let t45 = t22.neg_mul_add(t34 * n(p.m0), t44);
+        let t46 = t29.mul_add(t41, t30.mul_add(t42, n(p.J)));
+        let t47 = t31.neg_mul_add(n(p.k17) * t31, t46);
+        let t48 = t34.neg_mul_add(t33 * n(p.k22), t47);
+        let t49 = t39.neg_mul_add(t35 * (t35 * n(p.k22)), t48);
+        let t50 = N::ONE / t49 * t28.mul_add(t39 * t36, t45);
+        let t51 = t39 * t36.mul_add(t50, t28);
+        let t52 = t26.neg_mul_add(t51, t50.neg_mul_add(t33 * n(p.m0), t22));
+        let t53 = t24 * t52;
+        let t54 = t51.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
+        let t55 = phi1_dot * (N::from_f64(2.0) * s1_dot);
+        let t56 = t53.neg_mul_add(cos_phi1, t51.mul_add(sin_phi1, t55)) / s1;
+        let t57 = t15.neg_mul_add(t51, t50.mul_add(t31 * n(p.k8), t16));
+        let t58 = s2 * (s2 * n(p.m2));
+        checked(t58, t58, 8.881784197001252e-15, 7)?;
+        let t59 = s1 * s1;
+        let t60 = t59 * n(p.m1);
+        let t61 = t59 * n(p.k7);
+        checked(t60, t61, 8.881784197001252e-15, 4)?;
+        checked(t23, n(p.k11), 8.881784197001252e-15, 1)?;
+        checked(t38, n(p.k11), 8.881784197001252e-15, 0)?;
+        checked(t49, n(p.k13), 8.881784197001252e-15, 2)?;
+        let x_ddot = -t51;
+        let y_ddot = -t53;
+        let theta_ddot = -t50;
+        let s1_ddot = t53.mul_add(sin_phi1, t54);
+        let phi1_ddot = -t56;
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
-        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
-        let psi_ddot = n(p.k20) * (t26.mul_add(t52, t31) + t56);
+        let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
+        let psi_ddot = n(p.k23) * t12.mul_add(t53, t57);
         let accelerations = [
             x_ddot.store(),
             y_ddot.store(),
@@ -914,18 +922,18 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: 
     let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = theta_dot * p.x0;
+    let t6 = theta_dot * p.x0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t8 = theta_dot * p.y0;
-    let t9 = psi_dot * p.e;
+    let t7 = theta_dot * p.y0;
+    let t8 = psi_dot * p.e;
     let (sin_psi, cos_psi) = psi.sin_cos();
-    let t10 = t9 * cos_psi + (y_dot + t7 * cos_theta - sin_theta * t8);
-    let t11 = x_dot - t7 * sin_theta - cos_theta * t8 - t9 * sin_psi;
+    let t9 = t8 * cos_psi + (y_dot + t6 * cos_theta - sin_theta * t7);
+    let t10 = x_dot - t6 * sin_theta - cos_theta * t7 - t8 * sin_psi;
+    let t11 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
     let t12 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t13 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    let t14 = (t10 * t10 + t11 * t11) * p.m0 + psi_dot * (psi_dot * p.J0) + t12 + t13;
-    t14 * S::from_f64(0.5)
+    let t13 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t12;
+    let t14 = t11 + ((t9 * t9 + t10 * t10) * p.m0 + psi_dot * (psi_dot * p.J0));
+    (t13 + t14) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -937,14 +945,13 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -
     let x = q[0];
     let y = q[1];
     let theta = q[2];
-    let t0 = theta * p.yc;
-    let t1 = t0 + x;
-    let t2 = x - t0;
-    let t3 = theta * p.xc;
-    let t4 = t3 + y;
-    let t5 = y - t3;
-    let t6 = t4 * (p.k4 * t4) + t5 * (p.k4 * t5);
-    t1 * (p.k3 * t1) + t2 * (p.k3 * t2) + t6
+    let t0 = theta * p.xc;
+    let t1 = t0 + y;
+    let t2 = y - t0;
+    let t3 = theta * p.yc;
+    let t4 = t3 + x;
+    let t5 = x - t3;
+    (t1 * t1 + t2 * t2) * p.k4 + (t4 * t4 + t5 * t5) * p.k3
 }
 
 /// Dissipation function `D`, in W.
@@ -956,14 +963,13 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (p.k6 * t4) + t5 * (p.k6 * t5);
-    t1 * (p.k5 * t1) + t2 * (p.k5 * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.k6 + (t4 * t4 + t5 * t5) * p.k5
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -986,14 +992,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
-    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.by + (t4 * t4 + t5 * t5) * p.bx
 }
 
 /// Speed of the debalance. Unit: rad/s.

@@ -15,12 +15,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 24 | 8 | 2 | 0 | 0 | 34 |
-//! | `mass_matrix` | 28 | 6 | 0 | 2 | 0 | 38 |
-//! | `bias` | 76 | 58 | 0 | 3 | 0 | 140 |
+//! | `prepare` | 24 | 10 | 2 | 0 | 0 | 36 |
+//! | `mass_matrix` | 24 | 3 | 0 | 2 | 0 | 31 |
+//! | `bias` | 72 | 52 | 0 | 3 | 0 | 130 |
 //! | `applied` | 12 | 11 | 0 | 0 | 0 | 23 |
-//! | `forces` | 88 | 69 | 0 | 3 | 0 | 163 |
-//! | `accelerations` | 194 | 135 | 5 | 3 | 0 | 340 |
+//! | `forces` | 84 | 65 | 0 | 3 | 0 | 155 |
+//! | `accelerations` | 188 | 131 | 5 | 3 | 0 | 330 |
 //! | `kinetic_energy` | 37 | 25 | 0 | 3 | 0 | 68 |
 //! | `potential_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `dissipation` | 6 | 3 | 0 | 0 | 0 | 9 |
@@ -162,9 +162,9 @@ impl<S: ::lagrangian::Scalar> PaperCrusher<S> {
         let k12 = self.m0 * self.x0;
         let t0 = self.m0 * self.y0;
         let k13 = self.y0 * t0 + (self.J + self.x0 * k12);
-        let k22 = S::ONE / k13;
-        let k19 = t0 * k22;
-        let k20 = k12 * k22;
+        let k24 = S::ONE / k13;
+        let k21 = t0 * k24;
+        let k22 = k12 * k24;
         let k1 = self.omega * (self.omega * self.J0);
         let k3 = self.cx * self.yc;
         let k4 = self.bx * self.yb;
@@ -178,10 +178,12 @@ impl<S: ::lagrangian::Scalar> PaperCrusher<S> {
         let k16 = k14 * t0;
         let k17 = self.by * self.xb;
         let k18 = -t0;
-        let k21 = k12 * k19;
-        let k23 = S::ONE / k2;
-        let k24 = k11 - t0 * k19;
-        let k25 = k11 - k12 * k20;
+        let k19 = -k2;
+        let k20 = -self.m2;
+        let k23 = k12 * k21;
+        let k25 = S::ONE / k2;
+        let k26 = k11 - t0 * k21;
+        let k27 = k11 - k12 * k22;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -238,6 +240,8 @@ impl<S: ::lagrangian::Scalar> PaperCrusher<S> {
             k23,
             k24,
             k25,
+            k26,
+            k27,
             singular,
         }
     }
@@ -412,20 +416,24 @@ pub struct Prepared<S = f64> {
     k17: S,
     /// `-m0*y0`
     k18: S,
-    /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
+    /// `-(m1 + m2)`
     k19: S,
-    /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
+    /// `-m2`
     k20: S,
-    /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0*y0/(J + m0*x0^2 + m0*y0^2)`
     k21: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0*x0/(J + m0*x0^2 + m0*y0^2)`
     k22: S,
-    /// `1/(m1 + m2)`
+    /// `m0^2*x0*y0/(J + m0*x0^2 + m0*y0^2)`
     k23: S,
-    /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `1/(J + m0*x0^2 + m0*y0^2)`
     k24: S,
-    /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `1/(m1 + m2)`
     k25: S,
+    /// `m + m0 + m1 + m2 - m0^2*y0^2/(J + m0*x0^2 + m0*y0^2)`
+    k26: S,
+    /// `m + m0 + m1 + m2 - m0^2*x0^2/(J + m0*x0^2 + m0*y0^2)`
+    k27: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -463,27 +471,28 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let s2 = q[6];
     let phi2 = q[7];
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k2 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m41 = p.k2 * cos_phi1;
     let m42 = p.k2 * sin_phi1;
-    let m51 = -(p.k2 * t0);
-    let m52 = p.k2 * t1;
-    let m55 = s1 * (p.k2 * s1);
+    let m51 = sin_phi1 * (s1 * p.k19);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k20);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k11, zero, p.k18, m41, m51, zero, m71, m81, zero],
         [zero, p.k11, p.k12, m42, m52, zero, m72, m82, zero],
@@ -548,30 +557,32 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t21 = t15 + (t15 - phi2_dot * t16) + t20;
     let t22 = p.m2 * t21 + p.m1 * t20;
     let t23 = sin_t12 + t11 * cos_t12;
-    let t24 = t4 + t7 + y_dot;
-    let t25 = t0 + t3 + t24;
-    let t26 = p.m2 * t25 + p.m1 * t24;
-    let t27 = t26 * (cos_phi1 * phi1_dot);
-    let t28 = t17 - t19 + x_dot;
-    let t29 = t14 - t16 + t28;
-    let t30 = p.m2 * t29 + p.m1 * t28;
-    let t31 = t30 * (sin_phi1 * phi1_dot);
-    let t32 = t22 * (cos_phi1 * s1) + t17 * t26 - t19 * t26;
-    let t33 = cos_phi1 * (s1_dot * t26 - t6 * t30);
-    let t34 = t32 - (t7 * t30 + t4 * t30 - t10 * (sin_phi1 * s1));
-    let t35 = t25 * (cos_phi2 * phi2_dot);
-    let t36 = t29 * (sin_phi2 * phi2_dot);
-    let t37 = sin_phi2 * (s2_dot * t29 + t2 * t25);
-    let t38 = t21 * (cos_phi2 * s2) + t14 * t25 - t16 * t25;
-    let t39 = t38 - (t3 * t29 + t0 * t29 - t9 * (sin_phi2 * s2));
+    let t24 = t0 + t3;
+    let t25 = t4 + t7;
+    let t26 = t25 + y_dot;
+    let t27 = t24 + t26;
+    let t28 = p.m2 * t27 + p.m1 * t26;
+    let t29 = t28 * (cos_phi1 * phi1_dot);
+    let t30 = t14 - t16;
+    let t31 = t17 - t19;
+    let t32 = t31 + x_dot;
+    let t33 = t30 + t32;
+    let t34 = p.m2 * t33 + p.m1 * t32;
+    let t35 = t34 * (sin_phi1 * phi1_dot);
+    let t36 = cos_phi1 * (s1_dot * t28 - t6 * t34);
+    let t37 = t31 * t28 + t22 * (cos_phi1 * s1) - (t34 * t25 - t10 * (sin_phi1 * s1));
+    let t38 = t27 * (cos_phi2 * phi2_dot);
+    let t39 = t33 * (sin_phi2 * phi2_dot);
+    let t40 = sin_phi2 * (s2_dot * t33 + t2 * t27);
+    let t41 = t30 * t27 + t21 * (cos_phi2 * s2) - (t33 * t24 - t9 * (sin_phi2 * s2));
     let h_x = -(p.k6 * t13 + t10);
     let h_y = t22 - p.k6 * t23;
     let h_theta = t13 * p.k16 - t23 * p.k15;
-    let h_s1 = t27 + sin_phi1 * t22 - (t31 + cos_phi1 * t10) - (t27 - t31);
-    let h_phi1 = t34 + (sin_phi1 * (s1_dot * t30 + t6 * t26) - t33);
+    let h_s1 = t29 + sin_phi1 * t22 - (t35 + cos_phi1 * t10) - (t29 - t35);
+    let h_phi1 = t37 + (sin_phi1 * (s1_dot * t34 + t6 * t28) - t36);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t35 - t36 - (t35 + sin_phi2 * t21 - (t36 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t25 - t2 * t29) - t37 - t39));
+    let h_s2 = p.k20 * (t38 - t39 - (t38 + sin_phi2 * t21 - (t39 + cos_phi2 * t9)));
+    let h_phi2 = p.k20 * (cos_phi2 * (s2_dot * t27 - t2 * t33) - t40 - t41);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -649,30 +660,32 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t26 = y_dot + theta_dot * p.xb;
     let t27 = theta * p.xc + y;
     let t28 = t14 * p.k4 - t26 * p.k17 + (t15 * p.k3 - t27 * p.k5);
-    let t29 = y_dot + (t4 + t7);
-    let t30 = t0 + t3 + t29;
-    let t31 = p.m2 * t30 + p.m1 * t29;
-    let t32 = t31 * (cos_phi1 * phi1_dot);
-    let t33 = x_dot + (t19 - t21);
-    let t34 = t16 - t18 + t33;
-    let t35 = p.m2 * t34 + p.m1 * t33;
-    let t36 = t35 * (sin_phi1 * phi1_dot);
-    let t37 = t24 * (cos_phi1 * s1) + t19 * t31 - t21 * t31;
-    let t38 = cos_phi1 * (s1_dot * t31 - t6 * t35);
-    let t39 = t37 - (t7 * t35 + t4 * t35 - t10 * (sin_phi1 * s1));
-    let t40 = t30 * (cos_phi2 * phi2_dot);
-    let t41 = t34 * (sin_phi2 * phi2_dot);
-    let t42 = sin_phi2 * (s2_dot * t34 + t2 * t30);
-    let t43 = t23 * (cos_phi2 * s2) + t16 * t30 - t18 * t30;
-    let t44 = t43 - (t3 * t34 + t0 * t34 - t9 * (sin_phi2 * s2));
+    let t29 = t0 + t3;
+    let t30 = t4 + t7;
+    let t31 = y_dot + t30;
+    let t32 = t29 + t31;
+    let t33 = p.m2 * t32 + p.m1 * t31;
+    let t34 = t33 * (cos_phi1 * phi1_dot);
+    let t35 = t16 - t18;
+    let t36 = t19 - t21;
+    let t37 = x_dot + t36;
+    let t38 = t35 + t37;
+    let t39 = p.m2 * t38 + p.m1 * t37;
+    let t40 = t39 * (sin_phi1 * phi1_dot);
+    let t41 = cos_phi1 * (s1_dot * t33 - t6 * t39);
+    let t42 = t36 * t33 + t24 * (cos_phi1 * s1) - (t39 * t30 - t10 * (sin_phi1 * s1));
+    let t43 = t32 * (cos_phi2 * phi2_dot);
+    let t44 = t38 * (sin_phi2 * phi2_dot);
+    let t45 = sin_phi2 * (s2_dot * t38 + t2 * t32);
+    let t46 = t35 * t32 + t23 * (cos_phi2 * s2) - (t38 * t29 - t9 * (sin_phi2 * s2));
     let f_x = p.k6 * t13 + t10 - (t14 * p.bx + t15 * p.cx);
     let f_y = -(t24 - p.k6 * t25 + (t26 * p.by + t27 * p.cy));
     let f_theta = t28 - (t13 * p.k16 - t25 * p.k15);
-    let f_s1 = t32 - t36 - (t32 + sin_phi1 * t24 - (t36 + cos_phi1 * t10));
-    let f_phi1 = -(t39 + (sin_phi1 * (s1_dot * t35 + t6 * t31) - t38));
+    let f_s1 = t34 - t40 - (t34 + sin_phi1 * t24 - (t40 + cos_phi1 * t10));
+    let f_phi1 = -(t42 + (sin_phi1 * (s1_dot * t39 + t6 * t33) - t41));
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t40 - t41 - (t40 + sin_phi2 * t23 - (t41 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t30 - t2 * t34) - t42 - t44);
+    let f_s2 = p.m2 * (t43 - t44 - (t43 + sin_phi2 * t23 - (t44 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t32 - t2 * t38) - t45 - t46);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -734,134 +747,143 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t1 = sin_phi2 * s2_dot;
         let t2 = s2 * phi2_dot;
         let t3 = cos_phi2 * t2;
-        let t4 = sin_phi1 * s1_dot;
-        let t5 = s1 * phi1_dot;
-        let t6 = cos_phi1 * t5;
-        let t7 = y_dot + (t4 + t6);
-        let t8 = t1 + t3 + t7;
-        let t9 = n(p.m2).mul_add(t8, n(p.m1) * t7);
-        let t10 = t9 * (cos_phi1 * phi1_dot);
-        let t11 = cos_phi2 * s2_dot;
-        let t12 = phi2_dot * t11;
-        let t13 = sin_phi2 * t2;
-        let t14 = cos_phi1 * s1_dot;
-        let t15 = phi1_dot * t14;
-        let t16 = sin_phi1 * t5;
-        let t17 = t15 + phi1_dot.neg_mul_add(t16, t15);
-        let t18 = t12 + phi2_dot.neg_mul_add(t13, t12) + t17;
-        let t19 = n(p.m2).mul_add(t18, n(p.m1) * t17);
-        let t20 = x_dot + (t14 - t16);
-        let t21 = t11 - t13 + t20;
-        let t22 = n(p.m2).mul_add(t21, t20 * n(p.m1));
-        let t23 = t22 * (sin_phi1 * phi1_dot);
-        let t24 = phi2_dot * t1;
-        let t25 = phi1_dot * t4;
-        let t26 = t25 + phi1_dot.mul_add(t6, t25);
-        let t27 = t24 + phi2_dot.mul_add(t3, t24) + t26;
-        let t28 = n(p.m2).mul_add(t27, n(p.m1) * t26);
-        let t29 = sin_phi1.mul_add(t19, t10) - cos_phi1.mul_add(t28, t23);
-        let t30 = t10 - t23 - t29;
-        let t31 = n(p.k2) * sin_phi1;
-        let t32 = n(p.k23) * t31;
-        let t33 = n(p.omega).product_error(n(t));
-        let t34 = t33.mul_add(cos_t0, sin_t0);
-        let t35 = theta_dot.mul_add(n(p.xb), y_dot);
-        let t36 = theta.mul_add(n(p.xc), y);
-        let t37 = t35.mul_add(n(p.by), t36 * n(p.cy));
-        let t38 = n(p.k2) * cos_phi1;
-        let t39 = n(p.k23) * t38;
-        let t40 = t33.neg_mul_add(sin_t0, cos_t0);
-        let t41 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+        let t4 = t1 + t3;
+        let t5 = sin_phi1 * s1_dot;
+        let t6 = s1 * phi1_dot;
+        let t7 = cos_phi1 * t6;
+        let t8 = t5 + t7;
+        let t9 = y_dot + t8;
+        let t10 = t4 + t9;
+        let t11 = n(p.m2).mul_add(t10, n(p.m1) * t9);
+        let t12 = t11 * (cos_phi1 * phi1_dot);
+        let t13 = cos_phi2 * s2_dot;
+        let t14 = phi2_dot * t13;
+        let t15 = sin_phi2 * t2;
+        let t16 = cos_phi1 * s1_dot;
+        let t17 = phi1_dot * t16;
+        let t18 = sin_phi1 * t6;
+        let t19 = t17 + phi1_dot.neg_mul_add(t18, t17);
+        let t20 = t14 + phi2_dot.neg_mul_add(t15, t14) + t19;
+        let t21 = n(p.m2).mul_add(t20, n(p.m1) * t19);
+        let t22 = t13 - t15;
+        let t23 = t16 - t18;
+        let t24 = x_dot + t23;
+        let t25 = t22 + t24;
+        let t26 = n(p.m2).mul_add(t25, t24 * n(p.m1));
+        let t27 = t26 * (sin_phi1 * phi1_dot);
+        let t28 = phi2_dot * t1;
+        let t29 = phi1_dot * t5;
+        let t30 = t29 + phi1_dot.mul_add(t7, t29);
+        let t31 = t28 + phi2_dot.mul_add(t3, t28) + t30;
+        let t32 = n(p.m2).mul_add(t31, n(p.m1) * t30);
+        let t33 = sin_phi1.mul_add(t21, t12) - cos_phi1.mul_add(t32, t27);
+        let t34 = t12 - t27 - t33;
+        let t35 = n(p.k2) * cos_phi1;
+        let t36 = n(p.k25) * t35;
+        let t37 = n(p.omega).product_error(n(t));
+        let t38 = t37.neg_mul_add(sin_t0, cos_t0);
+        let t39 = t37.mul_add(cos_t0, sin_t0);
+        let t40 = theta_dot.neg_mul_add(n(p.yb), x_dot);
+        let t41 = theta_dot.mul_add(n(p.xb), y_dot);
         let t42 = theta.neg_mul_add(n(p.yc), x);
-        let t43 = t41.mul_add(n(p.bx), t42 * n(p.cx));
-        let t44 = t41.mul_sub(n(p.k4), t35 * n(p.k17));
-        let t45 = t44 + t42.mul_sub(n(p.k3), t36 * n(p.k5));
-        let t46 = t40.mul_sub(n(p.k16), t34 * n(p.k15)) - t45;
-        let t47 = t39.mul_add(t30, t43 - t40.mul_add(n(p.k6), t28));
-        let t48 = t46.mul_add(n(p.k19), t47);
-        let t49 = t38 * t39;
-        let t50 = N::ONE / (t49 - n(p.k24));
-        let t51 = t38.neg_mul_add(t32, n(p.k21));
-        let t52 = t50 * t51;
-        let t53 = t32.mul_add(t30, t34.neg_mul_add(n(p.k6), t19) + t37);
-        let t54 = t53 + t52.mul_sub(t48, n(p.k20) * t46);
-        let t55 = t51 * t52;
-        let t56 = t31.mul_sub(t32, n(p.k25));
-        let t57 = N::ONE / (t56 - t55);
-        let t58 = sin_phi1 * s1;
-        let t59 = n(p.k2) * t58;
-        let t60 = t50 * t59;
-        let t61 = cos_phi1 * s1;
-        let t62 = t51.neg_mul_add(t60, n(p.k2) * t61);
-        let t63 = t57 * t62;
-        let t64 = t58.neg_mul_add(t28, t22.mul_add(t6, t22 * t4));
-        let t65 = cos_phi1 * s1_dot.mul_sub(t9, t5 * t22);
-        let t66 = t16.neg_mul_add(t9, t61.mul_add(t19, t14 * t9)) - t64;
-        let t67 = t66 + sin_phi1.mul_sub(s1_dot.mul_add(t22, t5 * t9), t65);
-        let t68 = t60.neg_mul_add(t48, t63.mul_add(t54, t67));
-        let t69 = s1 * (n(p.k2) * s1);
-        let t70 = t62.mul_add(t63, t59.mul_add(t60, t69));
-        let t71 = N::ONE / t70;
-        let t72 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t73 = n(p.k23) * t72;
-        let t74 = t38.neg_mul_add(t73, n(p.m2) * cos_phi2);
-        let t75 = t50 * t74;
-        let t76 = t31.neg_mul_add(t73, t51.mul_add(t75, n(p.m2) * sin_phi2));
-        let t77 = t57 * t76;
-        let t78 = n(p.m2) * t61.mul_sub(sin_phi2, t58 * cos_phi2);
-        let t79 = t59.neg_mul_add(t75, t62.mul_add(t77, t78));
-        let t80 = t71 * t79;
-        let t81 = t8 * (cos_phi2 * phi2_dot);
-        let t82 = t21 * (sin_phi2 * phi2_dot);
-        let t83 = sin_phi2.mul_add(t18, t81) - cos_phi2.mul_add(t27, t82);
-        let t84 = t80.mul_add(t68, n(p.m2) * (t81 - t82 - t83));
-        let t85 = t77.neg_mul_add(t54, t84 - t75.mul_add(t48, t73 * t30));
-        let t86 = t74.mul_add(t75, n(p.m2)) + t76.mul_sub(t77, t72 * t73);
-        let t87 = t79.neg_mul_add(t80, t86);
-        let t88 = N::ONE / t87;
-        let t89 = cos_phi2 * s2;
-        let t90 = sin_phi2 * s2;
-        let t91 = n(p.m2) * sin_phi1.mul_sub(t89, cos_phi1 * t90);
-        let t92 = n(p.k23) * t91;
-        let t93 = t38.mul_add(t92, n(p.m2) * t90);
-        let t94 = t50 * t93;
-        let t95 = t51.neg_mul_add(t94, t31.neg_mul_add(t92, n(p.m2) * t89));
-        let t96 = t57 * t95;
-        let t97 = t59.mul_add(t94, n(p.m2) * t58.mul_add(t90, t61 * t89));
-        let t98 = t62.mul_add(t96, t97);
-        let t99 = t71 * t98;
-        let t100 = t74.mul_add(t94, t72 * t92) + t79.mul_sub(t99, t76 * t96);
-        let t101 = t88 * t100;
-        let t102 = sin_phi2 * s2_dot.mul_add(t21, t2 * t8);
-        let t103 = t90.neg_mul_add(t27, t21.mul_add(t3, t21 * t1));
-        let t104 = t13.neg_mul_add(t8, t89.mul_add(t18, t11 * t8)) - t103;
-        let t105 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t21), t102);
-        let t106 = t94.mul_add(t48, n(p.m2) * (t105 - t104));
-        let t107 = t106 + t101.mul_add(t85, t99 * t68);
-        let t108 = s2 * (n(p.m2) * s2);
-        let t109 = t93.mul_add(t94, t108) + t95.mul_sub(t96, t91 * t92);
-        let t110 = t109 - t100.mul_add(t101, t98 * t99);
-        let phi2_ddot = (t107 - t96.mul_add(t54, t92 * t30)) / t110;
-        let s2_ddot = t101.mul_add(phi2_ddot, t88 * t85);
-        let t111 = t99.mul_add(phi2_ddot, t80.mul_add(s2_ddot, t71 * t68));
-        let t112 = t63.neg_mul_add(t111, t96 * phi2_ddot);
-        let y_ddot = t77.mul_add(s2_ddot, t57 * t54) + t112;
-        let t113 = t60.mul_add(t111, t75 * s2_ddot);
-        let t114 = t52.mul_add(y_ddot, t50 * t48) + t113;
-        let x_ddot = t94.neg_mul_add(phi2_ddot, t114);
-        let t115 = n(p.k20).mul_add(y_ddot, t46 * n(p.k22));
-        let t116 = t73.mul_add(s2_ddot, t92 * phi2_ddot);
-        let t117 = t39.mul_add(x_ddot, t32 * y_ddot) + t116;
-        let t118 = n(p.k24) - t49;
-        checked(t118, n(p.k11), 7.993605777301127e-15, 0)?;
-        let t119 = t55 - t56;
-        checked(t119, n(p.k11), 7.993605777301127e-15, 1)?;
-        checked(t70, t69, 7.993605777301127e-15, 4)?;
-        checked(t87, n(p.m2), 7.993605777301127e-15, 6)?;
-        checked(t110, t108, 7.993605777301127e-15, 7)?;
-        let theta_ddot = n(p.k19).mul_sub(x_ddot, t115);
-        let s1_ddot = n(p.k23).mul_sub(t30, t117);
-        let phi1_ddot = -t111;
+        let t43 = theta.mul_add(n(p.xc), y);
+        let t44 = t40.mul_sub(n(p.k4), t41 * n(p.k17));
+        let t45 = t44 + t42.mul_sub(n(p.k3), t43 * n(p.k5));
+        let t46 = t38.mul_sub(n(p.k16), t39 * n(p.k15)) - t45;
+        let t47 = t40.mul_add(n(p.bx), t42 * n(p.cx));
+        let t48 = t46.mul_add(n(p.k21), t47 - t38.mul_add(n(p.k6), t32));
+        let t49 = t36.mul_add(t34, t48);
+        let t50 = t35 * t36;
+        let t51 = N::ONE / (t50 - n(p.k26));
+        let t52 = n(p.k2) * sin_phi1;
+        let t53 = n(p.k25) * t52;
+        let t54 = t35.neg_mul_add(t53, n(p.k23));
+        let t55 = t51 * t54;
+        let t56 = t41.mul_add(n(p.by), t43 * n(p.cy));
+        let t57 = t39.neg_mul_add(n(p.k6), t21) + t56;
+        let t58 = t53.mul_add(t34, n(p.k22).neg_mul_add(t46, t57));
+        let t59 = t55.mul_add(t49, t58);
+        let t60 = t54 * t55;
+        let t61 = t52.mul_sub(t53, n(p.k27));
+        let t62 = N::ONE / (t61 - t60);
+        let t63 = n(p.k2) * s1;
+        let t64 = sin_phi1 * t63;
+        let t65 = t51 * t64;
+        let t66 = t54.neg_mul_add(t65, cos_phi1 * t63);
+        let t67 = t62 * t66;
+        let t68 = t32.neg_mul_add(sin_phi1 * s1, t26 * t8);
+        let t69 = cos_phi1 * s1_dot.mul_sub(t11, t6 * t26);
+        let t70 = sin_phi1.mul_sub(s1_dot.mul_add(t26, t6 * t11), t69);
+        let t71 = t21.mul_add(cos_phi1 * s1, t23 * t11) - t68 + t70;
+        let t72 = t67.mul_add(t59, t65.neg_mul_add(t49, t71));
+        let t73 = s1 * t63;
+        let t74 = t66.mul_add(t67, t64.mul_add(t65, t73));
+        let t75 = N::ONE / t74;
+        let t76 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t77 = n(p.m2) * t76;
+        let t78 = n(p.k25) * t77;
+        let t79 = t35.neg_mul_add(t78, n(p.m2) * cos_phi2);
+        let t80 = t51 * t79;
+        let t81 = t54.mul_add(t80, t52.neg_mul_add(t78, n(p.m2) * sin_phi2));
+        let t82 = t62 * t81;
+        let t83 = cos_phi1 * sin_phi2;
+        let t84 = sin_phi1 * cos_phi2;
+        let t85 = s1 * n(p.m2);
+        let t86 = t66.mul_add(t82, t64.neg_mul_add(t80, (t83 - t84) * t85));
+        let t87 = t75 * t86;
+        let t88 = t10 * (cos_phi2 * phi2_dot);
+        let t89 = t25 * (sin_phi2 * phi2_dot);
+        let t90 = sin_phi2.mul_add(t20, t88) - cos_phi2.mul_add(t31, t89);
+        let t91 = t78.neg_mul_add(t34, n(p.m2) * (t88 - t89 - t90));
+        let t92 = t82.neg_mul_add(t59, t80.neg_mul_add(t49, t91));
+        let t93 = t87.mul_add(t72, t92);
+        let t94 = t79.mul_add(t80, t77.neg_mul_add(t78, n(p.m2)));
+        let t95 = t86.neg_mul_add(t87, t81.mul_add(t82, t94));
+        let t96 = N::ONE / t95;
+        let t97 = n(p.m2) * s2;
+        let t98 = t97 * (t84 - t83);
+        let t99 = n(p.k25) * t98;
+        let t100 = t35.mul_add(t99, sin_phi2 * t97);
+        let t101 = t51 * t100;
+        let t102 = t52.neg_mul_add(t99, cos_phi2 * t97);
+        let t103 = t54.neg_mul_add(t101, t102);
+        let t104 = t62 * t103;
+        let t105 = t66.mul_add(t104, t64.mul_add(t101, t76 * (t85 * s2)));
+        let t106 = t75 * t105;
+        let t107 = t81.neg_mul_add(t104, t79.mul_add(t101, t77 * t99));
+        let t108 = t86.mul_add(t106, t107);
+        let t109 = t96 * t108;
+        let t110 = sin_phi2 * s2_dot.mul_add(t25, t2 * t10);
+        let t111 = t31.neg_mul_add(sin_phi2 * s2, t25 * t4);
+        let t112 = cos_phi2.mul_sub(s2_dot.mul_sub(t10, t2 * t25), t110);
+        let t113 = t112 - (t20.mul_add(cos_phi2 * s2, t22 * t10) - t111);
+        let t114 = t101.mul_add(t49, n(p.m2).mul_sub(t113, t99 * t34));
+        let t115 = t106.mul_add(t72, t104.neg_mul_add(t59, t114));
+        let t116 = s2 * t97;
+        let t117 = t100.mul_add(t101, t98.neg_mul_add(t99, t116));
+        let t118 = t105.neg_mul_add(t106, t103.mul_add(t104, t117));
+        let t119 = t108.neg_mul_add(t109, t118);
+        let phi2_ddot = t109.mul_add(t93, t115) / t119;
+        let s2_ddot = t109.mul_add(phi2_ddot, t96 * t93);
+        let t120 = t87.mul_add(s2_ddot, t106.mul_add(phi2_ddot, t75 * t72));
+        let t121 = t82.mul_add(s2_ddot, t104.mul_add(phi2_ddot, t62 * t59));
+        let y_ddot = t67.neg_mul_add(t120, t121);
+        let t122 = t101.neg_mul_add(phi2_ddot, t51 * t49);
+        let t123 = t65.mul_add(t120, t80.mul_add(s2_ddot, t122));
+        let x_ddot = t55.mul_add(y_ddot, t123);
+        let t124 = n(p.k22).mul_add(y_ddot, t46 * n(p.k24));
+        let t125 = t99.mul_sub(phi2_ddot, n(p.k25) * t34);
+        let t126 = t53.mul_add(y_ddot, t78.mul_add(s2_ddot, t125));
+        let t127 = n(p.k26) - t50;
+        checked(t127, n(p.k11), 7.993605777301127e-15, 0)?;
+        let t128 = t60 - t61;
+        checked(t128, n(p.k11), 7.993605777301127e-15, 1)?;
+        checked(t74, t73, 7.993605777301127e-15, 4)?;
+        checked(t95, n(p.m2), 7.993605777301127e-15, 6)?;
+        checked(t119, t116, 7.993605777301127e-15, 7)?;
+        let theta_ddot = n(p.k21).mul_sub(x_ddot, t124);
+        let s1_ddot = -t36.mul_add(x_ddot, t126);
+        let phi1_ddot = -t120;
         let zero = N::ZERO;
         let accelerations = [
             x_ddot.store(),
@@ -911,15 +933,15 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
     let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
     let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t7 = p.omega.product_error(t);
-    let t8 = p.omega * t;
-    let (sin_t8, cos_t8) = t8.sin_cos();
-    let t9 = p.k0 * (cos_t8 - t7 * sin_t8) + (y_dot + theta_dot * p.x0);
-    let t10 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t8 + t7 * cos_t8);
-    let t11 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
-    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t6;
-    ((t9 * t9 + t10 * t10) * p.m0 + p.k1 + t11 + t12) * S::from_f64(0.5)
+    let t6 = theta_dot * (theta_dot * p.J) + (y_dot * y_dot + x_dot * x_dot) * p.m;
+    let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t6;
+    let t8 = p.omega.product_error(t);
+    let t9 = p.omega * t;
+    let (sin_t9, cos_t9) = t9.sin_cos();
+    let t10 = p.k0 * (cos_t9 - t8 * sin_t9) + (y_dot + theta_dot * p.x0);
+    let t11 = x_dot - theta_dot * p.y0 - p.k0 * (sin_t9 + t8 * cos_t9);
+    let t12 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t7;
+    ((t10 * t10 + t11 * t11) * p.m0 + p.k1 + t12) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.

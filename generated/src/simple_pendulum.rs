@@ -13,13 +13,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 4 | 0 | 1 | 0 | 0 | 5 |
+//! | `prepare` | 4 | 2 | 1 | 0 | 0 | 7 |
 //! | `start` | 1 | 0 | 0 | 0 | 0 | 1 |
-//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
-//! | `forces` | 7 | 2 | 0 | 1 | 0 | 11 |
-//! | `accelerations` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `accelerations` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `kinetic_energy` | 2 | 0 | 0 | 0 | 0 | 2 |
-//! | `potential_energy` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_tension` | 4 | 1 | 0 | 1 | 0 | 6 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
@@ -79,11 +79,11 @@ impl<S> SimplePendulum<S> {
 impl<S: ::lagrangian::Scalar> SimplePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k3 = self.m * self.l;
-        let k0 = self.l * k3;
+        let t0 = self.m * self.l;
+        let k0 = self.l * t0;
         let k1 = k0 * S::from_f64(0.5);
-        let k2 = self.g * k3;
-        let k4 = self.g / self.l;
+        let k2 = -(self.g * t0);
+        let k3 = -(self.g / self.l);
         let singular = if vanishes(k0, k0, 8.881784197001252e-16) {
             Some(singular(0, k0, k0))
         } else {
@@ -97,7 +97,6 @@ impl<S: ::lagrangian::Scalar> SimplePendulum<S> {
             k1,
             k2,
             k3,
-            k4,
             singular,
         }
     }
@@ -166,12 +165,10 @@ pub struct Prepared<S = f64> {
     k0: S,
     /// `0.5*m*l^2`
     k1: S,
-    /// `m*l*g`
+    /// `-m*l*g`
     k2: S,
-    /// `m*l`
+    /// `-g/l`
     k3: S,
-    /// `g/l`
-    k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -193,17 +190,15 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
-    let q_theta = -(p.k2 * sin_theta);
+    let q_theta = p.k2 * sin_theta;
     [q_theta]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
-    let theta_dot = v[0];
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = cos_theta * (theta_dot * theta_dot);
-    let f_theta = t0 * (sin_theta * p.k0) - (t0 * p.l + p.g) * (sin_theta * p.k3);
+    let sin_theta = theta.sin();
+    let f_theta = p.k2 * sin_theta;
     [f_theta]
 }
 
@@ -238,7 +233,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         }
         let theta = n(q[0]);
         let sin_theta = theta.sin();
-        let theta_ddot = -(n(p.k4) * sin_theta);
+        let theta_ddot = n(p.k3) * sin_theta;
         let accelerations = [theta_ddot.store()];
         Ok(accelerations)
     }
@@ -262,7 +257,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let theta = q[0];
     let cos_theta = theta.cos();
-    -(p.k2 * cos_theta)
+    p.k2 * cos_theta
 }
 
 /// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
@@ -364,8 +359,8 @@ impl ::lagrangian::System for Prepared {
         *result = applied(self, q);
     }
 
-    fn forces(&self, _: f64, q: &[f64; 1], v: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
-        *result = forces(self, q, v);
+    fn forces(&self, _: f64, q: &[f64; 1], _: &[f64; 1], _: &Inputs, result: &mut [f64; 1]) {
+        *result = forces(self, q);
     }
 
     fn kinetic_energy(&self, _: f64, _: &[f64; 1], v: &[f64; 1]) -> f64 {

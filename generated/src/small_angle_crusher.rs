@@ -10,12 +10,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 39 | 7 | 2 | 0 | 0 | 48 |
-//! | `mass_matrix` | 30 | 9 | 0 | 2 | 0 | 43 |
-//! | `bias` | 89 | 68 | 0 | 3 | 0 | 163 |
+//! | `prepare` | 39 | 9 | 2 | 0 | 0 | 50 |
+//! | `mass_matrix` | 26 | 6 | 0 | 2 | 0 | 36 |
+//! | `bias` | 85 | 62 | 0 | 3 | 0 | 153 |
 //! | `applied` | 6 | 6 | 0 | 0 | 0 | 12 |
-//! | `forces` | 95 | 72 | 0 | 3 | 0 | 173 |
-//! | `accelerations` | 208 | 140 | 5 | 3 | 0 | 359 |
+//! | `forces` | 91 | 68 | 0 | 3 | 0 | 165 |
+//! | `accelerations` | 202 | 136 | 5 | 3 | 0 | 349 |
 //! | `kinetic_energy` | 50 | 29 | 0 | 3 | 0 | 85 |
 //! | `potential_energy` | 6 | 2 | 0 | 0 | 0 | 8 |
 //! | `dissipation` | 6 | 2 | 0 | 0 | 0 | 8 |
@@ -173,8 +173,10 @@ impl<S: ::lagrangian::Scalar> SmallAngleCrusher<S> {
         let k32 = self.m0 * S::from_f64(0.25);
         let k33 = k0 * self.y0;
         let k34 = k0 * self.x0;
-        let k35 = S::ONE / k11;
-        let k36 = S::ONE / k14;
+        let k35 = -k14;
+        let k36 = -self.m2;
+        let k37 = S::ONE / k11;
+        let k38 = S::ONE / k14;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -234,6 +236,8 @@ impl<S: ::lagrangian::Scalar> SmallAngleCrusher<S> {
             k34,
             k35,
             k36,
+            k37,
+            k38,
             singular,
         }
     }
@@ -424,10 +428,14 @@ pub struct Prepared<S = f64> {
     k33: S,
     /// `e*x0*omega`
     k34: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    /// `-(m1 + m2)`
     k35: S,
-    /// `1/(m1 + m2)`
+    /// `-m2`
     k36: S,
+    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    k37: S,
+    /// `1/(m1 + m2)`
+    k38: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -466,29 +474,30 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let s2 = q[6];
     let phi2 = q[7];
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k14 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m31 = -(theta * p.k13 + p.k12);
     let m32 = p.k13 - theta * p.k12;
     let m41 = p.k14 * cos_phi1;
     let m42 = p.k14 * sin_phi1;
-    let m51 = -(p.k14 * t0);
-    let m52 = p.k14 * t1;
-    let m55 = s1 * (p.k14 * s1);
+    let m51 = sin_phi1 * (s1 * p.k35);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k36);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k15, zero, m31, m41, m51, zero, m71, m81, zero],
         [zero, p.k15, m32, m42, m52, zero, m72, m82, zero],
@@ -561,31 +570,33 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t24 = sin_t12 + t11 * cos_t12;
     let t25 = (y_dot + t13 * p.k0) * (theta_dot * p.k12);
     let t26 = (x_dot - t24 * p.k0) * (theta_dot * p.k13);
-    let t27 = t24 * p.k19 + (t25 - theta * (t24 * p.k18));
-    let t28 = y_dot + (t4 + t7);
-    let t29 = t0 + t3 + t28;
-    let t30 = p.m2 * t29 + p.m1 * t28;
-    let t31 = t30 * (cos_phi1 * phi1_dot);
-    let t32 = x_dot + (t18 - t20);
-    let t33 = t15 - t17 + t32;
-    let t34 = p.m2 * t33 + p.m1 * t32;
-    let t35 = t34 * (sin_phi1 * phi1_dot);
-    let t36 = t23 * (cos_phi1 * s1) + t18 * t30 - t20 * t30;
-    let t37 = sin_phi1 * (s1_dot * t34 + t6 * t30);
-    let t38 = t36 - (t7 * t34 + t4 * t34 - t10 * (sin_phi1 * s1));
-    let t39 = t29 * (cos_phi2 * phi2_dot);
-    let t40 = t33 * (sin_phi2 * phi2_dot);
-    let t41 = sin_phi2 * (s2_dot * t33 + t2 * t29);
-    let t42 = t22 * (cos_phi2 * s2) + t15 * t29 - t17 * t29;
-    let t43 = t42 - (t3 * t33 + t0 * t33 - t9 * (sin_phi2 * s2));
+    let t27 = t25 - t24 * (p.k18 * theta) + (t24 * p.k19 - t13 * p.k18);
+    let t28 = t0 + t3;
+    let t29 = t4 + t7;
+    let t30 = y_dot + t29;
+    let t31 = t28 + t30;
+    let t32 = p.m2 * t31 + p.m1 * t30;
+    let t33 = t32 * (cos_phi1 * phi1_dot);
+    let t34 = t15 - t17;
+    let t35 = t18 - t20;
+    let t36 = x_dot + t35;
+    let t37 = t34 + t36;
+    let t38 = p.m2 * t37 + p.m1 * t36;
+    let t39 = t38 * (sin_phi1 * phi1_dot);
+    let t40 = sin_phi1 * (s1_dot * t38 + t6 * t32);
+    let t41 = t35 * t32 + t23 * (cos_phi1 * s1) - (t38 * t29 - t10 * (sin_phi1 * s1));
+    let t42 = t31 * (cos_phi2 * phi2_dot);
+    let t43 = t37 * (sin_phi2 * phi2_dot);
+    let t44 = sin_phi2 * (s2_dot * t37 + t2 * t31);
+    let t45 = t34 * t31 + t22 * (cos_phi2 * s2) - (t37 * t28 - t9 * (sin_phi2 * s2));
     let h_x = -(t10 + (t14 * p.k13 + p.k17 * t13));
     let h_y = t23 - (t14 * p.k12 + p.k17 * t24);
-    let h_theta = t26 + t25 - (t27 + (t26 - theta * (t13 * p.k19) - t13 * p.k18));
-    let h_s1 = t31 + sin_phi1 * t23 - (t35 + cos_phi1 * t10) - (t31 - t35);
-    let h_phi1 = t38 - (cos_phi1 * (s1_dot * t30 - t6 * t34) - t37);
+    let h_theta = t26 + t25 - (t26 - t13 * (p.k19 * theta) + t27);
+    let h_s1 = t33 + sin_phi1 * t23 - (t39 + cos_phi1 * t10) - (t33 - t39);
+    let h_phi1 = t41 - (cos_phi1 * (s1_dot * t32 - t6 * t38) - t40);
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (t39 - t40 - (t39 + sin_phi2 * t22 - (t40 + cos_phi2 * t9))));
-    let h_phi2 = -(p.m2 * (cos_phi2 * (s2_dot * t29 - t2 * t33) - t41 - t43));
+    let h_s2 = p.k36 * (t42 - t43 - (t42 + sin_phi2 * t22 - (t43 + cos_phi2 * t9)));
+    let h_phi2 = p.k36 * (cos_phi2 * (s2_dot * t31 - t2 * t37) - t44 - t45);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -656,32 +667,34 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let t24 = sin_t12 + t11 * cos_t12;
     let t25 = (y_dot + t13 * p.k0) * (theta_dot * p.k12);
     let t26 = (x_dot - t24 * p.k0) * (theta_dot * p.k13);
-    let t27 = t24 * p.k19 + (t25 - theta * (t24 * p.k18));
-    let t28 = t26 + t25 - (t27 + (t26 - theta * (t13 * p.k19) - t13 * p.k18));
-    let t29 = y_dot + (t4 + t7);
-    let t30 = t0 + t3 + t29;
-    let t31 = p.m2 * t30 + p.m1 * t29;
-    let t32 = t31 * (cos_phi1 * phi1_dot);
-    let t33 = x_dot + (t18 - t20);
-    let t34 = t15 - t17 + t33;
-    let t35 = p.m2 * t34 + p.m1 * t33;
-    let t36 = t35 * (sin_phi1 * phi1_dot);
-    let t37 = sin_phi1 * (s1_dot * t35 + t6 * t31);
-    let t38 = t23 * (cos_phi1 * s1) + t18 * t31 - t20 * t31;
-    let t39 = t38 - (t7 * t35 + t4 * t35 - t10 * (sin_phi1 * s1));
-    let t40 = t30 * (cos_phi2 * phi2_dot);
-    let t41 = t34 * (sin_phi2 * phi2_dot);
-    let t42 = sin_phi2 * (s2_dot * t34 + t2 * t30);
-    let t43 = t22 * (cos_phi2 * s2) + t15 * t30 - t17 * t30;
-    let t44 = t43 - (t3 * t34 + t0 * t34 - t9 * (sin_phi2 * s2));
+    let t27 = t25 - t24 * (theta * p.k18) + (t24 * p.k19 - t13 * p.k18);
+    let t28 = t26 + t25 - (t26 - t13 * (theta * p.k19) + t27);
+    let t29 = t0 + t3;
+    let t30 = t4 + t7;
+    let t31 = y_dot + t30;
+    let t32 = t29 + t31;
+    let t33 = p.m2 * t32 + p.m1 * t31;
+    let t34 = t33 * (cos_phi1 * phi1_dot);
+    let t35 = t15 - t17;
+    let t36 = t18 - t20;
+    let t37 = x_dot + t36;
+    let t38 = t35 + t37;
+    let t39 = p.m2 * t38 + p.m1 * t37;
+    let t40 = t39 * (sin_phi1 * phi1_dot);
+    let t41 = sin_phi1 * (s1_dot * t39 + t6 * t33);
+    let t42 = t36 * t33 + t23 * (cos_phi1 * s1) - (t39 * t30 - t10 * (sin_phi1 * s1));
+    let t43 = t32 * (cos_phi2 * phi2_dot);
+    let t44 = t38 * (sin_phi2 * phi2_dot);
+    let t45 = sin_phi2 * (s2_dot * t38 + t2 * t32);
+    let t46 = t35 * t32 + t22 * (cos_phi2 * s2) - (t38 * t29 - t9 * (sin_phi2 * s2));
     let f_x = t10 + (t14 * p.k13 + p.k17 * t13) - (p.k21 * x_dot + p.k20 * x);
     let f_y = t14 * p.k12 + p.k17 * t24 - t23 - (p.k23 * y_dot + p.k22 * y);
     let f_theta = -(theta_dot * p.k25 + theta * p.k24 + t28);
-    let f_s1 = t32 - t36 - (t32 + sin_phi1 * t23 - (t36 + cos_phi1 * t10));
-    let f_phi1 = cos_phi1 * (s1_dot * t31 - t6 * t35) - t37 - t39;
+    let f_s1 = t34 - t40 - (t34 + sin_phi1 * t23 - (t40 + cos_phi1 * t10));
+    let f_phi1 = cos_phi1 * (s1_dot * t33 - t6 * t39) - t41 - t42;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (t40 - t41 - (t40 + sin_phi2 * t22 - (t41 + cos_phi2 * t9)));
-    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t30 - t2 * t34) - t42 - t44);
+    let f_s2 = p.m2 * (t43 - t44 - (t43 + sin_phi2 * t22 - (t44 + cos_phi2 * t9)));
+    let f_phi2 = p.m2 * (cos_phi2 * (s2_dot * t32 - t2 * t38) - t45 - t46);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -743,140 +756,145 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t1 = sin_phi2 * s2_dot;
         let t2 = s2 * phi2_dot;
         let t3 = cos_phi2 * t2;
-        let t4 = sin_phi1 * s1_dot;
-        let t5 = s1 * phi1_dot;
-        let t6 = cos_phi1 * t5;
-        let t7 = y_dot + (t4 + t6);
-        let t8 = t1 + t3 + t7;
-        let t9 = t8 * (cos_phi2 * phi2_dot);
-        let t10 = cos_phi2 * s2_dot;
-        let t11 = phi2_dot * t10;
-        let t12 = sin_phi2 * t2;
-        let t13 = cos_phi1 * s1_dot;
-        let t14 = phi1_dot * t13;
-        let t15 = sin_phi1 * t5;
-        let t16 = t14 + phi1_dot.neg_mul_add(t15, t14);
-        let t17 = t11 + phi2_dot.neg_mul_add(t12, t11) + t16;
-        let t18 = x_dot + (t13 - t15);
-        let t19 = t10 - t12 + t18;
-        let t20 = t19 * (sin_phi2 * phi2_dot);
-        let t21 = phi2_dot * t1;
-        let t22 = phi1_dot * t4;
-        let t23 = t22 + phi1_dot.mul_add(t6, t22);
-        let t24 = t21 + phi2_dot.mul_add(t3, t21) + t23;
-        let t25 = sin_phi2.mul_add(t17, t9) - cos_phi2.mul_add(t24, t20);
-        let t26 = n(p.m2).mul_add(t8, n(p.m1) * t7);
-        let t27 = t26 * (cos_phi1 * phi1_dot);
-        let t28 = n(p.m2).mul_add(t17, n(p.m1) * t16);
-        let t29 = n(p.m2).mul_add(t19, t18 * n(p.m1));
-        let t30 = t29 * (sin_phi1 * phi1_dot);
-        let t31 = n(p.m2).mul_add(t24, n(p.m1) * t23);
-        let t32 = sin_phi1.mul_add(t28, t27) - cos_phi1.mul_add(t31, t30);
-        let t33 = t27 - t30 - t32;
-        let t34 = n(p.m2) * cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
-        let t35 = n(p.k36) * t34;
-        let t36 = n(p.k14) * cos_phi1;
-        let t37 = n(p.k36) * t36;
-        let t38 = n(p.omega).product_error(n(t));
-        let t39 = t38.neg_mul_add(sin_t0, cos_t0);
-        let t40 = t39.mul_add(n(p.k0), y_dot) * (n(p.k12) * theta_dot);
-        let t41 = t38.mul_add(cos_t0, sin_t0);
-        let t42 = theta.neg_mul_add(t41 * n(p.k18), t40);
-        let t43 = t41.neg_mul_add(n(p.k0), x_dot) * (n(p.k13) * theta_dot);
-        let t44 = theta.neg_mul_add(n(p.k19) * t39, t43);
-        let t45 = t39.neg_mul_add(n(p.k18), t44);
-        let t46 = t43 + t40 - (n(p.k19).mul_add(t41, t42) + t45);
-        let t47 = theta_dot.mul_add(n(p.k25), theta * n(p.k24)) + t46;
-        let t48 = n(p.k13).mul_add(theta, n(p.k12));
-        let t49 = n(p.k35) * t48;
-        let t50 = theta_dot * theta_dot;
-        let t51 = t31 + t39.mul_add(n(p.k17), n(p.k13) * t50);
-        let t52 = t51 - x_dot.mul_add(n(p.k21), n(p.k20) * x);
-        let t53 = t37.neg_mul_add(t33, t49.neg_mul_add(t47, t52));
-        let t54 = t36.neg_mul_add(t37, t48.neg_mul_add(t49, n(p.k15)));
-        let t54 = checked(t54, n(p.k15), 7.993605777301127e-15, 0)?;
-        let t55 = N::ONE / t54;
-        let t56 = theta.neg_mul_add(n(p.k12), n(p.k13));
-        let t57 = n(p.k35) * t56;
-        let t58 = n(p.k14) * sin_phi1;
-        let t59 = n(p.k36) * t58;
-        let t60 = t36.neg_mul_add(t59, t48 * t57);
-        let t61 = t55 * t60;
-        let t62 = t41.mul_add(n(p.k17), n(p.k12) * t50) - t28;
-        let t63 = t62 - y_dot.mul_add(n(p.k23), n(p.k22) * y);
-        let t64 = t57.mul_add(t47, t63) - t61.mul_add(t53, t59 * t33);
-        let t65 = t56.neg_mul_add(t57, n(p.k15));
-        let t66 = t65 - t60.mul_add(t61, t58 * t59);
-        let t66 = checked(t66, n(p.k15), 7.993605777301127e-15, 1)?;
-        let t67 = N::ONE / t66;
-        let t68 = t36.neg_mul_add(t35, n(p.m2) * cos_phi2);
-        let t69 = t55 * t68;
-        let t70 = t58.neg_mul_add(t35, n(p.m2) * sin_phi2);
-        let t71 = t60.neg_mul_add(t69, t70);
-        let t72 = t67 * t71;
-        let t73 = t35.neg_mul_add(t33, n(p.m2) * (t9 - t20 - t25));
-        let t74 = sin_phi1 * s1_dot.mul_add(t29, t5 * t26);
-        let t75 = cos_phi1 * s1;
-        let t76 = sin_phi1 * s1;
-        let t77 = t15.neg_mul_add(t26, t75.mul_add(t28, t13 * t26));
-        let t78 = t77 - t76.neg_mul_add(t31, t29.mul_add(t6, t29 * t4));
-        let t79 = n(p.k14) * t76;
-        let t80 = t55 * t79;
-        let t81 = cos_phi1.mul_sub(s1_dot.mul_sub(t26, t5 * t29), t74) - t78;
-        let t82 = t60.mul_add(t80, n(p.k14) * t75);
-        let t83 = t67 * t82;
-        let t84 = t83.neg_mul_add(t64, t80.mul_add(t53, t81));
-        let t85 = s1 * (n(p.k14) * s1);
-        let t86 = t82.neg_mul_add(t83, t79.neg_mul_add(t80, t85));
-        let t86 = checked(t86, t85, 7.993605777301127e-15, 4)?;
-        let t87 = N::ONE / t86;
-        let t88 = n(p.m2) * t75.mul_sub(sin_phi2, t76 * cos_phi2);
-        let t89 = t82.neg_mul_add(t72, t79.mul_add(t69, t88));
-        let t90 = t87 * t89;
-        let t91 = t90.neg_mul_add(t84, t73 - t72.mul_add(t64, t69 * t53));
-        let t92 = t34.neg_mul_add(t35, n(p.m2));
-        let t93 = t89.neg_mul_add(t90, t92 - t71.mul_add(t72, t68 * t69));
-        let t93 = checked(t93, n(p.m2), 7.993605777301127e-15, 6)?;
-        let t94 = N::ONE / t93;
-        let t95 = cos_phi2 * s2;
-        let t96 = sin_phi2 * s2;
-        let t97 = n(p.m2) * sin_phi1.mul_sub(t95, cos_phi1 * t96);
-        let t98 = n(p.k36) * t97;
-        let t99 = t36.mul_add(t98, n(p.m2) * t96);
-        let t100 = t55 * t99;
-        let t101 = t58.neg_mul_add(t98, t60.mul_add(t100, n(p.m2) * t95));
-        let t102 = t67 * t101;
-        let t103 = n(p.m2) * t76.mul_add(t96, t75 * t95);
-        let t104 = t82.neg_mul_add(t102, t79.neg_mul_add(t100, t103));
-        let t105 = t87 * t104;
-        let t106 = t89.mul_sub(t105, t68 * t100);
-        let t107 = t71.mul_add(t102, t34 * t98) + t106;
-        let t108 = t94 * t107;
-        let t109 = sin_phi2 * s2_dot.mul_add(t19, t2 * t8);
-        let t110 = t96.neg_mul_add(t24, t19.mul_add(t3, t19 * t1));
-        let t111 = t12.neg_mul_add(t8, t95.mul_add(t17, t10 * t8)) - t110;
-        let t112 = cos_phi2.mul_sub(s2_dot.mul_sub(t8, t2 * t19), t109);
-        let t113 = t100.mul_add(t53, n(p.m2) * (t112 - t111));
-        let t114 = t113 + t108.mul_sub(t91, t98 * t33);
-        let t115 = s2 * (n(p.m2) * s2);
-        let t116 = t101.mul_add(t102, t99 * t100);
-        let t117 = t97.neg_mul_add(t98, t115) - t116;
-        let t118 = t117 - t107.mul_add(t108, t104 * t105);
-        let t118 = checked(t118, t115, 7.993605777301127e-15, 7)?;
-        let phi2_ddot = (t114 - t105.mul_add(t84, t102 * t64)) / t118;
-        let s2_ddot = t108.mul_add(phi2_ddot, t94 * t91);
-        let t119 = t90.neg_mul_add(s2_ddot, t87 * t84);
-        let phi1_ddot = t105.neg_mul_add(phi2_ddot, t119);
-        let t120 = t72.mul_add(s2_ddot, t102 * phi2_ddot);
-        let y_ddot = t83.neg_mul_add(phi1_ddot, t67 * t64) - t120;
-        let t121 = t61.neg_mul_add(y_ddot, t100 * phi2_ddot);
-        let t122 = t80.mul_add(phi1_ddot, t55 * t53) + t121;
-        let x_ddot = t69.neg_mul_add(s2_ddot, t122);
-        let t123 = t49.mul_sub(x_ddot, t57 * y_ddot);
-        let t124 = t35.mul_add(s2_ddot, t98 * phi2_ddot);
-        let t125 = t37.mul_add(x_ddot, t59 * y_ddot) + t124;
-        let theta_ddot = n(p.k35).neg_mul_add(t47, t123);
-        let s1_ddot = n(p.k36).mul_sub(t33, t125);
+        let t4 = t1 + t3;
+        let t5 = sin_phi1 * s1_dot;
+        let t6 = s1 * phi1_dot;
+        let t7 = cos_phi1 * t6;
+        let t8 = t5 + t7;
+        let t9 = y_dot + t8;
+        let t10 = t4 + t9;
+        let t11 = t10 * (cos_phi2 * phi2_dot);
+        let t12 = cos_phi2 * s2_dot;
+        let t13 = phi2_dot * t12;
+        let t14 = sin_phi2 * t2;
+        let t15 = cos_phi1 * s1_dot;
+        let t16 = phi1_dot * t15;
+        let t17 = sin_phi1 * t6;
+        let t18 = t16 + phi1_dot.neg_mul_add(t17, t16);
+        let t19 = t13 + phi2_dot.neg_mul_add(t14, t13) + t18;
+        let t20 = t12 - t14;
+        let t21 = t15 - t17;
+        let t22 = x_dot + t21;
+        let t23 = t20 + t22;
+        let t24 = t23 * (sin_phi2 * phi2_dot);
+        let t25 = phi2_dot * t1;
+        let t26 = phi1_dot * t5;
+        let t27 = t26 + phi1_dot.mul_add(t7, t26);
+        let t28 = t25 + phi2_dot.mul_add(t3, t25) + t27;
+        let t29 = sin_phi2.mul_add(t19, t11) - cos_phi2.mul_add(t28, t24);
+        let t30 = n(p.m2).mul_add(t10, n(p.m1) * t9);
+        let t31 = t30 * (cos_phi1 * phi1_dot);
+        let t32 = n(p.m2).mul_add(t19, n(p.m1) * t18);
+        let t33 = n(p.m2).mul_add(t23, t22 * n(p.m1));
+        let t34 = t33 * (sin_phi1 * phi1_dot);
+        let t35 = n(p.m2).mul_add(t28, n(p.m1) * t27);
+        let t36 = sin_phi1.mul_add(t32, t31) - cos_phi1.mul_add(t35, t34);
+        let t37 = t31 - t34 - t36;
+        let t38 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t39 = n(p.m2) * t38;
+        let t40 = n(p.k38) * t39;
+        let t41 = n(p.k14) * cos_phi1;
+        let t42 = n(p.k38) * t41;
+        let t43 = n(p.omega).product_error(n(t));
+        let t44 = t43.neg_mul_add(sin_t0, cos_t0);
+        let t45 = t44.mul_add(n(p.k0), y_dot) * (n(p.k12) * theta_dot);
+        let t46 = t43.mul_add(cos_t0, sin_t0);
+        let t47 = t46.neg_mul_add(theta * n(p.k18), t45);
+        let t48 = t46.neg_mul_add(n(p.k0), x_dot) * (n(p.k13) * theta_dot);
+        let t49 = t47 + n(p.k19).mul_sub(t46, t44 * n(p.k18));
+        let t50 = t48 + t45 - (t44.neg_mul_add(theta * n(p.k19), t48) + t49);
+        let t51 = theta_dot.mul_add(n(p.k25), theta * n(p.k24)) + t50;
+        let t52 = n(p.k13).mul_add(theta, n(p.k12));
+        let t53 = n(p.k37) * t52;
+        let t54 = theta_dot * theta_dot;
+        let t55 = t35 + t44.mul_add(n(p.k17), n(p.k13) * t54);
+        let t56 = t55 - x_dot.mul_add(n(p.k21), n(p.k20) * x);
+        let t57 = t42.neg_mul_add(t37, t53.neg_mul_add(t51, t56));
+        let t58 = t41.neg_mul_add(t42, t52.neg_mul_add(t53, n(p.k15)));
+        let t58 = checked(t58, n(p.k15), 7.993605777301127e-15, 0)?;
+        let t59 = N::ONE / t58;
+        let t60 = t41.neg_mul_add(t40, n(p.m2) * cos_phi2);
+        let t61 = t59 * t60;
+        let t62 = t40.neg_mul_add(t37, n(p.m2) * (t11 - t24 - t29));
+        let t63 = n(p.k14) * sin_phi1;
+        let t64 = n(p.k38) * t63;
+        let t65 = theta.neg_mul_add(n(p.k12), n(p.k13));
+        let t66 = n(p.k37) * t65;
+        let t67 = t46.mul_add(n(p.k17), n(p.k12) * t54) - t32;
+        let t68 = t67 - y_dot.mul_add(n(p.k23), n(p.k22) * y);
+        let t69 = t41.neg_mul_add(t64, t52 * t66);
+        let t70 = t59 * t69;
+        let t71 = t64.neg_mul_add(t37, t66.mul_add(t51, t68));
+        let t72 = t70.neg_mul_add(t57, t71);
+        let t73 = t63.neg_mul_add(t64, t65.neg_mul_add(t66, n(p.k15)));
+        let t74 = t69.neg_mul_add(t70, t73);
+        let t74 = checked(t74, n(p.k15), 7.993605777301127e-15, 1)?;
+        let t75 = N::ONE / t74;
+        let t76 = t63.neg_mul_add(t40, n(p.m2) * sin_phi2);
+        let t77 = t69.neg_mul_add(t61, t76);
+        let t78 = t75 * t77;
+        let t79 = sin_phi1 * s1_dot.mul_add(t33, t6 * t30);
+        let t80 = t35.neg_mul_add(sin_phi1 * s1, t33 * t8);
+        let t81 = cos_phi1.mul_sub(s1_dot.mul_sub(t30, t6 * t33), t79);
+        let t82 = n(p.k14) * s1;
+        let t83 = sin_phi1 * t82;
+        let t84 = t59 * t83;
+        let t85 = t81 - (t32.mul_add(cos_phi1 * s1, t21 * t30) - t80);
+        let t86 = t69.mul_add(t84, cos_phi1 * t82);
+        let t87 = t75 * t86;
+        let t88 = t87.neg_mul_add(t72, t84.mul_add(t57, t85));
+        let t89 = s1 * t82;
+        let t90 = t86.neg_mul_add(t87, t83.neg_mul_add(t84, t89));
+        let t90 = checked(t90, t89, 7.993605777301127e-15, 4)?;
+        let t91 = N::ONE / t90;
+        let t92 = cos_phi1 * sin_phi2;
+        let t93 = sin_phi1 * cos_phi2;
+        let t94 = s1 * n(p.m2);
+        let t95 = t86.neg_mul_add(t78, t83.mul_add(t61, (t92 - t93) * t94));
+        let t96 = t91 * t95;
+        let t97 = t78.neg_mul_add(t72, t61.neg_mul_add(t57, t62));
+        let t98 = t96.neg_mul_add(t88, t97);
+        let t99 = t60.neg_mul_add(t61, t39.neg_mul_add(t40, n(p.m2)));
+        let t100 = t95.neg_mul_add(t96, t77.neg_mul_add(t78, t99));
+        let t100 = checked(t100, n(p.m2), 7.993605777301127e-15, 6)?;
+        let t101 = N::ONE / t100;
+        let t102 = n(p.m2) * s2;
+        let t103 = t102 * (t93 - t92);
+        let t104 = n(p.k38) * t103;
+        let t105 = t41.mul_add(t104, sin_phi2 * t102);
+        let t106 = t59 * t105;
+        let t107 = t69.mul_add(t106, t63.neg_mul_add(t104, cos_phi2 * t102));
+        let t108 = t75 * t107;
+        let t109 = t83.neg_mul_add(t106, t38 * (t94 * s2));
+        let t110 = t86.neg_mul_add(t108, t109);
+        let t111 = t91 * t110;
+        let t112 = t77.mul_add(t108, t60.neg_mul_add(t106, t39 * t104));
+        let t113 = t95.mul_add(t111, t112);
+        let t114 = t101 * t113;
+        let t115 = sin_phi2 * s2_dot.mul_add(t23, t2 * t10);
+        let t116 = t28.neg_mul_add(sin_phi2 * s2, t23 * t4);
+        let t117 = cos_phi2.mul_sub(s2_dot.mul_sub(t10, t2 * t23), t115);
+        let t118 = t117 - (t19.mul_add(cos_phi2 * s2, t20 * t10) - t116);
+        let t119 = t106.mul_add(t57, n(p.m2).mul_sub(t118, t104 * t37));
+        let t120 = t111.neg_mul_add(t88, t108.neg_mul_add(t72, t119));
+        let t121 = s2 * t102;
+        let t122 = t105.neg_mul_add(t106, t103.neg_mul_add(t104, t121));
+        let t123 = t110.neg_mul_add(t111, t107.neg_mul_add(t108, t122));
+        let t124 = t113.neg_mul_add(t114, t123);
+        let t124 = checked(t124, t121, 7.993605777301127e-15, 7)?;
+        let phi2_ddot = t114.mul_add(t98, t120) / t124;
+        let s2_ddot = t114.mul_add(phi2_ddot, t101 * t98);
+        let t125 = t111.neg_mul_add(phi2_ddot, t91 * t88);
+        let phi1_ddot = t96.neg_mul_add(s2_ddot, t125);
+        let t126 = t106.mul_add(phi2_ddot, t59 * t57);
+        let t127 = t108.neg_mul_add(phi2_ddot, t75 * t72);
+        let y_ddot = t87.neg_mul_add(phi1_ddot, t78.neg_mul_add(s2_ddot, t127));
+        let t128 = t84.mul_add(phi1_ddot, t61.neg_mul_add(s2_ddot, t126));
+        let x_ddot = t70.neg_mul_add(y_ddot, t128);
+        let t129 = t104.mul_sub(phi2_ddot, n(p.k38) * t37);
+        let t130 = t64.mul_add(y_ddot, t40.mul_add(s2_ddot, t129));
+        let theta_ddot = t53.mul_sub(x_ddot, t66.mul_add(y_ddot, n(p.k37) * t51));
+        let s1_ddot = -t42.mul_add(x_ddot, t130);
         let zero = N::ZERO;
         let accelerations = [
             x_ddot.store(),
@@ -913,28 +931,28 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let s2_dot = v[6];
     let phi2_dot = v[7];
     let theta2_dot = v[8];
-    let t0 = phi2_dot * s2;
+    let t0 = p.omega.product_error(t);
+    let t1 = p.omega * t;
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let t2 = y_dot + p.k0 * (cos_t1 - t0 * sin_t1);
+    let t3 = x_dot - p.k0 * (sin_t1 + t0 * cos_t1);
+    let t4 = theta_dot * theta;
+    let t5 = theta_dot * theta_dot;
+    let t6 = p.k8 * (t5 * p.k7 - t2 * (t4 * p.k4) + (t5 * p.k6 - t3 * (t4 * p.k5)));
+    let t7 = t6 - p.k8 * (t3 * (theta_dot * p.k4) - t2 * (theta_dot * p.k5));
+    let t8 = phi2_dot * s2;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t1 = phi1_dot * s1;
+    let t9 = phi1_dot * s1;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t2 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
-    let t3 = t0 * cos_phi2 + sin_phi2 * s2_dot + t2;
-    let t4 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
-    let t5 = cos_phi2 * s2_dot - t0 * sin_phi2 + t4;
-    let t6 = (t3 * t3 + t5 * t5) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t7 = (t2 * t2 + t4 * t4) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t8 = p.omega.product_error(t);
-    let t9 = p.omega * t;
-    let (sin_t9, cos_t9) = t9.sin_cos();
-    let t10 = y_dot + p.k0 * (cos_t9 - t8 * sin_t9);
-    let t11 = x_dot - p.k0 * (sin_t9 + t8 * cos_t9);
-    let t12 = theta_dot * theta;
-    let t13 = theta_dot * theta_dot;
-    let t14 = t13 * p.k7 - t12 * (p.k4 * t10) + (t13 * p.k6 - t12 * (p.k5 * t11));
-    let t15 = p.k8 * t14 + S::from_f64(0.5) * ((t10 * t10 + t11 * t11) * p.m0 + p.k1);
-    let t16 = t15 - p.k8 * (t11 * (theta_dot * p.k4) - t10 * (theta_dot * p.k5));
-    let t17 = t16 + (p.k3 * (y_dot * y_dot + x_dot * x_dot) + t13 * p.k2);
-    t17 + (S::from_f64(0.5) * t6 + S::from_f64(0.5) * t7)
+    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
+    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
+    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
+    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
+    let t14 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2);
+    let t15 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
+    let t16 = p.k3 * (y_dot * y_dot + x_dot * x_dot) + t5 * p.k2;
+    let t17 = S::from_f64(0.5) * ((t2 * t2 + t3 * t3) * p.m0 + p.k1) + t7;
+    t17 + (S::from_f64(0.5) * t14 + (S::from_f64(0.5) * t15 + t16))
 }
 
 /// Potential energy `V`, in J.
@@ -994,16 +1012,16 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let t9 = x_dot - t7;
     let t10 = t4 * theta_dot;
     let t11 = t2 * theta_dot;
-    let t12 = t11 * p.k27 - theta_ddot * (t4 * p.k34);
+    let t12 = t11 * p.k27 - t4 * (theta_ddot * p.k34);
     let t13 = t3 * t6 - t5 * (y_ddot - t3) + (t7 * (x_ddot - t8) + t8 * t9);
-    let t14 = theta * t11;
-    let t15 = theta_ddot * theta;
+    let t14 = theta_ddot * theta;
+    let t15 = theta * t11;
     let t16 = theta * t10;
-    let t17 = t15 * (t2 * p.k34) + (t11 * (theta_dot * p.k34) + t16 * p.k27);
-    let t18 = t14 * p.k26 - t10 * (p.k33 * theta_dot) - t15 * (p.k33 * t4) + t17;
+    let t17 = t16 * p.k27 + (t2 * (t14 * p.k34) + t11 * (theta_dot * p.k34));
+    let t18 = t15 * p.k26 - (t4 * (t14 * p.k33) + t10 * (p.k33 * theta_dot)) + t17;
     let t19 = (t2 * t6 + t4 * t9) * p.k17 - (t10 * p.k28 - t11 * p.k29) * p.k8;
-    let t20 = (t13 - (theta_ddot * (p.k33 * t2) + t10 * p.k26 - t12) - t18) * p.m0;
-    t19 - p.k32 * (t14 * p.k31 + t16 * p.k30) - t20
+    let t20 = (t13 - (t2 * (theta_ddot * p.k33) + t10 * p.k26 - t12) - t18) * p.m0;
+    t19 - p.k32 * (t15 * p.k31 + t16 * p.k30) - t20
 }
 
 /// Power that dampers take out, in W.

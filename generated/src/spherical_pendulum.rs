@@ -17,17 +17,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 5 | 0 | 1 | 0 | 0 | 6 |
+//! | `prepare` | 5 | 5 | 1 | 0 | 0 | 11 |
 //! | `start` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `mass_matrix` | 2 | 0 | 0 | 1 | 0 | 3 |
-//! | `bias` | 6 | 1 | 0 | 1 | 0 | 9 |
-//! | `applied` | 1 | 1 | 0 | 1 | 0 | 3 |
-//! | `forces` | 7 | 2 | 0 | 1 | 0 | 11 |
-//! | `accelerations` | 9 | 3 | 1 | 1 | 0 | 15 |
+//! | `bias` | 6 | 0 | 0 | 1 | 0 | 8 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 7 | 1 | 0 | 1 | 0 | 10 |
+//! | `accelerations` | 9 | 1 | 1 | 1 | 0 | 13 |
 //! | `kinetic_energy` | 4 | 1 | 0 | 1 | 0 | 6 |
-//! | `potential_energy` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_vertical_momentum` | 3 | 0 | 0 | 1 | 0 | 4 |
-//! | `output_height` | 1 | 1 | 0 | 1 | 0 | 3 |
+//! | `output_height` | 1 | 0 | 0 | 1 | 0 | 2 |
 //! | `output_tension` | 6 | 2 | 0 | 1 | 0 | 10 |
 //! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
 //!
@@ -94,10 +94,14 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
         let k0 = self.l * t0;
-        let k1 = k0 * S::from_f64(0.5);
         let k2 = self.g * t0;
         let k3 = k0 * S::from_f64(2.0);
-        let k4 = S::ONE / self.l;
+        let k1 = k0 * S::from_f64(0.5);
+        let k4 = -k0;
+        let k5 = -k2;
+        let k6 = -k3;
+        let k7 = -self.l;
+        let k8 = -(S::ONE / self.l);
         let singular = if vanishes(k0, k0, 1.7763568394002505e-15) {
             Some(singular(1, k0, k0))
         } else {
@@ -112,6 +116,10 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
             k2,
             k3,
             k4,
+            k5,
+            k6,
+            k7,
+            k8,
             singular,
         }
     }
@@ -196,8 +204,16 @@ pub struct Prepared<S = f64> {
     k2: S,
     /// `2*m*l^2`
     k3: S,
-    /// `1/l`
+    /// `-m*l^2`
     k4: S,
+    /// `-m*l*g`
+    k5: S,
+    /// `-2*m*l^2`
+    k6: S,
+    /// `-l`
+    k7: S,
+    /// `-1/l`
+    k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -227,9 +243,9 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let phi_dot = v[0];
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = sin_theta * cos_theta * phi_dot;
+    let t0 = sin_theta * (cos_theta * phi_dot);
     let h_phi = t0 * (p.k3 * theta_dot);
-    let h_theta = -(t0 * (phi_dot * p.k0));
+    let h_theta = t0 * (phi_dot * p.k4);
     [h_phi, h_theta]
 }
 
@@ -242,7 +258,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let theta = q[1];
     let sin_theta = theta.sin();
     let zero = S::ZERO;
-    let q_theta = -(p.k2 * sin_theta);
+    let q_theta = p.k5 * sin_theta;
     [zero, q_theta]
 }
 
@@ -252,8 +268,8 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
     let phi_dot = v[0];
     let theta_dot = v[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = sin_theta * cos_theta * phi_dot;
-    let f_phi = -(t0 * (p.k3 * theta_dot));
+    let t0 = sin_theta * (cos_theta * phi_dot);
+    let f_phi = t0 * (p.k6 * theta_dot);
     let f_theta = t0 * (phi_dot * p.k0) - sin_theta * p.k2;
     [f_phi, f_theta]
 }
@@ -298,8 +314,8 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t1 = t0.neg_mul_add(phi_dot * n(p.l), n(p.g));
         let t2 = sin_theta * (sin_theta * n(p.k0));
         checked(t2, t2, 1.7763568394002505e-15, 0)?;
-        let phi_ddot = -(t0 * (N::from_f64(2.0) * theta_dot) / sin_theta);
-        let theta_ddot = -(t1 * (sin_theta * n(p.k4)));
+        let phi_ddot = t0 * (N::from_f64(-2.0) * theta_dot) / sin_theta;
+        let theta_ddot = t1 * (sin_theta * n(p.k8));
         let accelerations = [phi_ddot.store(), theta_ddot.store()];
         Ok(accelerations)
     }
@@ -327,7 +343,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    -(p.k2 * cos_theta)
+    p.k5 * cos_theta
 }
 
 /// Angular momentum about the vertical: conserved. Unit: J*s.
@@ -343,7 +359,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
     let theta = q[1];
     let phi_dot = v[0];
     let sin_theta = theta.sin();
-    sin_theta * p.k0 * (sin_theta * phi_dot)
+    sin_theta * (sin_theta * (p.k0 * phi_dot))
 }
 
 /// Height of the bob above the fixed point. Unit: m.
@@ -354,7 +370,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
 pub fn output_height<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
-    -(cos_theta * p.l)
+    p.k7 * cos_theta
 }
 
 /// Tension of the rod. Unit: N.

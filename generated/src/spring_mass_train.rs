@@ -14,14 +14,14 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 3 | 0 | 1 | 0 | 0 | 4 |
-//! | `applied` | 8 | 15 | 0 | 0 | 0 | 23 |
-//! | `forces` | 8 | 15 | 0 | 0 | 0 | 23 |
-//! | `accelerations` | 9 | 15 | 0 | 0 | 0 | 24 |
+//! | `prepare` | 3 | 2 | 1 | 0 | 0 | 6 |
+//! | `applied` | 8 | 14 | 0 | 0 | 0 | 22 |
+//! | `forces` | 8 | 14 | 0 | 0 | 0 | 22 |
+//! | `accelerations` | 9 | 14 | 0 | 0 | 0 | 23 |
 //! | `kinetic_energy` | 9 | 7 | 0 | 0 | 0 | 16 |
 //! | `potential_energy` | 8 | 13 | 0 | 0 | 0 | 21 |
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
-//! | `output_drawbar` | 1 | 2 | 0 | 0 | 0 | 3 |
+//! | `output_drawbar` | 1 | 1 | 0 | 0 | 0 | 2 |
 //! | `assumption_0` | 0 | 2 | 0 | 0 | 0 | 2 |
 //! | `assumption_1` | 0 | 2 | 0 | 0 | 0 | 2 |
 //! | `assumption_2` | 0 | 2 | 0 | 0 | 0 | 2 |
@@ -88,10 +88,12 @@ impl<S> SpringMassTrain<S> {
 impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k2 = S::ONE / self.m;
+        let k3 = S::ONE / self.m;
+        let k4 = self.k * k3;
         let k0 = self.k * S::from_f64(0.5);
         let k1 = self.m * S::from_f64(0.5);
-        let k3 = self.k * k2;
+        let k2 = -self.k;
+        let k5 = -k4;
         let singular = if vanishes(self.m, self.m, 7.105427357601002e-15) {
             Some(singular(7, self.m, self.m))
         } else if vanishes(self.m, self.m, 7.105427357601002e-15) {
@@ -119,6 +121,8 @@ impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
             k1,
             k2,
             k3,
+            k4,
+            k5,
             singular,
         }
     }
@@ -204,10 +208,14 @@ pub struct Prepared<S = f64> {
     k0: S,
     /// `0.5*m`
     k1: S,
-    /// `1/m`
+    /// `-k`
     k2: S,
-    /// `k/m`
+    /// `1/m`
     k3: S,
+    /// `k/m`
+    k4: S,
+    /// `-k/m`
+    k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -266,7 +274,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<
     let t4 = u_5 - u_6;
     let t5 = u_6 - u_7;
     let t6 = u_7 - u_8;
-    let q_u_1 = -(p.k * t0);
+    let q_u_1 = p.k2 * t0;
     let q_u_2 = p.k * (t0 - t1);
     let q_u_3 = p.k * (t1 - t2);
     let q_u_4 = p.k * (t2 - t3);
@@ -294,7 +302,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S
     let t4 = u_5 - u_6;
     let t5 = u_6 - u_7;
     let t6 = u_7 - u_8;
-    let f_u_1 = -(p.k * t0);
+    let f_u_1 = p.k2 * t0;
     let f_u_2 = p.k * (t0 - t1);
     let f_u_3 = p.k * (t1 - t2);
     let f_u_4 = p.k * (t2 - t3);
@@ -352,14 +360,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t4 = u_5 - u_6;
         let t5 = u_6 - u_7;
         let t6 = u_7 - u_8;
-        let u_1_ddot = -(n(p.k3) * t0);
-        let u_2_ddot = n(p.k3) * (t0 - t1);
-        let u_3_ddot = n(p.k3) * (t1 - t2);
-        let u_4_ddot = n(p.k3) * (t2 - t3);
-        let u_5_ddot = n(p.k3) * (t3 - t4);
-        let u_6_ddot = n(p.k3) * (t4 - t5);
-        let u_7_ddot = n(p.k3) * (t5 - t6);
-        let u_8_ddot = n(p.k2) * t6.mul_add(n(p.k), n(u.pull));
+        let u_1_ddot = n(p.k5) * t0;
+        let u_2_ddot = n(p.k4) * (t0 - t1);
+        let u_3_ddot = n(p.k4) * (t1 - t2);
+        let u_4_ddot = n(p.k4) * (t2 - t3);
+        let u_5_ddot = n(p.k4) * (t3 - t4);
+        let u_6_ddot = n(p.k4) * (t4 - t5);
+        let u_7_ddot = n(p.k4) * (t5 - t6);
+        let u_8_ddot = n(p.k3) * t6.mul_add(n(p.k), n(u.pull));
         let accelerations = [
             u_1_ddot.store(),
             u_2_ddot.store(),
@@ -411,15 +419,15 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     let u_6 = q[5];
     let u_7 = q[6];
     let u_8 = q[7];
-    let t0 = u_2 - u_3;
-    let t1 = u_1 - u_2;
-    let t2 = u_4 - u_5;
-    let t3 = u_3 - u_4;
-    let t4 = u_6 - u_7;
-    let t5 = u_5 - u_6;
+    let t0 = u_4 - u_5;
+    let t1 = u_3 - u_4;
+    let t2 = u_6 - u_7;
+    let t3 = u_5 - u_6;
+    let t4 = u_2 - u_3;
+    let t5 = u_1 - u_2;
     let t6 = u_7 - u_8;
     let t7 = t0 * t0 + t1 * t1 + (t2 * t2 + t3 * t3);
-    (t7 + (t6 * t6 + (t4 * t4 + t5 * t5))) * p.k0
+    (t6 * t6 + (t4 * t4 + t5 * t5) + t7) * p.k0
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -440,7 +448,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
 pub fn output_drawbar<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_7 = q[6];
     let u_8 = q[7];
-    -((u_7 - u_8) * p.k)
+    p.k2 * (u_7 - u_8)
 }
 
 /// By how much `d + u[2] - u[1] > 0` holds.

@@ -16,14 +16,14 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 10 | 3 | 2 | 0 | 0 | 15 |
+//! | `prepare` | 10 | 7 | 2 | 0 | 0 | 19 |
 //! | `mass_matrix` | 2 | 0 | 0 | 0 | 0 | 2 |
-//! | `bias` | 5 | 1 | 0 | 0 | 0 | 6 |
-//! | `applied` | 1 | 1 | 1 | 0 | 0 | 3 |
-//! | `forces` | 6 | 2 | 1 | 0 | 0 | 9 |
-//! | `accelerations` | 11 | 3 | 1 | 0 | 0 | 15 |
+//! | `bias` | 5 | 0 | 0 | 0 | 0 | 5 |
+//! | `applied` | 1 | 0 | 1 | 0 | 0 | 2 |
+//! | `forces` | 6 | 1 | 1 | 0 | 0 | 8 |
+//! | `accelerations` | 11 | 1 | 1 | 0 | 0 | 13 |
 //! | `kinetic_energy` | 4 | 1 | 0 | 0 | 0 | 5 |
-//! | `potential_energy` | 0 | 1 | 1 | 0 | 0 | 2 |
+//! | `potential_energy` | 0 | 0 | 1 | 0 | 0 | 1 |
 //! | `output_momentum` | 3 | 0 | 0 | 0 | 0 | 3 |
 //! | `output_eccentricity_x` | 7 | 2 | 0 | 1 | 0 | 11 |
 //! | `output_eccentricity_y` | 7 | 3 | 0 | 1 | 0 | 12 |
@@ -89,19 +89,23 @@ impl<S> TwoBodyOrbit<S> {
 impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.m2 + self.m1;
-        let k7 = S::ONE / k0;
-        let t0 = self.m1 * k7;
-        let k3 = self.m2 * t0;
-        let t1 = k7 * (self.m2 * k3);
-        let t2 = t0 * k3;
-        let k4 = t1 + t2;
-        let k1 = k7 / self.G;
-        let k2 = self.G * (self.m2 * self.m1);
-        let k5 = t2 * S::from_f64(0.5) + t1 * S::from_f64(0.5);
-        let k6 = k3 * S::from_f64(2.0);
-        let singular = if vanishes(k3, k4, 1.7763568394002505e-15) {
-            Some(singular(0, k3, k4))
+        let t0 = self.m2 + self.m1;
+        let k9 = S::ONE / t0;
+        let k1 = self.G * (self.m2 * self.m1);
+        let t1 = self.m1 * k9;
+        let k2 = self.m2 * t1;
+        let t2 = k9 * (self.m2 * k2);
+        let t3 = t1 * k2;
+        let k3 = t2 + t3;
+        let k5 = k2 * S::from_f64(2.0);
+        let k0 = k9 / self.G;
+        let k4 = t3 * S::from_f64(0.5) + t2 * S::from_f64(0.5);
+        let k6 = -k2;
+        let k7 = -k1;
+        let k8 = -k5;
+        let k10 = -t0;
+        let singular = if vanishes(k2, k3, 1.7763568394002505e-15) {
+            Some(singular(0, k2, k3))
         } else {
             None
         };
@@ -115,6 +119,9 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
             k5,
             k6,
             k7,
+            k8,
+            k9,
+            k10,
             singular,
         }
     }
@@ -183,22 +190,28 @@ pub struct Outputs<S = f64> {
 pub struct Prepared<S = f64> {
     /// `G`
     G: S,
-    /// `m1 + m2`
-    k0: S,
     /// `1/G/(m1 + m2)`
-    k1: S,
+    k0: S,
     /// `m1*m2*G`
-    k2: S,
+    k1: S,
     /// `m1*m2/(m1 + m2)`
-    k3: S,
+    k2: S,
     /// `m1^2*m2/(m1 + m2)^2 + m1*m2^2/(m1 + m2)^2`
-    k4: S,
+    k3: S,
     /// `0.5*m1*m2^2/(m1 + m2)^2 + 0.5*m1^2*m2/(m1 + m2)^2`
-    k5: S,
+    k4: S,
     /// `2*m1*m2/(m1 + m2)`
+    k5: S,
+    /// `-m1*m2/(m1 + m2)`
     k6: S,
-    /// `1/(m1 + m2)`
+    /// `-m1*m2*G`
     k7: S,
+    /// `-2*m1*m2/(m1 + m2)`
+    k8: S,
+    /// `1/(m1 + m2)`
+    k9: S,
+    /// `-(m1 + m2)`
+    k10: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -212,8 +225,8 @@ pub struct Prepared<S = f64> {
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let r = q[0];
     let zero = S::ZERO;
-    let m22 = r * (r * p.k3);
-    [[p.k4, zero], [zero, m22]]
+    let m22 = r * (r * p.k2);
+    [[p.k3, zero], [zero, m22]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -227,8 +240,8 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    let h_r = -(t0 * (phi_dot * p.k3));
-    let h_phi = t0 * (p.k6 * r_dot);
+    let h_r = t0 * (phi_dot * p.k6);
+    let h_phi = t0 * (p.k5 * r_dot);
     [h_r, h_phi]
 }
 
@@ -239,7 +252,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 /// ```
 pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let r = q[0];
-    let q_r = -(p.k2 / (r * r));
+    let q_r = p.k7 / (r * r);
     let zero = S::ZERO;
     [q_r, zero]
 }
@@ -250,8 +263,8 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    let f_r = t0 * (phi_dot * p.k3) - p.k2 / (r * r);
-    let f_phi = -(t0 * (p.k6 * r_dot));
+    let f_r = t0 * (phi_dot * p.k2) - p.k1 / (r * r);
+    let f_phi = t0 * (p.k8 * r_dot);
     [f_r, f_phi]
 }
 
@@ -291,11 +304,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let r_dot = n(v[0]);
         let phi_dot = n(v[1]);
         let t0 = N::ONE / r;
-        let t1 = t0.mul_sub(t0 * n(p.G), r * n(p.k7) * (phi_dot * phi_dot));
-        let t2 = r * (r * n(p.k3));
+        let t1 = t0.mul_sub(t0 * n(p.G), r * n(p.k9) * (phi_dot * phi_dot));
+        let t2 = r * (r * n(p.k2));
         checked(t2, t2, 1.7763568394002505e-15, 1)?;
-        let r_ddot = -(t1 * n(p.k0));
-        let phi_ddot = -(t0 * N::from_f64(2.0) * (phi_dot * r_dot));
+        let r_ddot = n(p.k10) * t1;
+        let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
         let accelerations = [r_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
     }
@@ -311,7 +324,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = phi_dot * r;
-    p.k5 * (t0 * t0 + r_dot * r_dot)
+    p.k4 * (t0 * t0 + r_dot * r_dot)
 }
 
 /// Potential energy `V`, in J.
@@ -321,7 +334,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 /// ```
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let r = q[0];
-    -(p.k2 / r)
+    p.k7 / r
 }
 
 /// Angular momentum about the mass centre: conserved. Unit: J*s.
@@ -332,7 +345,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
 pub fn output_momentum<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
     let r = q[0];
     let phi_dot = v[1];
-    r * p.k3 * (r * phi_dot)
+    r * p.k2 * (r * phi_dot)
 }
 
 /// The eccentricity vector in ground axes: conserved. Unit: 1.
@@ -351,9 +364,9 @@ pub fn output_eccentricity_x<S: ::lagrangian::Scalar>(
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = r * phi_dot;
-    let t1 = p.k1 * r * t0;
+    let t1 = p.k0 * r * t0;
     let (sin_phi, cos_phi) = phi.sin_cos();
-    t1 * (sin_phi * r_dot) - cos_phi * (S::ONE - t0 * t1)
+    sin_phi * (t1 * r_dot) - cos_phi * (S::ONE - t0 * t1)
 }
 
 /// `eccentricity_y`. Unit: 1.
@@ -372,9 +385,9 @@ pub fn output_eccentricity_y<S: ::lagrangian::Scalar>(
     let r_dot = v[0];
     let phi_dot = v[1];
     let t0 = r * phi_dot;
-    let t1 = p.k1 * r * t0;
+    let t1 = p.k0 * r * t0;
     let (sin_phi, cos_phi) = phi.sin_cos();
-    -(t1 * (cos_phi * r_dot) + sin_phi * (S::ONE - t0 * t1))
+    -(cos_phi * (t1 * r_dot) + sin_phi * (S::ONE - t0 * t1))
 }
 
 /// By how much `r > 0` holds.

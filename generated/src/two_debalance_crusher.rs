@@ -15,17 +15,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 22 | 6 | 2 | 0 | 0 | 30 |
-//! | `mass_matrix` | 30 | 7 | 0 | 3 | 0 | 43 |
-//! | `bias` | 55 | 37 | 0 | 4 | 0 | 100 |
+//! | `prepare` | 22 | 11 | 2 | 0 | 0 | 35 |
+//! | `mass_matrix` | 26 | 3 | 0 | 3 | 0 | 35 |
+//! | `bias` | 53 | 35 | 0 | 4 | 0 | 96 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
-//! | `forces` | 69 | 53 | 0 | 4 | 0 | 130 |
-//! | `accelerations` | 71 | 49 | 2 | 3 | 0 | 128 |
+//! | `forces` | 67 | 51 | 0 | 4 | 0 | 126 |
+//! | `accelerations` | 73 | 45 | 2 | 3 | 0 | 126 |
 //! | `kinetic_energy` | 44 | 34 | 0 | 4 | 0 | 86 |
-//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `work_rate` | 20 | 17 | 0 | 2 | 0 | 41 |
-//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `work_rate` | 18 | 17 | 0 | 2 | 0 | 39 |
+//! | `dissipation_rate` | 8 | 7 | 0 | 0 | 0 | 15 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -172,9 +172,9 @@ impl<S: ::lagrangian::Scalar> TwoDebalanceCrusher<S> {
         let pivot_1 = self.m + t0;
         let k10 = k7 + pivot_1;
         let k13 = self.J + (t0 * (self.y0 * self.y0) + self.x0 * k9);
-        let k18 = S::ONE / pivot_1;
-        let pivot_2 = k13 - k8 * k8 * (k18 * S::from_f64(4.0));
-        let k16 = S::ONE / pivot_2;
+        let k20 = S::ONE / pivot_1;
+        let pivot_2 = k13 - k20 * (k8 * (k8 * S::from_f64(4.0)));
+        let t1 = S::ONE / pivot_2;
         let k1 = self.omega * (self.omega * self.J0);
         let k2 = self.cx * S::from_f64(0.5);
         let k3 = self.cy * S::from_f64(0.5);
@@ -182,9 +182,14 @@ impl<S: ::lagrangian::Scalar> TwoDebalanceCrusher<S> {
         let k5 = self.by * S::from_f64(0.5);
         let k11 = self.m0 * self.y0;
         let k12 = self.m0 * k0;
-        let k14 = k6 * t0;
-        let k15 = k9 * k18;
-        let k17 = k9 * k16;
+        let k14 = -k9;
+        let k15 = -k7;
+        let k16 = -self.m2;
+        let k17 = k6 * t0;
+        let k18 = k9 * k20;
+        let k19 = k9 * t1;
+        let k21 = -k20;
+        let k22 = -t1;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -238,6 +243,10 @@ impl<S: ::lagrangian::Scalar> TwoDebalanceCrusher<S> {
             k16,
             k17,
             k18,
+            k19,
+            k20,
+            k21,
+            k22,
             singular,
         }
     }
@@ -398,16 +407,24 @@ pub struct Prepared<S = f64> {
     k12: S,
     /// `J + 2*m0*x0^2 + 2*m0*y0^2`
     k13: S,
-    /// `2*m0*e*omega^2`
+    /// `-2*m0*x0`
     k14: S,
-    /// `2*m0*x0/(m + 2*m0)`
+    /// `-(m1 + m2)`
     k15: S,
-    /// `1/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    /// `-m2`
     k16: S,
-    /// `2*m0*x0/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    /// `2*m0*e*omega^2`
     k17: S,
-    /// `1/(m + 2*m0)`
+    /// `2*m0*x0/(m + 2*m0)`
     k18: S,
+    /// `2*m0*x0/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    k19: S,
+    /// `1/(m + 2*m0)`
+    k20: S,
+    /// `-1/(m + 2*m0)`
+    k21: S,
+    /// `-1/(J + 2*m0*x0^2 + 2*m0*y0^2 - 4*m0^2*x0^2/(m + 2*m0))`
+    k22: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -447,29 +464,30 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let phi2 = q[7];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k7 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
-    let m31 = -(p.k9 * sin_theta);
-    let m32 = p.k9 * cos_theta;
+    let m31 = p.k14 * sin_theta;
+    let m32 = cos_theta * p.k9;
     let m41 = p.k7 * cos_phi1;
     let m42 = p.k7 * sin_phi1;
-    let m51 = -(p.k7 * t0);
-    let m52 = p.k7 * t1;
-    let m55 = s1 * (p.k7 * s1);
+    let m51 = sin_phi1 * (s1 * p.k15);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k16);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k10, zero, m31, m41, m51, zero, m71, m81, zero],
         [zero, p.k10, m32, m42, m52, zero, m72, m82, zero],
@@ -518,43 +536,41 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let (sin_t1, cos_t1) = t1.sin_cos();
     let t2 = p.k6 * (cos_t1 - t0 * sin_t1);
     let t3 = theta_dot * theta_dot;
-    let t4 = t3 * p.x0;
+    let t4 = t3 * p.y0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t5 = cos_theta * t4;
-    let t6 = t3 * p.y0;
-    let t7 = t6 * sin_theta;
-    let t8 = t2 + (t5 - t7);
-    let t9 = phi2_dot * phi2_dot;
+    let t5 = t4 * sin_theta;
+    let t6 = t3 * p.x0;
+    let t7 = cos_theta * t6;
+    let t8 = t2 + (t5 + t7);
+    let t9 = t2 + (t7 - t5);
+    let t10 = t8 + t9;
+    let t11 = S::from_f64(2.0) * s2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t10 = cos_phi2 * s2;
-    let t11 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t12 = phi1_dot * phi1_dot;
+    let t12 = phi2_dot * s2;
+    let t13 = S::from_f64(2.0) * s1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t13 = cos_phi1 * s1;
-    let t14 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t15 = t14 * sin_phi1 + t12 * t13;
-    let t16 = t11 * sin_phi2 + t9 * t10 + t15;
+    let t14 = phi1_dot * s1;
+    let t15 = phi1_dot * (t13 * sin_phi1 + cos_phi1 * t14);
+    let t16 = phi2_dot * (t11 * sin_phi2 + cos_phi2 * t12) + t15;
     let t17 = t16 * p.m2 + t15 * p.m1;
-    let t18 = t2 + (t7 + t5);
-    let t19 = p.k6 * (sin_t1 + t0 * cos_t1);
-    let t20 = sin_theta * t4;
-    let t21 = t6 * cos_theta;
-    let t22 = t19 + (t20 + t21);
-    let t23 = sin_phi2 * s2;
-    let t24 = sin_phi1 * s1;
-    let t25 = t12 * t24 - t14 * cos_phi1;
-    let t26 = t9 * t23 - t11 * cos_phi2 + t25;
-    let t27 = p.m2 * t26 + p.m1 * t25;
-    let t28 = t19 + (t21 - t20);
-    let t29 = cos_theta * (p.k8 * (t22 - t28) - p.k11 * (t8 - t18));
-    let h_x = -(p.m0 * t18 + (p.m0 * t8 + t17));
-    let h_y = p.m0 * t28 - (p.m0 * t22 + t27);
-    let h_theta = sin_theta * (p.k8 * (t18 + t8) + p.k11 * (t28 + t22)) - t29;
-    let h_s1 = -(cos_phi1 * t17 + sin_phi1 * t27);
-    let h_phi1 = t17 * t24 - t13 * t27;
+    let t18 = p.k6 * (sin_t1 + t0 * cos_t1);
+    let t19 = sin_theta * t6;
+    let t20 = t4 * cos_theta;
+    let t21 = t18 + (t19 + t20);
+    let t22 = t18 + (t20 - t19);
+    let t23 = t21 - t22;
+    let t24 = phi1_dot * (sin_phi1 * t14 - t13 * cos_phi1);
+    let t25 = phi2_dot * (sin_phi2 * t12 - t11 * cos_phi2) + t24;
+    let t26 = p.m2 * t25 + p.m1 * t24;
+    let t27 = sin_theta * (t10 * p.k8 + p.k11 * (t22 + t21));
+    let h_x = -(p.m0 * t10 + t17);
+    let h_y = -(p.m0 * t23 + t26);
+    let h_theta = t27 - cos_theta * (t23 * p.k8 - p.k11 * (t9 - t8));
+    let h_s1 = -(cos_phi1 * t17 + sin_phi1 * t26);
+    let h_phi1 = -(s1 * (cos_phi1 * t26 - sin_phi1 * t17));
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t16 + sin_phi2 * t26));
-    let h_phi2 = -(p.m2 * (t10 * t26 - t16 * t23));
+    let h_s2 = p.k16 * (cos_phi2 * t16 + sin_phi2 * t25);
+    let h_phi2 = (cos_phi2 * t25 - sin_phi2 * t16) * (s2 * p.k16);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -608,52 +624,50 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let (sin_t1, cos_t1) = t1.sin_cos();
     let t2 = p.k6 * (cos_t1 - t0 * sin_t1);
     let t3 = theta_dot * theta_dot;
-    let t4 = t3 * p.x0;
+    let t4 = t3 * p.y0;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t5 = cos_theta * t4;
-    let t6 = t3 * p.y0;
-    let t7 = t6 * sin_theta;
-    let t8 = t2 + (t5 - t7);
-    let t9 = phi2_dot * phi2_dot;
+    let t5 = t4 * sin_theta;
+    let t6 = t3 * p.x0;
+    let t7 = cos_theta * t6;
+    let t8 = t2 + (t5 + t7);
+    let t9 = t2 + (t7 - t5);
+    let t10 = t8 + t9;
+    let t11 = S::from_f64(2.0) * s2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t10 = cos_phi2 * s2;
-    let t11 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t12 = phi1_dot * phi1_dot;
+    let t12 = phi2_dot * s2;
+    let t13 = S::from_f64(2.0) * s1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t13 = cos_phi1 * s1;
-    let t14 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t15 = t14 * sin_phi1 + t12 * t13;
-    let t16 = t11 * sin_phi2 + t9 * t10 + t15;
+    let t14 = phi1_dot * s1;
+    let t15 = phi1_dot * (t13 * sin_phi1 + cos_phi1 * t14);
+    let t16 = phi2_dot * (t11 * sin_phi2 + cos_phi2 * t12) + t15;
     let t17 = t16 * p.m2 + t15 * p.m1;
-    let t18 = t2 + (t7 + t5);
-    let t19 = theta_dot * p.yc;
-    let t20 = p.yc * theta;
-    let t21 = p.bx * (t19 + x_dot) + p.cx * (t20 + x);
-    let t22 = p.bx * (x_dot - t19) + p.cx * (x - t20);
-    let t23 = p.k6 * (sin_t1 + t0 * cos_t1);
-    let t24 = sin_theta * t4;
-    let t25 = t6 * cos_theta;
-    let t26 = t23 + (t24 + t25);
-    let t27 = sin_phi2 * s2;
-    let t28 = sin_phi1 * s1;
-    let t29 = t12 * t28 - t14 * cos_phi1;
-    let t30 = t9 * t27 - t11 * cos_phi2 + t29;
-    let t31 = p.m2 * t30 + p.m1 * t29;
-    let t32 = t23 + (t25 - t24);
-    let t33 = theta_dot * p.xc;
-    let t34 = theta * p.xc;
-    let t35 = p.by * (t33 + y_dot) + p.cy * (t34 + y);
-    let t36 = p.by * (y_dot - t33) + p.cy * (y - t34);
-    let t37 = sin_theta * (p.k8 * (t18 + t8) + p.k11 * (t32 + t26));
-    let t38 = cos_theta * (p.k8 * (t26 - t32) - p.k11 * (t8 - t18)) - t37;
-    let f_x = p.m0 * t8 + t17 + (p.m0 * t18 - t21) - t22;
-    let f_y = p.m0 * t26 + t31 - (t35 + p.m0 * t32) - t36;
-    let f_theta = t38 - (p.yc * (t21 - t22) + p.xc * (t35 - t36));
-    let f_s1 = cos_phi1 * t17 + sin_phi1 * t31;
-    let f_phi1 = t13 * t31 - t17 * t28;
+    let t18 = theta_dot * p.yc;
+    let t19 = p.yc * theta;
+    let t20 = p.bx * (x_dot - t18) + p.cx * (x - t19);
+    let t21 = p.bx * (t18 + x_dot) + p.cx * (t19 + x);
+    let t22 = p.k6 * (sin_t1 + t0 * cos_t1);
+    let t23 = sin_theta * t6;
+    let t24 = t4 * cos_theta;
+    let t25 = t22 + (t23 + t24);
+    let t26 = t22 + (t24 - t23);
+    let t27 = t25 - t26;
+    let t28 = phi1_dot * (sin_phi1 * t14 - t13 * cos_phi1);
+    let t29 = phi2_dot * (sin_phi2 * t12 - t11 * cos_phi2) + t28;
+    let t30 = p.m2 * t29 + p.m1 * t28;
+    let t31 = theta_dot * p.xc;
+    let t32 = theta * p.xc;
+    let t33 = p.by * (y_dot - t31) + p.cy * (y - t32);
+    let t34 = p.by * (t31 + y_dot) + p.cy * (t32 + y);
+    let t35 = cos_theta * (t27 * p.k8 - p.k11 * (t9 - t8));
+    let t36 = t35 - (p.yc * (t21 - t20) + p.xc * (t34 - t33));
+    let f_x = p.m0 * t10 + (t17 - (t20 + t21));
+    let f_y = p.m0 * t27 + (t30 - (t33 + t34));
+    let f_theta = t36 - sin_theta * (t10 * p.k8 + p.k11 * (t26 + t25));
+    let f_s1 = cos_phi1 * t17 + sin_phi1 * t30;
+    let f_phi1 = s1 * (cos_phi1 * t30 - sin_phi1 * t17);
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (cos_phi2 * t16 + sin_phi2 * t30);
-    let f_phi2 = p.m2 * (t10 * t30 - t16 * t27);
+    let f_s2 = p.m2 * (cos_phi2 * t16 + sin_phi2 * t29);
+    let f_phi2 = (cos_phi2 * t29 - sin_phi2 * t16) * (s2 * p.m2);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -706,61 +720,65 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let s2_dot = n(v[6]);
         let phi2_dot = n(v[7]);
         let t0 = n(p.omega) * n(t);
-        let angles = [t0, theta, phi1];
+        let angles = [theta, t0, phi1];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
         let (sin_phi1, cos_phi1) = circular[2];
-        let t1 = n(p.omega).product_error(n(t));
-        let t2 = t1.neg_mul_add(sin_t0, cos_t0);
-        let t3 = theta_dot * theta_dot;
-        let t4 = cos_theta * t3;
-        let t5 = t2.mul_add(n(p.k6), t4 * n(p.x0));
-        let t6 = sin_theta * t3;
-        let t7 = t6 * n(p.y0);
-        let t8 = sin_theta * n(p.x0);
-        let t9 = cos_theta * n(p.y0);
-        let t10 = t1.mul_add(cos_t0, sin_t0).mul_add(n(p.k6), t4 * n(p.y0));
-        let t11 = n(p.x0) * t6;
-        let t12 = sin_theta * n(p.y0);
-        let t13 = cos_theta * n(p.x0);
-        let t14 = (t10 - t11) * (n(p.m0) * (t12 + t13));
-        let t15 = theta_dot * n(p.yc);
-        let t16 = theta * n(p.yc);
-        let t17 = n(p.bx).mul_add(t15 + x_dot, n(p.cx) * (t16 + x));
-        let t18 = theta_dot * n(p.xc);
-        let t19 = theta * n(p.xc);
-        let t20 = n(p.by).mul_add(t18 + y_dot, n(p.cy) * (t19 + y));
-        let t21 = (t5 - t7).mul_add(n(p.m0) * (t8 + t9), t14);
-        let t22 = n(p.bx).mul_add(x_dot - t15, n(p.cx) * (x - t16));
-        let t23 = t22 + t17 - t2.mul_add(n(p.k14), t4 * n(p.k9));
-        let t24 = n(p.by).mul_add(y_dot - t18, n(p.cy) * (y - t19));
-        let t25 = (t10 + t11).mul_add(n(p.m0) * (t13 - t12), n(p.yc) * t22);
-        let t26 = t23.mul_sub(n(p.k15) * sin_theta, n(p.xc) * t24) - t25;
-        let t27 = n(p.k9).neg_mul_add(t6, t24 + t20);
-        let t28 = t27 * (n(p.k15) * cos_theta);
-        let t29 = n(p.yc).mul_add(t17, n(p.xc) * t20) + t21 + t26;
-        let t30 = t29 - (t5 + t7).mul_add(n(p.m0) * (t9 - t8), t28);
-        let t31 = n(p.k17) * t30;
-        let t32 = n(p.k18) * sin_theta.mul_add(t31, t23);
-        let t33 = n(p.k18) * cos_theta.neg_mul_add(t31, t27);
-        let t34 = t32.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
-        let t35 = phi1_dot * (N::from_f64(2.0) * s1_dot);
-        let t36 = t33.neg_mul_add(cos_phi1, t32.mul_add(sin_phi1, t35)) / s1;
-        let t37 = s2 * (s2 * n(p.m2));
-        checked(t37, t37, 7.993605777301127e-15, 7)?;
-        let t38 = s1 * s1;
-        let t39 = t38 * n(p.m1);
-        let t40 = t38 * n(p.k7);
-        checked(t39, t40, 7.993605777301127e-15, 4)?;
-        let x_ddot = -t32;
-        let y_ddot = -t33;
-        let theta_ddot = -(t30 * n(p.k16));
-        let s1_ddot = t33.mul_add(sin_phi1, t34);
-        let phi1_ddot = -t36;
+        let t1 = theta_dot * n(p.yc);
+        let t2 = theta * n(p.yc);
+        let t3 = n(p.bx).mul_add(t1 + x_dot, n(p.cx) * (t2 + x));
+        let t4 = theta_dot * n(p.xc);
+        let t5 = theta * n(p.xc);
+        let t6 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t5 + y));
+        let t7 = n(p.bx).mul_add(x_dot - t1, n(p.cx) * (x - t2));
+        let t8 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t5));
+        let t9 = n(p.yc).mul_add(t7, n(p.xc) * t8);
+        let t10 = theta_dot * theta_dot;
+        let t11 = sin_theta * t10;
+        let t12 = n(p.k9).neg_mul_add(t11, t8 + t6);
+        let t13 = n(p.yc).mul_add(t3, n(p.xc) * t6) - t9;
+        let t14 = cos_theta * t10;
+        let t15 = n(p.omega).product_error(n(t));
+        let t16 = t15.neg_mul_add(sin_t0, cos_t0);
+        let t17 = t14.neg_mul_add(n(p.k9), t7 + t3);
+        let t18 = t16.neg_mul_add(n(p.k17), t17);
+        let t19 = t12.neg_mul_add(n(p.k18) * cos_theta, t13);
+        let t20 = t16.mul_add(n(p.k6), t14 * n(p.x0));
+        let t21 = t11 * n(p.y0);
+        let t22 = sin_theta * n(p.x0);
+        let t23 = cos_theta * n(p.y0);
+        let t24 = t15.mul_add(cos_t0, sin_t0);
+        let t25 = t24.mul_add(n(p.k6), t14 * n(p.y0));
+        let t26 = n(p.x0) * t11;
+        let t27 = sin_theta * n(p.y0);
+        let t28 = cos_theta * n(p.x0);
+        let t29 = (t25 - t26) * (n(p.m0) * (t27 + t28));
+        let t30 = (t20 - t21).mul_add(n(p.m0) * (t22 + t23), t29);
+        let t31 = (t25 + t26) * (n(p.m0) * (t28 - t27));
+        let t32 = (t20 + t21).mul_add(n(p.m0) * (t23 - t22), t31);
+        let t33 = t18.mul_add(n(p.k18) * sin_theta, t19) + t30 - t32;
+        let t34 = n(p.k19) * t33;
+        let t35 = sin_theta.mul_add(t34, t18);
+        let t36 = cos_theta.neg_mul_add(t34, t12);
+        let t37 = n(p.k20) * sin_phi1;
+        let t38 = n(p.k20) * cos_phi1;
+        let t39 = t35.mul_add(t38, phi1_dot * (phi1_dot * s1));
+        let t40 = t35.mul_add(t37, phi1_dot * (N::from_f64(2.0) * s1_dot));
+        let t41 = s2 * (s2 * n(p.m2));
+        checked(t41, t41, 7.993605777301127e-15, 7)?;
+        let t42 = s1 * s1;
+        let t43 = t42 * n(p.m1);
+        let t44 = t42 * n(p.k7);
+        checked(t43, t44, 7.993605777301127e-15, 4)?;
+        let x_ddot = n(p.k21) * t35;
+        let y_ddot = n(p.k21) * t36;
+        let theta_ddot = t33 * n(p.k22);
+        let s1_ddot = t36.mul_add(t37, t39);
+        let phi1_ddot = -(t36.neg_mul_add(t38, t40) / s1);
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
-        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
+        let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
         let accelerations = [
             x_ddot.store(),
             y_ddot.store(),
@@ -805,26 +823,26 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t4 = t3 * cos_theta + y_dot;
     let t5 = theta_dot * p.y0;
     let t6 = sin_theta * t5;
-    let t7 = t2 + (t4 - t6);
-    let t8 = x_dot - t3 * sin_theta;
-    let t9 = cos_theta * t5;
-    let t10 = p.k0 * (sin_t1 + t0 * cos_t1);
-    let t11 = t8 - t9 - t10;
-    let t12 = phi2_dot * s2;
+    let t7 = t2 - (t4 + t6);
+    let t8 = p.k0 * (sin_t1 + t0 * cos_t1);
+    let t9 = x_dot - t3 * sin_theta;
+    let t10 = cos_theta * t5;
+    let t11 = t8 - (t9 + t10);
+    let t12 = t2 + (t4 - t6);
+    let t13 = t9 - t10 - t8;
+    let t14 = p.k1 + p.m0 * (t12 * t12 + t13 * t13);
+    let t15 = phi2_dot * s2;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t13 = phi1_dot * s1;
+    let t16 = phi1_dot * s1;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t14 = y_dot + (t13 * cos_phi1 + sin_phi1 * s1_dot);
-    let t15 = t12 * cos_phi2 + sin_phi2 * s2_dot + t14;
-    let t16 = x_dot + (cos_phi1 * s1_dot - t13 * sin_phi1);
-    let t17 = cos_phi2 * s2_dot - t12 * sin_phi2 + t16;
-    let t18 = (t15 * t15 + t17 * t17) * p.m2 + theta2_dot * (theta2_dot * p.J2);
-    let t19 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t20 = (t14 * t14 + t16 * t16) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t19;
-    let t21 = t2 - (t4 + t6);
-    let t22 = t10 - (t8 + t9);
-    let t23 = t20 + (p.k1 + p.m0 * (t7 * t7 + t11 * t11) + t18);
-    (p.k1 + p.m0 * (t21 * t21 + t22 * t22) + t23) * S::from_f64(0.5)
+    let t17 = y_dot + (t16 * cos_phi1 + sin_phi1 * s1_dot);
+    let t18 = t15 * cos_phi2 + sin_phi2 * s2_dot + t17;
+    let t19 = x_dot + (cos_phi1 * s1_dot - t16 * sin_phi1);
+    let t20 = cos_phi2 * s2_dot - t15 * sin_phi2 + t19;
+    let t21 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t22 = (t17 * t17 + t19 * t19) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t21;
+    let t23 = (t18 * t18 + t20 * t20) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t22;
+    (t23 + (p.k1 + p.m0 * (t7 * t7 + t11 * t11) + t14)) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -836,14 +854,13 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
     let x = q[0];
     let y = q[1];
     let theta = q[2];
-    let t0 = theta * p.yc;
-    let t1 = t0 + x;
-    let t2 = x - t0;
-    let t3 = theta * p.xc;
-    let t4 = t3 + y;
-    let t5 = y - t3;
-    let t6 = t4 * (p.k3 * t4) + t5 * (p.k3 * t5);
-    t1 * (p.k2 * t1) + t2 * (p.k2 * t2) + t6
+    let t0 = theta * p.xc;
+    let t1 = t0 + y;
+    let t2 = y - t0;
+    let t3 = theta * p.yc;
+    let t4 = t3 + x;
+    let t5 = x - t3;
+    (t1 * t1 + t2 * t2) * p.k3 + (t4 * t4 + t5 * t5) * p.k2
 }
 
 /// Dissipation function `D`, in W.
@@ -855,14 +872,13 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (p.k5 * t4) + t5 * (p.k5 * t5);
-    t1 * (p.k4 * t1) + t2 * (p.k4 * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.k5 + (t4 * t4 + t5 * t5) * p.k4
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -885,7 +901,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = theta_dot * theta_dot;
     let t1 = sin_theta * theta_ddot + cos_theta * t0;
-    let t2 = x_ddot - p.x0 * t1;
+    let t2 = x_ddot - t1 * p.x0;
     let t3 = sin_theta * t0 - cos_theta * theta_ddot;
     let t4 = t3 * p.y0;
     let t5 = p.omega.product_error(t);
@@ -894,11 +910,11 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let t7 = cos_t6 - t5 * sin_t6;
     let t8 = t7 * p.k6;
     let t9 = sin_t6 + t5 * cos_t6;
-    let t10 = y_ddot - t3 * p.x0;
+    let t10 = y_ddot - p.x0 * t3;
     let t11 = t1 * p.y0;
     let t12 = t9 * p.k6;
-    let t13 = t7 * (t12 + (t10 + t11)) + t7 * (t12 - (t10 - t11));
-    (t9 * (t8 - (t2 - t4)) + t9 * (t8 - (t2 + t4)) - t13) * p.k12
+    let t13 = t7 * (t12 + (t10 + t11) + (t12 - (t10 - t11)));
+    (t9 * (t8 - (t2 - t4) + (t8 - (t2 + t4))) - t13) * p.k12
 }
 
 /// Power that dampers take out, in W.
@@ -910,14 +926,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
-    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.by + (t4 * t4 + t5 * t5) * p.bx
 }
 
 /// By how much `s1 > 0` holds.

@@ -14,13 +14,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 16 | 5 | 1 | 0 | 0 | 22 |
+//! | `prepare` | 14 | 5 | 0 | 0 | 0 | 19 |
 //! | `start` | 2 | 0 | 0 | 0 | 0 | 2 |
-//! | `mass_matrix` | 4 | 4 | 0 | 2 | 0 | 12 |
-//! | `bias` | 18 | 10 | 0 | 2 | 0 | 32 |
+//! | `mass_matrix` | 2 | 2 | 0 | 1 | 0 | 5 |
+//! | `bias` | 7 | 2 | 0 | 1 | 0 | 10 |
 //! | `applied` | 2 | 4 | 0 | 2 | 0 | 8 |
-//! | `forces` | 20 | 13 | 0 | 2 | 0 | 37 |
-//! | `accelerations` | 28 | 17 | 1 | 2 | 0 | 50 |
+//! | `forces` | 9 | 7 | 0 | 3 | 0 | 19 |
+//! | `accelerations` | 16 | 12 | 2 | 3 | 0 | 34 |
 //! | `kinetic_energy` | 14 | 7 | 0 | 2 | 0 | 25 |
 //! | `potential_energy` | 4 | 3 | 0 | 2 | 0 | 9 |
 //! | `work_rate` | 2 | 1 | 0 | 0 | 0 | 3 |
@@ -110,38 +110,26 @@ impl<S> TwoJointArm<S> {
 impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k10 = self.c1 * self.m1;
-        let k1 = self.c1 * k10;
-        let k2 = self.g * k10;
-        let t0 = k1 + self.J1;
-        let k6 = self.c2 * self.m2;
-        let k5 = self.J2 + self.c2 * k6;
-        let k7 = self.l1 * self.m2;
-        let k11 = self.c2 * k7;
-        let k16 = t0 + self.l1 * k7;
-        let k17 = S::ONE / k5;
-        let k15 = k11 * k17;
+        let t0 = self.m1 * self.c1;
+        let k1 = t0 * self.g;
+        let t1 = self.c1 * t0 + self.J1;
+        let t2 = self.c2 * self.m2;
+        let k4 = self.J2 + self.c2 * t2;
+        let t3 = self.l1 * self.m2;
+        let k7 = self.c2 * t3;
         let k0 = self.l1 * self.l2;
-        let k3 = self.m2 * self.g;
-        let k4 = S::from_f64(0.5) * t0;
-        let k8 = self.g * k6;
-        let k9 = k2 + self.g * k7;
-        let k12 = k11 * S::from_f64(2.0);
-        let k13 = k5 + k16;
-        let k14 = k11 * k15;
-        let singular = if vanishes(k5, k5, 1.7763568394002505e-15) {
-            Some(singular(1, k5, k5))
-        } else {
-            None
-        };
+        let k2 = self.m2 * self.g;
+        let k3 = S::from_f64(0.5) * t1;
+        let k5 = self.g * t2;
+        let k6 = k1 + self.g * t3;
+        let k8 = k7 * S::from_f64(2.0);
+        let k9 = k4 + (t1 + self.l1 * t3);
         Prepared {
             l1: self.l1,
             l2: self.l2,
-            c1: self.c1,
             c2: self.c2,
             m2: self.m2,
             J2: self.J2,
-            g: self.g,
             k0,
             k1,
             k2,
@@ -152,15 +140,6 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
             k7,
             k8,
             k9,
-            k10,
-            k11,
-            k12,
-            k13,
-            k14,
-            k15,
-            k16,
-            k17,
-            singular,
         }
     }
 
@@ -254,54 +233,32 @@ pub struct Prepared<S = f64> {
     l1: S,
     /// `l2`
     l2: S,
-    /// `c1`
-    c1: S,
     /// `c2`
     c2: S,
     /// `m2`
     m2: S,
     /// `J2`
     J2: S,
-    /// `g`
-    g: S,
     /// `l1*l2`
     k0: S,
-    /// `c1^2*m1`
-    k1: S,
     /// `c1*m1*g`
-    k2: S,
+    k1: S,
     /// `m2*g`
-    k3: S,
+    k2: S,
     /// `0.5*(J1 + c1^2*m1)`
-    k4: S,
+    k3: S,
     /// `J2 + c2^2*m2`
-    k5: S,
-    /// `c2*m2`
-    k6: S,
-    /// `l1*m2`
-    k7: S,
+    k4: S,
     /// `c2*m2*g`
-    k8: S,
+    k5: S,
     /// `c1*m1*g + l1*m2*g`
-    k9: S,
-    /// `c1*m1`
-    k10: S,
+    k6: S,
     /// `l1*c2*m2`
-    k11: S,
+    k7: S,
     /// `2*l1*c2*m2`
-    k12: S,
-    /// `J1 + c1^2*m1 + J2 + c2^2*m2 + l1^2*m2`
-    k13: S,
-    /// `l1^2*c2^2*m2^2/(J2 + c2^2*m2)`
-    k14: S,
-    /// `l1*c2*m2/(J2 + c2^2*m2)`
-    k15: S,
-    /// `J1 + c1^2*m1 + l1^2*m2`
-    k16: S,
-    /// `1/(J2 + c2^2*m2)`
-    k17: S,
-    /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    k8: S,
+    /// `J1 + J2 + c1^2*m1 + c2^2*m2 + l1^2*m2`
+    k9: S,
 }
 
 /// Mass matrix `M`, row by row.
@@ -312,15 +269,11 @@ pub struct Prepared<S = f64> {
 /// M[q2, q2] = c2^2*m2 + J2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
-    let q1 = q[0];
     let q2 = q[1];
-    let t0 = q2 + q1;
-    let (sin_t0, cos_t0) = t0.sin_cos();
-    let (sin_q1, cos_q1) = q1.sin_cos();
-    let t1 = sin_t0 * sin_q1 + cos_t0 * cos_q1;
-    let m11 = t1 * p.k12 + p.k13;
-    let m21 = t1 * p.k11 + p.k5;
-    [[m11, m21], [m21, p.k5]]
+    let cos_q2 = q2.cos();
+    let m11 = cos_q2 * p.k8 + p.k9;
+    let m21 = cos_q2 * p.k7 + p.k4;
+    [[m11, m21], [m21, p.k4]]
 }
 
 /// Bias `h`: velocity products and explicit time in the inertia forces.
@@ -330,24 +283,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
 /// h[q2] = l1*c2*m2*sin(q2)*der(q1)^2
 /// ```
 pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
-    let q1 = q[0];
     let q2 = q[1];
     let q1_dot = v[0];
     let q2_dot = v[1];
-    let t0 = q2_dot + q1_dot;
-    let t1 = t0 * (t0 * p.c2);
-    let t2 = q2 + q1;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = q1_dot * q1_dot;
-    let t4 = t3 * p.l1;
-    let (sin_q1, cos_q1) = q1.sin_cos();
-    let t5 = t1 * sin_t2 + t4 * sin_q1;
-    let t6 = t1 * cos_t2 + t4 * cos_q1;
-    let t7 = (cos_t2 * t5 - sin_t2 * t6) * p.k6;
-    let t8 = t3 * p.k1;
-    let t9 = t7 + cos_q1 * (t5 * p.k7 + sin_q1 * t8);
-    let h_q1 = sin_q1 * (t6 * p.k7 + cos_q1 * t8) - t9;
-    let h_q2 = -t7;
+    let sin_q2 = q2.sin();
+    let h_q1 = -(sin_q2 * (q2_dot * (q2_dot * p.k7 + q1_dot * p.k8)));
+    let h_q2 = sin_q2 * (q1_dot * (p.k7 * q1_dot));
     [h_q1, h_q2]
 }
 
@@ -362,9 +303,9 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], u: &Inputs<
     let q2 = q[1];
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
-    let t1 = p.k8 * cos_t0;
+    let t1 = p.k5 * cos_t0;
     let cos_q1 = q1.cos();
-    let q_q1 = u.tau1 - (t1 + p.k9 * cos_q1);
+    let q_q1 = u.tau1 - (t1 + p.k6 * cos_q1);
     let q_q2 = u.tau2 - t1;
     [q_q1, q_q2]
 }
@@ -380,19 +321,14 @@ pub fn forces<S: ::lagrangian::Scalar>(
     let q2 = q[1];
     let q1_dot = v[0];
     let q2_dot = v[1];
-    let t0 = q2_dot + q1_dot;
-    let t1 = t0 * (t0 * p.c2);
-    let t2 = q2 + q1;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = q1_dot * q1_dot;
-    let t4 = t3 * p.l1;
-    let (sin_q1, cos_q1) = q1.sin_cos();
-    let t5 = p.g - (t1 * sin_t2 + t4 * sin_q1);
-    let t6 = t1 * cos_t2 + t4 * cos_q1;
-    let t7 = cos_q1 * (t5 * p.k7 + p.k10 * (p.g - t3 * (sin_q1 * p.c1)));
-    let t8 = (cos_t2 * t5 + sin_t2 * t6) * p.k6;
-    let f_q1 = u.tau1 - (t8 + (t7 + sin_q1 * (t6 * p.k7 + t3 * (cos_q1 * p.k1))));
-    let f_q2 = u.tau2 - t8;
+    let sin_q2 = q2.sin();
+    let t0 = q2 + q1;
+    let cos_t0 = t0.cos();
+    let t1 = p.k5 * cos_t0;
+    let cos_q1 = q1.cos();
+    let t2 = sin_q2 * (q2_dot * (q2_dot * p.k7 + q1_dot * p.k8));
+    let f_q1 = t2 + (u.tau1 - (t1 + p.k6 * cos_q1));
+    let f_q2 = u.tau2 - t1 - sin_q2 * (q1_dot * (p.k7 * q1_dot));
     [f_q1, f_q2]
 }
 
@@ -428,34 +364,31 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
     fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v, u } = self;
         let n = N::load;
-        if let Some(singular) = p.singular {
-            return Err(singular);
-        }
         let q1 = n(q[0]);
         let q2 = n(q[1]);
         let q1_dot = n(v[0]);
         let q2_dot = n(v[1]);
         let t0 = q2 + q1;
-        let angles = [t0, q1];
+        let angles = [q2, t0, q1];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_q1, cos_q1) = circular[1];
-        let t1 = q2_dot + q1_dot;
-        let t2 = t1 * (t1 * n(p.c2));
-        let t3 = q1_dot * (q1_dot * n(p.l1));
-        let t4 = cos_t0.mul_add(t2, cos_q1 * t3);
-        let t5 = n(p.g) - sin_t0.mul_add(t2, sin_q1 * t3);
-        let t6 = t5.mul_add(cos_q1 * n(p.k7), t4 * (sin_q1 * n(p.k7)));
-        let t7 = t4.neg_mul_add(sin_t0 * n(p.k6), n(u.tau2));
-        let t8 = t5.neg_mul_add(cos_t0 * n(p.k6), t7);
-        let t9 = sin_t0.mul_add(sin_q1, cos_t0 * cos_q1);
-        let t10 = cos_q1.neg_mul_add(n(p.k2), n(u.tau1) - n(u.tau2)) - t6;
-        let t11 = t9.neg_mul_add(t9 * n(p.k14), n(p.k16));
-        let q1_ddot = N::ONE / t11 * t8.neg_mul_add(t9 * n(p.k15), t10);
-        let t12 = q1_ddot.neg_mul_add(t9 * n(p.k11), t8);
-        let t13 = t9.mul_add(n(p.k12), n(p.k13));
-        checked(t11, t13, 1.7763568394002505e-15, 0)?;
-        let q2_ddot = n(p.k17).mul_sub(t12, q1_ddot);
+        let (sin_q2, cos_q2) = circular[0];
+        let (_, cos_t0) = circular[1];
+        let (_, cos_q1) = circular[2];
+        let t1 = n(p.k5) * cos_t0;
+        let t2 = q2_dot * n(p.k7).mul_add(q2_dot, n(p.k8) * q1_dot);
+        let t3 = n(u.tau1) - n(p.k6).mul_add(cos_q1, t1);
+        let t4 = sin_q2.mul_add(t2, t3);
+        let t5 = cos_q2.mul_add(n(p.k8), n(p.k9));
+        let t5 = checked(t5, t5, 1.7763568394002505e-15, 0)?;
+        let t6 = N::ONE / t5;
+        let t7 = cos_q2.mul_add(n(p.k7), n(p.k4));
+        let t8 = t6 * t7;
+        let t9 = q1_dot * (n(p.k7) * q1_dot);
+        let t10 = t7.neg_mul_add(t8, n(p.k4));
+        let t10 = checked(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
+        let t11 = t8.neg_mul_add(t4, sin_q2.neg_mul_add(t9, n(u.tau2) - t1));
+        let q2_ddot = t11 / t10;
+        let q1_ddot = t8.neg_mul_add(q2_ddot, t6 * t4);
         let accelerations = [q1_ddot.store(), q2_ddot.store()];
         Ok(accelerations)
     }
@@ -482,7 +415,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
     let t4 = t1 * cos_t2 + t3 * cos_q1;
     let t5 = t1 * sin_t2 + t3 * sin_q1;
     let t6 = S::from_f64(0.5) * ((t4 * t4 + t5 * t5) * p.m2 + t0 * (t0 * p.J2));
-    t6 + q1_dot * (q1_dot * p.k4)
+    t6 + q1_dot * (q1_dot * p.k3)
 }
 
 /// Potential energy `V`, in J.
@@ -496,7 +429,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     let t0 = q2 + q1;
     let sin_t0 = t0.sin();
     let sin_q1 = q1.sin();
-    p.k3 * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.k2
+    p.k2 * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.k1
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -799,13 +732,6 @@ fn checked<N: ::lagrangian::Scalar>(
         Some(pivot) => Ok(pivot),
         None => Err(singular(coordinate, pivot, diagonal)),
     }
-}
-
-/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
-/// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
-    let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
 }
 
 /// What is left of a pivot, for the message.

@@ -7,17 +7,17 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 19 | 7 | 2 | 0 | 0 | 28 |
-//! | `mass_matrix` | 32 | 9 | 0 | 3 | 0 | 47 |
-//! | `bias` | 53 | 28 | 0 | 4 | 0 | 89 |
+//! | `prepare` | 19 | 11 | 2 | 0 | 0 | 32 |
+//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
 //! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
 //! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
-//! | `accelerations` | 62 | 42 | 2 | 3 | 0 | 112 |
+//! | `accelerations` | 64 | 38 | 2 | 3 | 0 | 110 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
-//! | `potential_energy` | 10 | 7 | 0 | 0 | 0 | 17 |
-//! | `dissipation` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
-//! | `dissipation_rate` | 10 | 7 | 0 | 0 | 0 | 17 |
+//! | `dissipation_rate` | 8 | 7 | 0 | 0 | 0 | 15 |
 //!
 //! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
 //! function that is not here gives zeros.
@@ -137,9 +137,9 @@ impl<S: ::lagrangian::Scalar> VibratingCrusher<S> {
         let pivot_1 = self.m + self.m0;
         let k10 = k7 + pivot_1;
         let k12 = self.J + (self.y0 * k8 + self.x0 * k9);
-        let k16 = S::ONE / pivot_1;
-        let pivot_2 = k12 - (k16 * (k9 * k9) + k16 * (k8 * k8));
-        let k14 = S::ONE / pivot_2;
+        let k17 = S::ONE / pivot_1;
+        let pivot_2 = k12 - k17 * (k8 * k8) - k17 * (k9 * k9);
+        let t0 = S::ONE / pivot_2;
         let k1 = self.omega * (self.omega * self.J0);
         let k2 = self.cx * S::from_f64(0.5);
         let k3 = self.cy * S::from_f64(0.5);
@@ -147,8 +147,12 @@ impl<S: ::lagrangian::Scalar> VibratingCrusher<S> {
         let k5 = self.by * S::from_f64(0.5);
         let k6 = self.omega * k0;
         let k11 = self.m0 * k0;
-        let k13 = self.m0 * k16;
-        let k15 = self.m0 * k14;
+        let k13 = -k7;
+        let k14 = -self.m2;
+        let k15 = self.m0 * k17;
+        let k16 = self.m0 * t0;
+        let k18 = -k17;
+        let k19 = -t0;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -200,6 +204,9 @@ impl<S: ::lagrangian::Scalar> VibratingCrusher<S> {
             k14,
             k15,
             k16,
+            k17,
+            k18,
+            k19,
             singular,
         }
     }
@@ -358,14 +365,20 @@ pub struct Prepared<S = f64> {
     k11: S,
     /// `J + m0*x0^2 + m0*y0^2`
     k12: S,
-    /// `m0/(m + m0)`
+    /// `-(m1 + m2)`
     k13: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `-m2`
     k14: S,
-    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    /// `m0/(m + m0)`
     k15: S,
-    /// `1/(m + m0)`
+    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k16: S,
+    /// `1/(m + m0)`
+    k17: S,
+    /// `-1/(m + m0)`
+    k18: S,
+    /// `-1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
+    k19: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -405,29 +418,30 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
     let phi2 = q[7];
     let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t0 = sin_phi1 * s1;
-    let t1 = cos_phi1 * s1;
+    let t0 = p.k7 * s1;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t2 = p.m2 * s2;
-    let t3 = cos_phi2 * s2;
-    let t4 = sin_phi2 * s2;
+    let t1 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let t2 = cos_phi1 * sin_phi2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = s1 * p.m2;
+    let t5 = p.m2 * s2;
     let zero = S::ZERO;
     let m31 = -(p.k9 * sin_theta + cos_theta * p.k8);
     let m32 = p.k9 * cos_theta - sin_theta * p.k8;
     let m41 = p.k7 * cos_phi1;
     let m42 = p.k7 * sin_phi1;
-    let m51 = -(p.k7 * t0);
-    let m52 = p.k7 * t1;
-    let m55 = s1 * (p.k7 * s1);
+    let m51 = sin_phi1 * (s1 * p.k13);
+    let m52 = cos_phi1 * t0;
+    let m55 = s1 * t0;
     let m71 = cos_phi2 * p.m2;
     let m72 = sin_phi2 * p.m2;
-    let m74 = p.m2 * (cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2);
-    let m75 = p.m2 * (t1 * sin_phi2 - t0 * cos_phi2);
-    let m81 = -(sin_phi2 * t2);
-    let m82 = cos_phi2 * t2;
-    let m84 = p.m2 * (sin_phi1 * t3 - cos_phi1 * t4);
-    let m85 = p.m2 * (t0 * t4 + t1 * t3);
-    let m88 = s2 * t2;
+    let m74 = p.m2 * t1;
+    let m75 = (t2 - t3) * t4;
+    let m81 = sin_phi2 * (s2 * p.k14);
+    let m82 = cos_phi2 * t5;
+    let m84 = t5 * (t3 - t2);
+    let m85 = t1 * (t4 * s2);
+    let m88 = s2 * t5;
     [
         [p.k10, zero, m31, m41, m51, zero, m71, m81, zero],
         [zero, p.k10, m32, m42, m52, zero, m72, m82, zero],
@@ -482,11 +496,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let t6 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
     let t7 = cos_phi2 * s2;
-    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
+    let t8 = phi2_dot * (s2_dot * S::from_f64(2.0));
     let t9 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
     let t10 = cos_phi1 * s1;
-    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
+    let t11 = phi1_dot * (S::from_f64(2.0) * s1_dot);
     let t12 = t11 * sin_phi1 + t9 * t10;
     let t13 = t8 * sin_phi2 + t6 * t7 + t12;
     let t14 = t13 * p.m2 + t12 * p.m1;
@@ -503,8 +517,8 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
     let h_s1 = -(cos_phi1 * t14 + sin_phi1 * t20);
     let h_phi1 = t14 * t17 - t10 * t20;
     let zero = S::ZERO;
-    let h_s2 = -(p.m2 * (cos_phi2 * t13 + sin_phi2 * t19));
-    let h_phi2 = -(p.m2 * (t7 * t19 - t13 * t16));
+    let h_s2 = p.k14 * (cos_phi2 * t13 + sin_phi2 * t19);
+    let h_phi2 = p.k14 * (t7 * t19 - t13 * t16);
     [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
 }
 
@@ -553,49 +567,49 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     let phi1_dot = v[4];
     let s2_dot = v[6];
     let phi2_dot = v[7];
-    let t0 = p.omega.product_error(t);
-    let t1 = p.omega * t;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = theta_dot * theta_dot;
-    let t3 = t2 * p.x0;
-    let (sin_theta, cos_theta) = theta.sin_cos();
-    let t4 = t2 * p.y0;
-    let t5 = p.k6 * (cos_t1 - t0 * sin_t1) + (cos_theta * t3 - t4 * sin_theta);
-    let t6 = phi2_dot * phi2_dot;
+    let t0 = phi2_dot * phi2_dot;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t7 = cos_phi2 * s2;
-    let t8 = phi2_dot * s2_dot * S::from_f64(2.0);
-    let t9 = phi1_dot * phi1_dot;
+    let t1 = cos_phi2 * s2;
+    let t2 = phi2_dot * (s2_dot * S::from_f64(2.0));
+    let t3 = phi1_dot * phi1_dot;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t10 = cos_phi1 * s1;
-    let t11 = S::from_f64(2.0) * (phi1_dot * s1_dot);
-    let t12 = t11 * sin_phi1 + t9 * t10;
-    let t13 = t8 * sin_phi2 + t6 * t7 + t12;
-    let t14 = t13 * p.m2 + t12 * p.m1;
-    let t15 = theta_dot * p.yc;
-    let t16 = p.yc * theta;
-    let t17 = p.bx * (x_dot - t15) + p.cx * (x - t16);
-    let t18 = p.bx * (t15 + x_dot) + p.cx * (t16 + x);
-    let t19 = p.k6 * (sin_t1 + t0 * cos_t1) + (sin_theta * t3 + t4 * cos_theta);
-    let t20 = sin_phi2 * s2;
-    let t21 = sin_phi1 * s1;
-    let t22 = t9 * t21 - t11 * cos_phi1;
-    let t23 = t6 * t20 - t8 * cos_phi2 + t22;
-    let t24 = p.m2 * t23 + p.m1 * t22;
-    let t25 = theta_dot * p.xc;
-    let t26 = theta * p.xc;
-    let t27 = p.by * (y_dot - t25) + p.cy * (y - t26);
-    let t28 = p.by * (t25 + y_dot) + p.cy * (t26 + y);
-    let t29 = cos_theta * (t5 * p.k8 - t19 * p.k9);
-    let t30 = sin_theta * (t19 * p.k8 + t5 * p.k9) + t29;
-    let f_x = t5 * p.m0 + t14 - (t17 + t18);
-    let f_y = p.m0 * t19 + t24 - (t27 + t28);
-    let f_theta = -(t30 + (p.yc * (t18 - t17) + p.xc * (t28 - t27)));
-    let f_s1 = cos_phi1 * t14 + sin_phi1 * t24;
-    let f_phi1 = t10 * t24 - t14 * t21;
+    let t4 = cos_phi1 * s1;
+    let t5 = phi1_dot * (S::from_f64(2.0) * s1_dot);
+    let t6 = t5 * sin_phi1 + t3 * t4;
+    let t7 = t2 * sin_phi2 + t0 * t1 + t6;
+    let t8 = t7 * p.m2 + t6 * p.m1;
+    let t9 = theta_dot * p.yc;
+    let t10 = p.yc * theta;
+    let t11 = p.bx * (x_dot - t9) + p.cx * (x - t10);
+    let t12 = p.bx * (t9 + x_dot) + p.cx * (t10 + x);
+    let t13 = p.omega.product_error(t);
+    let t14 = p.omega * t;
+    let (sin_t14, cos_t14) = t14.sin_cos();
+    let t15 = theta_dot * theta_dot;
+    let t16 = t15 * p.x0;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t17 = t15 * p.y0;
+    let t18 = p.k6 * (cos_t14 - t13 * sin_t14) + (cos_theta * t16 - t17 * sin_theta);
+    let t19 = sin_phi2 * s2;
+    let t20 = sin_phi1 * s1;
+    let t21 = t3 * t20 - t5 * cos_phi1;
+    let t22 = t0 * t19 - t2 * cos_phi2 + t21;
+    let t23 = p.m2 * t22 + p.m1 * t21;
+    let t24 = theta_dot * p.xc;
+    let t25 = theta * p.xc;
+    let t26 = p.by * (y_dot - t24) + p.cy * (y - t25);
+    let t27 = p.by * (t24 + y_dot) + p.cy * (t25 + y);
+    let t28 = p.k6 * (sin_t14 + t13 * cos_t14) + (sin_theta * t16 + t17 * cos_theta);
+    let t29 = p.yc * (t12 - t11) + p.xc * (t27 - t26);
+    let t30 = cos_theta * (t18 * p.k8 - t28 * p.k9) + t29;
+    let f_x = t18 * p.m0 + (t8 - (t11 + t12));
+    let f_y = p.m0 * t28 + (t23 - (t26 + t27));
+    let f_theta = -(sin_theta * (t28 * p.k8 + t18 * p.k9) + t30);
+    let f_s1 = cos_phi1 * t8 + sin_phi1 * t23;
+    let f_phi1 = t4 * t23 - t8 * t20;
     let zero = S::ZERO;
-    let f_s2 = p.m2 * (cos_phi2 * t13 + sin_phi2 * t23);
-    let f_phi2 = p.m2 * (t7 * t23 - t13 * t20);
+    let f_s2 = p.m2 * (cos_phi2 * t7 + sin_phi2 * t22);
+    let f_phi2 = p.m2 * (t1 * t22 - t7 * t19);
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
@@ -648,57 +662,60 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let s2_dot = n(v[6]);
         let phi2_dot = n(v[7]);
         let t0 = n(p.omega) * n(t);
-        let angles = [t0, theta, phi1];
+        let angles = [theta, t0, phi1];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_theta, cos_theta) = circular[1];
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
         let (sin_phi1, cos_phi1) = circular[2];
         let t1 = theta_dot * n(p.yc);
         let t2 = theta * n(p.yc);
-        let t3 = n(p.bx).mul_add(x_dot - t1, n(p.cx) * (x - t2));
-        let t4 = n(p.bx).mul_add(t1 + x_dot, n(p.cx) * (t2 + x));
-        let t5 = n(p.omega).product_error(n(t));
-        let t6 = theta_dot * theta_dot;
-        let t7 = cos_theta * n(p.x0);
-        let t8 = sin_theta * n(p.y0);
-        let t9 = n(p.k6).mul_add(t5.neg_mul_add(sin_t0, cos_t0), t6 * t7);
-        let t10 = t8.neg_mul_add(t6, t9) * n(p.m0);
-        let t11 = t3 + t4 - t10;
-        let t12 = sin_theta * n(p.x0);
-        let t13 = cos_theta * n(p.y0);
-        let t14 = t12 + t13;
-        let t15 = theta_dot * n(p.xc);
-        let t16 = theta * n(p.xc);
-        let t17 = n(p.by).mul_add(t15 + y_dot, n(p.cy) * (t16 + y));
-        let t18 = t11.mul_add(n(p.k13) * t14, t14 * t10);
-        let t19 = n(p.by).mul_add(y_dot - t15, n(p.cy) * (y - t16));
-        let t20 = n(p.k6).mul_add(t5.mul_add(cos_t0, sin_t0), t13 * t6);
-        let t21 = n(p.m0) * t12.mul_add(t6, t20);
-        let t22 = t19 + t17 - t21;
-        let t23 = t7 - t8;
-        let t24 = t22.mul_add(n(p.k13) * t23, t23 * t21);
-        let t25 = n(p.yc).mul_add(t3, n(p.xc) * t19) + t24;
-        let t26 = n(p.yc).mul_add(t4, n(p.xc) * t17) + t18 - t25;
-        let t27 = n(p.k15) * t26;
-        let t28 = n(p.k16) * t14.mul_add(t27, t11);
-        let t29 = n(p.k16) * t23.neg_mul_add(t27, t22);
-        let t30 = t28.mul_add(cos_phi1, phi1_dot * (phi1_dot * s1));
-        let t31 = phi1_dot * (N::from_f64(2.0) * s1_dot);
-        let t32 = t29.neg_mul_add(cos_phi1, t28.mul_add(sin_phi1, t31)) / s1;
-        let t33 = s2 * (s2 * n(p.m2));
-        checked(t33, t33, 7.993605777301127e-15, 7)?;
-        let t34 = s1 * s1;
-        let t35 = t34 * n(p.m1);
-        let t36 = t34 * n(p.k7);
-        checked(t35, t36, 7.993605777301127e-15, 4)?;
-        let x_ddot = -t28;
-        let y_ddot = -t29;
-        let theta_ddot = -(t26 * n(p.k14));
-        let s1_ddot = t29.mul_add(sin_phi1, t30);
-        let phi1_ddot = -t32;
+        let t3 = n(p.bx).mul_add(t1 + x_dot, n(p.cx) * (t2 + x));
+        let t4 = theta_dot * n(p.xc);
+        let t5 = theta * n(p.xc);
+        let t6 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t5 + y));
+        let t7 = n(p.bx).mul_add(x_dot - t1, n(p.cx) * (x - t2));
+        let t8 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t5));
+        let t9 = n(p.yc).mul_add(t7, n(p.xc) * t8);
+        let t10 = theta_dot * theta_dot;
+        let t11 = cos_theta * n(p.x0);
+        let t12 = sin_theta * n(p.y0);
+        let t13 = n(p.omega).product_error(n(t));
+        let t14 = t13.neg_mul_add(sin_t0, cos_t0);
+        let t15 = n(p.k6).mul_add(t14, t10.mul_sub(t11, t12 * t10));
+        let t16 = t15 * n(p.m0);
+        let t17 = sin_theta * n(p.x0);
+        let t18 = cos_theta * n(p.y0);
+        let t19 = t17 + t18;
+        let t20 = t17.mul_add(t10, t18 * t10);
+        let t21 = n(p.k6).mul_add(t13.mul_add(cos_t0, sin_t0), t20);
+        let t22 = n(p.m0) * t21;
+        let t23 = t8 + t6 - t22;
+        let t24 = t11 - t12;
+        let t25 = t19.mul_add(t16, n(p.yc).mul_add(t3, n(p.xc) * t6) - t9);
+        let t26 = t7 + t3 - t16;
+        let t27 = t26.mul_sub(n(p.k15) * t19, t24 * t22);
+        let t28 = t27 + t23.neg_mul_add(n(p.k15) * t24, t25);
+        let t29 = n(p.k16) * t28;
+        let t30 = t19.mul_add(t29, t26);
+        let t31 = t24.neg_mul_add(t29, t23);
+        let t32 = n(p.k17) * sin_phi1;
+        let t33 = n(p.k17) * cos_phi1;
+        let t34 = t30.mul_add(t33, phi1_dot * (phi1_dot * s1));
+        let t35 = t30.mul_add(t32, phi1_dot * (N::from_f64(2.0) * s1_dot));
+        let t36 = s2 * (s2 * n(p.m2));
+        checked(t36, t36, 7.993605777301127e-15, 7)?;
+        let t37 = s1 * s1;
+        let t38 = t37 * n(p.m1);
+        let t39 = t37 * n(p.k7);
+        checked(t38, t39, 7.993605777301127e-15, 4)?;
+        let x_ddot = n(p.k18) * t30;
+        let y_ddot = n(p.k18) * t31;
+        let theta_ddot = t28 * n(p.k19);
+        let s1_ddot = t31.mul_add(t32, t34);
+        let phi1_ddot = -(t31.neg_mul_add(t33, t35) / s1);
         let zero = N::ZERO;
         let s2_ddot = phi2_dot * (phi2_dot * s2);
-        let phi2_ddot = -(phi2_dot * (N::from_f64(2.0) * s2_dot) / s2);
+        let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
         let accelerations = [
             x_ddot.store(),
             y_ddot.store(),
@@ -750,18 +767,18 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
     let t4 = y_dot + t2 * cos_theta - sin_theta * t3;
     let t5 = p.k0 * (cos_t1 - t0 * sin_t1) + t4;
     let t6 = x_dot - t2 * sin_theta - cos_theta * t3 - p.k0 * (sin_t1 + t0 * cos_t1);
-    let t7 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
-    let t8 = phi2_dot * s2;
+    let t7 = phi2_dot * s2;
     let (sin_phi2, cos_phi2) = phi2.sin_cos();
-    let t9 = phi1_dot * s1;
+    let t8 = phi1_dot * s1;
     let (sin_phi1, cos_phi1) = phi1.sin_cos();
-    let t10 = y_dot + (t9 * cos_phi1 + sin_phi1 * s1_dot);
-    let t11 = t8 * cos_phi2 + sin_phi2 * s2_dot + t10;
-    let t12 = x_dot + (cos_phi1 * s1_dot - t9 * sin_phi1);
-    let t13 = cos_phi2 * s2_dot - t8 * sin_phi2 + t12;
-    let t14 = (t10 * t10 + t12 * t12) * p.m1 + theta1_dot * (theta1_dot * p.J1);
-    let t15 = (t11 * t11 + t13 * t13) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
-    ((t5 * t5 + t6 * t6) * p.m0 + p.k1 + t7 + t15) * S::from_f64(0.5)
+    let t9 = y_dot + (t8 * cos_phi1 + sin_phi1 * s1_dot);
+    let t10 = t7 * cos_phi2 + sin_phi2 * s2_dot + t9;
+    let t11 = x_dot + (cos_phi1 * s1_dot - t8 * sin_phi1);
+    let t12 = cos_phi2 * s2_dot - t7 * sin_phi2 + t11;
+    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t14 = (t9 * t9 + t11 * t11) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
+    let t15 = (t10 * t10 + t12 * t12) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
+    ((t5 * t5 + t6 * t6) * p.m0 + p.k1 + t15) * S::from_f64(0.5)
 }
 
 /// Potential energy `V`, in J.
@@ -773,14 +790,13 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
     let x = q[0];
     let y = q[1];
     let theta = q[2];
-    let t0 = theta * p.yc;
-    let t1 = t0 + x;
-    let t2 = x - t0;
-    let t3 = theta * p.xc;
-    let t4 = t3 + y;
-    let t5 = y - t3;
-    let t6 = t4 * (p.k3 * t4) + t5 * (p.k3 * t5);
-    t1 * (p.k2 * t1) + t2 * (p.k2 * t2) + t6
+    let t0 = theta * p.xc;
+    let t1 = t0 + y;
+    let t2 = y - t0;
+    let t3 = theta * p.yc;
+    let t4 = t3 + x;
+    let t5 = x - t3;
+    (t1 * t1 + t2 * t2) * p.k3 + (t4 * t4 + t5 * t5) * p.k2
 }
 
 /// Dissipation function `D`, in W.
@@ -792,14 +808,13 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (p.k5 * t4) + t5 * (p.k5 * t5);
-    t1 * (p.k4 * t1) + t2 * (p.k4 * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.k5 + (t4 * t4 + t5 * t5) * p.k4
 }
 
 /// Power that drives, forces and inputs put in, in W.
@@ -845,14 +860,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
-    let t0 = theta_dot * p.yc;
-    let t1 = t0 + x_dot;
-    let t2 = x_dot - t0;
-    let t3 = theta_dot * p.xc;
-    let t4 = t3 + y_dot;
-    let t5 = y_dot - t3;
-    let t6 = t4 * (t4 * p.by) + t5 * (p.by * t5);
-    t1 * (t1 * p.bx) + t2 * (p.bx * t2) + t6
+    let t0 = theta_dot * p.xc;
+    let t1 = t0 + y_dot;
+    let t2 = y_dot - t0;
+    let t3 = theta_dot * p.yc;
+    let t4 = t3 + x_dot;
+    let t5 = x_dot - t3;
+    (t1 * t1 + t2 * t2) * p.by + (t4 * t4 + t5 * t5) * p.bx
 }
 
 /// By how much `s1 > 0` holds.
