@@ -704,6 +704,11 @@ where
             k3: lanes(|p| p.k3),
             k4: lanes(|p| p.k4),
             k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            singular: None,
         }
     }
 
@@ -712,7 +717,7 @@ where
     }
 
     fn is_singular(&self) -> bool {
-        false
+        self.singular.is_some()
     }
 
     fn accelerations_abreast(

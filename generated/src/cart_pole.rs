@@ -641,6 +641,8 @@ where
             k7: lanes(|p| p.k7),
             k8: lanes(|p| p.k8),
             k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
             singular: None,
         }
     }

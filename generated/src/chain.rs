@@ -1282,13 +1282,6 @@ where
             k29: lanes(|p| p.k29),
             k30: lanes(|p| p.k30),
             k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            k35: lanes(|p| p.k35),
-            k36: lanes(|p| p.k36),
-            k37: lanes(|p| p.k37),
-            k38: lanes(|p| p.k38),
             singular: None,
         }
     }

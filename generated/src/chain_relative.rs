@@ -1359,16 +1359,6 @@ where
             k23: lanes(|p| p.k23),
             k24: lanes(|p| p.k24),
             k25: lanes(|p| p.k25),
-            k26: lanes(|p| p.k26),
-            k27: lanes(|p| p.k27),
-            k28: lanes(|p| p.k28),
-            k29: lanes(|p| p.k29),
-            k30: lanes(|p| p.k30),
-            k31: lanes(|p| p.k31),
-            k32: lanes(|p| p.k32),
-            k33: lanes(|p| p.k33),
-            k34: lanes(|p| p.k34),
-            singular: None,
         }
     }
 
@@ -1377,7 +1367,7 @@ where
     }
 
     fn is_singular(&self) -> bool {
-        self.singular.is_some()
+        false
     }
 
     fn accelerations_abreast(

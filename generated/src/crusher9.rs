@@ -1238,6 +1238,9 @@ where
             k24: lanes(|p| p.k24),
             k25: lanes(|p| p.k25),
             k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
             singular: None,
         }
     }

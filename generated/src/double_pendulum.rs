@@ -537,6 +537,9 @@ where
             k7: lanes(|p| p.k7),
             k8: lanes(|p| p.k8),
             k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
             singular: None,
         }
     }

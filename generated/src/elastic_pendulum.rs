@@ -515,6 +515,8 @@ where
             k2: lanes(|p| p.k2),
             k3: lanes(|p| p.k3),
             k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
             singular: None,
         }
     }

@@ -689,6 +689,10 @@ where
             k8: lanes(|p| p.k8),
             k9: lanes(|p| p.k9),
             k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
             singular: None,
         }
     }

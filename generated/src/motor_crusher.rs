@@ -1308,6 +1308,9 @@ where
             k18: lanes(|p| p.k18),
             k19: lanes(|p| p.k19),
             k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
+            k23: lanes(|p| p.k23),
             singular: None,
         }
     }

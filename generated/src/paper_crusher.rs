@@ -1259,6 +1259,8 @@ where
             k23: lanes(|p| p.k23),
             k24: lanes(|p| p.k24),
             k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
             singular: None,
         }
     }

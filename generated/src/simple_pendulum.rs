@@ -436,7 +436,6 @@ where
             k1: lanes(|p| p.k1),
             k2: lanes(|p| p.k2),
             k3: lanes(|p| p.k3),
-            k4: lanes(|p| p.k4),
             singular: None,
         }
     }

@@ -1281,6 +1281,8 @@ where
             k34: lanes(|p| p.k34),
             k35: lanes(|p| p.k35),
             k36: lanes(|p| p.k36),
+            k37: lanes(|p| p.k37),
+            k38: lanes(|p| p.k38),
             singular: None,
         }
     }

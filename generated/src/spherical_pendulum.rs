@@ -565,6 +565,10 @@ where
             k2: lanes(|p| p.k2),
             k3: lanes(|p| p.k3),
             k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
             singular: None,
         }
     }

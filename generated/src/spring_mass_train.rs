@@ -681,6 +681,8 @@ where
             k1: lanes(|p| p.k1),
             k2: lanes(|p| p.k2),
             k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
             singular: None,
         }
     }

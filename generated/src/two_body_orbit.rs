@@ -572,6 +572,9 @@ where
             k5: lanes(|p| p.k5),
             k6: lanes(|p| p.k6),
             k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
             singular: None,
         }
     }

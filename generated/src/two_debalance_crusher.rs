@@ -1172,6 +1172,10 @@ where
             k16: lanes(|p| p.k16),
             k17: lanes(|p| p.k17),
             k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
             singular: None,
         }
     }

@@ -655,11 +655,9 @@ where
         Prepared {
             l1: lanes(|p| p.l1),
             l2: lanes(|p| p.l2),
-            c1: lanes(|p| p.c1),
             c2: lanes(|p| p.c2),
             m2: lanes(|p| p.m2),
             J2: lanes(|p| p.J2),
-            g: lanes(|p| p.g),
             k0: lanes(|p| p.k0),
             k1: lanes(|p| p.k1),
             k2: lanes(|p| p.k2),
@@ -670,15 +668,6 @@ where
             k7: lanes(|p| p.k7),
             k8: lanes(|p| p.k8),
             k9: lanes(|p| p.k9),
-            k10: lanes(|p| p.k10),
-            k11: lanes(|p| p.k11),
-            k12: lanes(|p| p.k12),
-            k13: lanes(|p| p.k13),
-            k14: lanes(|p| p.k14),
-            k15: lanes(|p| p.k15),
-            k16: lanes(|p| p.k16),
-            k17: lanes(|p| p.k17),
-            singular: None,
         }
     }
 
@@ -691,7 +680,7 @@ where
     }
 
     fn is_singular(&self) -> bool {
-        self.singular.is_some()
+        false
     }
 
     fn accelerations_abreast(

@@ -1099,6 +1099,9 @@ where
             k14: lanes(|p| p.k14),
             k15: lanes(|p| p.k15),
             k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
             singular: None,
         }
     }

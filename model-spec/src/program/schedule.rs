@@ -17,7 +17,7 @@ use rustc_hash::FxHashMap;
 use super::cost::latency;
 use super::graph::Id;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
-use super::{Op, Value};
+use super::{Op, Source, Value};
 
 /// A function's code, prepared values still called by their nodes.
 pub(super) struct Code {
@@ -146,7 +146,7 @@ impl Builder {
                 if index == next {
                     self.prepared.push(*id);
                 }
-                self.op(Op::Read(super::Source::Prepared(index)))
+                self.op(Op::Read(Source::Prepared(index)))
             }
             Item::Function(function, arguments) => {
                 use lagrangian_symbolic::Function::{Cos, Sin};
@@ -177,7 +177,10 @@ impl Builder {
                 }
                 let denominator = self.product(down);
                 let numerator = self.product(up);
-                self.op(Op::Div(numerator, denominator))
+                match self.is_zero(numerator) {
+                    true => numerator,
+                    false => self.op(Op::Div(numerator, denominator)),
+                }
             }
             Item::Sum(terms) => {
                 let mut list: Vec<Signed> = terms.clone();
@@ -250,6 +253,10 @@ impl Builder {
 
     /// The product, factors that are known first multiplied first; of none, 1.
     fn product(&mut self, factors: Vec<Value>) -> Value {
+        // A sum whose terms have gone.
+        if let Some(&zero) = factors.iter().find(|factor| self.is_zero(**factor)) {
+            return zero;
+        }
         let factors = factors.into_iter().map(|factor| (factor, false)).collect();
         let product = self.merge(factors, |builder, a, b| {
             (builder.op(Op::Mul(a.0, b.0)), false)
@@ -262,6 +269,7 @@ impl Builder {
 
     /// The sum of terms, those that are known first added first.
     fn sum(&mut self, terms: Vec<(Value, bool)>) -> Value {
+        let terms = self.without_opposites(terms);
         let sum = self.merge(terms, |builder, a, b| match (a, b) {
             ((a, minus_a), (b, minus_b)) if minus_a == minus_b => {
                 (builder.op(Op::Add(a, b)), minus_a)
@@ -273,6 +281,35 @@ impl Builder {
             Some((value, true)) => self.negative(value),
             None => self.op(Op::Constant(Rational::ZERO)),
         }
+    }
+
+    /// The terms without those that take each other away.
+    ///
+    /// Two products of the graph may turn out to be the same operations, so that x − x is seen only
+    /// here. What parameters alone decide must not be left over: that would have been prepared.
+    fn without_opposites(&self, terms: Vec<(Value, bool)>) -> Vec<(Value, bool)> {
+        let mut left: Vec<(Value, bool)> = Vec::with_capacity(terms.len());
+        for &(value, negative) in &terms {
+            match left.iter().position(|term| *term == (value, !negative)) {
+                Some(opposite) => {
+                    left.remove(opposite);
+                }
+                None if self.is_zero(value) => {}
+                None => left.push((value, negative)),
+            }
+        }
+        let is_known = |value: Value| {
+            let op = &self.code[value.index()];
+            matches!(op, Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_)))
+        };
+        match left.is_empty() || left.iter().any(|(value, _)| !is_known(*value)) {
+            true => left,
+            false => terms,
+        }
+    }
+
+    fn is_zero(&self, value: Value) -> bool {
+        matches!(&self.code[value.index()], Op::Constant(constant) if constant.is_zero())
     }
 
     /// Makes one of all parts: each time of the two that are known first, the earlier in the list
