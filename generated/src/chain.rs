@@ -631,10 +631,9 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
+/// Accelerations `a`, the solution of `M a = f` from the mass matrix.
 ///
-/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
-/// error.
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 8],

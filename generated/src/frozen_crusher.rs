@@ -687,10 +687,9 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
+/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
 ///
-/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
-/// error.
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,

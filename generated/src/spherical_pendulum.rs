@@ -274,10 +274,9 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
     [f_phi, f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
-/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
-/// error.
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],

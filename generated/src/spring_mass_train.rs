@@ -313,10 +313,9 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S
     [f_u_1, f_u_2, f_u_3, f_u_4, f_u_5, f_u_6, f_u_7, f_u_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
-/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
-/// error.
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 8],

@@ -332,10 +332,9 @@ pub fn forces<S: ::lagrangian::Scalar>(
     [f_q1, f_q2]
 }
 
-/// Accelerations `a`, the solution of `M a = f`.
+/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
-/// `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an
-/// error.
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],

@@ -24,6 +24,9 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A number that a machine can run over.
 ///
+/// What is provided here is always inlined, as are implementations for numbers in registers: a function that is not would
+/// lack the instructions that its caller may use.
+///
 /// Operations never panic; what has no value (0/0, the root of a negative number) is a value for which
 /// [`is_finite`](Scalar::is_finite) is false, and stays so under every further operation.
 pub trait Scalar:
@@ -100,14 +103,17 @@ pub trait Scalar:
         angles.map(Self::sin_cos)
     }
     /// Sine.
+    #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
     /// Cosine.
+    #[inline(always)]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
     /// Tangent.
+    #[inline(always)]
     fn tan(self) -> Self {
         let (sin, cos) = self.sin_cos();
         sin / cos
@@ -144,6 +150,7 @@ pub trait Scalar:
     fn max(self, other: Self) -> Self;
 
     /// `self` to an integer power, by squaring.
+    #[inline(always)]
     fn powi(self, exponent: i32) -> Self {
         let mut result = Self::ONE;
         let mut square = self;

@@ -250,9 +250,16 @@ impl<'a> Emitter<'a> {
             Role::Bias => "Bias `h`: velocity products and explicit time in the inertia forces.".into(),
             Role::Applied => "Applied generalized forces `Q`.".into(),
             Role::Forces => "Right-hand side `f = Q - h` of `M a = f`.".into(),
-            Role::Accelerations => "Accelerations `a`, the solution of `M a = f`.\n\n\
-                `M = L D Lᵀ` is eliminated without what is known to be zero; a pivot of `D` that vanishes is an error."
-                .into(),
+            Role::Accelerations => {
+                let form = match self.program.choice(function.role) {
+                    Some(choice) => format!(" {}", choice.chosen().form),
+                    None => String::new(),
+                };
+                format!(
+                    "Accelerations `a`, the solution of `M a = f`{form}.\n\n\
+                     What is known to be zero is not computed; a pivot that vanishes is an error."
+                )
+            }
             Role::Derivatives => "Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of \
                 `M da/dx = d(f - M a)/dx` with `a` held."
                 .into(),
