@@ -27,6 +27,8 @@ pub enum Command {
     Evaluate(Evaluate),
     /// Integrate the equations of motion.
     Simulate(Simulate),
+    /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
+    Modes(Modes),
 }
 
 /// Which machine, of which size.
@@ -153,6 +155,37 @@ pub struct Simulate {
     /// Write a page that shows the machine move, beside its curves, parameters and equations; one file, for any browser.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
+}
+
+/// Arguments of `modes`.
+#[derive(Debug, Args)]
+pub struct Modes {
+    #[command(flatten)]
+    pub spec: Spec,
+    #[command(flatten)]
+    pub start: Start,
+    /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts.
+    #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
+    pub steady: Vec<Steady>,
+}
+
+/// `name` or `name=rate`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Steady {
+    /// The name of a coordinate.
+    pub name: String,
+    /// Its rate, where it is said.
+    pub rate: Option<f64>,
+}
+
+fn steady(text: &str) -> Result<Steady, String> {
+    if text.contains('=') {
+        let Assignment { name, value } = assignment(text)?;
+        let rate = Some(value);
+        return Ok(Steady { name, rate });
+    }
+    let name = text.trim().to_owned();
+    Ok(Steady { name, rate: None })
 }
 
 /// `name=value`.

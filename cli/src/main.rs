@@ -9,6 +9,7 @@ mod diagnostics;
 mod evaluate;
 mod failure;
 mod library;
+mod modes;
 mod output;
 mod plot;
 mod reading;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         // Its result is JSON in any case.
         Command::Evaluate(call) => (true, evaluate::run(call)),
         Command::Simulate(call) => (call.spec.json, simulate::run(call)),
+        Command::Modes(call) => (call.spec.json, modes::run(call)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

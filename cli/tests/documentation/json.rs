@@ -31,7 +31,7 @@ fn keys(value: &Value) -> Vec<&String> {
 
 #[test]
 fn results_have_the_keys_that_the_page_prints() {
-    let [point, evaluated, simulated] = &blocks()[..] else {
+    let [point, evaluated, simulated, modes] = &blocks()[..] else {
         panic!("the page has other blocks of JSON");
     };
     let spec = "machines/double_pendulum.machine";
@@ -46,4 +46,9 @@ fn results_have_the_keys_that_the_page_prints() {
 
     let summary = printed(&["simulate", spec, "--until", "0.1", "--json"]);
     assert_eq!(keys(&summary), keys(simulated));
+
+    let found = printed(&["modes", spec, "--start", "theta1=0.1", "--json"]);
+    assert_eq!(keys(&found), keys(modes));
+    assert_eq!(keys(&found["equilibrium"]), keys(&modes["equilibrium"]));
+    assert_eq!(keys(&found["modes"][0]), keys(&modes["modes"][0]));
 }

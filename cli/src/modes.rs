@@ -1,0 +1,362 @@
+//! `lagrangian modes`: where a machine stays, and how it moves about that place.
+
+mod equilibrium;
+mod spectrum;
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::{Machine, System};
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::model::Variable;
+use lagrangian_spec::program::{Program, Role};
+use lagrangian_symbolic::Dag;
+use nalgebra::Complex;
+use serde_json::{Map, Value, json};
+
+use crate::call;
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::output;
+use crate::reading::{self, Reading};
+use equilibrium::{Equilibrium, Linearized, Lost};
+use spectrum::Mode;
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec or the call is at fault, or the machine has no equilibrium near its start.
+pub fn run(call: &call::Modes) -> Result<(), Failure> {
+    let machine = reading::machine(program(&call.spec)?, &call.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    let steady = steady(call, &mut start.v)?;
+    let q = start.q.values;
+    let v: Vec<f64> = start
+        .v
+        .values
+        .iter()
+        .zip(&steady)
+        .map(|(rate, is_steady)| if *is_steady { *rate } else { 0.0 })
+        .collect();
+    let system = machine.prepare();
+    let u = system.default_inputs();
+    refuse_drives(&machine, &system, &q, &v, &u)?;
+    refuse_unsteady(&system, &q, &v, &u, &steady)?;
+    let found = equilibrium::find(&system, &q, &v, &u).map_err(|lost| failure(&system, &lost))?;
+    let Linearized {
+        by_coordinates,
+        by_rates,
+        ..
+    } = &found.linearized;
+    let modes = spectrum::modes(by_coordinates, by_rates)
+        .ok_or_else(|| Failure::run("the eigenvalues cannot be found"))?;
+    let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
+    if call.spec.json {
+        let result = as_json(&names, &found, &v, &modes);
+        output::line(format_args!("{result:#}"));
+    } else {
+        let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
+        output::text(&text(&names, &units, &q, &v, &found, &modes));
+    }
+    Ok(())
+}
+
+/// The program with derivatives by all coordinates and rates, whatever the spec asks for.
+fn program(spec: &call::Spec) -> Result<Program, Failure> {
+    let dag = Dag::new();
+    let mut reading = Reading::open(spec)?;
+    let model = reading.model(&dag).map(|mut model| {
+        model.derivatives = Variable::of_state(model.coordinates.len());
+        model
+    });
+    let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
+    match compiled {
+        Some(compiled) => Ok(compiled.program),
+        None => Err(reading.failure()),
+    }
+}
+
+/// Which coordinates turn steadily, and with which rates.
+fn steady(call: &call::Modes, rates: &mut Named) -> Result<Vec<bool>, Failure> {
+    let mut steady = vec![false; rates.values.len()];
+    for call::Steady { name, rate } in &call.steady {
+        let mut probe = rates.clone();
+        probe.values.fill(0.0);
+        let unknown = |unknown| reading::name_error("coordinate", &unknown);
+        probe.set(name, 1.0).map_err(unknown)?;
+        if let Some(rate) = rate {
+            rates.set(name, *rate).map_err(unknown)?;
+        }
+        for (is_steady, probed) in steady.iter_mut().zip(&probe.values) {
+            *is_steady |= *probed != 0.0;
+        }
+    }
+    Ok(steady)
+}
+
+/// The start, and two states beside it that have nothing in common.
+fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
+    let beside = |list: &[f64], seed: usize| -> Vec<f64> {
+        let shift = |k: usize| 0.01 + ((seed + 7 * k) * 29 % 97) as f64 / 997.0;
+        list.iter()
+            .enumerate()
+            .map(|(k, x)| x + shift(k) * x.abs().max(1.0))
+            .collect()
+    };
+    [
+        (q.to_vec(), v.to_vec()),
+        (beside(q, 1), beside(v, 2)),
+        (beside(q, 3), beside(v, 4)),
+    ]
+}
+
+/// Refuses a machine whose equations change with time: it is at rest nowhere.
+fn refuse_drives(
+    machine: &InterpretedMachine,
+    system: &InterpretedSystem,
+    q: &[f64],
+    v: &[f64],
+    u: &Named,
+) -> Result<(), Failure> {
+    let reads_time = |role| {
+        let function = machine.program().function(role);
+        function.is_some_and(|function| function.reads().time)
+    };
+    if !reads_time(Role::Accelerations) && !reads_time(Role::Derivatives) {
+        return Ok(());
+    }
+    // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
+    let stands_still = |system: &InterpretedSystem| {
+        states(q, v).iter().all(|(q, v)| {
+            let at = |t| {
+                let at = equilibrium::linearize(system, t, q, v, u).ok()?;
+                Some((at.a, at.by_coordinates, at.by_rates))
+            };
+            let first = at(0.0);
+            first.is_some() && [0.37, 1.13, 29.7].into_iter().all(|t| at(t) == first)
+        })
+    };
+    if stands_still(system) {
+        return Ok(());
+    }
+    let stops = |name: &&str| {
+        let mut still = machine.clone();
+        still.set(name, 0.0).is_ok() && stands_still(&still.prepare())
+    };
+    let names: Vec<String> = machine
+        .parameters()
+        .map(|(parameter, _)| parameter.name.to_owned())
+        .collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).filter(stops).collect();
+    let help = match names.is_empty() {
+        true => "give the drive a parameter that stops it, or a coordinate of its own".to_owned(),
+        false => format!(
+            "it stands still with --set {}=0",
+            names.join("=0, or --set ")
+        ),
+    };
+    Err(Failure::Run(format!(
+        "the machine is driven: its equations change with time, so that it is at rest nowhere; {help}"
+    )))
+}
+
+/// Refuses steady coordinates on which the equations depend: what they turn past pulls now here, now there.
+fn refuse_unsteady(
+    system: &InterpretedSystem,
+    q: &[f64],
+    v: &[f64],
+    u: &Named,
+    steady: &[bool],
+) -> Result<(), Failure> {
+    for (q, v) in states(q, v) {
+        let Ok(here) = equilibrium::linearize(system, 0.0, &q, &v, u) else {
+            continue;
+        };
+        for (k, coordinate) in system.coordinates().enumerate() {
+            if steady[k] && here.by_coordinates.column(k).amax() != 0.0 {
+                let name = coordinate.name;
+                return Err(Failure::Run(format!(
+                    "`{name}` cannot turn steadily: the equations of motion depend on where it is"
+                )));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn failure(system: &InterpretedSystem, lost: &Lost) -> Failure {
+    let name = |index: usize| {
+        let coordinate = system.coordinates().nth(index);
+        coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
+    };
+    Failure::Run(match lost {
+        Lost::Singular(singular) => format!(
+            "the mass matrix is singular in `{}` on the way to an equilibrium; --start sets another place to look from",
+            name(singular.coordinate)
+        ),
+        Lost::NotFinite(index) => format!(
+            "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; --start sets another \
+             place to look from",
+            name(*index)
+        ),
+        Lost::Accelerates(index, left) => format!(
+            "there is no equilibrium near the start: nothing takes the acceleration {left:.3e} of `{}` away; --start sets \
+             another place to look from",
+            name(*index)
+        ),
+        Lost::NoEnd(steps) => format!(
+            "no equilibrium was found in {steps} steps from the start; --start sets another place to look from"
+        ),
+    })
+}
+
+/// What a mode is.
+fn kind(mode: &Mode) -> &'static str {
+    let Complex { re, im } = mode.lambda;
+    match (re > 0.0, re < 0.0, im > 0.0) {
+        (false, false, false) => "free",
+        (true, _, true) => "growing oscillation",
+        (true, _, false) => "growing",
+        (_, true, false) => "decaying",
+        _ => "oscillation",
+    }
+}
+
+/// Of an oscillation `−Re λ/|λ|`; a motion without one has no ratio.
+fn damping(mode: &Mode) -> Option<f64> {
+    (mode.lambda.im > 0.0).then(|| 0.0 - mode.lambda.re / mode.lambda.norm())
+}
+
+fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &[Mode]) -> Value {
+    let by_name = |values: &[f64]| -> Map<String, Value> {
+        let pairs = names.iter().zip(values);
+        pairs
+            .map(|(name, x)| ((*name).to_owned(), json!(x)))
+            .collect()
+    };
+    let modes: Vec<Value> = modes
+        .iter()
+        .map(|mode| {
+            let shape = names.iter().zip(&mode.shape);
+            let shape: Map<String, Value> = shape
+                .map(|(name, x)| ((*name).to_owned(), json!([x.re, x.im])))
+                .collect();
+            json!({
+                "kind": kind(mode),
+                "re": mode.lambda.re,
+                "im": mode.lambda.im,
+                "frequency": mode.lambda.im / TAU,
+                "damping": damping(mode),
+                "shape": shape,
+            })
+        })
+        .collect();
+    json!({
+        "equilibrium": {
+            "q": by_name(&found.q),
+            "v": by_name(v),
+            "steps": found.steps,
+            "free": found.free,
+        },
+        "modes": modes,
+    })
+}
+
+fn text(
+    names: &[&str],
+    units: &[&str],
+    start: &[f64],
+    v: &[f64],
+    found: &Equilibrium,
+    modes: &[Mode],
+) -> String {
+    let mut text = String::new();
+    let width = names.iter().map(|name| name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let times = if found.steps == 1 { "step" } else { "steps" };
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "equilibrium, {} {times} from the start:", found.steps);
+    for (k, name) in names.iter().enumerate() {
+        // What is nothing but rounding, in rad or m, is not shown.
+        let q = if found.q[k].abs() <= 1e-12 {
+            0.0
+        } else {
+            found.q[k]
+        };
+        let (moved, unit) = (found.q[k] - start[k], units[k]);
+        let moved = if moved.abs() <= 1e-12 { 0.0 } else { moved };
+        let unit = if unit == "1" {
+            String::new()
+        } else {
+            format!(" {unit}")
+        };
+        let _ = write!(text, "  {name:width$}  {}{unit}", number(q));
+        if v[k] != 0.0 {
+            let _ = write!(text, ", turning at {}{unit}/s", number(v[k]));
+        }
+        if moved != 0.0 {
+            let _ = write!(text, ", moved by {}", number(moved));
+        }
+        text.push('\n');
+    }
+    if found.free > 0 {
+        let ways = if found.free == 1 { "way" } else { "ways" };
+        let _ = writeln!(
+            text,
+            "it may stand elsewhere as well, in {} {ways}",
+            found.free
+        );
+    }
+    for (index, mode) in modes.iter().enumerate() {
+        let Complex { re, im } = mode.lambda;
+        let _ = write!(text, "\nmode {}: ", index + 1);
+        let _ = match (kind(mode), damping(mode)) {
+            ("free", _) => writeln!(text, "free, nothing brings it back"),
+            ("growing", _) => writeln!(text, "unstable, grows by e in {} s", number(1.0 / re)),
+            ("decaying", _) => writeln!(text, "decays by e in {} s", number(-1.0 / re)),
+            (_, Some(ratio)) => {
+                let _ = write!(text, "{} Hz, {} rad/s, ", number(im / TAU), number(im));
+                if re > 0.0 {
+                    let _ = write!(text, "unstable, grows by e in {} s, ", number(1.0 / re));
+                }
+                writeln!(text, "damping ratio {}", number(ratio))
+            }
+            _ => writeln!(text),
+        };
+        for (name, x) in names.iter().zip(&mode.shape) {
+            // Beside an amplitude of 1, in rad or m, the rest is nothing to look at; with --json it is there.
+            if x.norm() > 1e-12 {
+                let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
+            }
+        }
+    }
+    text
+}
+
+/// Six digits, or fewer where they say as much.
+fn number(x: f64) -> String {
+    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    match rounded.abs() {
+        0.0 => "0".into(),
+        1e-3..1e6 => format!("{rounded}"),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// A real amplitude with its sign, any other with its phase in degrees.
+fn amplitude(x: Complex<f64>) -> String {
+    // Rounding leaves no phase.
+    if x.im.abs() <= 1e-9 * x.norm() {
+        return number(x.re);
+    }
+    let degrees = format!("{:.1}", x.arg().to_degrees());
+    format!("{} at {degrees}°", number(x.norm()))
+}

@@ -1,0 +1,333 @@
+//! `lagrangian modes` against textbooks: closed forms for eigenfrequencies, damping and shapes.
+
+mod support;
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+
+use serde_json::Value;
+use support::{Scratch, lagrangian};
+
+/// Newton's method ends within 1e-10 of the equilibrium and takes one more step; frequencies of well-conditioned machines then
+/// carry some hundred roundings.
+const CLOSE: f64 = 1e-12;
+
+fn modes(arguments: &[&str]) -> Value {
+    let call: Vec<&str> = ["modes"]
+        .iter()
+        .chain(arguments)
+        .chain(&["--json"])
+        .copied()
+        .collect();
+    let output = lagrangian(&call);
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(output.status.success(), "{text}");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+fn said(arguments: &[&str]) -> (bool, String, String) {
+    let call: Vec<&str> = ["modes"].iter().chain(arguments).copied().collect();
+    let output = lagrangian(&call);
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
+    (
+        output.status.success(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+fn close(found: f64, exact: f64) {
+    assert!(
+        (found - exact).abs() <= CLOSE * exact.abs().max(1e-3),
+        "{found}, not {exact}"
+    );
+}
+
+/// `(re, im)` of every mode.
+fn eigenvalues(result: &Value) -> Vec<(f64, f64)> {
+    let modes = result["modes"].as_array().expect("a list");
+    modes
+        .iter()
+        .map(|mode| (number(&mode["re"]), number(&mode["im"])))
+        .collect()
+}
+
+fn assert_eigenvalues(result: &Value, exact: &[(f64, f64)]) {
+    let found = eigenvalues(result);
+    assert_eq!(found.len(), exact.len(), "{found:?}");
+    for ((re, im), (exact_re, exact_im)) in found.into_iter().zip(exact) {
+        let size = exact_re.hypot(*exact_im).max(1e-3);
+        assert!(
+            (re - exact_re).abs() <= CLOSE * size && (im - exact_im).abs() <= CLOSE * size,
+            "{re} + {im}i, not {exact_re} + {exact_im}i"
+        );
+    }
+}
+
+fn shape(result: &Value, mode: usize, name: &str) -> f64 {
+    let entry = &result["modes"][mode]["shape"][name];
+    assert_eq!(number(&entry[1]), 0.0, "{name} has a phase");
+    number(&entry[0])
+}
+
+const PENDULUM: &str = "machines/simple_pendulum.machine";
+
+#[test]
+fn a_pendulum_swings_with_the_root_of_g_over_l() {
+    let found = modes(&[PENDULUM, "--start", "theta=0.5", "--set", "l=0.7"]);
+    let omega = (9.81_f64 / 0.7).sqrt();
+    assert_eigenvalues(&found, &[(0.0, omega)]);
+    let mode = &found["modes"][0];
+    close(number(&mode["frequency"]), omega / TAU);
+    assert_eq!((number(&mode["damping"]), number(&mode["re"])), (0.0, 0.0));
+    assert_eq!(number(&found["equilibrium"]["free"]), 0.0);
+}
+
+#[test]
+fn a_pendulum_on_its_head_falls_with_the_same_root() {
+    let found = modes(&[PENDULUM, "--start", "theta=3"]);
+    close(number(&found["equilibrium"]["q"]["theta"]), PI);
+    let rate = 9.81_f64.sqrt();
+    assert_eigenvalues(&found, &[(-rate, 0.0), (rate, 0.0)]);
+    assert_eq!(found["modes"][1]["kind"], "growing");
+    assert!(found["modes"][1]["damping"].is_null());
+}
+
+#[test]
+fn a_double_pendulum_has_the_modes_of_the_textbook() {
+    let spec = "machines/double_pendulum.machine";
+    let found = modes(&[spec, "--start", "theta1=0.3", "--start", "theta2=-0.2"]);
+    let root = |sign: f64| (9.81 * (2.0 + sign * 2.0_f64.sqrt())).sqrt();
+    assert_eigenvalues(&found, &[(0.0, root(-1.0)), (0.0, root(1.0))]);
+    // θ₂ = ±√2 θ₁.
+    close(shape(&found, 0, "theta1"), FRAC_1_SQRT_2);
+    close(shape(&found, 1, "theta1"), -FRAC_1_SQRT_2);
+    assert_eq!(shape(&found, 0, "theta2"), 1.0);
+}
+
+#[test]
+fn a_train_has_the_waves_of_its_closed_form_and_rides_freely() {
+    let spec = "machines/spring_mass_train.machine";
+    let found = modes(&[spec, "--const", "N=6", "--set", "pull=0"]);
+    let omega = |j: i32| 2.0 * 400.0_f64.sqrt() * (PI * f64::from(j) / 12.0).sin();
+    let exact: Vec<(f64, f64)> = (0..6).map(|j| (0.0, omega(j))).collect();
+    assert_eigenvalues(&found, &exact);
+    assert_eq!(found["modes"][0]["kind"], "free");
+    assert_eq!(number(&found["equilibrium"]["free"]), 1.0);
+    // The ride: all cars alike. Mode j: cos(π j (i − 1/2)/N).
+    for i in 1..=6 {
+        close(shape(&found, 0, &format!("u[{i}]")), 1.0);
+        let wave = |i: i32| (PI * 2.0 * (f64::from(i) - 0.5) / 6.0).cos();
+        close(shape(&found, 2, &format!("u[{i}]")), wave(i) / wave(1));
+    }
+}
+
+/// An oscillator with m = 2, and a spring and a damper to choose.
+const OSCILLATOR: &str = "machine Oscillator in plane {
+    parameters { m: kg = 2, k: N/m = 50, b: N*s/m = 4, g: m/s^2 = 9.81 }
+    coordinates { x: m = 0.3 }
+    bodies { block { mass: m, at: (0, -x) } }
+    gravity (0, -g);
+    springs { spring { stiffness: k, stretch: x } }
+    dampers { damper { damping: b, stretch: x } }
+}";
+
+#[test]
+fn damping_is_a_share_of_the_critical_one() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let found = modes(&[spec.path()]);
+    // It hangs m g/k deep.
+    close(number(&found["equilibrium"]["q"]["x"]), 2.0 * 9.81 / 50.0);
+    let (omega, ratio) = (5.0_f64, 4.0 / (2.0 * (2.0_f64 * 50.0).sqrt()));
+    assert_eigenvalues(
+        &found,
+        &[(-ratio * omega, omega * (1.0 - ratio * ratio).sqrt())],
+    );
+    close(number(&found["modes"][0]["damping"]), ratio);
+    // Three times overdamped: two decays, −ω (r ± √(r² − 1)).
+    let found = modes(&[spec.path(), "--set", "b=60"]);
+    let root = 8.0_f64.sqrt();
+    assert_eigenvalues(
+        &found,
+        &[(-omega * (3.0 - root), 0.0), (-omega * (3.0 + root), 0.0)],
+    );
+    // No spring: it falls, and nothing holds it.
+    let (fine, _, error) = said(&[spec.path(), "--set", "k=0"]);
+    assert!(
+        !fine && error.contains("nothing takes the acceleration 9.810e0 of `x` away"),
+        "{error}"
+    );
+}
+
+/// `λ² = (M + m) g/(M l)` for a point at the end of a massless pole.
+#[test]
+fn a_cart_pole_falls_at_its_closed_form_and_rolls_freely() {
+    let still = ["--set", "rail=0", "--set", "hinge=0", "--set", "J=0"];
+    let call: Vec<&str> = ["machines/cart_pole.machine"]
+        .iter()
+        .chain(&still)
+        .copied()
+        .collect();
+    let found = modes(&call);
+    let rate = (1.1_f64 * 9.81 / 0.5).sqrt();
+    assert_eigenvalues(&found, &[(0.0, 0.0), (-rate, 0.0), (rate, 0.0)]);
+    assert!(number(&found["equilibrium"]["q"]["theta"]).abs() <= 1e-15);
+    assert_eq!(
+        (shape(&found, 0, "x"), shape(&found, 0, "theta")),
+        (1.0, 0.0)
+    );
+    // The masses' common centre stays where it is: (M + m) x + m l θ = 0.
+    close(shape(&found, 2, "x"), -0.1 * 0.5 / 1.1);
+}
+
+/// It runs in a circle at `cos θ = g/(l w²)` and nods with `w √(1 + 3 cos² θ)`: C. Huygens; in the header of the spec.
+#[test]
+fn a_conical_pendulum_nods_as_huygens_knew() {
+    let w = 4.6_f64;
+    let steady = format!("phi={w}");
+    let found = modes(&[
+        "machines/spherical_pendulum.machine",
+        "--start",
+        "theta=0.9",
+        "--steady",
+        &steady,
+    ]);
+    let cos = 9.81 / (w * w);
+    close(number(&found["equilibrium"]["q"]["theta"]), cos.acos());
+    assert_eq!(number(&found["equilibrium"]["v"]["phi"]), w);
+    assert_eigenvalues(
+        &found,
+        &[(0.0, 0.0), (0.0, w * (1.0 + 3.0 * cos * cos).sqrt())],
+    );
+}
+
+/// About a steady precession w at θ, with the momentum p about the axis: from V″ of the effective potential,
+/// `ω² = (p/I − 2 w cos θ)² + w² sin² θ`, and `p w = m g l + I w² cos θ`.
+#[test]
+fn a_top_in_steady_precession_nods_as_its_effective_potential_says() {
+    let (m, l, g, across, about) = (15.0, 1.0, 9.81, 0.234_375, 0.468_75);
+    let inertia: f64 = across + m * l * l;
+    let (theta, w) = (1.1_f64, 2.0);
+    let momentum = m * g * l / w + inertia * w * theta.cos();
+    let spin = momentum / about - w * theta.cos();
+    let [psi, phi] = [format!("psi={w}"), format!("phi={spin}")];
+    let found = modes(&[
+        "machines/heavy_top.machine",
+        "--start",
+        "theta=1",
+        "--steady",
+        &psi,
+        "--steady",
+        &phi,
+    ]);
+    close(number(&found["equilibrium"]["q"]["theta"]), theta);
+    let omega = (momentum / inertia - 2.0 * w * theta.cos()).hypot(w * theta.sin());
+    assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, omega)]);
+}
+
+/// A mass on springs in a table that turns with w: seen from the table it moves with |ω ± w|, above the critical speed too.
+/// A damper that turns along makes the fast table unstable, which the undamped one is not (A. L. Kimball, 1924).
+const WHIRL: &str = "machine Whirl in plane {
+    parameters { m: kg = 2, k: N/m = 50, b: N*s/m = 0, w: rad/s = 8 }
+    coordinates { x: m = 0.1, y: m = 0.2 }
+    frames { table = ground.turn(w*t) }
+    bodies { mass { mass: m, at: table.point(x, y) } }
+    springs { a { stiffness: k, stretch: x }, b { stiffness: k, stretch: y } }
+    dampers { a { damping: b, stretch: x }, b { damping: b, stretch: y } }
+}";
+
+#[test]
+fn a_whirling_mass_has_sum_and_difference_of_two_frequencies() {
+    let spec = Scratch::new("whirl.machine", WHIRL);
+    let found = modes(&[spec.path()]);
+    assert_eigenvalues(&found, &[(0.0, 3.0), (0.0, 13.0)]);
+    // Turned by a quarter: y is 90° off.
+    let entry = &found["modes"][0]["shape"]["y"];
+    assert_eq!(number(&entry[0]), 0.0);
+    close(number(&entry[1]).abs(), 1.0);
+    // With z = x + i y on the table: λ² + (2 i w + b/m) λ + k/m − w² = 0.
+    let found = modes(&[spec.path(), "--set", "b=0.4"]);
+    let growing = eigenvalues(&found).into_iter().filter(|(re, _)| *re > 0.0);
+    let growing: Vec<(f64, f64)> = growing.collect();
+    assert_eq!(growing.len(), 1);
+    let (re, im) = growing[0];
+    let residual = [-1.0, 1.0].map(|sign| {
+        let (w, c, k) = (8.0, 0.2, 25.0 - 64.0);
+        // (re + s i im)² + (c + 2 i w)(re + s i im) + k
+        let y = sign * im;
+        let real = re * re - y * y + c * re - 2.0 * w * y + k;
+        let imaginary = 2.0 * re * y + c * y + 2.0 * w * re;
+        real.hypot(imaginary)
+    });
+    assert!(residual[0].min(residual[1]) <= 1e-12 * 64.0, "{residual:?}");
+    // Below the critical speed, 5 rad/s, nothing grows.
+    let found = modes(&[spec.path(), "--set", "b=0.4", "--set", "w=4"]);
+    assert!(eigenvalues(&found).iter().all(|(re, _)| *re < 0.0));
+}
+
+#[test]
+fn every_machine_of_the_library_is_answered_in_numbers_or_words() {
+    let folder = support::root().join("machines");
+    let mut answered = 0;
+    for entry in std::fs::read_dir(folder).expect("the library") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|ending| ending != "machine") {
+            continue;
+        }
+        let (fine, text, error) = said(&[path.to_str().expect("text")]);
+        let shown = path.display();
+        assert!(fine != error.starts_with("error: "), "{shown}: {error}");
+        assert!(fine == text.starts_with("equilibrium, "), "{shown}: {text}");
+        assert!(!error.contains("panicked"), "{shown}: {error}");
+        answered += usize::from(fine);
+    }
+    assert!(answered >= 8, "{answered}");
+}
+
+#[test]
+fn what_has_no_equilibrium_is_told_why() {
+    let crusher = "machines/vibrating_crusher.machine";
+    let (fine, _, error) = said(&[crusher]);
+    assert!(
+        !fine && error.contains("its equations change with time"),
+        "{error}"
+    );
+    assert!(
+        error.contains("--set omega=0") && !error.contains("--set m1=0"),
+        "{error}"
+    );
+    let found = modes(&[crusher, "--set", "omega=0"]);
+    assert!(eigenvalues(&found).iter().all(|(re, _)| *re <= 0.0));
+
+    let (fine, _, error) = said(&[PENDULUM, "--steady", "theta=3"]);
+    assert!(
+        !fine && error.contains("`theta` cannot turn steadily"),
+        "{error}"
+    );
+    let (fine, _, error) = said(&[PENDULUM, "--steady", "phi=3"]);
+    assert!(
+        !fine && error.contains("no coordinate named `phi`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_reader_sees_what_moves_and_how() {
+    let (fine, text, error) = said(&[PENDULUM, "--start", "theta=0.5"]);
+    assert!(fine, "{error}");
+    assert!(text.contains("theta  0 rad, moved by -0.5\n"), "{text}");
+    assert!(
+        text.contains("mode 1: 0.498488 Hz, 3.13209 rad/s, damping ratio 0\n"),
+        "{text}"
+    );
+    let (_, text, _) = said(&[PENDULUM, "--start", "theta=3"]);
+    assert!(
+        text.contains("unstable, grows by e in 0.319275 s"),
+        "{text}"
+    );
+}
