@@ -3,7 +3,7 @@
 #![cfg(feature = "macros")]
 
 use lagrangian::scalar::{Dual, Scalar};
-use lagrangian::{Linearize, Machine, System};
+use lagrangian::{Linearize, System};
 
 lagrangian::machine! {
     /// A damped pendulum with a motor.
@@ -100,13 +100,13 @@ fn a_chains_derivatives_are_what_dual_numbers_carry() {
     for j in 0..20 {
         let exact = dual(j);
         let size = exact.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
-        for i in 0..9 {
+        for (i, exact) in exact.into_iter().enumerate() {
             let entry = match j {
                 0..9 => found.by_coordinates[i][j],
                 9..18 => found.by_rates[i][j - 9],
                 _ => found.by_parameters[i][j - 18],
             };
-            close(entry, exact[i], size);
+            close(entry, exact, size);
         }
     }
 }
