@@ -329,7 +329,7 @@ impl<'a> Emitter<'a> {
             return;
         }
         let name = format!("{}_{}", self.prefix, self.function_name(function.role));
-        let cut = cut::cut(function, self.prepared.len());
+        let cut = cut::cut(function, self.prepared.len(), cut::LONGEST_WHOLE);
         for (i, piece) in cut.iter().flat_map(|cut| &cut.pieces).enumerate() {
             self.piece(writer, &format!("{name}_{i}"), piece);
         }

@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 
 use crate::program::{Function, Guard, Op, Shape, Source, Value};
 
-/// The most operations of a function that stays whole. A compiler still handles it well, and calls cost nothing.
+/// The most operations of a function that stays whole, by default. A compiler still handles it well, and calls cost nothing.
 pub const LONGEST_WHOLE: usize = 2000;
 
 /// The most operations of a piece, and the fewest: in between, it ends where the least is left to the next one.
@@ -42,9 +42,9 @@ pub enum Place {
     Leaf(Op),
 }
 
-/// Cuts a function, if it is too long.
-pub fn cut(function: &Function, first: usize) -> Option<Cut> {
-    let is_long = function.code.iter().filter(|op| !is_leaf(op)).count() > LONGEST_WHOLE;
+/// Cuts a function, if it has more operations than `longest`.
+pub fn cut(function: &Function, first: usize, longest: usize) -> Option<Cut> {
+    let is_long = function.code.iter().filter(|op| !is_leaf(op)).count() > longest;
     is_long.then(|| Cutter::new(function, first).cut())
 }
 
@@ -348,7 +348,7 @@ mod tests {
     #[test]
     fn pieces_compute_what_the_whole_computes() {
         let whole = long_function(700);
-        let cut = cut(&whole, 0).expect("2800 operations are cut");
+        let cut = cut(&whole, 0, LONGEST_WHOLE).expect("2800 operations are cut");
         let mut w = vec![f64::NAN; cut.slots];
         for piece in &cut.pieces {
             assert!(
@@ -374,6 +374,6 @@ mod tests {
 
     #[test]
     fn short_functions_stay_whole() {
-        assert!(cut(&long_function(100), 0).is_none());
+        assert!(cut(&long_function(100), 0, LONGEST_WHOLE).is_none());
     }
 }

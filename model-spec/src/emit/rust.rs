@@ -34,6 +34,9 @@ pub struct Options {
     pub origin: Vec<String>,
     /// For each role the formulas that its documentation shows, `T = 1/2*m*der(x)^2`.
     pub formulas: BTreeMap<Role, Vec<String>>,
+    /// The most operations of a function that is not cut into pieces. Beyond some thousand a compiler that describes every
+    /// variable to a debugger needs more stack than it has.
+    pub longest_whole: usize,
 }
 
 impl Default for Options {
@@ -42,6 +45,7 @@ impl Default for Options {
             runtime: "::lagrangian".into(),
             origin: Vec::new(),
             formulas: BTreeMap::new(),
+            longest_whole: super::cut::LONGEST_WHOLE,
         }
     }
 }

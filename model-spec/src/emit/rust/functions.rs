@@ -91,7 +91,7 @@ impl<'a> Emitter<'a> {
         let arguments = self.declared(self.needs(function));
         let result = self.result_type(function.shape);
         self.writer.signature(&head, &arguments, Some(&result));
-        let cut = cut::cut(function, self.prepared.len());
+        let cut = cut::cut(function, self.prepared.len(), self.options.longest_whole);
         let texts: Vec<String> = match &cut {
             Some(cut) => self.calls_of_pieces(function, cut),
             None => {

@@ -25,7 +25,7 @@ impl Emitter<'_> {
 
     /// A function that is called often.
     pub(super) fn kernel(&mut self, function: &Function) {
-        let cut = cut::cut(function, self.prepared.len());
+        let cut = cut::cut(function, self.prepared.len(), self.options.longest_whole);
         self.choice(function);
         self.call_as_value(function);
         self.run(function, cut.as_ref());
