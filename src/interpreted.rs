@@ -10,10 +10,10 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-use lagrangian_scalar::Dual;
+use lagrangian_scalar::{Dual, Kernel, Scalar};
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
-use crate::{Assumption, Linearize, Machine, Quantity, Singular, State, System};
+use crate::{Assumption, Linearize, Machine, Number, Quantity, Singular, State, System};
 
 /// A machine whose equations are interpreted, with the values of its parameters.
 #[derive(Clone, Debug)]
@@ -187,7 +187,17 @@ impl InterpretedSystem {
         arguments: Arguments<'_, f64>,
         results: &mut [f64],
     ) -> Result<(), Singular> {
-        let called = self.interpreter.borrow_mut().call(role, arguments, results);
+        let mut interpreter = self.interpreter.borrow_mut();
+        let called = match role.inverts() {
+            // In the arithmetic of compiled machines, to the last bit.
+            true => f64::run(Call {
+                interpreter: &mut interpreter,
+                role,
+                arguments,
+                results,
+            }),
+            false => interpreter.call(role, arguments, results),
+        };
         called.map_err(|program::Singular { coordinate, ratio }| Singular { coordinate, ratio })
     }
 
@@ -198,6 +208,24 @@ impl InterpretedSystem {
             Ok(()) => result[0],
             Err(_) => f64::NAN,
         }
+    }
+}
+
+/// A call of the interpreter, to be run with whatever instructions the processor has.
+struct Call<'a> {
+    interpreter: &'a mut Interpreter<f64>,
+    role: Role,
+    arguments: Arguments<'a, f64>,
+    results: &'a mut [f64],
+}
+
+impl Kernel<f64> for Call<'_> {
+    type Output = Result<(), program::Singular>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
+        self.interpreter
+            .call_in::<N>(self.role, self.arguments, self.results)
     }
 }
 

@@ -63,8 +63,7 @@ fn bits(values: &[f64]) -> Vec<String> {
 
 /// The accelerations by the interpreter, in whatever arithmetic is picked for `f64` here.
 struct Interpreted<'a> {
-    program: &'a Program,
-    parameters: &'a [f64],
+    interpreter: &'a mut Interpreter<f64>,
     arguments: Arguments<'a, f64>,
 }
 
@@ -72,22 +71,10 @@ impl Kernel<f64> for Interpreted<'_> {
     type Output = Result<Vec<f64>, Singular>;
 
     fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
-        // What depends on parameters alone is computed in `f64`.
-        let prepared = Interpreter::new(self.program, self.parameters);
-        let load = |numbers: &[f64]| numbers.iter().copied().map(N::load).collect::<Vec<N>>();
-        let mut interpreter = prepared.map(N::load);
-        let Arguments { t, q, v, u, a } = self.arguments;
-        let (q, v, u, a) = (load(q), load(v), load(u), load(a));
-        let arguments = Arguments {
-            t: N::load(t),
-            q: &q,
-            v: &v,
-            u: &u,
-            a: &a,
-        };
-        let mut results = vec![N::ZERO; q.len()];
-        interpreter.call(Role::Accelerations, arguments, &mut results)?;
-        Ok(results.into_iter().map(N::store).collect())
+        let mut results = vec![0.0; self.arguments.q.len()];
+        self.interpreter
+            .call_in::<N>(Role::Accelerations, self.arguments, &mut results)?;
+        Ok(results)
     }
 }
 
@@ -152,8 +139,7 @@ fn agrees_in_f64<M: Machine + Default>(
         match (
             system.accelerations(t, &q, &v, &u, &mut out),
             f64::run(Interpreted {
-                program: &program,
-                parameters: &parameters,
+                interpreter: &mut Interpreter::new(&program, &parameters),
                 arguments,
             }),
         ) {
@@ -234,7 +220,7 @@ fn agrees_in_f64<M: Machine + Default>(
 type Pair<S> = (Option<Vec<S>>, Option<Vec<S>>);
 
 /// The accelerations of one state over `S`: those of the emitted code, and those of the interpreter.
-fn accelerations<S: Scalar, const N: usize>(
+fn accelerations<S: Scalar<Stored = S>, const N: usize>(
     program: &Program,
     parameters: &[f64],
     state: &(f64, [f64; N], [f64; N]),

@@ -167,7 +167,7 @@ struct State<'a> {
 }
 
 impl State<'_> {
-    fn call<S: Scalar>(
+    fn call<S: Scalar<Stored = S>>(
         &self,
         interpreter: &mut Interpreter<S>,
         role: Role,
@@ -189,7 +189,7 @@ impl State<'_> {
     }
 }
 
-fn over<S: Scalar>(numbers: &[f64]) -> Vec<S> {
+fn over<S: Scalar<Stored = S>>(numbers: &[f64]) -> Vec<S> {
     numbers.iter().map(|&number| S::from_f64(number)).collect()
 }
 

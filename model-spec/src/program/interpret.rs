@@ -10,7 +10,7 @@ use super::{Contracted, Contractions, Function, Op, Program, Role, Singular, Sou
 /// A program ready to run over numbers of type `S`.
 ///
 /// It does what the program says in the order in which the program says it, and contracts the
-/// products that generated code contracts: over the same numbers its results have the same bits as
+/// products that generated code contracts: in the same arithmetic its results have the same bits as
 /// those of generated code.
 /// Nothing is allocated after [`Interpreter::new`].
 #[derive(Clone, Debug)]
@@ -40,7 +40,7 @@ pub struct Arguments<'a, S> {
     pub a: &'a [S],
 }
 
-impl<S: Scalar> Interpreter<S> {
+impl<S: Scalar<Stored = S>> Interpreter<S> {
     /// The program with the given parameters.
     ///
     /// # Panics
@@ -85,27 +85,11 @@ impl<S: Scalar> Interpreter<S> {
     /// If `parameters` is not as long as [`Program::parameters`].
     pub fn prepare(&mut self, parameters: &[S]) {
         self.layout.parameters.fill(&mut self.registers, parameters);
-        self.prepare.run(&mut self.registers);
+        self.prepare.run::<S>(&mut self.registers);
         for (index, value) in self.prepare.results.iter().enumerate() {
             self.registers[self.layout.prepared.start + index] = self.registers[*value as usize];
         }
         self.singular = self.prepare.check(&self.registers).err();
-    }
-
-    /// The same over other numbers, with what depends on the parameters computed as it is.
-    pub fn map<R: Scalar>(&self, number: impl Fn(S) -> R) -> Interpreter<R> {
-        Interpreter {
-            layout: self.layout.clone(),
-            prepare: self.prepare.map(&number),
-            start: self.start.map(&number),
-            functions: self
-                .functions
-                .iter()
-                .map(|tape| tape.map(&number))
-                .collect(),
-            registers: self.registers.iter().map(|&x| number(x)).collect(),
-            singular: self.singular,
-        }
     }
 
     /// The parameters.
@@ -119,7 +103,7 @@ impl<S: Scalar> Interpreter<S> {
     /// # Panics
     /// If `q` or `v` is not as long as [`Program::coordinates`].
     pub fn start(&mut self, q: &mut [S], v: &mut [S]) {
-        self.start.run(&mut self.registers);
+        self.start.run::<S>(&mut self.registers);
         let n = q.len();
         assert_eq!(v.len(), n, "q and v are as long as the coordinates");
         let results = self.start.results.iter();
@@ -137,6 +121,21 @@ impl<S: Scalar> Interpreter<S> {
     /// If an argument that the function reads, or `results`, has another length than the program
     /// says.
     pub fn call(
+        &mut self,
+        role: Role,
+        arguments: Arguments<'_, S>,
+        results: &mut [S],
+    ) -> Result<(), Singular> {
+        self.call_in::<S>(role, arguments, results)
+    }
+
+    /// The same in arithmetic on numbers `N`, which are kept as `S`: what generated code does for
+    /// accelerations and their derivatives.
+    ///
+    /// # Panics
+    /// As [`call`](Interpreter::call).
+    #[inline(always)]
+    pub fn call_in<N: Scalar<Stored = S>>(
         &mut self,
         role: Role,
         arguments: Arguments<'_, S>,
@@ -161,7 +160,7 @@ impl<S: Scalar> Interpreter<S> {
                 region.fill(registers, values);
             }
         }
-        tape.run(registers);
+        tape.run::<N>(registers);
         tape.copy_results(registers, results);
         tape.check(registers)
     }
@@ -463,23 +462,6 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    fn map<R: Scalar>(&self, number: impl Fn(S) -> R) -> Tape<R> {
-        let check = |check: &Check<S>| Check {
-            pivot: check.pivot,
-            scale: check.scale,
-            tolerance: number(check.tolerance),
-            coordinate: check.coordinate,
-        };
-        Tape {
-            role: self.role,
-            reads: self.reads,
-            steps: self.steps.clone(),
-            results: self.results.clone(),
-            checks: self.checks.iter().map(check).collect(),
-            temporaries: self.temporaries,
-        }
-    }
-
     fn place_constants(&mut self, first: usize) {
         let place = |register: &mut Register| {
             if *register & IS_CONSTANT != 0 {
@@ -517,51 +499,41 @@ impl<S: Scalar> Tape<S> {
         }
     }
 
-    fn run(&self, registers: &mut [S]) {
+    /// Runs the steps in arithmetic on numbers `N`, which are kept as `S`.
+    #[inline(always)]
+    fn run<N: Scalar<Stored = S>>(&self, registers: &mut [S])
+    where
+        S: Copy,
+    {
         for step in &self.steps {
-            match *step {
-                Step::Add { to, a, b } => {
-                    registers[to as usize] = registers[a as usize] + registers[b as usize]
-                }
-                Step::Sub { to, a, b } => {
-                    registers[to as usize] = registers[a as usize] - registers[b as usize]
-                }
-                Step::Mul { to, a, b } => {
-                    registers[to as usize] = registers[a as usize] * registers[b as usize]
-                }
-                Step::Div { to, a, b } => {
-                    registers[to as usize] = registers[a as usize] / registers[b as usize]
-                }
-                Step::Neg { to, a } => registers[to as usize] = -registers[a as usize],
+            let at = |register: Register| N::load(registers[register as usize]);
+            let (to, value) = match *step {
+                Step::Add { to, a, b } => (to, at(a) + at(b)),
+                Step::Sub { to, a, b } => (to, at(a) - at(b)),
+                Step::Mul { to, a, b } => (to, at(a) * at(b)),
+                Step::Div { to, a, b } => (to, at(a) / at(b)),
+                Step::Neg { to, a } => (to, -at(a)),
                 Step::Contracted { kind, to, a, b, c } => {
-                    let [a, b, c] = [a, b, c].map(|register| registers[register as usize]);
-                    registers[to as usize] = match kind {
-                        Contracted::Add => a.mul_add(b, c),
-                        Contracted::Sub => a.mul_sub(b, c),
-                        Contracted::SubFrom => a.neg_mul_add(b, c),
+                    let value = match kind {
+                        Contracted::Add => at(a).mul_add(at(b), at(c)),
+                        Contracted::Sub => at(a).mul_sub(at(b), at(c)),
+                        Contracted::SubFrom => at(a).neg_mul_add(at(b), at(c)),
                     };
+                    (to, value)
                 }
-                Step::ProductError { to, a, b } => {
-                    registers[to as usize] =
-                        registers[a as usize].product_error(registers[b as usize])
-                }
-                Step::SumError { to, a, b } => {
-                    registers[to as usize] = registers[a as usize].sum_error(registers[b as usize])
-                }
-                Step::Sin { to, a } => registers[to as usize] = registers[a as usize].sin(),
-                Step::Cos { to, a } => registers[to as usize] = registers[a as usize].cos(),
+                Step::ProductError { to, a, b } => (to, at(a).product_error(at(b))),
+                Step::SumError { to, a, b } => (to, at(a).sum_error(at(b))),
+                Step::Sin { to, a } => (to, at(a).sin()),
+                Step::Cos { to, a } => (to, at(a).cos()),
                 Step::SinCos { sin, cos, a } => {
-                    (registers[sin as usize], registers[cos as usize]) =
-                        registers[a as usize].sin_cos();
+                    let (of_sin, of_cos) = at(a).sin_cos();
+                    registers[sin as usize] = of_sin.store();
+                    (cos, of_cos)
                 }
-                Step::Unary { call, to, a } => {
-                    registers[to as usize] = unary(call, registers[a as usize])
-                }
-                Step::Binary { call, to, a, b } => {
-                    registers[to as usize] =
-                        binary(call, registers[a as usize], registers[b as usize]);
-                }
-            }
+                Step::Unary { call, to, a } => (to, unary(call, at(a))),
+                Step::Binary { call, to, a, b } => (to, binary(call, at(a), at(b))),
+            };
+            registers[to as usize] = value.store();
         }
     }
 

@@ -20,7 +20,7 @@ struct Runner<'a, S> {
     interpreter: Interpreter<S>,
 }
 
-impl<'a, S: Scalar> Runner<'a, S> {
+impl<'a, S: Scalar<Stored = S>> Runner<'a, S> {
     fn new(program: &'a Program) -> Runner<'a, S> {
         let default = |p: &lagrangian_spec::program::Slot| {
             p.default.as_ref().map_or(1.0, |default| default.value)
