@@ -289,7 +289,7 @@ impl Number for Slope {
     }
     fn call(f: Function, x: Slope, y: Slope) -> Slope {
         let one = Residue::ONE;
-        let value = Residue::call(f, x.value, y.value);
+        let value = <Residue as Number>::call(f, x.value, y.value);
         let slope = match f {
             Function::Sin => x.value.cos() * x.slope,
             Function::Cos => -x.value.sin() * x.slope,
