@@ -22,11 +22,7 @@ impl Chapter<'_, '_> {
             ];
             let name: Words = words![code(program.title(function.role))];
             let numbers = numbers.map(|n| words![n.to_string()]);
-            let form = program
-                .choice(function.role)
-                .map_or_else(String::new, |choice| choice.chosen().form.to_string());
-            let row = [name].into_iter().chain(numbers);
-            row.chain([words![form]]).collect()
+            [name].into_iter().chain(numbers).collect()
         });
         let head = head(&[
             "",
@@ -35,7 +31,6 @@ impl Chapter<'_, '_> {
             "divisions",
             "sine–cosine pairs",
             "other",
-            "made",
         ]);
         let route = match self.compiled.equations.route {
             Route::Projected => {
@@ -66,16 +61,9 @@ impl Chapter<'_, '_> {
             "The accelerations were made in ",
             counted(choice.candidates.len(), "form"),
             ". The first of the following was taken, for the least sum of the cycles that a processor is estimated to take for \
-             a call by itself and for one among many that run side by side:",
+             a call alone and for one among others that run side by side:",
         ];
-        let head = head(&[
-            "",
-            "multiplications",
-            "additions",
-            "divisions",
-            "cycles alone",
-            "among others",
-        ]);
+        let head = head(&["", "mul", "add", "div", "alone", "among others"]);
         let row = |candidate: &Candidate| {
             let Candidate { form, counts, cost } = candidate;
             let numbers = [
