@@ -28,12 +28,13 @@ use page::Page;
 use reader::{Reader, Verdict};
 
 /// The pages whose blocks are run.
-const PAGES: [&str; 5] = [
+const PAGES: [&str; 6] = [
     "README.md",
     "docs/tutorial.md",
     "docs/reference.md",
     "docs/spec-language.md",
     "docs/command-line.md",
+    "docs/skipping.md",
 ];
 
 /// Reads a page from top to bottom and does what it says.
@@ -93,6 +94,11 @@ fn the_page_of_the_language_does_what_it_says() {
 #[test]
 fn the_page_of_the_command_line_does_what_it_says() {
     follow("docs/command-line.md");
+}
+
+#[test]
+fn the_page_of_what_is_skipped_does_what_it_says() {
+    follow("docs/skipping.md");
 }
 
 #[test]
