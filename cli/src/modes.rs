@@ -1,6 +1,8 @@
 //! `lagrangian modes`: where a machine stays, and how it moves about that place.
 
 mod equilibrium;
+mod precise;
+mod rank;
 mod spectrum;
 
 use std::f64::consts::TAU;
@@ -20,8 +22,8 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output;
 use crate::reading::{self, Reading};
-use equilibrium::{Equilibrium, Linearized, Lost};
-use spectrum::Mode;
+use equilibrium::{Equilibrium, Lost, Statics};
+use spectrum::{Mode, Modes};
 
 /// Runs the command.
 ///
@@ -50,13 +52,9 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let u = system.default_inputs();
     refuse_drives(&machine, &system, &q, &v, &u)?;
     refuse_unsteady(&system, &q, &v, &u, &steady)?;
-    let found = equilibrium::find(&system, &q, &v, &u).map_err(|lost| failure(&system, &lost))?;
-    let Linearized {
-        by_coordinates,
-        by_rates,
-        ..
-    } = &found.linearized;
-    let modes = spectrum::modes(by_coordinates, by_rates)
+    let mut statics = Statics::new(&machine, &system, &v, &u);
+    let found = statics.find(&q).map_err(|lost| failure(&system, &lost))?;
+    let modes = spectrum::modes(&found.by_coordinates, &found.by_rates)
         .ok_or_else(|| Failure::run("the eigenvalues cannot be found"))?;
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -136,10 +134,7 @@ fn refuse_drives(
     // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
     let stands_still = |system: &InterpretedSystem| {
         states(q, v).iter().all(|(q, v)| {
-            let at = |t| {
-                let at = equilibrium::linearize(system, t, q, v, u).ok()?;
-                Some((at.a, at.by_coordinates, at.by_rates))
-            };
+            let at = |t| equilibrium::linearize(system, t, q, v, u).ok();
             let first = at(0.0);
             first.is_some() && [0.37, 1.13, 29.7].into_iter().all(|t| at(t) == first)
         })
@@ -177,11 +172,12 @@ fn refuse_unsteady(
     steady: &[bool],
 ) -> Result<(), Failure> {
     for (q, v) in states(q, v) {
-        let Ok(here) = equilibrium::linearize(system, 0.0, &q, &v, u) else {
+        let Ok([_, by_q, _]) = equilibrium::linearize(system, 0.0, &q, &v, u) else {
             continue;
         };
         for (k, coordinate) in system.coordinates().enumerate() {
-            if steady[k] && here.by_coordinates.column(k).amax() != 0.0 {
+            let mut column = by_q.iter().skip(k).step_by(q.len());
+            if steady[k] && column.any(|x| *x != 0.0) {
                 let name = coordinate.name;
                 return Err(Failure::Run(format!(
                     "`{name}` cannot turn steadily: the equations of motion depend on where it is"
@@ -235,13 +231,18 @@ fn damping(mode: &Mode) -> Option<f64> {
     (mode.lambda.im > 0.0).then(|| 0.0 - mode.lambda.re / mode.lambda.norm())
 }
 
-fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &[Mode]) -> Value {
+fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &Modes) -> Value {
     let by_name = |values: &[f64]| -> Map<String, Value> {
         let pairs = names.iter().zip(values);
         pairs
             .map(|(name, x)| ((*name).to_owned(), json!(x)))
             .collect()
     };
+    let Modes {
+        modes,
+        lost,
+        lost_below,
+    } = modes;
     let modes: Vec<Value> = modes
         .iter()
         .map(|mode| {
@@ -253,6 +254,7 @@ fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &[Mode]) -> Va
                 "kind": kind(mode),
                 "re": mode.lambda.re,
                 "im": mode.lambda.im,
+                "error": mode.error,
                 "frequency": mode.lambda.im / TAU,
                 "damping": damping(mode),
                 "shape": shape,
@@ -267,6 +269,7 @@ fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &[Mode]) -> Va
             "free": found.free,
         },
         "modes": modes,
+        "lost": {"modes": lost, "below": lost_below},
     })
 }
 
@@ -276,7 +279,7 @@ fn text(
     start: &[f64],
     v: &[f64],
     found: &Equilibrium,
-    modes: &[Mode],
+    modes: &Modes,
 ) -> String {
     let mut text = String::new();
     let width = names.iter().map(|name| name.chars().count()).max();
@@ -315,11 +318,17 @@ fn text(
             found.free
         );
     }
-    for (index, mode) in modes.iter().enumerate() {
+    for (index, mode) in modes.modes.iter().enumerate() {
         let Complex { re, im } = mode.lambda;
         let _ = write!(text, "\nmode {}: ", index + 1);
         let _ = match (kind(mode), damping(mode)) {
-            ("free", _) => writeln!(text, "free, nothing brings it back"),
+            ("free", _) => {
+                let _ = write!(text, "free, nothing brings it back");
+                match mode.error > 0.0 {
+                    true => writeln!(text, " faster than {} rad/s", number(mode.error)),
+                    false => writeln!(text),
+                }
+            }
             ("growing", _) => writeln!(text, "unstable, grows by e in {} s", number(1.0 / re)),
             ("decaying", _) => writeln!(text, "decays by e in {} s", number(-1.0 / re)),
             (_, Some(ratio)) => {
@@ -331,12 +340,32 @@ fn text(
             }
             _ => writeln!(text),
         };
+        // Of six digits that are printed, all are right.
+        if mode.error > 0.5e-6 * mode.lambda.norm() && kind(mode) != "free" {
+            let error = number(mode.error);
+            let _ = writeln!(text, "  known no better than to {error} rad/s");
+        }
         for (name, x) in names.iter().zip(&mode.shape) {
             // Beside an amplitude of 1, in rad or m, the rest is nothing to look at; with --json it is there.
             if x.norm() > 1e-12 {
                 let _ = writeln!(text, "  {name:width$}  {}", amplitude(*x));
             }
         }
+    }
+    let Modes {
+        lost, lost_below, ..
+    } = modes;
+    if *lost > 0 {
+        let (motions, are) = if *lost == 1 {
+            ("motion", "is")
+        } else {
+            ("motions", "are")
+        };
+        let below = number(*lost_below);
+        let _ = writeln!(
+            text,
+            "\n{lost} more {motions} {are} slower than {below} rad/s, too slow beside the others to be told from rest"
+        );
     }
     text
 }

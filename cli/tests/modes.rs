@@ -270,6 +270,287 @@ fn a_whirling_mass_has_sum_and_difference_of_two_frequencies() {
     assert!(eigenvalues(&found).iter().all(|(re, _)| *re < 0.0));
 }
 
+/// The crusher of the benchmarks without its drive, by mass, damping and stiffness matrices that are typed in here.
+#[test]
+fn a_crusher_at_rest_stays_where_nothing_holds_it_and_swings_where_springs_do() {
+    const NAMES: [&str; 9] = [
+        "x", "y", "theta", "s1", "phi1", "theta1", "s2", "phi2", "theta2",
+    ];
+    let spec = "machines/crusher9.machine";
+    for stop in ["e=0", "w=0", "m0=0"] {
+        let found = modes(&[spec, "--set", stop]);
+        let q = NAMES.map(|name| number(&found["equilibrium"]["q"][name]));
+        let [x, y, theta, s1, phi1, theta1, s2, phi2, theta2] = q;
+        // Free angles do not move at all.
+        assert_eq!([phi1, theta1, phi2, theta2], [0.4, 0.0, 1.3, 0.0]);
+        close(s1, 0.15);
+        close(s2, 0.10);
+        assert!((x + 0.05 * theta).abs() <= 1e-15 && (y + 0.35 * theta).abs() <= 1e-15);
+        assert_eq!(number(&found["equilibrium"]["free"]), 5.0);
+
+        // How each point moves with each coordinate.
+        let turned = |x: f64, y: f64| {
+            let (sin, cos) = theta.sin_cos();
+            [-(sin * x + cos * y), cos * x - sin * y]
+        };
+        let along = |phi: f64| [phi.cos(), phi.sin()];
+        let across = |s: f64, phi: f64| [-s * phi.sin(), s * phi.cos()];
+        // The debalance hangs at (x0 + e, y0), whatever stops it; polar(e, 0) keeps its direction in space.
+        let points: [(f64, [[f64; 2]; 9]); 4] = {
+            let none = [0.0; 2];
+            let (e1, e2) = ([1.0, 0.0], [0.0, 1.0]);
+            let m0 = if stop == "m0=0" { 0.0 } else { 25.0 };
+            let (a1, c1) = (along(phi1), across(s1, phi1));
+            let (a2, c2) = (along(phi2), across(s2, phi2));
+            [
+                (450.0, [e1, e2, none, none, none, none, none, none, none]),
+                (
+                    m0,
+                    [
+                        e1,
+                        e2,
+                        turned(0.10, -0.25),
+                        none,
+                        none,
+                        none,
+                        none,
+                        none,
+                        none,
+                    ],
+                ),
+                (120.0, [e1, e2, none, a1, c1, none, none, none, none]),
+                (60.0, [e1, e2, none, a1, c1, none, a2, c2, none]),
+            ]
+        };
+        let mut mass = [[0.0; 9]; 9];
+        for (m, by) in points {
+            for i in 0..9 {
+                for j in 0..9 {
+                    mass[i][j] += m * (by[i][0] * by[j][0] + by[i][1] * by[j][1]);
+                }
+            }
+        }
+        for (i, inertia) in [(2, 60.0), (5, 2.4), (8, 0.5)] {
+            mass[i][i] += inertia;
+        }
+        let squares = |terms: [(f64, [f64; 9]); 4]| {
+            let mut matrix = [[0.0; 9]; 9];
+            for (c, by) in terms {
+                for i in 0..9 {
+                    for j in 0..9 {
+                        matrix[i][j] += c * by[i] * by[j];
+                    }
+                }
+            }
+            matrix
+        };
+        let radial = |i: usize| std::array::from_fn(|j| f64::from(u8::from(i == j)));
+        let x_of = |y: f64| [1.0, 0.0, -y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let y_of = |x: f64| [0.0, 1.0, x, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let stiffness = squares([
+            (2e5, x_of(-0.05)),
+            (1.6e5, y_of(0.35)),
+            (5e4, radial(3)),
+            (2e4, radial(6)),
+        ]);
+        let damping = squares([
+            (400.0, x_of(0.04)),
+            (350.0, y_of(0.35)),
+            (60.0, radial(3)),
+            (30.0, radial(6)),
+        ]);
+
+        let found = found["modes"].as_array().expect("a list");
+        let kinds: Vec<&str> = found
+            .iter()
+            .filter_map(|mode| mode["kind"].as_str())
+            .collect();
+        assert_eq!(
+            kinds[..6],
+            ["free", "free", "free", "free", "free", "decaying"]
+        );
+        assert_eq!(kinds[6..], ["oscillation"; 4]);
+        for mode in found {
+            let (re, im) = (number(&mode["re"]), number(&mode["im"]));
+            let amplitude = |name: &str| {
+                let entry = &mode["shape"][name];
+                (number(&entry[0]), number(&entry[1]))
+            };
+            let shape = NAMES.map(amplitude);
+            for i in 0..9 {
+                let (mut left, mut size) = ((0.0, 0.0), 0.0);
+                for j in 0..9 {
+                    // λ² M + λ C + K
+                    let real =
+                        (re * re - im * im) * mass[i][j] + re * damping[i][j] + stiffness[i][j];
+                    let imaginary = 2.0 * re * im * mass[i][j] + im * damping[i][j];
+                    let (a, b) = shape[j];
+                    left.0 += real * a - imaginary * b;
+                    left.1 += real * b + imaginary * a;
+                    let terms = (re * re + im * im) * mass[i][j].abs()
+                        + re.hypot(im) * damping[i][j].abs()
+                        + stiffness[i][j].abs();
+                    size += terms * a.hypot(b);
+                }
+                // Amplitudes are settled to 1e-12 of the largest; their rows may be small.
+                let row: f64 = stiffness[i].iter().chain(&mass[i]).map(|x| x.abs()).sum();
+                let limit = 1e-12 * (size + row * (1.0 + re * re + im * im));
+                assert!(
+                    left.0.hypot(left.1) <= limit,
+                    "{stop}: row {i} of {mode}: {left:?}"
+                );
+            }
+        }
+    }
+}
+
+/// The roots of λ² + c λ + k, none by a difference.
+fn roots(c: f64, k: f64) -> [f64; 2] {
+    let fast = -0.5 * (c + (c * c - 4.0 * k).sqrt());
+    [k / fast, fast]
+}
+
+/// Both decays of heavily overdamped oscillators, each to its own digits; and so in two masses between three spring-damper
+/// pairs, which move together, λ² + b λ + k, or against one another, λ² + 3 b λ + 3 k.
+#[test]
+fn a_slow_decay_is_as_exact_as_a_fast_one() {
+    const TWO: &str = "machine Two in plane {
+        parameters { m: kg = 1, k: N/m = 1, b: N*s/m = 1 }
+        coordinates { x: m = 0.1, y: m }
+        bodies { one { mass: m, at: (x, 0) }, other { mass: m, at: (y, 0) } }
+        springs {
+            a { stiffness: k, stretch: x }, b { stiffness: k, stretch: y - x }, c { stiffness: k, stretch: y }
+        }
+        dampers { a { damping: b, stretch: x }, b { damping: b, stretch: y - x }, c { damping: b, stretch: y } }
+    }";
+    let one = Scratch::new("oscillator.machine", OSCILLATOR);
+    let two = Scratch::new("two.machine", TWO);
+    for (b, k) in [
+        (1e4, 1.0),
+        (1e8, 1.0),
+        (1e9, 1e-3),
+        (1e3, 1e-14),
+        (1e12, 1e4),
+        (1e-3, 1e-28),
+    ] {
+        let [b_is, k_is] = [format!("b={b:e}"), format!("k={k:e}")];
+        let set = ["--set", &b_is, "--set", &k_is];
+        let check = |call: &[&str], mut exact: Vec<f64>| {
+            let call: Vec<&str> = call.iter().chain(&set).copied().collect();
+            let found = modes(&call);
+            assert_eq!(number(&found["lost"]["modes"]), 0.0);
+            let found = eigenvalues(&found);
+            exact.sort_by(|x, y| y.total_cmp(x));
+            assert_eq!(found.len(), exact.len(), "{b} {k}: {found:?}");
+            for ((re, im), exact) in found.into_iter().zip(exact) {
+                assert_eq!(im, 0.0);
+                // A few roundings in the entries and in the closed form.
+                let limit = 16.0 * f64::EPSILON * exact.abs();
+                assert!(
+                    (re - exact).abs() <= limit,
+                    "b={b} k={k}: {re}, not {exact}"
+                );
+            }
+        };
+        let together = roots(b, k).into_iter();
+        let all = together.chain(roots(3.0 * b, 3.0 * k)).collect();
+        check(&[two.path()], all);
+        check(
+            &[one.path(), "--set", "g=0"],
+            roots(b / 2.0, k / 2.0).to_vec(),
+        );
+    }
+}
+
+/// A soft spring beside a stiff one: exact where they have nothing to do with each other; where they share a mass, right within
+/// the bound that is said, up to where the soft one has left the digits of their sum. There the motion is called free, with a
+/// bound above its true frequency.
+#[test]
+fn a_soft_spring_beside_a_stiff_one_is_resolved_or_it_is_said() {
+    const APART: &str = "machine Apart in plane {
+        parameters { m: kg = 1, soft: N/m = 1, stiff: N/m = 1 }
+        coordinates { x: m = 0.1, y: m = 0.1 }
+        bodies { one { mass: m, at: (x, y) } }
+        springs { a { stiffness: soft, stretch: x }, b { stiffness: stiff, stretch: y } }
+    }";
+    const CHAINED: &str = "machine Chained in plane {
+        parameters { m: kg = 1, soft: N/m = 1, stiff: N/m = 1 }
+        coordinates { x: m = 0.1, y: m }
+        bodies { one { mass: m, at: (x, 0) }, other { mass: m, at: (y, 0) } }
+        springs { a { stiffness: soft, stretch: x }, b { stiffness: stiff, stretch: y - x } }
+    }";
+    let apart = Scratch::new("apart.machine", APART);
+    let chained = Scratch::new("chained.machine", CHAINED);
+    let (mut resolved, mut told) = (0, 0);
+    for exponent in [2, 4, 6, 8, 10, 12, 14, 16, 18] {
+        let stiff = 10.0_f64.powi(exponent);
+        let set = format!("stiff={stiff:e}");
+        let found = modes(&[apart.path(), "--set", &set]);
+        for ((re, im), exact) in eigenvalues(&found).into_iter().zip([1.0, stiff.sqrt()]) {
+            assert_eq!(re, 0.0);
+            assert!(
+                (im - exact).abs() <= 8.0 * f64::EPSILON * exact,
+                "{im}, not {exact}"
+            );
+        }
+
+        // ω⁴ − (1 + 2 k) ω² + k = 0
+        let fast = 0.5 * (1.0 + 2.0 * stiff + 1.0_f64.hypot(2.0 * stiff));
+        let exact = [(stiff / fast).sqrt(), fast.sqrt()];
+        let found = modes(&[chained.path(), "--set", &set]);
+        let listed = found["modes"].as_array().expect("a list");
+        assert_eq!(listed.len(), 2, "{found}");
+        for (mode, exact) in listed.iter().zip(exact) {
+            let (re, im, error) = (
+                number(&mode["re"]),
+                number(&mode["im"]),
+                number(&mode["error"]),
+            );
+            if mode["kind"] == "free" {
+                told += 1;
+                assert!(error >= exact, "{stiff}: {error} hides {exact}");
+            } else {
+                resolved += 1;
+                assert!(
+                    re.abs() <= error && (im - exact).abs() <= error,
+                    "{stiff}: {mode}"
+                );
+                // 32 roundings of the entries, 2 k in each row with ω² beside them, over 2 ω; vectors are shared out
+                // equally within a factor of 2.
+                let limit = 16.0 * f64::EPSILON * (2.0 * stiff + exact * exact) / exact;
+                assert!(error <= 2.0 * limit, "{stiff}: {mode}");
+            }
+        }
+    }
+    assert!(resolved >= 13 && told >= 2, "{resolved} {told}");
+    let (_, text, _) = said(&[chained.path(), "--set", "stiff=1e10"]);
+    assert!(text.contains("known no better than to "), "{text}");
+    let (_, text, _) = said(&[chained.path(), "--set", "stiff=1e16"]);
+    assert!(
+        text.contains("free, nothing brings it back faster than "),
+        "{text}"
+    );
+}
+
+/// Two masses on a spring, in the plane: its length is off, and so the direction across is stiff until it is not.
+#[test]
+fn newtons_method_ends_where_equilibria_are_not_alone() {
+    const PAIR: &str = "machine Pair in plane {
+        parameters { m: kg = 2, k: N/m = 100, l: m = 0.5 }
+        coordinates { x1: m, y1: m, x2: m = 0.6, y2: m = 0.3 }
+        bodies { one { mass: m, at: (x1, y1) }, other { mass: m, at: (x2, y2) } }
+        springs { spring { stiffness: k, from: one.at, to: other.at, length: l } }
+    }";
+    let spec = Scratch::new("pair.machine", PAIR);
+    let found = modes(&[spec.path()]);
+    let q = |name| number(&found["equilibrium"]["q"][name]);
+    close((q("x2") - q("x1")).hypot(q("y2") - q("y1")), 0.5);
+    // It has only shortened: the direction is the same.
+    assert!((0.3 * (q("x2") - q("x1")) - 0.6 * (q("y2") - q("y1"))).abs() <= 1e-14);
+    assert_eq!(number(&found["equilibrium"]["free"]), 3.0);
+    assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 10.0)]);
+}
+
 #[test]
 fn every_machine_of_the_library_is_answered_in_numbers_or_words() {
     let folder = support::root().join("machines");

@@ -1,12 +1,26 @@
-//! Where a machine stays: Newton's method on its accelerations, with their exact derivatives.
+//! Where a machine stays: Newton's method on its forces, with their exact derivatives.
 //!
-//! Steps are damped by the natural monotonicity test: a step is kept if the next one, taken with the same matrix, is shorter
-//! (P. Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, section 3.3). It does not see in which units an acceleration
-//! is measured. A matrix that is singular (a cart on a rail stays wherever it stands) gives the shortest of all steps.
+//! Forces, not accelerations: a force that depends on no angle leaves the angle alone, while M⁻¹ turns along with it. Each
+//! coordinate is measured in the length that its own inertia gives it, `√M_ii q_i`, so that no unit and no mass decides what
+//! is small: singular values of the scaled stiffness are squares of frequencies. Directions in which forces do not change are
+//! free, and nothing moves along them.
+//!
+//! On the way to one of many equilibria the stiffness along the others is not yet 0, but as small as the forces that are left
+//! over; what comes to less than those says nothing. So steps are damped as Levenberg and Marquardt do, by the size of these
+//! forces, which keeps the convergence quadratic where equilibria are not alone (N. Yamashita and M. Fukushima, *On the rate of
+//! convergence of the Levenberg–Marquardt method*, Computing Suppl. 15 (2001) 239–249). A step is kept if the next one, taken
+//! with the same matrix, is shorter: the natural monotonicity test (P. Deuflhard, *Newton Methods for Nonlinear Problems*,
+//! 2004, section 3.3). A damped one need not be, by as much; it is kept too if it does what the linear prediction says, as
+//! exactly as the test asks of a step without damping.
 
-use lagrangian::interpreted::{InterpretedSystem, Named};
-use lagrangian::{Linearize, Singular};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::{Linearize, Singular, System};
+use lagrangian_scalar::{Dual, Interval, Scalar};
+use lagrangian_spec::program::{Arguments, Interpreter, Role};
 use nalgebra::{DMatrix, DVector};
+
+use super::precise;
+use super::rank::{self, Direction};
 
 /// The most steps; Newton's method takes five, and a few more for each radian on the way.
 const MOST_STEPS: usize = 200;
@@ -21,26 +35,21 @@ const LONGEST_STEP: f64 = 1.0;
 /// error after it is about the square of that.
 const TOLERANCE: f64 = 1e-10;
 
-/// The share of what its own terms come to that an acceleration may be off zero: a thousand roundings, and the square of
+/// A stiffness counts if it is more than this share of what forces, off zero by a step of one, would make of it.
+const DAMPING: f64 = 0.1;
+
+/// The share of what its own terms come to that a force may be off zero: a thousand roundings, and the square of
 /// [`TOLERANCE`].
 const BALANCED: f64 = 1e-12;
-
-/// How the accelerations change with the state.
-pub struct Linearized {
-    /// The accelerations.
-    pub a: DVector<f64>,
-    /// Their derivatives by the coordinates.
-    pub by_coordinates: DMatrix<f64>,
-    /// Their derivatives by the rates.
-    pub by_rates: DMatrix<f64>,
-}
 
 /// A state in which nothing accelerates.
 pub struct Equilibrium {
     /// The coordinates.
     pub q: Vec<f64>,
-    /// How accelerations change near it.
-    pub linearized: Linearized,
+    /// How accelerations change with the coordinates near it.
+    pub by_coordinates: DMatrix<f64>,
+    /// How they change with the rates.
+    pub by_rates: DMatrix<f64>,
     /// How many steps it took.
     pub steps: usize,
     /// Along how many directions the machine may stand elsewhere as well.
@@ -59,169 +68,334 @@ pub enum Lost {
     NoEnd(usize),
 }
 
-/// The accelerations and their derivatives at a state.
+/// The accelerations at a state, and their derivatives by the coordinates and by the rates.
 pub fn linearize(
     system: &InterpretedSystem,
     t: f64,
     q: &Vec<f64>,
     v: &Vec<f64>,
     u: &Named,
-) -> Result<Linearized, Lost> {
+) -> Result<[Vec<f64>; 3], Lost> {
     let n = q.len();
     let (mut a, mut by_q, mut by_v) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
     system
         .linearize(t, q, v, u, &mut a, &mut by_q, &mut by_v)
         .map_err(Lost::Singular)?;
-    for (index, number) in a.iter().enumerate().chain(
-        by_q.iter()
-            .chain(&by_v)
-            .enumerate()
-            .map(|(k, x)| (k % (n * n) / n, x)),
-    ) {
-        if !number.is_finite() {
-            return Err(Lost::NotFinite(index));
-        }
+    let numbers = a.iter().enumerate();
+    let entries = by_q.iter().chain(&by_v).enumerate();
+    let mut rows = numbers.chain(entries.map(|(k, x)| (k % (n * n) / n, x)));
+    match rows.find(|(_, x)| !x.is_finite()) {
+        Some((index, _)) => Err(Lost::NotFinite(index)),
+        None => Ok([a, by_q, by_v]),
     }
-    Ok(Linearized {
-        a: DVector::from_vec(a),
-        by_coordinates: DMatrix::from_row_slice(n, n, &by_q),
-        by_rates: DMatrix::from_row_slice(n, n, &by_v),
-    })
 }
 
-/// The equilibrium that Newton's method reaches from `q`, the rates `v` being held.
-///
-/// # Errors
-/// If there is none on its way.
-pub fn find(
-    system: &InterpretedSystem,
-    q: &[f64],
-    v: &Vec<f64>,
-    u: &Named,
-) -> Result<Equilibrium, Lost> {
-    let mut q = q.to_vec();
-    let mut here = linearize(system, 0.0, &q, v, u)?;
-    for steps in 0..MOST_STEPS {
-        let inverse = Inverse::of(&here.by_coordinates);
-        let step = inverse.step(&here.a);
-        let relative = |x: f64, q: f64| x.abs() / q.abs().max(1.0);
-        let longest = |step: &DVector<f64>, q: &[f64]| {
-            let shares = step.iter().zip(q).map(|(x, q)| relative(*x, *q));
-            shares.fold(0.0, f64::max)
+/// The generalized forces of a machine, and how they change.
+pub struct Statics<'a> {
+    machine: &'a InterpretedMachine,
+    system: &'a InterpretedSystem,
+    interpreter: Interpreter<Dual<f64>>,
+    v: &'a Vec<f64>,
+    u: &'a Named,
+}
+
+/// Forces, row after row their derivatives by the coordinates, and those by the rates.
+struct Derived<S>([Vec<S>; 3]);
+
+/// The forces in a pose, over the lengths `1/√M_ii`.
+struct Forces {
+    lengths: DVector<f64>,
+    forces: DVector<f64>,
+    /// Their derivatives by the coordinates.
+    stiffness: Vec<Direction>,
+    /// What the terms of each force come to.
+    sizes: DVector<f64>,
+}
+
+impl<S: Scalar<Stored = S>> Derived<S> {
+    fn new(interpreter: &mut Interpreter<Dual<S>>, [q, v, u]: [&[S]; 3]) -> Derived<S> {
+        let n = q.len();
+        let [mut q, mut v, u] = [q, v, u].map(constants);
+        let mut forces = vec![Dual::constant(S::ZERO); n];
+        let mut by = [vec![S::ZERO; n * n], vec![S::ZERO; n * n]];
+        for (is_rate, j) in [false, true]
+            .into_iter()
+            .flat_map(|x| (0..n).map(move |j| (x, j)))
+        {
+            let variable = if is_rate { &mut v[j] } else { &mut q[j] };
+            variable.derivative = S::ONE;
+            let arguments = Arguments {
+                t: Dual::constant(S::ZERO),
+                q: &q,
+                v: &v,
+                u: &u,
+                a: &[],
+            };
+            // Nothing in the forces can be singular; what there is no function for is 0.
+            let _ = interpreter.call(Role::Forces, arguments, &mut forces);
+            for (i, force) in forces.iter().enumerate() {
+                by[usize::from(is_rate)][i * n + j] = force.derivative;
+            }
+            let variable = if is_rate { &mut v[j] } else { &mut q[j] };
+            variable.derivative = S::ZERO;
+        }
+        let [by_q, by_v] = by;
+        let forces = forces.into_iter().map(|force| force.value).collect();
+        Derived([forces, by_q, by_v])
+    }
+}
+
+impl<'a> Statics<'a> {
+    /// The forces of `machine`, prepared as `system`, while its rates are `v`.
+    pub fn new(
+        machine: &'a InterpretedMachine,
+        system: &'a InterpretedSystem,
+        v: &'a Vec<f64>,
+        u: &'a Named,
+    ) -> Statics<'a> {
+        let parameters = constants(machine.parameter_values());
+        Statics {
+            interpreter: Interpreter::new(machine.program(), &parameters),
+            machine,
+            system,
+            v,
+            u,
+        }
+    }
+
+    fn mass_matrix(&self, q: &Vec<f64>) -> DMatrix<f64> {
+        let n = q.len();
+        let mut mass = vec![0.0; n * n];
+        self.system.mass_matrix(0.0, q, &mut mass);
+        DMatrix::from_row_slice(n, n, &mass)
+    }
+
+    fn at(&mut self, q: &Vec<f64>) -> Result<Forces, Lost> {
+        let n = q.len();
+        let mass = self.mass_matrix(q);
+        // A coordinate without inertia has no length of its own.
+        let length = |i: usize| {
+            let length = 1.0 / mass[(i, i)].sqrt();
+            Some(length).filter(|x| x.is_normal()).unwrap_or(1.0)
         };
-        let longest = longest(&step, &q);
-        if longest <= TOLERANCE {
-            // The last step is taken too, unless it would leave what is exact already.
-            let moved: Vec<f64> = q.iter().zip(step.iter()).map(|(q, x)| q + x).collect();
-            let there = linearize(system, 0.0, &moved, v, u)?;
-            if there.a.norm() < here.a.norm() {
-                (q, here) = (moved, there);
+        let lengths = DVector::from_fn(n, |i, _| length(i));
+        let Derived([forces, by_q, by_v]) =
+            Derived::new(&mut self.interpreter, [q, self.v, &self.u.values]);
+        let row_is_finite = |i: usize| {
+            let row = i * n..(i + 1) * n;
+            let mut numbers = by_q[row.clone()].iter().chain(&by_v[row]);
+            forces[i].is_finite() && numbers.all(|x| x.is_finite())
+        };
+        if let Some(i) = (0..n).find(|i| !row_is_finite(*i)) {
+            return Err(Lost::NotFinite(i));
+        }
+        let stiffness = DMatrix::from_fn(n, n, |i, j| lengths[i] * by_q[i * n + j] * lengths[j]);
+        let size = |i: usize| -> f64 {
+            let row = i * n..(i + 1) * n;
+            // A coordinate near 0 is a sum of terms as large as its unit, a rate is what it is.
+            let by_q = by_q[row.clone()].iter().zip(q);
+            let by_v = by_v[row].iter().zip(self.v);
+            by_q.map(|(k, q)| k.abs() * q.abs().max(1.0))
+                .chain(by_v.map(|(c, v)| (c * v).abs()))
+                .sum()
+        };
+        Ok(Forces {
+            forces: DVector::from_fn(n, |i, _| forces[i] * lengths[i]),
+            stiffness: rank::directions(&stiffness).ok_or(Lost::NotFinite(0))?,
+            sizes: DVector::from_fn(n, |i, _| size(i) * lengths[i]),
+            lengths,
+        })
+    }
+
+    /// The derivatives of the accelerations by coordinates and rates, where nothing accelerates: `M⁻¹ ∂f/∂q` and `M⁻¹ ∂f/∂v`.
+    ///
+    /// An entry that is 0 but for the rounding of the forces, and of the place, is 0.
+    fn linearized(&self, q: &Vec<f64>) -> Result<[DMatrix<f64>; 2], Lost> {
+        let n = q.len();
+        let point = |x: &f64| Interval::from_f64(*x);
+        let parameters: Vec<Interval> = self.machine.parameter_values().iter().map(point).collect();
+        let mut interpreter = Interpreter::new(self.machine.program(), &constants(&parameters));
+        let place = q.iter().map(|x| {
+            let rounding = 4.0 * f64::EPSILON * x.abs().max(1.0);
+            Interval::new(x - rounding, x + rounding)
+        });
+        let [v, u] = [self.v, &self.u.values].map(|list| list.iter().map(point).collect());
+        let (place, v, u): (Vec<Interval>, Vec<Interval>, Vec<Interval>) = (place.collect(), v, u);
+        let Derived([_, by_q, by_v]) = Derived::new(&mut interpreter, [&place, &v, &u]);
+        let mut interpreter = Interpreter::new(
+            self.machine.program(),
+            &constants(self.machine.parameter_values()),
+        );
+        let exact = Derived::new(&mut interpreter, [q, self.v, &self.u.values]);
+        let mass = self.mass_matrix(q);
+        let derivative = |enclosed: &[Interval], near: &[f64]| {
+            let entry = |i: usize, j: usize| match enclosed[i * n + j].contains(0.0) {
+                true => 0.0,
+                false => near[i * n + j],
+            };
+            precise::solve(&mass, &DMatrix::from_fn(n, n, entry))
+        };
+        let singular = Lost::Singular(Singular::new(0, 0.0, 1.0));
+        match [
+            derivative(&by_q, &exact.0[1]),
+            derivative(&by_v, &exact.0[2]),
+        ] {
+            [Some(by_q), Some(by_v)] => Ok([by_q, by_v]),
+            _ => Err(singular),
+        }
+    }
+
+    /// The equilibrium that Newton's method reaches from `q`.
+    ///
+    /// # Errors
+    /// If there is none on its way.
+    pub fn find(&mut self, q: &[f64]) -> Result<Equilibrium, Lost> {
+        let mut q = q.to_vec();
+        let mut here = self.at(&q)?;
+        for steps in 0..MOST_STEPS {
+            let step = here.step(&here.forces, &q);
+            let longest = largest_share(&step, &q);
+            if longest <= TOLERANCE || here.are_rounding() {
+                // The last step is taken too, unless it would leave what is exact already.
+                let moved = moved(&q, &step, 1.0);
+                let there = self.at(&moved)?;
+                if there.forces.norm() < here.forces.norm() {
+                    (q, here) = (moved, there);
+                }
+                return self.settled(q, &here, steps);
             }
-            if let Some((index, left)) = unbalanced(&here, &q, v) {
-                return Err(Lost::Accelerates(index, left));
+            let mut share = (LONGEST_STEP / longest).min(1.0);
+            let scaled = |step: &DVector<f64>| step.component_div(&here.lengths).norm();
+            let mut next = None;
+            for _ in 0..MOST_HALVINGS {
+                let moved = moved(&q, &step, share);
+                // A state without forces is one step too far.
+                if let Ok(there) = self.at(&moved) {
+                    let forces = there.forces.component_div(&there.lengths);
+                    let forces = forces.component_mul(&here.lengths);
+                    let measured = |f: &DVector<f64>| scaled(&here.step_for(f, &here.forces, &q));
+                    let unforeseen = &forces - &here.forces - here.stretched(&step) * share;
+                    let length = scaled(&step);
+                    if measured(&forces) <= (1.0 - share / 4.0) * length
+                        || measured(&unforeseen) <= 0.75 * share * length
+                    {
+                        next = Some((moved, there));
+                        break;
+                    }
+                }
+                share /= 2.0;
             }
-            return Ok(Equilibrium {
-                free: q.len() - inverse.rank,
-                q,
-                linearized: here,
-                steps,
+            match next {
+                Some(next) => (q, here) = next,
+                None if here.left_over().is_some() => return self.settled(q, &here, steps),
+                None => return Err(Lost::NoEnd(steps)),
+            }
+        }
+        Err(Lost::NoEnd(MOST_STEPS))
+    }
+
+    /// The end of the way, if forces are in balance there.
+    fn settled(&self, q: Vec<f64>, here: &Forces, steps: usize) -> Result<Equilibrium, Lost> {
+        let [a, ..] = linearize(self.system, 0.0, &q, self.v, self.u)?;
+        if let Some(worst) = here.left_over() {
+            // Inertia may hand the force on to another coordinate.
+            let share = |i: &usize| (a[*i] / here.lengths[*i]).abs();
+            let index = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
+            let index = index.unwrap_or(worst);
+            return Err(Lost::Accelerates(index, a[index]));
+        }
+        let free = here.stiffness.iter().filter(|d| d.is_free()).count();
+        let [by_coordinates, by_rates] = self.linearized(&q)?;
+        Ok(Equilibrium {
+            q,
+            by_coordinates,
+            by_rates,
+            steps,
+            free,
+        })
+    }
+}
+
+impl Forces {
+    /// The shortest step that removes these forces as far as any does.
+    fn step(&self, forces: &DVector<f64>, q: &[f64]) -> DVector<f64> {
+        self.step_for(forces, forces, q)
+    }
+
+    /// The same, damped as is right for the forces `damping`.
+    fn step_for(&self, forces: &DVector<f64>, damping: &DVector<f64>, q: &[f64]) -> DVector<f64> {
+        let mut step = DVector::zeros(q.len());
+        for direction in self.stiffness.iter().filter(|d| !d.is_free()) {
+            // How far the stiffest direction of this part would yield to all that is left of its forces, at most 1.
+            let shares = direction.part.iter().map(|&i| {
+                let yields = damping[i] / direction.largest * self.lengths[i];
+                yields.abs() / q[i].abs().max(1.0)
             });
+            let damping = DAMPING * direction.largest * shares.fold(0.0, f64::max).min(1.0);
+            let value = direction.value;
+            // 1/σ where σ is large.
+            let inverse = 1.0 / (value + damping * (damping / value));
+            step -= &direction.right * (direction.left.dot(forces) * inverse);
         }
-        let mut share = (LONGEST_STEP / longest).min(1.0);
-        let mut next = None;
-        for _ in 0..MOST_HALVINGS {
-            let moved: Vec<f64> = q
-                .iter()
-                .zip(step.iter())
-                .map(|(q, x)| q + share * x)
-                .collect();
-            // A state without accelerations is one step too far.
-            if let Ok(there) = linearize(system, 0.0, &moved, v, u)
-                && inverse.step(&there.a).norm() <= (1.0 - share / 4.0) * step.norm()
-            {
-                next = Some((moved, there));
-                break;
-            }
-            share /= 2.0;
-        }
-        match next {
-            Some(next) => (q, here) = next,
-            None => {
-                return Err(match unbalanced(&here, &q, v) {
-                    Some((index, left)) => Lost::Accelerates(index, left),
-                    None => Lost::NoEnd(steps),
-                });
-            }
-        }
+        step.component_mul(&self.lengths)
     }
-    Err(Lost::NoEnd(MOST_STEPS))
+
+    /// How a step changes the forces, to first order.
+    fn stretched(&self, step: &DVector<f64>) -> DVector<f64> {
+        let step = step.component_div(&self.lengths);
+        let mut forces = DVector::zeros(step.len());
+        for Direction {
+            value, left, right, ..
+        } in &self.stiffness
+        {
+            forces += left * (value * right.dot(&step));
+        }
+        forces
+    }
+
+    /// What the terms of any of the forces leave by rounding.
+    fn rounding(&self) -> f64 {
+        rank::tolerance(self.sizes.len()) * self.sizes.amax()
+    }
+
+    /// Whether nothing is left of the forces but rounding.
+    fn are_rounding(&self) -> bool {
+        let rounding = f64::EPSILON * self.sizes.len() as f64;
+        let mut each = self.forces.iter().zip(&self.sizes);
+        each.all(|(force, size)| force.abs() <= rounding * size)
+    }
+
+    /// Of the forces that no step would remove the one that is most off zero, if one is by more than rounding.
+    fn left_over(&self) -> Option<usize> {
+        let mut left = self.forces.clone();
+        for direction in self.stiffness.iter().filter(|d| !d.is_free()) {
+            left -= &direction.left * direction.left.dot(&self.forces);
+        }
+        // What comes to nothing in one coordinate may be rounded in another, that is coupled to it.
+        let rounding = self.rounding();
+        let share = |i: usize| {
+            let (left, size) = (left[i].abs(), self.sizes[i]);
+            let limit = rounding.max(BALANCED * size);
+            if left <= limit { 0.0 } else { left / size }
+        };
+        let worst = (0..left.len()).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
+        (share(worst) > 0.0).then_some(worst)
+    }
 }
 
-/// Of the accelerations that no step would remove the one that is most off zero, if one is by more than rounding.
-fn unbalanced(here: &Linearized, q: &[f64], v: &[f64]) -> Option<(usize, f64)> {
-    let left = Inverse::of(&here.by_coordinates).rest(&here.a);
-    let scale = |i: usize| -> f64 {
-        let by_q = here.by_coordinates.row(i);
-        let by_v = here.by_rates.row(i);
-        let terms = by_q.iter().zip(q).map(|(k, q)| k.abs() * q.abs().max(1.0));
-        terms
-            .chain(by_v.iter().zip(v).map(|(c, v)| (c * v).abs()))
-            .sum()
-    };
-    // What comes to nothing in one coordinate may be rounded in another, that is coupled to it.
-    let rounding =
-        super::spectrum::rank_tolerance(q.len()) * (0..q.len()).map(scale).fold(0.0, f64::max);
-    let share = |i: usize| {
-        let (left, scale) = (left[i].abs(), scale(i));
-        let limit = rounding.max(BALANCED * scale);
-        if left <= limit { 0.0 } else { left / scale }
-    };
-    let worst = (0..q.len()).max_by(|&i, &j| share(i).total_cmp(&share(j)))?;
-    (share(worst) > 0.0).then(|| (worst, left[worst]))
+fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
+    values.iter().copied().map(Dual::constant).collect()
 }
 
-/// The pseudoinverse of a matrix, from its singular values.
-struct Inverse {
-    u: DMatrix<f64>,
-    v_t: DMatrix<f64>,
-    inverses: Vec<f64>,
-    rank: usize,
+fn moved(q: &[f64], step: &DVector<f64>, share: f64) -> Vec<f64> {
+    q.iter()
+        .zip(step.iter())
+        .map(|(q, x)| q + share * x)
+        .collect()
 }
 
-impl Inverse {
-    fn of(matrix: &DMatrix<f64>) -> Inverse {
-        let svd = matrix.clone().svd(true, true);
-        let limit = super::spectrum::rank_tolerance(matrix.nrows()) * svd.singular_values.max();
-        let inverses: Vec<f64> = svd
-            .singular_values
-            .iter()
-            .map(|&s| if s > limit { 1.0 / s } else { 0.0 })
-            .collect();
-        Inverse {
-            rank: inverses.iter().filter(|s| **s != 0.0).count(),
-            u: svd.u.unwrap_or_default(),
-            v_t: svd.v_t.unwrap_or_default(),
-            inverses,
-        }
-    }
-
-    /// The part of these accelerations that no step removes.
-    fn rest(&self, a: &DVector<f64>) -> DVector<f64> {
-        let mut along = self.u.tr_mul(a);
-        for (x, inverse) in along.iter_mut().zip(&self.inverses) {
-            if *inverse == 0.0 {
-                *x = 0.0;
-            }
-        }
-        a - &self.u * along
-    }
-
-    /// The shortest step that removes these accelerations as far as any does.
-    fn step(&self, a: &DVector<f64>) -> DVector<f64> {
-        let mut along = self.u.tr_mul(a);
-        for (x, inverse) in along.iter_mut().zip(&self.inverses) {
-            *x *= -inverse;
-        }
-        self.v_t.tr_mul(&along)
-    }
+/// The largest of the changes, each in rad, m, or as a share of its coordinate.
+fn largest_share(step: &DVector<f64>, q: &[f64]) -> f64 {
+    let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
+    shares.fold(0.0, f64::max)
 }

@@ -1,14 +1,16 @@
 //! The eigenvalues and shapes of `ẍ = K x + C ẋ`.
 //!
-//! What costs digits is taken out first: time and coordinates are scaled; directions in which nothing pulls back, `K z = 0`,
-//! are eigenvectors of 0 and leave the matrix, in which they would stand as Jordan blocks whose eigenvalues come out as
-//! ±√ε. What is left is the real Schur form of nalgebra; each eigenvalue then gets its vectors from the singular values of
-//! `A − λ`, is corrected by Rayleigh's quotient over left and right vector, and gets a bound on its error, their inner
-//! product being the reciprocal of its condition (G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. 2013,
-//! section 7.2.2).
+//! What costs digits is taken out first: coordinates that have nothing to do with one another go separate ways; time and
+//! coordinates are scaled; directions in which nothing pulls back, `K z = 0`, are eigenvectors of 0 and leave the matrix, in
+//! which they would stand as Jordan blocks whose eigenvalues come out as ±√ε. The eigenvalues of what is left are found in
+//! twice the digits, so that a slow decay is as good as a fast one. Each gets a bound on what the digits of K and C leave of
+//! it, by its left and right vectors (G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. 2013, section 7.2.2).
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
-use nalgebra::{Complex, DMatrix, DVector, Schur};
+use nalgebra::{Complex, DMatrix, DVector};
+
+use super::precise::{self, Pair};
+use super::rank;
 
 type Vector = DVector<Complex<f64>>;
 
@@ -16,21 +18,64 @@ type Vector = DVector<Complex<f64>>;
 pub struct Mode {
     /// λ, in 1/s: exactly real, imaginary or zero where it is so but for rounding.
     pub lambda: Complex<f64>,
+    /// λ is known up to this, in 1/s. Of a free motion: what is slower could not be told from it.
+    pub error: f64,
     /// The amplitudes of the coordinates, the largest of them 1.
     pub shape: Vec<Complex<f64>>,
 }
 
-/// The share of the largest singular value of a matrix of n rows below which others are nothing but rounding.
-pub fn rank_tolerance(n: usize) -> f64 {
-    64.0 * n as f64 * f64::EPSILON
+/// All motions near an equilibrium.
+#[derive(Default)]
+pub struct Modes {
+    /// Slow ones first.
+    pub modes: Vec<Mode>,
+    /// How many more there are whose λ is 0 but for rounding, in ways that are not free.
+    pub lost: usize,
+    /// They are slower than this, in 1/s.
+    pub lost_below: f64,
 }
 
-/// The modes, slow ones first; `None` where the iterations do not end.
-pub fn modes(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Vec<Mode>> {
+/// The modes; `None` where the iterations do not end.
+pub fn modes(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
+    let n = k.nrows();
+    let mut all = Modes::default();
+    for part in rank::parts(&(k.abs() + c.abs())) {
+        let size = part.len();
+        let own = |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(part[i], part[j])]);
+        let Modes {
+            modes,
+            lost,
+            lost_below,
+        } = connected(&own(k), &own(c))?;
+        all.lost += lost;
+        all.lost_below = all.lost_below.max(lost_below);
+        all.modes.extend(modes.into_iter().map(|mode| {
+            let mut shape = vec![Complex::new(0.0, 0.0); n];
+            for (place, x) in part.iter().zip(&mode.shape) {
+                shape[*place] = *x;
+            }
+            Mode { shape, ..mode }
+        }));
+    }
+    all.modes.sort_by(|a, b| {
+        let key = |mode: &Mode| (mode.lambda.im, mode.lambda.norm(), mode.lambda.re);
+        let ((a1, a2, a3), (b1, b2, b3)) = (key(a), key(b));
+        a1.total_cmp(&b1)
+            .then(a2.total_cmp(&b2))
+            .then(a3.total_cmp(&b3))
+    });
+    Some(all)
+}
+
+/// The modes of coordinates that are all connected, in any order.
+fn connected(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
     let n = k.nrows();
     let Scaled { k, c, scales, rate } = Scaled::of(k, c);
-
-    let (free, bound) = split(&k);
+    let Split {
+        free,
+        bound,
+        drifts,
+    } = Split::of(&k, &c)?;
     // y = (b, v) with x = Σ z a + W b, v = ẋ: b' = Wᵀ v, v' = K W b + C v.
     let m = bound.ncols();
     let mut a = DMatrix::zeros(m + n, m + n);
@@ -38,42 +83,47 @@ pub fn modes(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Vec<Mode>> {
     a.view_mut((m, 0), (n, m)).copy_from(&(&k * &bound));
     a.view_mut((m, m), (n, n)).copy_from(&c);
 
-    let mut modes: Vec<Mode> = free
-        .into_iter()
-        .map(|z| Mode {
+    let mut found = Modes::default();
+    for Free { direction, slowest } in free {
+        found.modes.push(Mode {
             lambda: Complex::new(0.0, 0.0),
-            shape: shape(&z.map(|x| Complex::new(x, 0.0)), &scales),
-        })
-        .collect();
-    let eigenvalues = Schur::try_new(a.clone(), f64::EPSILON, 10_000)?.complex_eigenvalues();
-    let mut found: Vec<Complex<f64>> = Vec::new();
-    for lambda in eigenvalues
-        .iter()
-        .copied()
-        .filter(|lambda| lambda.im >= 0.0)
-    {
-        let close = |other: &&Complex<f64>| (**other - lambda).norm() <= 1e-8;
-        let nth = found.iter().filter(close).count();
-        found.push(lambda);
-        let pair = Eigenpair::of(&a, lambda, nth);
-        let lambda = pair.settled(&a);
-        if lambda == Complex::new(0.0, 0.0) {
-            continue; // drifts along a direction that is there already
-        }
-        let velocity = pair.right.rows(m, n).into_owned();
-        modes.push(Mode {
-            lambda: lambda * rate,
-            shape: shape(&velocity, &scales),
+            error: slowest * rate,
+            shape: shape(&direction.map(|x| Complex::new(x, 0.0)), &scales),
         });
     }
-    modes.sort_by(|a, b| {
-        let key = |mode: &Mode| (mode.lambda.im, mode.lambda.norm(), mode.lambda.re);
-        let ((a1, a2, a3), (b1, b2, b3)) = (key(a), key(b));
-        a1.total_cmp(&b1)
-            .then(a2.total_cmp(&b2))
-            .then(a3.total_cmp(&b3))
-    });
-    Some(modes)
+    let mut zeros = 0;
+    for pair in precise::pairs(&a)? {
+        let Pair {
+            lambda: raw, right, ..
+        } = &pair;
+        // The entries of K and C are sums of some terms, as many as there are coordinates, as a rule.
+        let error = 8.0 * a.nrows() as f64 * pair.error;
+        let settle = |x: f64| if x.abs() <= error { 0.0 } else { x };
+        let lambda = Complex::new(settle(raw.re), settle(raw.im));
+        // Two that rounding has made conjugate are one, twice.
+        let times = if raw.im > 0.0 && lambda.im == 0.0 {
+            2
+        } else {
+            1
+        };
+        if lambda == Complex::new(0.0, 0.0) {
+            zeros += times;
+            // Drifts, along a direction that is there already.
+            if zeros > drifts {
+                found.lost = zeros - drifts;
+                found.lost_below = found.lost_below.max(error * rate);
+            }
+            continue;
+        }
+        for _ in 0..times {
+            found.modes.push(Mode {
+                lambda: lambda * rate,
+                error: error * rate,
+                shape: shape(&right.rows(m, n).into_owned(), &scales),
+            });
+        }
+    }
+    Some(found)
 }
 
 /// The equations in coordinates and time of such a scale that no entry is large because of its unit.
@@ -103,27 +153,84 @@ impl Scaled {
             (from_k, from_c) = (rate * rate, rate);
         }
         let rate = if from_c > 0.0 { from_c } else { 1.0 };
-        k /= rate * rate;
+        k /= rate;
+        k /= rate;
         c /= rate;
         Scaled { k, c, scales, rate }
     }
 }
 
-/// Directions with `K z = 0`, each with as few coordinates in it as can be, and an orthonormal basis of what is across.
-fn split(k: &DMatrix<f64>) -> (Vec<DVector<f64>>, DMatrix<f64>) {
-    let n = k.nrows();
-    let svd = k.clone().svd(false, true);
-    let v_t = svd.v_t.unwrap_or_else(|| DMatrix::identity(n, n));
-    let limit = rank_tolerance(n) * svd.singular_values.max();
-    let is_free = |i: &usize| svd.singular_values[*i] <= limit;
-    let (free, bound): (Vec<usize>, Vec<usize>) = (0..n).partition(is_free);
-    let bound: Vec<DVector<f64>> = bound.iter().map(|&i| v_t.row(i).transpose()).collect();
-    let bound = match bound.is_empty() {
-        true => DMatrix::zeros(n, 0),
-        false => DMatrix::from_columns(&bound),
-    };
-    let mut rows: Vec<DVector<f64>> = free.iter().map(|&i| v_t.row(i).transpose()).collect();
-    // Gauss and Jordan: each row alone in one coordinate.
+/// A direction in which nothing pulls back.
+struct Free {
+    direction: DVector<f64>,
+    /// What pulls back may be hidden by rounding; then the motion is slower than this.
+    slowest: f64,
+}
+
+/// Directions with `K z = 0`, and the others.
+struct Split {
+    /// Each with as few coordinates in it as can be.
+    free: Vec<Free>,
+    /// An orthonormal basis of what is across.
+    bound: DMatrix<f64>,
+    /// Along how many of them nothing brakes: it may drift there with any speed.
+    drifts: usize,
+}
+
+impl Split {
+    fn of(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Split> {
+        let n = k.nrows();
+        let (free, bound): (Vec<_>, Vec<_>) = rank::directions(k)?
+            .into_iter()
+            .partition(rank::Direction::is_free);
+        let bound: Vec<DVector<f64>> = match free.is_empty() {
+            // Without any rounding.
+            true => (0..n)
+                .map(|i| DVector::from_fn(n, |j, _| f64::from(u8::from(i == j))))
+                .collect(),
+            false => bound.into_iter().map(|direction| direction.right).collect(),
+        };
+        let columns = |vectors: &[DVector<f64>]| match vectors.is_empty() {
+            true => DMatrix::zeros(n, 0),
+            false => DMatrix::from_columns(vectors),
+        };
+        let rights: Vec<DVector<f64>> = free.iter().map(|d| d.right.clone()).collect();
+        let lefts: Vec<DVector<f64>> = free.iter().map(|d| d.left.clone()).collect();
+        let (z, y) = (columns(&rights), columns(&lefts));
+        // What brakes along free directions, and the size of its terms.
+        let brakes = y.tr_mul(&(c * &z));
+        let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
+        let limit = rank::tolerance(n) * terms.norm();
+        let braked = match free.is_empty() {
+            true => 0,
+            false => brakes
+                .try_svd(false, false, f64::EPSILON, 10_000)?
+                .rank(limit),
+        };
+        let drifts = free.len() - braked;
+        let slowest = |z: &DVector<f64>| {
+            if (k.abs() * z.abs()).amax() == 0.0 {
+                return 0.0;
+            }
+            let overlaps = |d: &&rank::Direction| d.part.iter().any(|&i| z[i] != 0.0);
+            let hidden = free.iter().filter(overlaps).map(|d| d.rounding);
+            hidden.fold(0.0, f64::max).sqrt()
+        };
+        let free = sparse(rights).into_iter().map(|direction| Free {
+            slowest: slowest(&direction),
+            direction,
+        });
+        Some(Split {
+            free: free.collect(),
+            bound: columns(&bound),
+            drifts,
+        })
+    }
+}
+
+/// A basis of the same space with many zeros: by Gauss and Jordan, each vector alone in one coordinate.
+fn sparse(mut rows: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
+    let n = rows.first().map_or(0, DVector::len);
     for i in 0..rows.len() {
         let (row, column) = (i..rows.len())
             .map(|r| (r, rows[r].icamax()))
@@ -141,69 +248,13 @@ fn split(k: &DMatrix<f64>) -> (Vec<DVector<f64>>, DMatrix<f64>) {
         }
     }
     for row in &mut rows {
-        let limit = rank_tolerance(n) * row.amax();
+        let limit = rank::tolerance(n) * row.amax();
         row.iter_mut()
             .filter(|x| x.abs() <= limit)
             .for_each(|x| *x = 0.0);
     }
     rows.sort_by_key(|row| row.iter().position(|x| *x != 0.0));
-    (rows, bound)
-}
-
-/// An eigenvalue with its vectors.
-struct Eigenpair {
-    lambda: Complex<f64>,
-    left: Vector,
-    right: Vector,
-}
-
-impl Eigenpair {
-    /// The `nth` of several that belong to one eigenvalue: the vectors of that one among the smallest singular values.
-    fn of(a: &DMatrix<f64>, lambda: Complex<f64>, nth: usize) -> Eigenpair {
-        let size = a.nrows();
-        let complex = a.map(|x| Complex::new(x, 0.0));
-        let mut pair = Eigenpair {
-            lambda,
-            left: Vector::zeros(size),
-            right: Vector::zeros(size),
-        };
-        // The second time round with the corrected eigenvalue.
-        for _ in 0..2 {
-            let mut shifted = complex.clone();
-            for i in 0..size {
-                shifted[(i, i)] -= pair.lambda;
-            }
-            let svd = shifted.svd(true, true);
-            let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else {
-                return pair;
-            };
-            // Of a defective eigenvalue there is one vector only.
-            let is_there = |&i: &usize| svd.singular_values[i] <= 1e-6 * svd.singular_values[0];
-            let last = Some(size - 1 - nth.min(size - 1)).filter(is_there);
-            let last = last.unwrap_or(size - 1);
-            pair.left = u.column(last).into_owned();
-            pair.right = v_t.row(last).adjoint();
-            let product = pair.left.dotc(&pair.right);
-            let image = &complex * &pair.right - &pair.right * pair.lambda;
-            let correction = pair.left.dotc(&image) / product;
-            // Of a nearly defective eigenvalue the quotient says nothing; it may be 0/0.
-            if correction.norm() <= 1e-6 {
-                pair.lambda += correction;
-            } else {
-                break;
-            }
-        }
-        pair
-    }
-
-    /// The eigenvalue, its real or imaginary part exactly zero where its condition leaves no more of it than rounding.
-    fn settled(&self, a: &DMatrix<f64>) -> Complex<f64> {
-        let product = self.left.dotc(&self.right).norm();
-        let error =
-            8.0 * a.nrows() as f64 * f64::EPSILON * a.norm() / product.max(f64::EPSILON.sqrt());
-        let settle = |x: f64| if x.abs() <= error { 0.0 } else { x };
-        Complex::new(settle(self.lambda.re), settle(self.lambda.im))
-    }
+    rows
 }
 
 /// The amplitudes in the coordinates themselves, the largest of them 1.
@@ -258,9 +309,9 @@ mod tests {
             let mut matrix =
                 |size: f64| DMatrix::from_fn(n, n, |i, j| size * next() * units[i] / units[j]);
             let (k, c) = (matrix(1e4), matrix(30.0));
-            let modes = modes(&k, &c).expect("an end");
+            let modes = modes(&k, &c).expect("an end").modes;
             let mut trace = 0.0;
-            for Mode { lambda, shape } in &modes {
+            for Mode { lambda, shape, .. } in &modes {
                 trace += if lambda.im > 0.0 {
                     2.0 * lambda.re
                 } else {
@@ -276,7 +327,7 @@ mod tests {
                     }
                     // Backward error of a 2n × 2n problem, and what may be settled to 0 in a shape. Row by row, since
                     // each is its own unit: the rows of a balanced matrix are of one size.
-                    let bound = rank_tolerance(2 * n) + 1e-12;
+                    let bound = rank::tolerance(2 * n) + 1e-12;
                     assert!(left.norm() <= bound * size, "seed {seed}: {left} of {size}");
                 }
             }
@@ -291,7 +342,7 @@ mod tests {
     fn what_nothing_pulls_back_is_free_exactly() {
         // Two masses and a spring, and a third on its own: 0, 0 and √2.
         let k = DMatrix::from_row_slice(3, 3, &[-1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
-        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end");
+        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end").modes;
         let lambdas: Vec<Complex<f64>> = modes.iter().map(|mode| mode.lambda).collect();
         assert_eq!(lambdas[..2], [Complex::new(0.0, 0.0); 2]);
         assert_eq!(lambdas[2].re, 0.0);
@@ -309,7 +360,7 @@ mod tests {
     #[test]
     fn equal_frequencies_have_shapes_of_their_own() {
         let k = DMatrix::from_diagonal_element(3, 3, -4.0);
-        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end");
+        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end").modes;
         assert_eq!(modes.len(), 3);
         let shapes = DMatrix::from_fn(3, 3, |i, j| modes[j].shape[i]);
         assert!(shapes.determinant().norm() > 0.1, "{shapes}");
@@ -320,7 +371,7 @@ mod tests {
     fn critical_damping_is_no_trouble() {
         let k = DMatrix::from_element(1, 1, -9.0);
         let c = DMatrix::from_element(1, 1, -6.0);
-        let modes = modes(&k, &c).expect("an end");
+        let modes = modes(&k, &c).expect("an end").modes;
         for mode in &modes {
             assert!(
                 (mode.lambda - Complex::new(-3.0, 0.0)).norm() <= 1e-6,
@@ -328,6 +379,6 @@ mod tests {
                 mode.lambda
             );
         }
-        assert!(!modes.is_empty());
+        assert_eq!(modes.len(), 2);
     }
 }

@@ -1,0 +1,95 @@
+//! Which directions a matrix maps to nothing but rounding errors.
+
+use std::rc::Rc;
+
+use nalgebra::{DMatrix, DVector};
+
+/// One of the singular values of a matrix: `K right = value · left`, vectors of length 1.
+pub struct Direction {
+    /// The singular value.
+    pub value: f64,
+    /// What of it may be rounding: below this it is nothing.
+    pub rounding: f64,
+    /// The largest singular value of the part of the matrix that this one belongs to.
+    pub largest: f64,
+    /// The indices of that part.
+    pub part: Rc<[usize]>,
+    /// What `right` is mapped along.
+    pub left: DVector<f64>,
+    /// The direction.
+    pub right: DVector<f64>,
+}
+
+impl Direction {
+    /// Whether the matrix maps this direction to nothing, but for rounding.
+    pub fn is_free(&self) -> bool {
+        self.value <= self.rounding
+    }
+}
+
+/// The share of the largest singular value of a matrix of n rows below which others are nothing but rounding.
+pub fn tolerance(n: usize) -> f64 {
+    64.0 * n as f64 * f64::EPSILON
+}
+
+/// The singular values of a square matrix, those of each of its independent parts by themselves.
+///
+/// A spring is not soft because another one, to which it has no connection, is stiff. `None` where the iterations do not end.
+pub fn directions(matrix: &DMatrix<f64>) -> Option<Vec<Direction>> {
+    let n = matrix.nrows();
+    let mut directions = Vec::new();
+    for part in parts(matrix) {
+        let part: Rc<[usize]> = part.into();
+        let size = part.len();
+        let own = DMatrix::from_fn(size, size, |i, j| matrix[(part[i], part[j])]);
+        // Singular values are found relative to 1.
+        let scale = Some(own.amax()).filter(|x| *x > 0.0).unwrap_or(1.0);
+        let svd = (own / scale).try_svd(true, true, f64::EPSILON, 10_000)?;
+        let (u, v_t) = (svd.u?, svd.v_t?);
+        let embed = |entries: &mut dyn Iterator<Item = f64>| {
+            let mut vector = DVector::zeros(n);
+            for (place, entry) in part.iter().zip(entries) {
+                vector[*place] = entry;
+            }
+            vector
+        };
+        let largest = svd.singular_values.max();
+        for (i, value) in svd.singular_values.iter().enumerate() {
+            directions.push(Direction {
+                value: value * scale,
+                rounding: tolerance(size) * largest * scale,
+                largest: largest * scale,
+                part: part.clone(),
+                left: embed(&mut u.column(i).iter().copied()),
+                right: embed(&mut v_t.row(i).iter().copied()),
+            });
+        }
+    }
+    Some(directions)
+}
+
+/// The sets of indices that no entry of the matrix connects, each in ascending order.
+pub fn parts(matrix: &DMatrix<f64>) -> Vec<Vec<usize>> {
+    let n = matrix.nrows();
+    let mut is_seen = vec![false; n];
+    let mut parts = Vec::new();
+    for first in 0..n {
+        if is_seen[first] {
+            continue;
+        }
+        is_seen[first] = true;
+        let (mut part, mut next) = (vec![first], 0);
+        while let Some(&i) = part.get(next) {
+            next += 1;
+            for j in 0..n {
+                if !is_seen[j] && (matrix[(i, j)] != 0.0 || matrix[(j, i)] != 0.0) {
+                    is_seen[j] = true;
+                    part.push(j);
+                }
+            }
+        }
+        part.sort_unstable();
+        parts.push(part);
+    }
+    parts
+}
