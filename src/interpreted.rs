@@ -13,7 +13,7 @@ use std::vec::Vec;
 use lagrangian_scalar::{Dual, Kernel, Scalar};
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
-use crate::{Assumption, Linearize, Machine, Number, Quantity, Singular, State, System};
+use crate::{Assumption, Linearize, Machine, Number, Quantity, Singular, Staged, State, System};
 
 /// A machine whose equations are interpreted, with the values of its parameters.
 #[derive(Clone, Debug)]
@@ -188,7 +188,7 @@ impl InterpretedSystem {
         results: &mut [f64],
     ) -> Result<(), Singular> {
         let mut interpreter = self.interpreter.borrow_mut();
-        let called = match role.inverts() {
+        let called = match role.is_fast() {
             // In the arithmetic of compiled machines, to the last bit.
             true => f64::run(Call {
                 interpreter: &mut interpreter,
@@ -490,6 +490,85 @@ impl Linearize for InterpretedSystem {
         }
         Ok(())
     }
+}
+
+impl Staged for InterpretedSystem {
+    type AtTime = Stage;
+    type AtPosition = Stage;
+
+    fn at_time(&self, t: f64) -> Stage {
+        let mut stage = Stage {
+            values: vec![t],
+            q: Vec::new(),
+        };
+        if self.program.stages.time {
+            stage.values = self.room(Role::AtTime);
+            // Time alone makes no machine singular.
+            let _ = self.call(Role::AtTime, at(t, &[], &[], &[]), &mut stage.values);
+        }
+        stage
+    }
+
+    fn at_position(&self, before: &Stage, q: &Vec<f64>) -> Result<Stage, Singular> {
+        if !self.program.stages.coordinates {
+            let (values, q) = (before.values.clone(), q.clone());
+            return Ok(Stage { values, q });
+        }
+        let t = self.stand(Role::AtTime, &before.values);
+        let mut values = self.room(Role::AtPosition);
+        self.call(Role::AtPosition, at(t, q, &[], &[]), &mut values)?;
+        let q = Vec::new();
+        Ok(Stage { values, q })
+    }
+
+    fn accelerations_at(
+        &self,
+        Stage { values, q }: &Stage,
+        v: &Vec<f64>,
+        u: &Named,
+        a: &mut Vec<f64>,
+    ) -> Result<(), Singular> {
+        let role = match self.program.stages.is_empty() {
+            true => Role::Accelerations,
+            false => Role::AccelerationsAt,
+        };
+        let t = match self.program.stages.coordinates {
+            true => self.stand(Role::AtPosition, values),
+            false => self.stand(Role::AtTime, values),
+        };
+        self.call(role, at(t, q, v, &u.values), a)
+    }
+}
+
+/// What a stage of the accelerations of an [`InterpretedSystem`] leaves to the next.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The results of the stage; the time, where it is none.
+    values: Vec<f64>,
+    /// The coordinates, where they are no stage.
+    q: Vec<f64>,
+}
+
+impl InterpretedSystem {
+    /// Room for what a stage leaves.
+    fn room(&self, role: Role) -> Vec<f64> {
+        let function = self.program.function(role);
+        vec![0.0; function.map_or(0, |function| function.results.len())]
+    }
+
+    /// Hands on what a stage has left; or the time, where it is no stage.
+    fn stand(&self, role: Role, values: &[f64]) -> f64 {
+        if role == Role::AtTime && !self.program.stages.time {
+            return values[0];
+        }
+        self.interpreter.borrow_mut().stand(role, values);
+        f64::NAN // nobody reads the time any more
+    }
+}
+
+/// The arguments of a stage.
+fn at<'a>(t: f64, q: &'a [f64], v: &'a [f64], u: &'a [f64]) -> Arguments<'a, f64> {
+    Arguments { t, q, v, u, a: &[] }
 }
 
 impl InterpretedSystem {

@@ -88,7 +88,8 @@ pub use stepper::{
     Tolerance, Work,
 };
 pub use system::{
-    Assumption, Coordinates, Inputs, Linearize, Machine, Outputs, Quantity, Singular, State, System,
+    Assumption, Coordinates, Inputs, Linearize, Machine, Outputs, Quantity, Singular, Staged,
+    State, System,
 };
 pub use vector::Vector;
 

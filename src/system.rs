@@ -207,6 +207,44 @@ pub trait Linearize: System {
     ) -> Result<(), Singular>;
 }
 
+/// Equations of motion that are evaluated in stages, so that what stays is not computed again:
+/// rates that are iterated where time and coordinates stay, as implicit methods, impacts and
+/// friction do; many states at one time.
+///
+/// Implemented by the code of a description with `stages { time, coordinates }` or one of the two,
+/// and by the interpreter for every machine. A stage that the description does not ask for hands its
+/// arguments on.
+///
+/// The accelerations are those of [`System::accelerations`] but for rounding: they are added and
+/// multiplied in another order.
+pub trait Staged: System {
+    /// Whatever the next stage needs of the time.
+    type AtTime: Clone + Debug;
+
+    /// Whatever the accelerations need of time and coordinates.
+    type AtPosition: Clone + Debug;
+
+    /// What time alone decides.
+    fn at_time(&self, t: f64) -> Self::AtTime;
+
+    /// What time and coordinates decide: whether there are accelerations is among it.
+    fn at_position(
+        &self,
+        at: &Self::AtTime,
+        q: &Self::Vector,
+    ) -> Result<Self::AtPosition, Singular>;
+
+    /// The accelerations `a` at rates `v` and inputs `u`. An error only where the description does
+    /// not make the coordinates a stage.
+    fn accelerations_at(
+        &self,
+        at: &Self::AtPosition,
+        v: &Self::Vector,
+        u: &Self::Inputs,
+        a: &mut Self::Vector,
+    ) -> Result<(), Singular>;
+}
+
 /// Where a machine is and how fast it moves, at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<C> {

@@ -102,6 +102,8 @@ pub struct Model<'d> {
     /// What the accelerations are to be differentiated by, each once, in the order of
     /// [`Variable`].
     pub derivatives: Vec<Variable>,
+    /// Which stages of the accelerations are to be computed by themselves.
+    pub stages: Stages,
     /// Equations that somebody printed.
     pub published: Vec<Published<'d>>,
     /// The headings of the sections that the machine and its bases have, where each is said first.
@@ -113,6 +115,22 @@ impl Model<'_> {
     pub fn section(&self, kind: SectionKind) -> Option<Span> {
         let found = self.sections.iter().find(|(section, _)| *section == kind);
         found.map(|(_, span)| *span)
+    }
+}
+
+/// What may stay while the rest changes, so that its work is not done again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stages {
+    /// Time.
+    pub time: bool,
+    /// Time and coordinates.
+    pub coordinates: bool,
+}
+
+impl Stages {
+    /// Whether nothing is asked for.
+    pub fn is_empty(self) -> bool {
+        self == Stages::default()
     }
 }
 

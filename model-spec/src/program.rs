@@ -26,7 +26,7 @@
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use crate::model::{Name, Variable};
+use crate::model::{Name, Stages, Variable};
 use crate::unit::Unit;
 
 mod articulated;
@@ -46,6 +46,7 @@ mod pairs;
 mod prove;
 mod schedule;
 mod solve;
+mod stages;
 mod verify;
 
 pub use choose::{Basis, Candidate, Choice, Form, cheapest};
@@ -77,6 +78,9 @@ pub struct Program {
     /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
     /// not there.
     pub derivatives: Vec<Variable>,
+    /// Which of [`Role::AtTime`] and [`Role::AtPosition`] are there; with either of them there is
+    /// [`Role::AccelerationsAt`].
+    pub stages: Stages,
     /// Whatever is known once the parameters are: reads parameters, and its results are the
     /// prepared values.
     ///
@@ -149,6 +153,12 @@ pub enum Role {
     /// The accelerations, and their derivatives by [`Program::derivatives`]: a matrix whose first
     /// column are the accelerations, and every other their derivatives by one variable.
     Derivatives,
+    /// What time alone decides of the accelerations: whatever the next stage reads of it.
+    AtTime,
+    /// What time and coordinates decide of the accelerations: whatever the rates are met with.
+    AtPosition,
+    /// The accelerations, of what the stage before has left.
+    AccelerationsAt,
     /// The kinetic energy T.
     KineticEnergy,
     /// The potential energy V.
@@ -177,6 +187,9 @@ impl Role {
             Role::Forces => "forces".into(),
             Role::Accelerations => "accelerations".into(),
             Role::Derivatives => "derivatives".into(),
+            Role::AtTime => "at_time".into(),
+            Role::AtPosition => "at_position".into(),
+            Role::AccelerationsAt => "accelerations_at".into(),
             Role::KineticEnergy => "kinetic_energy".into(),
             Role::PotentialEnergy => "potential_energy".into(),
             Role::Dissipation => "dissipation".into(),
@@ -190,7 +203,16 @@ impl Role {
     /// Whether a function of this role inverts the mass matrix: it has no value where that is
     /// singular.
     pub fn inverts(self) -> bool {
-        matches!(self, Role::Accelerations | Role::Derivatives)
+        matches!(
+            self,
+            Role::Accelerations | Role::Derivatives | Role::AtPosition | Role::AccelerationsAt
+        )
+    }
+
+    /// Whether a function of this role is called so often that it is to run with whatever
+    /// instructions the processor has.
+    pub fn is_fast(self) -> bool {
+        self.inverts() || self == Role::AtTime
     }
 }
 
@@ -340,6 +362,10 @@ pub enum Source {
     Input(u32),
     /// An acceleration a.
     Acceleration(u32),
+    /// A result of [`Role::AtTime`].
+    AtTime(u32),
+    /// A result of [`Role::AtPosition`].
+    AtPosition(u32),
 }
 
 /// A pivot of the mass matrix that must not vanish: the results are meaningless unless `pivot >
@@ -386,6 +412,10 @@ pub struct Reads {
     pub inputs: bool,
     /// Accelerations.
     pub accelerations: bool,
+    /// Results of [`Role::AtTime`].
+    pub at_time: bool,
+    /// Results of [`Role::AtPosition`].
+    pub at_position: bool,
 }
 
 impl Program {
@@ -404,6 +434,19 @@ impl Program {
         [&self.prepare, &self.start]
             .into_iter()
             .chain(&self.functions)
+    }
+
+    /// The roles of the functions that compute the accelerations in stages, in their order; none if
+    /// nobody asks for it.
+    pub fn staged_roles(&self) -> Vec<Role> {
+        let Stages { time, coordinates } = self.stages;
+        let roles = [
+            (time, Role::AtTime),
+            (coordinates, Role::AtPosition),
+            (time || coordinates, Role::AccelerationsAt),
+        ];
+        let there = roles.into_iter().filter(|(is_there, _)| *is_there);
+        there.map(|(_, role)| role).collect()
     }
 
     /// Whether the derivatives by all coordinates and all rates are there, in this order and first.
@@ -432,6 +475,8 @@ impl Function {
                 Source::Velocity(_) => &mut reads.velocities,
                 Source::Input(_) => &mut reads.inputs,
                 Source::Acceleration(_) => &mut reads.accelerations,
+                Source::AtTime(_) => &mut reads.at_time,
+                Source::AtPosition(_) => &mut reads.at_position,
             } = true;
         }
         reads

@@ -16,6 +16,7 @@
 //! | [`items`] | bodies, springs, forces, … |
 //! | [`rates`] | rates at the start |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
+//! | [`stages`] | which of their stages are to be computed by themselves |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
 mod derivatives;
@@ -26,6 +27,7 @@ mod layers;
 mod names;
 mod published;
 mod rates;
+mod stages;
 mod text;
 mod value;
 mod work;
@@ -200,6 +202,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let derivatives = self.each(Derivatives, |resolver, member| {
             Some(resolver.differentiated_by(member))
         });
+        let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
         let published = self.published(layers);
 
         self.check_masses(&bodies, &parameters);
@@ -245,6 +248,10 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 .collect::<BTreeSet<_>>()
                 .into_iter()
                 .collect(),
+            stages: crate::model::Stages {
+                time: stages.iter().any(|stages| stages.time),
+                coordinates: stages.iter().any(|stages| stages.coordinates),
+            },
             published,
             sections: sections_of(layers),
         })

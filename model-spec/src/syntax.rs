@@ -12,7 +12,7 @@
 //! source      = machine
 //! machine     = "machine" NAME {"in" ("plane" | "space") | "extends" TEXT} "{" {entry} "}"
 //! entry       = quantities | values | records | constraints | assume | approximations
-//!             | derivatives | gravity | published | remove
+//!             | derivatives | stages | gravity | published | remove
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
@@ -27,6 +27,7 @@
 //! fact        = expression (">" | ">=" | "<" | "<=") expression ["for" range]
 //! approximations = "approximations" "{" list(declared ":" ("frozen" | "small")) "}"
 //! derivatives = "derivatives" "{" list(declared) "}"
+//! stages      = "stages" "{" list(declared) "}"
 //! gravity     = "gravity" expression ";"
 //! published   = "published" TEXT "{" list(print) "}"
 //! print       = ("potential_energy" | "dissipation" | "kinetic_energy" [declared]

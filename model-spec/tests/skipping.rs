@@ -79,6 +79,22 @@ fn page() -> String {
     std::fs::read_to_string(path).expect("the page is there")
 }
 
+/// Machines that the page shows in stages.
+const STAGED: [&str; 6] = [
+    "crusher9",
+    "double_pendulum",
+    "two_joint_arm",
+    "six_joint_arm",
+    "gyroscope_in_gimbals",
+    "kapitza_pendulum",
+];
+
+/// The text of a machine of the library.
+fn library(name: &str) -> String {
+    let path = format!("{}/../machines/{name}.machine", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("the library is there")
+}
+
 /// The machine with more sections.
 fn plus(machine: &str, sections: &str) -> String {
     let end = machine.rfind('}').expect("a machine ends");
@@ -151,10 +167,7 @@ fn asked(feature: &'static str, section: &str, role: Role, gone: &'static [&'sta
 
 fn rows() -> Vec<Row> {
     let inputs = "inputs { u: N } forces { motor { on: x, value: u } }";
-    let crusher = std::fs::read_to_string(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../machines/vibrating_crusher.machine"),
-    )
-    .expect("the library is there");
+    let crusher = library("vibrating_crusher");
     // The same numbers in the same place, so that the two differ in nothing else.
     let undamped = crusher.replace(" bx: N*s/m = 1500, by: N*s/m = 1500,", "");
     assert_ne!(undamped, crusher);
@@ -249,6 +262,12 @@ fn rows() -> Vec<Row> {
             "derivatives { coordinates, rates }",
             Role::Derivatives,
             &["by_rates", "Linearize"],
+        ),
+        asked(
+            "stages",
+            "stages { time, coordinates }",
+            Role::AccelerationsAt,
+            &["at_position", "Staged"],
         ),
         asked(
             "frames, definitions and circles that nothing uses",
@@ -465,6 +484,17 @@ fn the_page_says_what_is_counted() {
             counts(&without.program, pair.role),
         ));
     }
+    for name in STAGED {
+        let made = made(&plus(&library(name), "stages { time, coordinates }"));
+        let roles = [
+            Role::Accelerations,
+            Role::AtTime,
+            Role::AtPosition,
+            Role::AccelerationsAt,
+        ];
+        let counts = roles.map(|role| counts(&made.program, role).to_string());
+        expected.push(format!("| `{name}` | {} |", counts.join(" | ")));
+    }
     let page = page();
     let missing: Vec<&String> = expected
         .iter()
@@ -472,8 +502,12 @@ fn the_page_says_what_is_counted() {
         .collect();
     assert!(missing.is_empty(), "not on the page:\n{missing:#?}");
     // Nor does the page have a row that nobody counts.
-    let is_row =
-        |line: &&str| line.starts_with("| ") && !line.contains("---") && !line.contains("| with");
+    let is_row = |line: &&str| {
+        line.starts_with("| ")
+            && !line.contains("---")
+            && !line.contains("| with")
+            && !line.contains("| at once")
+    };
     let shown = page.lines().filter(is_row).count();
     assert_eq!(shown, expected.len());
 }

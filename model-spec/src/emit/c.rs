@@ -74,6 +74,7 @@ const RESERVED: &[&str] = &[
     "q",
     "v",
     "a",
+    "at",
     "u",
     "to",
     "self",
@@ -322,6 +323,9 @@ impl<'a> Emitter<'a> {
             Role::Start
                 | Role::Accelerations
                 | Role::Derivatives
+                | Role::AtTime
+                | Role::AtPosition
+                | Role::AccelerationsAt
                 | Role::Output(_)
                 | Role::Assumption(_)
         );
@@ -342,7 +346,8 @@ impl<'a> Emitter<'a> {
         let result = match function.shape {
             Shape::Scalar => "double",
             Shape::Vector(n) => {
-                arguments.push(format!("double to[{n}]"));
+                // What time decides may be nothing.
+                arguments.push(format!("double to[{}]", n.max(1)));
                 if inverts { "int" } else { "void" }
             }
             Shape::Symmetric(n) => {
@@ -453,6 +458,11 @@ impl<'a> Emitter<'a> {
                 format!("const {prefix}_parameters *self"),
             ),
             (reads.prepared, "p", format!("const {prefix}_prepared *p")),
+            (
+                reads.at_time || reads.at_position,
+                "at",
+                "const double *at".into(),
+            ),
             (reads.time, "t", "double t".into()),
             (reads.coordinates, "q", format!("const double q[{n}]")),
             (reads.velocities, "v", format!("const double v[{n}]")),
@@ -583,6 +593,7 @@ impl Language for Emitter<'_> {
             },
             Source::Time => "t".to_owned(),
             Source::Input(i) => format!("u->{}", self.inputs[i as usize]),
+            Source::AtTime(i) | Source::AtPosition(i) => format!("at[{i}]"),
             Source::Coordinate(_) | Source::Velocity(_) | Source::Acceleration(_) => return None,
         }))
     }
@@ -713,6 +724,13 @@ fn docs(role: Role) -> &'static str {
         Role::Forces => "Right-hand side f = Q - h of M a = f.",
         Role::Accelerations => {
             "Accelerations, the solution of M a = f. Returns 0, or 1 + the number of the coordinate whose pivot vanishes."
+        }
+        Role::AtTime => "What time alone decides of the accelerations.",
+        Role::AtPosition => {
+            "What time and coordinates decide of the accelerations. Returns what the accelerations return."
+        }
+        Role::AccelerationsAt => {
+            "Accelerations, of what the stage before has left in `at`. Returns what the accelerations return."
         }
         Role::KineticEnergy => "Kinetic energy T, in J.",
         Role::PotentialEnergy => "Potential energy V, in J.",

@@ -10,6 +10,7 @@ mod kernel;
 mod lanes;
 mod language;
 mod library;
+mod stages;
 mod structs;
 mod stub;
 mod traits;
@@ -175,6 +176,7 @@ impl<'a> Emitter<'a> {
         self.outputs();
         self.prepared();
         self.derivatives();
+        self.stages();
         for function in &self.program.functions {
             if self.is_emitted(function) {
                 self.function(function);
@@ -187,6 +189,7 @@ impl<'a> Emitter<'a> {
         self.impl_machine();
         self.impl_system();
         self.impl_linearize();
+        self.impl_staged();
         self.impl_abreast();
         self.helpers();
         self.writer.finish()

@@ -105,8 +105,10 @@ impl fmt::Display for Form {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match (self.role, self.basis) {
             (_, Basis::Along) => "eliminated along the machine",
-            (Role::Accelerations, Basis::Derived) => "from the mass matrix",
-            (Role::Accelerations, Basis::Expanded) => "from the mass matrix multiplied out",
+            (Role::Accelerations | Role::AccelerationsAt, Basis::Derived) => "from the mass matrix",
+            (Role::Accelerations | Role::AccelerationsAt, Basis::Expanded) => {
+                "from the mass matrix multiplied out"
+            }
             (_, Basis::Derived) => "as derived",
             (_, Basis::Expanded) => "multiplied out",
         })?;

@@ -198,5 +198,7 @@ fn name(model: &Model<'_>, source: Source) -> String {
         Source::Velocity(index) => format!("der({})", coordinate(index)),
         Source::Acceleration(index) => format!("der(der({}))", coordinate(index)),
         Source::Input(index) => model.inputs[index as usize].name.to_string(),
+        Source::AtTime(index) => format!("at time {index}"),
+        Source::AtPosition(index) => format!("at position {index}"),
     }
 }

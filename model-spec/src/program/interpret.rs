@@ -164,6 +164,19 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         tape.copy_results(registers, results);
         tape.check(registers)
     }
+
+    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next
+    /// stage.
+    ///
+    /// # Panics
+    /// If `values` is not as long as the results of that role.
+    pub fn stand(&mut self, role: Role, values: &[S]) {
+        let region = match role {
+            Role::AtTime => &self.layout.at_time,
+            _ => &self.layout.at_position,
+        };
+        region.fill(&mut self.registers, values);
+    }
 }
 
 /// Which registers hold what.
@@ -176,6 +189,8 @@ struct Layout {
     velocities: Region,
     inputs: Region,
     accelerations: Region,
+    at_time: Region,
+    at_position: Region,
     /// The first register for values of operations.
     temporaries: usize,
     /// The first register for constants.
@@ -203,6 +218,7 @@ impl Layout {
             Region { start, len }
         };
         let n = program.dimension();
+        let left = |role| program.function(role).map_or(0, |f| f.results.len());
         Layout {
             parameters: region(program.parameters.len()),
             prepared: region(program.prepare.results.len()),
@@ -211,6 +227,8 @@ impl Layout {
             velocities: region(n),
             inputs: region(program.inputs.len()),
             accelerations: region(n),
+            at_time: region(left(Role::AtTime)),
+            at_position: region(left(Role::AtPosition)),
             temporaries: next,
             constants: 0,
         }
@@ -225,6 +243,8 @@ impl Layout {
             Source::Velocity(index) => (&self.velocities, index),
             Source::Input(index) => (&self.inputs, index),
             Source::Acceleration(index) => (&self.accelerations, index),
+            Source::AtTime(index) => (&self.at_time, index),
+            Source::AtPosition(index) => (&self.at_position, index),
         };
         region.start + index as usize
     }

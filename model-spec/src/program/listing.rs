@@ -39,6 +39,8 @@ impl Program {
             Source::Velocity(index) => format!("der({})", coordinate(index)),
             Source::Acceleration(index) => format!("der(der({}))", coordinate(index)),
             Source::Input(index) => self.inputs[index as usize].name.to_string(),
+            Source::AtTime(index) => format!("at_time[{index}]"),
+            Source::AtPosition(index) => format!("at_position[{index}]"),
         }
     }
 
@@ -76,6 +78,7 @@ impl Program {
         let name = self.title(role);
         match (role, shape) {
             (Role::Prepare, _) => format!("prepared[{index}]"),
+            (Role::AtTime | Role::AtPosition, _) => format!("{name}[{index}]"),
             (_, Shape::Scalar) => name,
             (_, Shape::Vector(_)) => format!("{name}[{}]", coordinate(index)),
             (_, Shape::Symmetric(_)) => {
@@ -236,7 +239,10 @@ impl<'a> Listing<'a> {
         };
         let chosen = choice.chosen();
         let _ = writeln!(text, "  // {}; {}", chosen.form, chosen.cost);
-        if self.function.role == Role::Accelerations {
+        if matches!(
+            self.function.role,
+            Role::Accelerations | Role::AccelerationsAt
+        ) {
             for other in choice.others() {
                 let _ = writeln!(text, "  // not {other}");
             }
@@ -249,6 +255,8 @@ impl<'a> Listing<'a> {
         let arguments = [
             (reads.parameters, "parameters"),
             (reads.prepared, "prepared"),
+            (reads.at_time, "at_time"),
+            (reads.at_position, "at_position"),
             (reads.time, "t"),
             (reads.coordinates, "q"),
             (reads.velocities, "v"),

@@ -1,6 +1,7 @@
 //! From expressions to programs.
 
 mod derivatives;
+mod stages;
 
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
@@ -14,7 +15,7 @@ use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution};
 use super::{Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
 use crate::mechanics::{Equations, Unprojected};
-use crate::model::{Model, Name};
+use crate::model::{Model, Name, Stages};
 use crate::unit::Unit;
 
 /// A named result: what a function is to compute.
@@ -150,6 +151,16 @@ impl Program {
             take(of_quantity(&mut lowering, quantity, source.expanded));
         }
         take(accelerations(&mut lowering, source));
+        let (staged, staged_choice) = match drafts.last() {
+            Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
+                stages::staged(&mut lowering, source, &last.known_pivots, choose)
+            }
+            _ => (Vec::new(), None),
+        };
+        let stages = match staged.is_empty() {
+            true => Stages::default(),
+            false => model.stages,
+        };
         let derivatives = match drafts.last() {
             Some(last) if last.form.role == Role::Accelerations => {
                 derivatives(&mut lowering, source, last)
@@ -158,6 +169,8 @@ impl Program {
         };
         let has_derivatives = derivatives.is_some();
         drafts.extend(derivatives);
+        drafts.extend(staged);
+        choices.extend(staged_choice);
         drafts.sort_by_key(|draft| draft.function.role);
         choices.sort_by_key(Choice::role);
         let (prepare, prepared, functions) = prepare(&mut lowering.graph, drafts, model);
@@ -173,6 +186,7 @@ impl Program {
                 true => model.derivatives.clone(),
                 false => Vec::new(),
             },
+            stages,
             prepare,
             prepared,
             start,

@@ -2,7 +2,7 @@
 
 use lagrangian_symbolic::Rational;
 
-use super::{Function, Op, Program, Source, Value};
+use super::{Function, Op, Program, Role, Source, Value};
 
 /// A program with one mistake in it.
 #[derive(Clone, Debug)]
@@ -112,6 +112,7 @@ fn changes<'a>(
 /// The argument beside an argument.
 fn neighbour(program: &Program, source: Source) -> Option<Source> {
     let n = program.dimension();
+    let results = |role| program.function(role).map_or(0, |f| f.results.len());
     let beside = |index: u32, len: usize| (len > 1).then(|| (index + 1) % len as u32);
     match source {
         Source::Parameter(index) => beside(index, program.parameters.len()).map(Source::Parameter),
@@ -121,5 +122,9 @@ fn neighbour(program: &Program, source: Source) -> Option<Source> {
         Source::Velocity(index) => beside(index, n).map(Source::Velocity),
         Source::Input(index) => beside(index, program.inputs.len()).map(Source::Input),
         Source::Acceleration(index) => beside(index, n).map(Source::Acceleration),
+        Source::AtTime(index) => beside(index, results(Role::AtTime)).map(Source::AtTime),
+        Source::AtPosition(index) => {
+            beside(index, results(Role::AtPosition)).map(Source::AtPosition)
+        }
     }
 }

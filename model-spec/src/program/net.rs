@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 
 use super::graph::{Graph, Id, Node};
 use super::{Op, Source};
+use crate::model::Stages;
 
 /// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found
 /// as a common pair; higher ones are squared and multiplied by themselves, since nobody shares
@@ -49,10 +50,15 @@ pub(super) type Stage = u8;
 /// The stage of what time decides, and nothing that comes after it.
 pub(super) const TIME: Stage = 1;
 
+/// The stage of what time and coordinates decide, and nothing that comes after them.
+pub(super) const POSITION: Stage = 2;
+
 #[derive(Clone)]
 pub(super) struct Net {
     pub(super) items: Vec<Item>,
     pub(super) stages: Vec<Stage>,
+    /// What may stay while the rest changes: products and sums are not merged across.
+    pub(super) apart: Stages,
     /// What is asked for, with its sign.
     pub(super) roots: Vec<Signed>,
 }
@@ -63,6 +69,7 @@ impl Net {
         let mut net = Net {
             items: Vec::new(),
             stages: Vec::new(),
+            apart: Stages::default(),
             roots: Vec::new(),
         };
         let mut index_of: FxHashMap<Id, Index> = FxHashMap::default();
@@ -257,11 +264,11 @@ pub(super) fn operands(item: &Item, mut visit: impl FnMut(Index)) {
     }
 }
 
-fn stage_of(source: Source) -> Stage {
+pub(super) fn stage_of(source: Source) -> Stage {
     match source {
         Source::Parameter(_) | Source::Prepared(_) => 0,
-        Source::Time => TIME,
-        Source::Coordinate(_) => 2,
+        Source::Time | Source::AtTime(_) => TIME,
+        Source::Coordinate(_) | Source::AtPosition(_) => POSITION,
         Source::Velocity(_) => 3,
         Source::Input(_) => 4,
         Source::Acceleration(_) => 5,

@@ -90,7 +90,7 @@ impl fmt::Display for Disagreement {
 impl std::error::Error for Disagreement {}
 
 /// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
-/// accelerations that obey them, and the derivatives of these.
+/// accelerations that obey them, the derivatives of these, and the same accelerations in stages.
 ///
 /// Derivatives are not compared with other formulas. The accelerations, once they are known to be
 /// right, are run over dual numbers of the prime field, where `ε² = 0` holds exactly as all else
@@ -134,7 +134,8 @@ pub fn prove(
         point.check_values(&quantities)?;
         point.check_pivots()?;
         point.check_motion(&oracle.residual)?;
-        point.check_derivatives()
+        point.check_derivatives()?;
+        point.check_stages()
     })
 }
 
@@ -368,6 +369,65 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
+    /// The accelerations in stages are those at once, and the pivots that are guarded on the way are
+    /// those of M.
+    fn check_stages(&mut self) -> Result<(), Verdict> {
+        let n = self.program.dimension();
+        let roles = self.program.staged_roles();
+        let Some(&last) = roles.last() else {
+            return Ok(());
+        };
+        let expected = self.call(Role::Accelerations, n)?;
+        let lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
+        // Pivots of parameters alone; those of the stages take the place of others.
+        let mut pivots: Vec<Option<[Residue; 2]>> = vec![None; n];
+        let probe = with_guarded_values(self.program);
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let values = self.in_stages(&probe, &mut pivots);
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let found = values?;
+        if let Some(index) = found.iter().zip(&expected).position(|(a, b)| a != b) {
+            let (role, point) = (last, self.number);
+            return Err(Disagreement::Result { role, index, point }.into());
+        }
+        let pairs: Option<Vec<[Residue; 2]>> = pivots.into_iter().collect();
+        self.check_pairs(pairs.as_deref().unwrap_or_default(), &lower)
+    }
+
+    /// The accelerations in stages, and by coordinates the pivots on the way with their scales; by
+    /// a program [with the values of guards](with_guarded_values).
+    fn in_stages(
+        &mut self,
+        probe: &Program,
+        pivots: &mut [Option<[Residue; 2]>],
+    ) -> Result<Vec<Residue>, Verdict> {
+        let known = &self.program.prepare.guards;
+        let varying = probe.function(Role::Accelerations);
+        let len = varying.map_or(0, |function| function.results.len());
+        let values = self.call(Role::Accelerations, len)?;
+        for (guard, pair) in known.iter().zip(values.chunks_exact(2)) {
+            pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+        }
+        let mut results = Vec::new();
+        for role in self.program.staged_roles() {
+            let Some(function) = self.program.function(role) else {
+                continue;
+            };
+            let len = function.results.len();
+            results = self.call(role, len + 2 * function.guards.len())?;
+            let pairs = results[len..].chunks_exact(2);
+            for (guard, pair) in function.guards.iter().zip(pairs) {
+                pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+            }
+            if role == Role::AccelerationsAt {
+                results.truncate(len);
+            } else {
+                self.interpreter.stand(role, &results);
+            }
+        }
+        Ok(results)
+    }
+
     /// The product of the pivots is the determinant of M, one for each coordinate, and each is held
     /// against its Mᵢᵢ or itself.
     fn check_pivots(&mut self) -> Result<(), Verdict> {
@@ -384,27 +444,37 @@ impl<'a, 'd> Point<'a, 'd> {
         let values = self.call(Role::Accelerations, 2 * n);
         std::mem::swap(&mut self.interpreter, &mut self.guards);
         let values = values?;
-        let product = values
+        let mut pairs = vec![[Residue::ZERO; 2]; n];
+        for (&i, pair) in coordinates.iter().zip(values.chunks_exact(2)) {
+            pairs[i] = [pair[0], pair[1]];
+        }
+        self.check_pairs(&pairs, &lower)
+    }
+
+    /// Pivots and their scales, by coordinates, are those of the matrix with that lower triangle.
+    fn check_pairs(&self, pairs: &[[Residue; 2]], lower: &[Residue]) -> Result<(), Verdict> {
+        let n = self.program.dimension();
+        let product = pairs
             .iter()
-            .step_by(2)
-            .fold(Residue::ONE, |product, pivot| product * *pivot);
+            .fold(Residue::ONE, |product, [pivot, _]| product * *pivot);
         let diagonal = |i: usize| lower[Shape::index(i, i)];
-        let mut pairs = coordinates.iter().zip(values.chunks_exact(2));
-        let scales = pairs.all(|(&i, pair)| pair[1] == diagonal(i) || pair[1] == pair[0]);
-        let determinant = determinant(&lower, n);
+        let mut by_coordinates = pairs.iter().enumerate();
+        let scales =
+            by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
+        let determinant = determinant(lower, n);
         if !determinant.is_finite() {
             return Err(Verdict::Elsewhere);
         }
-        if product == determinant && scales {
+        if pairs.len() == n && product == determinant && scales {
             Ok(())
         } else {
-            Err(wrong.into())
+            Err(Disagreement::Pivots { point: self.number }.into())
         }
     }
 }
 
 /// A program whose accelerations are the pivots and their scales instead, in the order of the
-/// guards: those of `prepare` first.
+/// guards: those of `prepare` first; and whose stages have theirs behind their results.
 fn with_guarded_values(program: &Program) -> Program {
     let mut probe = program.clone();
     let values = |function: &Function| {
@@ -429,6 +499,14 @@ fn with_guarded_values(program: &Program) -> Program {
             function.results.push(Value(function.code.len() as u32));
             function.code.push(Op::Read(Source::Prepared(index as u32)));
         }
+        function.results.extend(varying);
+        function.shape = Shape::Vector(function.results.len());
+        function.guards.clear();
+    }
+    let staged = program.staged_roles();
+    let stages = probe.functions.iter_mut();
+    for function in stages.filter(|function| staged.contains(&function.role)) {
+        let varying: Vec<Value> = values(function);
         function.results.extend(varying);
         function.shape = Shape::Vector(function.results.len());
         function.guards.clear();

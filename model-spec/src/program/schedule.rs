@@ -17,7 +17,7 @@ use rustc_hash::FxHashMap;
 use super::cost::latency;
 use super::graph::Id;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
-use super::{Op, Source, Value};
+use super::{Op, Source, Value, stages};
 
 /// A function's code, prepared values still called by their nodes.
 pub(super) struct Code {
@@ -81,19 +81,22 @@ fn in_order(net: &Net, merged: &[bool]) -> Vec<Index> {
 }
 
 /// Products that are only a factor of another product. What has a factor that is known before stays
-/// by itself: two such factors are not to meet.
+/// by itself: two such factors are not to meet. So does what is computed by itself in an earlier
+/// stage.
 fn merged(net: &Net) -> Vec<bool> {
     let uses = net.uses();
     let mut merged = vec![false; net.items.len()];
     let varies = |index: &Index| net.stages[*index as usize] > 0;
+    let part = |index: Index| stages::part(net.apart, net.stages[index as usize]);
     let is_product = |index: Index| match &net.items[index as usize] {
         Item::Product { up, down } => down.is_empty() && up.iter().all(varies),
         _ => false,
     };
-    for item in &net.items {
+    for (index, item) in net.items.iter().enumerate() {
         if let Item::Product { up, .. } = item {
             for &factor in up.iter().filter(|&&factor| is_product(factor)) {
-                merged[factor as usize] = uses[factor as usize] == 1;
+                merged[factor as usize] =
+                    uses[factor as usize] == 1 && part(factor) == part(index as Index);
             }
         }
     }

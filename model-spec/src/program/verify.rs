@@ -17,6 +17,11 @@ impl Program {
         if !self.functions.is_sorted_by(|a, b| a.role < b.role) {
             return Err("functions are out of order".into());
         }
+        for role in [Role::AtTime, Role::AtPosition, Role::AccelerationsAt] {
+            if self.function(role).is_some() != self.staged_roles().contains(&role) {
+                return Err("stages are not those that are asked for".into());
+            }
+        }
         for function in self.all_functions() {
             self.verify_function(function)
                 .map_err(|what| format!("{}: {what}", function.role.name()))?;
@@ -78,6 +83,16 @@ impl Program {
     fn verify_read(&self, role: Role, source: Source) -> Result<(), String> {
         let parameters_only = matches!(role, Role::Prepare | Role::Start);
         let n = self.dimension();
+        // What a stage has left is read by the next one only.
+        let roles = self.staged_roles();
+        let next = |before| {
+            let mut pairs = roles.windows(2);
+            pairs.any(|pair| pair[0] == before && pair[1] == role)
+        };
+        let left = |before| match self.function(before) {
+            Some(function) if next(before) => function.results.len(),
+            _ => 0,
+        };
         let (index, len, is_parameter) = match source {
             Source::Parameter(index) => (index, self.parameters.len(), true),
             Source::Prepared(index) => (index, self.prepare.results.len(), false),
@@ -86,6 +101,8 @@ impl Program {
                 (index, n, false)
             }
             Source::Input(index) => (index, self.inputs.len(), false),
+            Source::AtTime(index) => (index, left(Role::AtTime), false),
+            Source::AtPosition(index) => (index, left(Role::AtPosition), false),
         };
         if index as usize >= len || is_parameter != parameters_only {
             return Err(format!("{source:?} cannot be read here"));

@@ -176,6 +176,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Content::Approximation(content)
         });
         self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
+        self.declare_section(layer, Stages, &spec.stages, |()| Content::Nothing);
     }
 
     fn declare_section<C>(

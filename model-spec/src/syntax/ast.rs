@@ -74,6 +74,8 @@ pub struct Spec {
     pub approximations: Vec<Item<Spanned<Approximation>>>,
     /// `coordinates`, `rates`, `inputs`, `parameters`, or the name of a parameter
     pub derivatives: Vec<Item<()>>,
+    /// `time`, `coordinates`
+    pub stages: Vec<Item<()>>,
     /// `left > right`
     pub assume: Vec<Relation>,
     /// `gravity (0, -g);`
@@ -171,6 +173,7 @@ sections! {
     Approximations => "approximations",
     Outputs => "outputs",
     Derivatives => "derivatives",
+    Stages => "stages",
     Published => "published",
 }
 
@@ -238,6 +241,7 @@ impl SectionKind {
             SectionKind::Approximations => "an approximated coordinate",
             SectionKind::Outputs => "an output",
             SectionKind::Derivatives => "a derivative",
+            SectionKind::Stages => "a stage",
             SectionKind::Published => "a published equation",
         }
     }

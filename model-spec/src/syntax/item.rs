@@ -391,8 +391,8 @@ impl Parser<'_> {
     }
 
     /// Items `coordinates`, `rates`, `m`.
-    pub(super) fn derivatives(&mut self, items: &mut Vec<Item<()>>) {
-        self.items(SectionKind::Derivatives, items, |_, _| Some(()));
+    pub(super) fn words(&mut self, kind: SectionKind, items: &mut Vec<Item<()>>) {
+        self.items(kind, items, |_, _| Some(()));
     }
 
     /// Facts `left > right`, and `… for i in 1..N`.

@@ -35,14 +35,18 @@ pub fn compiled<R>(
     }
 }
 
+/// The text of a machine of the library.
+pub fn library_text(name: &str) -> String {
+    std::fs::read_to_string(library(name)).expect("a machine of the library")
+}
+
 /// Compiles a machine of the library.
 pub fn machine<R>(
     name: &str,
     constants: &[(&str, i64)],
     look: impl for<'d> FnOnce(&Compiled<'d>) -> R,
 ) -> R {
-    let text = std::fs::read_to_string(library(name)).expect("a machine of the library");
-    compiled(&text, constants, look)
+    compiled(&library_text(name), constants, look)
 }
 
 /// The program of a text.

@@ -7,3 +7,4 @@ mod harness;
 mod lowering;
 mod machines;
 mod running;
+mod stages;

@@ -17,7 +17,7 @@ impl<'a> Emitter<'a> {
     pub(super) fn is_emitted(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
-        function.role.inverts()
+        function.role.is_fast()
             || matches!(function.role, Role::Output(_) | Role::Assumption(_))
             || !function.results.iter().all(is_zero)
     }
@@ -45,7 +45,7 @@ impl<'a> Emitter<'a> {
 
     /// Whether a function has to look whether the parameters alone leave the machine without accelerations.
     pub(super) fn may_be_singular_from_the_start(&self, function: &Function) -> bool {
-        function.role.inverts() && !self.program.prepare.guards.is_empty()
+        self.fails(function) && !self.program.prepare.guards.is_empty()
     }
 
     /// The arguments of a function that needs so much, with their types.
@@ -54,11 +54,15 @@ impl<'a> Emitter<'a> {
             prepared,
             scalar,
             inputs,
+            at_time,
+            at_position,
             ..
         } = &self.types;
         let vector = format!("&[{scalar}; {}]", self.program.dimension());
         let all = [
             (needs.prepared, "p", format!("&{prepared}<{scalar}>")),
+            (needs.at_time, "at", format!("&{at_time}<{scalar}>")),
+            (needs.at_position, "at", format!("&{at_position}<{scalar}>")),
             (needs.time, "t", scalar.clone()),
             (needs.coordinates, "q", vector.clone()),
             (needs.velocities, "v", vector.clone()),
@@ -79,7 +83,7 @@ impl<'a> Emitter<'a> {
 
     /// A function of the state.
     pub(super) fn function(&mut self, function: &Function) {
-        if function.role.inverts() {
+        if function.role.is_fast() {
             return self.kernel(function);
         }
         let runtime = self.options.runtime.clone();
@@ -89,7 +93,7 @@ impl<'a> Emitter<'a> {
         self.docs(&self.function_docs(function));
         let head = format!("pub fn {name}<{scalar}: {runtime}::Scalar>");
         let arguments = self.declared(self.needs(function));
-        let result = self.result_type(function.shape);
+        let result = self.result_type(function);
         self.writer.signature(&head, &arguments, Some(&result));
         let cut = cut::cut(function, self.prepared.len(), self.options.longest_whole);
         let texts: Vec<String> = match &cut {
@@ -100,7 +104,7 @@ impl<'a> Emitter<'a> {
                 texts.into_iter().map(|text| text.text).collect()
             }
         };
-        let value = self.arranged(function.shape, &texts);
+        let value = self.arranged(function, &texts);
         self.writer.expression("", &value, "");
         self.writer.close("}");
         for (i, piece) in cut.iter().flat_map(|cut| &cut.pieces).enumerate() {
@@ -110,9 +114,12 @@ impl<'a> Emitter<'a> {
     }
 
     /// The type of what a function gives.
-    pub(super) fn result_type(&self, shape: Shape) -> String {
+    pub(super) fn result_type(&self, function: &Function) -> String {
         let scalar = &self.types.scalar;
-        match shape {
+        if let Some(name) = self.stage_type(function.role) {
+            return format!("{name}<{scalar}>");
+        }
+        match function.shape {
             Shape::Scalar => scalar.clone(),
             Shape::Vector(n) => format!("[{scalar}; {n}]"),
             Shape::Symmetric(n) => format!("[[{scalar}; {n}]; {n}]"),
@@ -121,8 +128,13 @@ impl<'a> Emitter<'a> {
     }
 
     /// The results of a function as they are arranged.
-    pub(super) fn arranged(&self, shape: Shape, texts: &[String]) -> Layout {
+    pub(super) fn arranged(&self, function: &Function, texts: &[String]) -> Layout {
         let text = |i: usize| Layout::Atom(texts[i].clone());
+        let shape = function.shape;
+        if let Some(name) = self.stage_type(function.role) {
+            let values = Layout::nested((0..shape.len()).map(text));
+            return Layout::Struct(name.to_owned(), vec![("values".into(), values)]);
+        }
         match shape {
             Shape::Scalar => text(0),
             Shape::Vector(n) => Layout::nested((0..n).map(text)),
@@ -225,7 +237,9 @@ impl<'a> Emitter<'a> {
         };
         match (function.role, function.shape) {
             (_, Shape::Scalar) => Vec::new(),
-            (Role::Accelerations, _) => each(&|name| format!("{name}_ddot")),
+            (Role::Accelerations | Role::AccelerationsAt, _) => {
+                each(&|name| format!("{name}_ddot"))
+            }
             (Role::Bias, _) => each(&|name| format!("h_{name}")),
             (Role::Applied, _) => each(&|name| format!("q_{name}")),
             (Role::Forces, _) => each(&|name| format!("f_{name}")),
@@ -263,6 +277,11 @@ impl<'a> Emitter<'a> {
             Role::Derivatives => "Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of \
                 `M da/dx = d(f - M a)/dx` with `a` held."
                 .into(),
+            Role::AtTime => "What time alone decides of the accelerations.".into(),
+            Role::AtPosition => "What time and coordinates decide of the accelerations.\n\n\
+                A pivot that vanishes is an error."
+                .into(),
+            Role::AccelerationsAt => "Accelerations `a` of what the stage before has left.".into(),
             Role::KineticEnergy => "Kinetic energy `T`, in J.".into(),
             Role::PotentialEnergy => "Potential energy `V`, in J.".into(),
             Role::Dissipation => "Dissipation function `D`, in W.".into(),
@@ -302,6 +321,7 @@ impl<'a> Emitter<'a> {
             "q",
             "v",
             "a",
+            "at",
             "u",
             "f",
             "w",
@@ -381,5 +401,7 @@ pub(super) fn union(a: Reads, b: Reads) -> Reads {
         velocities: a.velocities || b.velocities,
         inputs: a.inputs || b.inputs,
         accelerations: a.accelerations || b.accelerations,
+        at_time: a.at_time || b.at_time,
+        at_position: a.at_position || b.at_position,
     }
 }

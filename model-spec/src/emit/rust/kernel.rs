@@ -19,6 +19,9 @@ impl Emitter<'_> {
     fn names(&self, role: Role) -> [String; 2] {
         match role {
             Role::Derivatives => self.types.derivatives_call.clone(),
+            Role::AtTime => self.types.stage_calls[0].clone(),
+            Role::AtPosition => self.types.stage_calls[1].clone(),
+            Role::AccelerationsAt => self.types.stage_calls[2].clone(),
             _ => self.types.accelerations.clone(),
         }
     }
@@ -40,7 +43,7 @@ impl Emitter<'_> {
         let scalar = self.types.scalar.clone();
         let [call, _] = self.names(function.role);
         let needs = self.needs(function);
-        let result = self.fallible(&self.result_type(function.shape));
+        let result = self.returned(function);
         self.writer.gap();
         self.docs(&self.function_docs(function));
         let name = self.function_name(function.role);
@@ -106,7 +109,7 @@ impl Emitter<'_> {
         } else {
             "'_, "
         };
-        let result = self.fallible(&self.result_type(function.shape));
+        let result = self.returned(function);
         self.writer.gap();
         self.writer.open(format!(
             "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for {call}<{anonymous}{scalar}> {{"
@@ -138,10 +141,13 @@ impl Emitter<'_> {
         };
         let name = self.function_name(function.role);
         let kept: Vec<String> = texts.iter().map(|text| format!("{text}.store()")).collect();
-        let value = self.arranged(function.shape, &kept);
+        let value = self.arranged(function, &kept);
         self.writer
             .expression(&format!("let {name} = "), &value, ";");
-        self.writer.line(format!("Ok({name})"));
+        self.writer.line(match self.fails(function) {
+            true => format!("Ok({name})"),
+            false => name,
+        });
         self.writer.close("}");
         self.writer.close("}");
     }
@@ -171,6 +177,15 @@ impl Emitter<'_> {
             Op::Read(_) => true,
             _ => false,
         })
+    }
+
+    /// The type of what comes back.
+    fn returned(&self, function: &Function) -> String {
+        let result = self.result_type(function);
+        match self.fails(function) {
+            true => self.fallible(&result),
+            false => result,
+        }
     }
 
     /// A result that there is not where the mass matrix is singular.

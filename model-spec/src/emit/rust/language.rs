@@ -53,6 +53,7 @@ impl Language for Rust<'_> {
             },
             Source::Time => self.loaded("t".to_owned()),
             Source::Input(i) => self.loaded(format!("u.{}", emitter.inputs.paths[i as usize])),
+            Source::AtTime(i) | Source::AtPosition(i) => self.loaded(format!("at.values[{i}]")),
             Source::Coordinate(_) | Source::Velocity(_) | Source::Acceleration(_) => return None,
         }))
     }

@@ -3,7 +3,7 @@
 use lagrangian_symbolic::Rational;
 
 use super::{Options, expansion};
-use crate::model::Name;
+use crate::model::{Name, Stages};
 use crate::program::{self, Function, Op, Program, Role, Shape, Slot, Value};
 use crate::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
 use crate::unit::Unit;
@@ -66,6 +66,20 @@ fn standstill(spec: &Spec) -> Program {
         zeros(Role::WorkRate, Shape::Scalar),
         zeros(Role::DissipationRate, Shape::Scalar),
     ];
+    let asks = |stage: &str| spec.stages.iter().any(|item| item.name.base.text == stage);
+    let stages = Stages {
+        time: asks("time"),
+        coordinates: asks("coordinates"),
+    };
+    if stages.time {
+        functions.push(zeros(Role::AtTime, Shape::Vector(0)));
+    }
+    if stages.coordinates {
+        functions.push(zeros(Role::AtPosition, Shape::Vector(0)));
+    }
+    if !stages.is_empty() {
+        functions.push(zeros(Role::AccelerationsAt, Shape::Vector(n)));
+    }
     functions.extend((0..outputs.len()).map(|i| zeros(Role::Output(i), Shape::Scalar)));
     Program {
         name: spec.name.text.clone(),
@@ -76,6 +90,7 @@ fn standstill(spec: &Spec) -> Program {
         outputs,
         assumptions: Vec::new(),
         derivatives: Vec::new(),
+        stages,
         prepare: zeros(Role::Prepare, Shape::Vector(0)),
         prepared: Vec::new(),
         start: zeros(Role::Start, Shape::Vector(n)),

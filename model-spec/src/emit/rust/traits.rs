@@ -377,7 +377,7 @@ impl Emitter<'_> {
     /// The checks of pivots, as far as there are any.
     pub(super) fn helpers_of_guards(&mut self) {
         let is_guarded = |function: &Function| !function.guards.is_empty();
-        let is_for_speed = |function: &&Function| function.role.inverts();
+        let is_for_speed = |function: &&Function| function.role.is_fast();
         let (fast, others): (Vec<_>, Vec<_>) = self
             .program
             .all_functions()

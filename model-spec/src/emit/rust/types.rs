@@ -19,6 +19,11 @@ pub(super) struct Types {
     pub(super) accelerations: [String; 2],
     /// A call of the derivatives, and what its pieces are.
     pub(super) derivatives_call: [String; 2],
+    /// What a stage of the accelerations leaves to the next one.
+    pub(super) at_time: String,
+    pub(super) at_position: String,
+    /// The calls of the stages, and what their pieces are.
+    pub(super) stage_calls: [[String; 2]; 3],
     /// The parameter that stands for the number.
     pub(super) scalar: String,
     /// The parameter that stands for the number in a register.
@@ -39,6 +44,14 @@ impl Types {
             derivatives: scope.take("Derivatives"),
             accelerations: ["Accelerations", "AccelerationsPiece"].map(|name| scope.take(name)),
             derivatives_call: ["DerivativesCall", "DerivativesPiece"].map(|name| scope.take(name)),
+            at_time: scope.take("AtTime"),
+            at_position: scope.take("AtPosition"),
+            stage_calls: [
+                ["AtTimeCall", "AtTimePiece"],
+                ["AtPositionCall", "AtPositionPiece"],
+                ["AccelerationsAt", "AccelerationsAtPiece"],
+            ]
+            .map(|names| names.map(|name| scope.take(name))),
             scalar: scope.take("S"),
             register: scope.take("N"),
             shadowed: machine.to_owned(),

@@ -1,0 +1,167 @@
+//! The accelerations in stages, from whichever elimination leaves the least to do again.
+
+use super::super::solve::{self, Elimination, Pivot, Solution};
+use super::super::{Basis, Form, Function, Role, Shape, articulated, stages};
+use super::{Candidate, Choice, Draft, Lowering, Origin, Planned};
+use crate::model::Stages;
+
+/// The functions of one way to compute the accelerations, in their order.
+struct Staged {
+    drafts: Vec<Draft>,
+}
+
+impl Staged {
+    /// The function that is called again and again.
+    fn repeated(&self) -> &Draft {
+        self.drafts.last().expect("there is always a last stage")
+    }
+
+    /// What a call of every stage takes.
+    fn throughput(&self) -> u64 {
+        let costs = self.drafts.iter().map(|draft| draft.function.cost());
+        costs.map(|cost| cost.throughput).sum()
+    }
+}
+
+/// The stages that are asked for. What is compared is the cost of the last, which is repeated.
+pub(super) fn staged<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+    known_pivots: &[Pivot],
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> (Vec<Draft>, Option<Choice>) {
+    let apart = lowering.model.stages;
+    let mut ways = Vec::new();
+    for (basis, solution) in solutions(lowering, source) {
+        for factored in [false, true] {
+            let way = way(lowering, &solution, known_pivots, (basis, factored), apart);
+            ways.extend(way);
+        }
+    }
+    // Of those that cost the same again and again, the one that costs the least at first.
+    ways.sort_by_key(Staged::throughput);
+    let mut different: Vec<Staged> = Vec::with_capacity(ways.len());
+    for way in ways {
+        let is_same = |other: &Staged| {
+            let pairs = way.drafts.iter().zip(&other.drafts);
+            pairs.clone().all(|(a, b)| a.is_same(b))
+        };
+        if !different.iter().any(is_same) {
+            different.push(way);
+        }
+    }
+    let candidate = |way: &Staged| {
+        let Draft { form, function, .. } = way.repeated();
+        Candidate {
+            form: *form,
+            counts: function.counts(),
+            cost: function.cost(),
+        }
+    };
+    let candidates: Vec<Candidate> = different.iter().map(candidate).collect();
+    let (chosen, choice) = match candidates.len() {
+        0 => return (Vec::new(), None),
+        1 => (0, None),
+        _ => {
+            let chosen = choose(&candidates).min(candidates.len() - 1);
+            (chosen, Some(Choice { candidates, chosen }))
+        }
+    };
+    (different.swap_remove(chosen).drafts, choice)
+}
+
+/// The accelerations by every elimination that may be the shortest.
+fn solutions<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+) -> Vec<(Basis, Solution)> {
+    let mut solutions = Vec::new();
+    let mut systems = Vec::new();
+    let derived = lowering.system(source.quantities);
+    let expanded = lowering.system(source.expanded);
+    for (basis, system) in [(Basis::Derived, derived), (Basis::Expanded, expanded)] {
+        systems.extend(system.map(|(matrix, forces)| (basis, matrix, forces)));
+    }
+    let along = match (source.unprojected, systems.first()) {
+        (Some(machine), Some(_)) => articulated::solve(lowering.model, machine),
+        _ => None,
+    };
+    let is_long = along.is_some();
+    if let Some(along) = along {
+        let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
+        lowering.lower(&along.accelerations);
+        lowering.lower(&values);
+        let matrix = &systems[0].1;
+        let pivots = along.pivots.iter().zip(lowering.values(&values));
+        let pivots = pivots.map(|(&(coordinate, _), pivot)| {
+            // Need only be positive where the entry of M that it was left over from is not at hand.
+            let diagonal = matrix[Shape::index(coordinate, coordinate)];
+            let scale = if diagonal.is_known() { diagonal } else { pivot };
+            Pivot {
+                coordinate,
+                pivot,
+                scale,
+            }
+        });
+        let solution = Solution {
+            pivots: pivots.collect(),
+            accelerations: lowering.values(&along.accelerations),
+            columns: Vec::new(),
+        };
+        solutions.push((Basis::Along, solution));
+    }
+    for (basis, matrix, forces) in systems {
+        // Written down, the elimination of a matrix grows with the cube of its order; from here on
+        // it has not been the shorter one for a long time.
+        if is_long && forces.len() > LARGEST_MATRIX {
+            continue;
+        }
+        let elimination = Elimination::of(&matrix, forces.len());
+        let solution = solve::solve(&mut lowering.graph, &matrix, &forces, elimination);
+        solutions.push((basis, solution));
+    }
+    solutions
+}
+
+/// The most coordinates of a machine whose mass matrix is eliminated where there is another way.
+/// With M at hand, only the two substitutions are repeated, about n² products; along a machine
+/// some ten for each link.
+const LARGEST_MATRIX: usize = 16;
+
+/// The functions of one solution; none where there are no factors to take out.
+fn way(
+    lowering: &mut Lowering<'_, '_>,
+    solution: &Solution,
+    known_pivots: &[Pivot],
+    (basis, factored): (Basis, bool),
+    apart: Stages,
+) -> Option<Staged> {
+    let pivots = solution.pivots.iter().copied();
+    let planned = Planned {
+        role: Role::AccelerationsAt,
+        shape: Shape::Vector(solution.accelerations.len()),
+        results: solution.accelerations.clone(),
+        pivots: pivots
+            .filter(|pivot| !known_pivots.contains(pivot))
+            .collect(),
+    };
+    let mut net = planned.net(&mut lowering.graph, true);
+    if factored && !net.factor() {
+        return None;
+    }
+    net.set_apart(apart);
+    let whole = planned.draft(net, basis, factored);
+    let draft = |function: Function| Draft {
+        form: Form {
+            role: function.role,
+            ..whole.form
+        },
+        function,
+        prepared: whole.prepared.clone(),
+        known_pivots: Vec::new(),
+    };
+    let functions = stages::split(&whole.function, apart);
+    Some(Staged {
+        drafts: functions.into_iter().map(draft).collect(),
+    })
+}
