@@ -17,7 +17,7 @@ use lagrangian_spec::program::{Arguments, Interpreter, Program, Role};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// A machine of the library as C, and its program.
+/// A machine of the library that asks for stages as C, and its program.
 fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Program) {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!(
@@ -25,6 +25,8 @@ fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Program
         env!("CARGO_MANIFEST_DIR")
     );
     let (name, text) = Disk.read(&path, None).expect("the library is there");
+    let end = text.rfind('}').expect("a machine ends");
+    let text = format!("{} stages {{ time, coordinates }} }}", &text[..end]);
     let compiled = lagrangian_spec::model(
         &dag,
         &name,
@@ -43,8 +45,8 @@ fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Program
     )
 }
 
-/// A program in C that prints the accelerations and the kinetic energy at a state, one number a
-/// line.
+/// A program in C that prints the accelerations, the kinetic energy and the accelerations in stages
+/// at a state, one number a line.
 fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> String {
     let list = |values: &[f64]| {
         values
@@ -58,13 +60,16 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
         .iter()
         .map(|slot| slot.default.as_ref().map_or(1.0, |default| default.value))
         .collect();
-    let arguments = |role: Role| {
+    let checks = !program.prepare.guards.is_empty();
+    let arguments = |role: Role, to: &str| {
         let reads = program
             .function(role)
             .expect("every machine has it")
             .reads();
         let all = [
-            (reads.prepared || role == Role::Accelerations, "&p"),
+            (reads.prepared || (role.inverts() && checks), "&p"),
+            (reads.at_time, "at_time"),
+            (reads.at_position, "at_position"),
             (reads.time, "t"),
             (reads.coordinates, "q"),
             (reads.velocities, "v"),
@@ -74,9 +79,11 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
             .iter()
             .filter(|(is_read, _)| *is_read)
             .map(|(_, name)| *name)
+            .chain((!to.is_empty()).then_some(to))
             .collect();
         read.join(", ")
     };
+    let room = |role: Role| program.function(role).map_or(1, |f| f.results.len().max(1));
     let mut text = String::new();
     let n = q.len();
     let inputs = match program.inputs.is_empty() {
@@ -91,15 +98,23 @@ fn main_of(program: &Program, prefix: &str, t: f64, q: &[f64], v: &[f64]) -> Str
         text,
         "#include <stdio.h>\n#include \"machine.c\"\n\nint main(void) {{\n    \
          const {prefix}_parameters parameters = {{{}}};\n    {prefix}_prepared p;\n    \
-         const double t = {t:?}, q[{n}] = {{{}}}, v[{n}] = {{{}}};\n    double a[{n}];\n{inputs}    (void)t;\n    \
-         {prefix}_prepare(&parameters, &p);\n    if ({prefix}_accelerations({}, a)) return 1;\n    \
+         const double t = {t:?}, q[{n}] = {{{}}}, v[{n}] = {{{}}};\n    double a[{n}], at_time[{}], at_position[{}];\n{inputs}    (void)t, (void)v;\n    \
+         {prefix}_prepare(&parameters, &p);\n    if ({prefix}_accelerations({})) return 1;\n    \
          for (int i = 0; i < {n}; i++) printf(\"%.17g\\n\", a[i]);\n    \
-         printf(\"%.17g\\n\", {prefix}_kinetic_energy({}));\n    return 0;\n}}\n",
+         printf(\"%.17g\\n\", {prefix}_kinetic_energy({}));\n    \
+         {prefix}_at_time({});\n    if ({prefix}_at_position({})) return 1;\n    \
+         if ({prefix}_accelerations_at({})) return 1;\n    \
+         for (int i = 0; i < {n}; i++) printf(\"%.17g\\n\", a[i]);\n    return 0;\n}}\n",
         list(&defaults),
         list(q),
         list(v),
-        arguments(Role::Accelerations),
-        arguments(Role::KineticEnergy),
+        room(Role::AtTime),
+        room(Role::AtPosition),
+        arguments(Role::Accelerations, "a"),
+        arguments(Role::KineticEnergy, ""),
+        arguments(Role::AtTime, "at_time"),
+        arguments(Role::AtPosition, "at_position"),
+        arguments(Role::AccelerationsAt, "a"),
     );
     text
 }
@@ -190,7 +205,9 @@ fn check(machine: &str, size: Option<i64>) {
     interpreter
         .call(Role::KineticEnergy, arguments, energy)
         .expect("nothing but accelerations can fail");
-    assert_eq!(printed.len(), n + 1);
+    let accelerations = expected[..n].to_vec();
+    expected.extend(accelerations);
+    assert_eq!(printed.len(), 2 * n + 1);
     // A unit of 2⁻⁵³ for each operation, multiplied by the condition of the mass matrix at this
     // state.
     let entries = n * (n + 1) / 2;
@@ -199,11 +216,14 @@ fn check(machine: &str, size: Option<i64>) {
         .call(Role::MassMatrix, arguments, &mut matrix)
         .expect("nothing but accelerations can fail");
     let condition = condition(n, &matrix);
-    let counts = program
-        .function(Role::Accelerations)
-        .map_or_else(Default::default, |function| function.counts());
-    let operations =
-        counts.multiplications + counts.additions + counts.divisions + 2 * counts.sincos;
+    let operations = |roles: &[Role]| -> usize {
+        let functions = roles.iter().filter_map(|role| program.function(*role));
+        let counts = functions.map(|function| function.counts());
+        counts
+            .map(|c| c.multiplications + c.additions + c.divisions + 2 * c.sincos)
+            .sum()
+    };
+    let operations = operations(&[Role::Accelerations]).max(operations(&program.staged_roles()));
     let share = operations as f64 * condition * f64::EPSILON / 2.0;
     let largest = expected
         .iter()

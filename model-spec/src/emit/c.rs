@@ -372,6 +372,9 @@ impl<'a> Emitter<'a> {
         if function.role == Role::Start && !function.reads().parameters {
             writer.line("(void)self;");
         }
+        if function.shape == Shape::Vector(0) {
+            writer.line("(void)to;");
+        }
         if checks_prepared {
             writer.open("if (p->singular) {");
             writer.line("return p->singular;");
