@@ -217,6 +217,44 @@ pub trait Linearize: System {
 ///
 /// The accelerations are those of [`System::accelerations`] but for rounding: they are added and
 /// multiplied in another order.
+///
+/// ```
+/// # #[cfg(feature = "macros")]
+/// # mod program {
+/// use lagrangian::{Staged, System};
+///
+/// lagrangian::machine! {
+///     machine Braked in plane {
+///         parameters { m: kg = 1, l: m = 1, b: N*m*s = 5, g: m/s^2 = 9.75 }
+///         coordinates { theta: rad }
+///         bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) } }
+///         gravity (0, -g);
+///         dissipations { brake: b*der(theta)^2/2 }
+///         stages { coordinates }
+///     }
+/// }
+///
+/// # pub fn main() -> Result<(), lagrangian::Singular> {
+/// // A step that is implicit in the rates, v = v0 + h a(q, v): the place is evaluated once.
+/// let brake = Braked::default().prepare();
+/// let (h, v0, u) = (0.05, 2.0, brake.default_inputs());
+/// let at = brake.at_position(&brake.at_time(0.0), &[0.5])?;
+/// let (mut v, mut a) = ([v0], [0.0]);
+/// for _ in 0..40 {
+///     brake.accelerations_at(&at, &v, &u, &mut a)?;
+///     v[0] = v0 + h * a[0];
+/// }
+/// // a = -b v - g sin q, so v = (v0 - h g sin q)/(1 + h b).
+/// let exact = (v0 - h * 9.75 * 0.5_f64.sin()) / (1.0 + h * 5.0);
+/// assert!((v[0] - exact).abs() < 1e-14);
+/// # Ok(())
+/// # }
+/// # }
+/// # #[cfg(feature = "macros")]
+/// # fn main() -> Result<(), lagrangian::Singular> { program::main() }
+/// # #[cfg(not(feature = "macros"))]
+/// # fn main() {}
+/// ```
 pub trait Staged: System {
     /// Whatever the next stage needs of the time.
     type AtTime: Clone + Debug;
