@@ -99,6 +99,8 @@ fn choices(program: &Program) -> Value {
             // From tenths of a cycle.
             "cycles_alone": candidate.cost.alone() as f64 / 10.0,
             "cycles_among_others": candidate.cost.throughput as f64 / 10.0,
+            // In units of 2⁻⁵³; null where nothing is known.
+            "rounding": candidate.rounding.map(|rounding| rounding.units()),
         })
     };
     let entries = program.choices.iter().map(|choice| {

@@ -48,6 +48,22 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
+fn what_was_chosen_stands_before_what_it_would_have_cost_otherwise() {
+    let output = lagrangian(&["derive", "machines/chain.machine", "--json"]);
+    let choices = &json(&output)["choices"]["accelerations"];
+    let ways = choices.as_array().expect("several ways");
+    let rounding = |way: &Value| number(&way["rounding"]);
+    let cycles = |way: &Value| number(&way["cycles_alone"]) + number(&way["cycles_among_others"]);
+    let least = ways.iter().map(rounding).fold(f64::INFINITY, f64::min);
+    let exact: Vec<&Value> = ways
+        .iter()
+        .filter(|way| rounding(way) <= 2.0 * least)
+        .collect();
+    assert_eq!(exact[0], &ways[0]);
+    assert!(exact.iter().all(|way| cycles(&ways[0]) <= cycles(way)));
+}
+
+#[test]
 fn the_library_is_without_mistakes() {
     for entry in std::fs::read_dir(root().join("machines")).expect("the library") {
         let path = entry.expect("an entry").path();

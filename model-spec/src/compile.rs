@@ -27,7 +27,7 @@ impl<'d> Compiled<'d> {
             return None;
         }
         let expanded = equations.expanded();
-        let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::cheapest);
+        let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::best);
         let choice = program.choice(Role::Accelerations);
         let is_expanded = choice.is_some_and(|c| c.chosen().form.basis == Basis::Expanded);
         let equations = match expanded {

@@ -44,12 +44,13 @@ mod mutate;
 mod net;
 mod pairs;
 mod prove;
+mod rounding;
 mod schedule;
 mod solve;
 mod stages;
 mod verify;
 
-pub use choose::{Basis, Candidate, Choice, Form, cheapest};
+pub use choose::{Basis, Candidate, Choice, Form, MOST_ROUNDING, best};
 pub use cost::{Cost, cycles};
 pub use count::Counts;
 pub use fusion::{Contracted, Contraction, Contractions, Side, fused, uses};
@@ -57,6 +58,7 @@ pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};
 pub use prove::{Disagreement, POINTS, prove, prove_quantities};
+pub use rounding::Rounding;
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]

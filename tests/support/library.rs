@@ -4,7 +4,8 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::program::Program;
+use lagrangian_spec::mechanics::Equations;
+use lagrangian_spec::program::{Candidate, Program};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
@@ -77,6 +78,21 @@ pub fn program(machine: &str, constants: &[(&str, i64)]) -> Program {
     compile(&path(machine), &text(machine), constants)
 }
 
+/// The same with a choice of one's own between the ways to make each function.
+pub fn program_by(
+    machine: &str,
+    constants: &[(&str, i64)],
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> Program {
+    compile_by(&path(machine), &text(machine), constants, &|compiled| {
+        let model = &compiled.model;
+        // Those of `compiled` may have been multiplied out already.
+        let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
+        let expanded = equations.expanded();
+        Program::lower_by(model, &equations, expanded.as_ref(), choose)
+    })
+}
+
 /// A machine of the library, interpreted.
 pub fn interpreted(machine: &str) -> InterpretedMachine {
     InterpretedMachine::new(program(machine, &[]))
@@ -89,6 +105,15 @@ pub fn machine(text: &str) -> InterpretedMachine {
 
 /// The program of a text.
 pub fn compile(path: &str, text: &str, constants: &[(&str, i64)]) -> Program {
+    compile_by(path, text, constants, &|compiled| compiled.program.clone())
+}
+
+fn compile_by(
+    path: &str,
+    text: &str,
+    constants: &[(&str, i64)],
+    program: &dyn Fn(&Compiled<'_>) -> Program,
+) -> Program {
     let constants: Vec<(String, Rational)> = constants
         .iter()
         .map(|&(name, value)| (name.to_owned(), Rational::from(value)))
@@ -105,7 +130,7 @@ pub fn compile(path: &str, text: &str, constants: &[(&str, i64)]) -> Program {
     );
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));
     match compiled {
-        Some(compiled) => compiled.program,
+        Some(compiled) => program(&compiled),
         None => panic!("{}", report.render_short(&sources)),
     }
 }

@@ -98,10 +98,12 @@ fn block(block: &Block) -> String {
     }
 }
 
-/// Whether a column holds nothing but digits.
+/// Whether a column holds nothing but decimal numbers, or dashes in their place.
 pub(super) fn is_numeric(rows: &[Vec<Words>], column: usize) -> bool {
     let is_number = |cells: &Vec<Words>| match cells.get(column).map(Vec::as_slice) {
-        Some([Run::Text(text)]) => text.chars().all(|c| c.is_ascii_digit()),
+        Some([Run::Text(text)]) => text
+            .chars()
+            .all(|c| c.is_ascii_digit() || matches!(c, '.' | '–')),
         _ => false,
     };
     !rows.is_empty() && rows.iter().all(is_number)

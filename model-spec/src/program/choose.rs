@@ -1,15 +1,29 @@
 //! Which of several programs for one function is taken.
 //!
-//! There is no form of the equations that is the cheapest for every machine: multiplied out they
-//! are for a double pendulum, never for a long chain; eliminating along the machine is for whatever
-//! has free bodies or long chains, the mass matrix for what is small and tightly coupled. So each
-//! function is made in the ways that may be the best, and the one of the least [cost](Cost) is
-//! taken. What was made and what it would have cost stays on record.
+//! There is no form of the equations that is the best for every machine: multiplied out they are
+//! the cheapest for a double pendulum, never for a long chain; eliminating along the machine is for
+//! whatever has free bodies or long chains, the mass matrix for what is small and tightly coupled.
+//! So each function is made in the ways that may be the best, and of those that are exact enough
+//! the one of the least [cost](Cost) is taken. What was made, what it would have cost and what
+//! rounding would have done stays on record.
+//!
+//! Exact enough is what loses no more than one bit: a candidate whose [rounding](Rounding) is at
+//! most [`MOST_ROUNDING`] times that of the most exact one.
 
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::{Cost, Counts, Program, Role};
+use super::{Cost, Counts, Program, Role, Rounding};
+
+/// How many times the rounding of the most exact candidate that of another may be.
+///
+/// Rounding is all that is left of the error of a run once its tolerance is small: no tolerance
+/// takes it back, whereas time can be bought. But what is below this factor, a bit, is not worth
+/// any time, and could not be told for certain: a [`Rounding`] is the median of a few states, and
+/// the ratio of two is right to a factor of one and a half. So whatever is taken is truly at most
+/// three times as far off as the most exact candidate, which tests hold for every machine of the
+/// library, and whatever is left aside for its rounding truly is farther off.
+pub const MOST_ROUNDING: u64 = 2;
 
 /// What a function is made from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,10 +56,13 @@ pub struct Candidate {
     pub counts: Counts,
     /// How long it takes.
     pub cost: Cost,
+    /// What rounding does to its results, where that is known: it is for all candidates or none.
+    pub rounding: Option<Rounding>,
 }
 
 impl Candidate {
-    /// Which of two is the better one.
+    /// Which of two is the cheaper one; of two that cost the same, the one of fewer operations where
+    /// none is contracted.
     pub fn compare(&self, other: &Candidate) -> Ordering {
         let ops = |candidate: &Candidate| candidate.counts.ops();
         let by_cost = self.cost.compare(other.cost);
@@ -73,15 +90,13 @@ impl Choice {
         &self.candidates[self.chosen]
     }
 
-    /// The others, the cheapest first.
+    /// The others, the best first.
     pub fn others(&self) -> Vec<&Candidate> {
-        let others = self.candidates.iter().enumerate();
-        let mut others: Vec<&Candidate> = others
-            .filter(|(index, _)| *index != self.chosen)
-            .map(|(_, candidate)| candidate)
-            .collect();
-        others.sort_by(|a, b| a.compare(b));
-        others
+        ranked(&self.candidates)
+            .into_iter()
+            .filter(|index| *index != self.chosen)
+            .map(|index| &self.candidates[index])
+            .collect()
     }
 }
 
@@ -92,12 +107,26 @@ impl Program {
     }
 }
 
-/// The index of the cheapest; of several, that of the fewest operations where none is contracted;
-/// of several, the first.
-pub fn cheapest(candidates: &[Candidate]) -> usize {
-    let indices = 0..candidates.len();
-    let least = indices.min_by(|&a, &b| candidates[a].compare(&candidates[b]));
-    least.unwrap_or(0)
+/// The index of the best: the cheapest of those that are exact enough; of several, the first. Where
+/// nothing is known of rounding, all of them are.
+pub fn best(candidates: &[Candidate]) -> usize {
+    ranked(candidates).first().copied().unwrap_or(0)
+}
+
+/// The indices from the best to the worst: those that are exact enough, then the others, each from
+/// the cheapest to the dearest.
+fn ranked(candidates: &[Candidate]) -> Vec<usize> {
+    let least = candidates.iter().filter_map(|c| c.rounding).min();
+    let is_rough = |candidate: &Candidate| match (candidate.rounding, least) {
+        (Some(rounding), Some(least)) => !rounding.is_within(MOST_ROUNDING, least),
+        _ => false,
+    };
+    let mut ranked: Vec<usize> = (0..candidates.len()).collect();
+    ranked.sort_by(|&a, &b| {
+        let (a, b) = (&candidates[a], &candidates[b]);
+        is_rough(a).cmp(&is_rough(b)).then(a.compare(b))
+    });
+    ranked
 }
 
 /// `eliminated along the machine, factored`.
@@ -120,10 +149,14 @@ impl fmt::Display for Form {
 }
 
 /// `eliminated along the machine: 84 mul, 55 add, 2 div, 4 sincos; 138 cycles alone, 63 among
-/// others`.
+/// others; rounding 1.8`.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}; {}", self.form, self.counts, self.cost)
+        write!(f, "{}: {}; {}", self.form, self.counts, self.cost)?;
+        match self.rounding {
+            Some(rounding) => write!(f, "; rounding {rounding}"),
+            None => Ok(()),
+        }
     }
 }
 
@@ -135,5 +168,46 @@ impl fmt::Display for Choice {
             Some(next) => write!(f, " (next best, {next})"),
             None => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Candidates of these costs, in cycles, and roundings.
+    fn candidates(of: &[(u64, Option<f64>)]) -> Vec<Candidate> {
+        let candidate = |&(cycles, rounding): &(u64, Option<f64>)| Candidate {
+            form: Form {
+                role: Role::Accelerations,
+                basis: Basis::Derived,
+                factored: false,
+            },
+            counts: Counts::default(),
+            cost: Cost {
+                throughput: 10 * cycles,
+                path: 10 * cycles,
+            },
+            rounding: rounding.map(Rounding::of_units),
+        };
+        of.iter().map(candidate).collect()
+    }
+
+    #[test]
+    fn the_cheapest_of_those_that_lose_at_most_a_bit_is_taken() {
+        let all = [
+            (90, Some(3.0)),
+            (50, Some(6.0)),
+            (40, Some(6.1)),
+            (60, Some(3.5)),
+        ];
+        assert_eq!(ranked(&candidates(&all)), [1, 3, 0, 2]);
+        assert_eq!(best(&candidates(&all)), 1);
+    }
+
+    #[test]
+    fn without_knowledge_of_rounding_the_cheapest_is_taken() {
+        let all = candidates(&[(90, None), (50, None), (50, None), (60, None)]);
+        assert_eq!(ranked(&all), [1, 2, 3, 0]);
     }
 }

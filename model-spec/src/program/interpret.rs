@@ -590,7 +590,7 @@ impl<S: Scalar> Tape<S> {
 }
 
 /// A function of one argument.
-fn unary<S: Scalar>(call: Call, x: S) -> S {
+pub(super) fn unary<S: Scalar>(call: Call, x: S) -> S {
     match call {
         Call::Sin => x.sin(),
         Call::Cos => x.cos(),
@@ -613,7 +613,7 @@ fn unary<S: Scalar>(call: Call, x: S) -> S {
 }
 
 /// A function of two arguments.
-fn binary<S: Scalar>(call: Call, x: S, y: S) -> S {
+pub(super) fn binary<S: Scalar>(call: Call, x: S, y: S) -> S {
     match call {
         Call::Atan2 => x.atan2(y),
         Call::Min => x.min(y),

@@ -238,7 +238,11 @@ impl<'a> Listing<'a> {
             return text;
         };
         let chosen = choice.chosen();
-        let _ = writeln!(text, "  // {}; {}", chosen.form, chosen.cost);
+        let _ = write!(text, "  // {}; {}", chosen.form, chosen.cost);
+        let rounding = chosen
+            .rounding
+            .map(|rounding| format!("; rounding {rounding}"));
+        let _ = writeln!(text, "{}", rounding.unwrap_or_default());
         if matches!(
             self.function.role,
             Role::Accelerations | Role::AccelerationsAt

@@ -7,10 +7,11 @@ use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, r
 use rustc_hash::FxHashMap;
 
 use super::articulated;
-use super::choose::{Basis, Candidate, Choice, Form, cheapest};
+use super::choose::{Basis, Candidate, Choice, Form, best};
 use super::formula::formula;
 use super::graph::{Graph, Id, Scaled};
 use super::net::Net;
+use super::rounding::{Rounding, States};
 use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution};
 use super::{Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
@@ -34,7 +35,7 @@ impl Program {
     /// is known.
     pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
         let expanded = equations.expanded();
-        Program::lower_by(model, equations, expanded.as_ref(), &cheapest)
+        Program::lower_by(model, equations, expanded.as_ref(), &best)
     }
 
     /// The same with a choice of one's own: `choose` is given the programs for one function, two or
@@ -71,7 +72,7 @@ impl Program {
             unprojected: None,
             slopes: &|_| Vec::new(),
         };
-        Program::build(model, source, &cheapest)
+        Program::build(model, source, &best)
     }
 
     fn build<'d>(
@@ -142,18 +143,21 @@ impl Program {
         let start = start.only(&mut lowering.graph).function;
         let mut choices = Vec::new();
         let mut drafts: Vec<Draft> = Vec::new();
-        let mut take = |candidates: Vec<Draft>| {
-            let (draft, choice) = taken(candidates, choose);
+        let states = States::of(model);
+        let mut take = |candidates: Vec<Draft>, graph: &Graph| {
+            let (draft, choice) = taken(candidates, graph, &states, choose);
             choices.extend(choice);
             drafts.extend(draft);
         };
         for quantity in source.quantities {
-            take(of_quantity(&mut lowering, quantity, source.expanded));
+            let drafts = of_quantity(&mut lowering, quantity, source.expanded);
+            take(drafts, &lowering.graph);
         }
-        take(accelerations(&mut lowering, source));
+        let ways = accelerations(&mut lowering, source);
+        take(ways, &lowering.graph);
         let (staged, staged_choice) = match drafts.last() {
             Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
-                stages::staged(&mut lowering, source, &last.known_pivots, choose)
+                stages::staged(&mut lowering, source, &last.known_pivots, &states, choose)
             }
             _ => (Vec::new(), None),
         };
@@ -478,6 +482,8 @@ impl Planned {
 /// The one that is chosen, and the record of the choice if there was one.
 fn taken(
     mut drafts: Vec<Draft>,
+    graph: &Graph,
+    states: &States,
     choose: &dyn Fn(&[Candidate]) -> usize,
 ) -> (Option<Draft>, Option<Choice>) {
     let mut different: Vec<Draft> = Vec::with_capacity(drafts.len());
@@ -489,15 +495,41 @@ fn taken(
     if different.len() < 2 {
         return (different.pop(), None);
     }
-    let candidate = |draft: &Draft| Candidate {
+    let roundings = roundings(&different.iter().collect::<Vec<_>>(), graph, states);
+    let candidate = |(index, draft): (usize, &Draft)| Candidate {
         form: draft.form,
         counts: draft.function.counts(),
         cost: draft.function.cost(),
+        rounding: roundings.as_ref().map(|roundings| roundings[index]),
     };
-    let candidates: Vec<Candidate> = different.iter().map(candidate).collect();
+    let candidates: Vec<Candidate> = different.iter().enumerate().map(candidate).collect();
     let chosen = choose(&candidates).min(candidates.len() - 1);
     let draft = different.swap_remove(chosen);
     (Some(draft), Some(Choice { candidates, chosen }))
+}
+
+/// What rounding does to the results of each draft, what is prepared for it included.
+fn roundings(drafts: &[&Draft], graph: &Graph, states: &States) -> Option<Vec<Rounding>> {
+    let all = drafts.iter().flat_map(|draft| draft.prepared.iter());
+    let mut ids: Vec<Id> = all.copied().collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let roots: Vec<(Id, bool)> = ids.iter().map(|&id| (id, false)).collect();
+    let Code { code, roots, .. } = schedule(&Net::new(graph, &roots, false));
+    let prepare = Function {
+        role: Role::Prepare,
+        code,
+        shape: Shape::Vector(roots.len()),
+        results: roots,
+        guards: Vec::new(),
+    };
+    let reading = drafts.iter().map(|draft| {
+        let place = |id: &Id| ids.binary_search(id).unwrap_or(0);
+        let prepared = draft.prepared.iter().map(place).collect();
+        (&draft.function, prepared)
+    });
+    let functions: Vec<(&Function, Vec<usize>)> = reading.collect();
+    states.roundings(&prepare, &functions)
 }
 
 /// A quantity as it was derived and multiplied out.
@@ -722,7 +754,7 @@ fn prepare(
 }
 
 /// Where the symbols of a model come from.
-fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
+pub(super) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
     let mut sources = FxHashMap::default();
     let mut add = |symbol: Expr<'_>, source: Source| {
         if let Some(symbol) = symbol.as_symbol() {

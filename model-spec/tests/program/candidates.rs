@@ -1,26 +1,25 @@
 //! Every program that could have been taken, whether it was or not.
 
 use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::program::{Candidate, Program, Role};
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::mechanics::Equations;
+use lagrangian_spec::program::{Candidate, Choice, MOST_ROUNDING, Program, Role};
 
-use crate::harness::{all_machines, machine, program_of_output};
+use crate::harness::{all_machines, machine, program, program_of_output};
 use crate::machines::{assert_mistakes_are_found, assert_proved};
 
 /// The programs of a machine: in the first all functions are their first candidates, in the
 /// second their second ones, or their last where there are fewer.
 fn every_program(machine: &Compiled<'_>) -> Vec<Program> {
-    let Compiled {
-        model, equations, ..
-    } = machine;
+    let model = &machine.model;
+    // Those of `machine` may have been multiplied out already.
+    let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
     let expanded = equations.expanded();
     let lower = |choose: &dyn Fn(&[Candidate]) -> usize| {
-        Program::lower_by(model, equations, expanded.as_ref(), choose)
+        Program::lower_by(model, &equations, expanded.as_ref(), choose)
     };
-    let cheapest = &machine.program;
-    let ways = cheapest
-        .choices
-        .iter()
-        .map(|choice| choice.candidates.len());
+    let taken = &machine.program;
+    let ways = taken.choices.iter().map(|choice| choice.candidates.len());
     let ways = ways.max().unwrap_or(1);
     (0..ways).map(|index| lower(&|_| index)).collect()
 }
@@ -105,15 +104,85 @@ fn the_record_tells_what_was_taken() {
                 let chosen = choice.chosen();
                 assert_eq!(chosen.counts, function.counts(), "{name}: {}", chosen.form);
                 assert_eq!(chosen.cost, function.cost(), "{name}: {}", chosen.form);
+                let most_exact = choice.candidates.iter().filter_map(|c| c.rounding).min();
+                let most_exact = most_exact.expect("every machine has regular states");
+                let is_exact = |candidate: &Candidate| {
+                    let rounding = candidate.rounding.expect("known for all or none");
+                    rounding.units() <= MOST_ROUNDING as f64 * most_exact.units()
+                };
+                assert!(is_exact(chosen), "{name}: {chosen}");
                 for other in choice.others() {
                     assert!(
-                        chosen.compare(other).is_le(),
+                        chosen.compare(other).is_le() || !is_exact(other),
                         "{name}: {chosen}, but {other}"
                     );
                     assert_ne!(chosen.form, other.form);
                 }
             }
         });
+    }
+}
+
+/// A double pendulum with these parameters, and what is assumed of it.
+fn choice_of_double_pendulum(parameters: &str, assumption: &str) -> Choice {
+    let program = program(&format!(
+        "machine Test in plane {{
+            parameters {{ {parameters} }}
+            coordinates {{ a: rad = 0.5, b: rad = 0.3 }}
+            assume {{ {assumption} }}
+            frames {{ upper = ground.turn(a).shift(0, -l), lower = upper.turn(b).shift(0, -l) }}
+            bodies {{ upper {{ mass: m, at: upper.origin }}, lower {{ mass: m, at: lower.origin }} }}
+            gravity (0, -g);
+        }}"
+    ));
+    let choice = program.choice(Role::Accelerations);
+    choice.expect("several ways").clone()
+}
+
+#[test]
+fn parameters_without_defaults_are_no_obstacle() {
+    let known = "l: m = 1.2, m: kg = 0.7, g: m/s^2 = 9.81";
+    let with = choice_of_double_pendulum(known, "");
+    let without = choice_of_double_pendulum("l: m, m: kg, g: m/s^2", "");
+    for (with, without) in with.candidates.iter().zip(&without.candidates) {
+        // Not the same states in all respects, yet of the same machine.
+        let ratio = |a: &Candidate, b: &Candidate| {
+            let units = |c: &Candidate| c.rounding.expect("regular states").units();
+            units(a) / units(b)
+        };
+        assert_eq!(with.form, without.form);
+        assert!(
+            ratio(with, without).ln().abs() < 3.0_f64.ln(),
+            "{with}, {without}"
+        );
+    }
+}
+
+#[test]
+fn where_no_state_is_regular_cost_decides() {
+    let parameters = [
+        // Links of no length: no acceleration exists.
+        ("l: m = 0, m: kg = 0.7, g: m/s^2 = 9.81", ""),
+        // What is assumed never holds.
+        ("l: m = 1.2, m: kg = 1, g: m/s^2 = 9.81", "l*sin(a) > 2*l"),
+        // What is assumed holds too seldom to be met.
+        (
+            "l: m = 1.2, m: kg = 1, g: m/s^2 = 9.81",
+            "sin(a) > 0.999999999999",
+        ),
+        // Numbers overflow.
+        ("l: m = 1e200, m: kg = 1e200, g: m/s^2 = 9.81", ""),
+    ];
+    for (parameters, assumption) in parameters {
+        let choice = choice_of_double_pendulum(parameters, assumption);
+        let unknown = |candidate: &Candidate| candidate.rounding.is_none();
+        assert!(choice.candidates.iter().all(unknown), "{parameters}");
+        let others = choice.others();
+        assert!(
+            others
+                .iter()
+                .all(|other| choice.chosen().compare(other).is_le())
+        );
     }
 }
 

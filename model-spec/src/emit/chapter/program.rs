@@ -60,18 +60,26 @@ impl Chapter<'_, '_> {
         let words = words![
             "The accelerations were made in ",
             counted(choice.candidates.len(), "form"),
-            ". The first of the following was taken, for the least sum of the cycles that a processor is estimated to take for \
-             a call alone and for one among others that run side by side:",
+            ". The first of the following was taken: of those that rounding spoils at most twice as much as the one that it \
+             spoils least, it has the least sum of the cycles that a processor is estimated to take for a call alone and for \
+             one among others that run side by side. The last column is the usual error of the result at states around the \
+             start, as a share of it; 1 is the most that rounding does to a single number:",
         ];
-        let head = head(&["", "mul", "add", "div", "alone", "among others"]);
+        let head = head(&["", "mul", "add", "div", "alone", "among others", "rounding"]);
         let row = |candidate: &Candidate| {
-            let Candidate { form, counts, cost } = candidate;
+            let Candidate {
+                form,
+                counts,
+                cost,
+                rounding,
+            } = candidate;
             let numbers = [
                 counts.multiplications.to_string(),
                 counts.additions.to_string(),
                 counts.divisions.to_string(),
                 cycles(cost.alone()),
                 cycles(cost.throughput),
+                rounding.map_or_else(|| "–".to_owned(), |rounding| rounding.to_string()),
             ];
             let form = words![form.to_string()];
             let numbers = numbers.into_iter().map(|number| words![number]);

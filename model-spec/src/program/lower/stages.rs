@@ -2,12 +2,14 @@
 
 use super::super::solve::{self, Elimination, Pivot, Solution};
 use super::super::{Basis, Form, Function, Role, Shape, articulated, stages};
-use super::{Candidate, Choice, Draft, Lowering, Origin, Planned};
+use super::{Candidate, Choice, Draft, Lowering, Origin, Planned, States, roundings};
 use crate::model::Stages;
 
 /// The functions of one way to compute the accelerations, in their order.
 struct Staged {
     drafts: Vec<Draft>,
+    /// What was cut into these.
+    whole: Draft,
 }
 
 impl Staged {
@@ -28,6 +30,7 @@ pub(super) fn staged<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
     known_pivots: &[Pivot],
+    states: &States,
     choose: &dyn Fn(&[Candidate]) -> usize,
 ) -> (Vec<Draft>, Option<Choice>) {
     let apart = lowering.model.stages;
@@ -50,15 +53,21 @@ pub(super) fn staged<'d>(
             different.push(way);
         }
     }
-    let candidate = |way: &Staged| {
+    let wholes: Vec<&Draft> = different.iter().map(|way| &way.whole).collect();
+    let roundings = match wholes.len() {
+        0 | 1 => None,
+        _ => roundings(&wholes, &lowering.graph, states),
+    };
+    let candidate = |(index, way): (usize, &Staged)| {
         let Draft { form, function, .. } = way.repeated();
         Candidate {
             form: *form,
             counts: function.counts(),
             cost: function.cost(),
+            rounding: roundings.as_ref().map(|roundings| roundings[index]),
         }
     };
-    let candidates: Vec<Candidate> = different.iter().map(candidate).collect();
+    let candidates: Vec<Candidate> = different.iter().enumerate().map(candidate).collect();
     let (chosen, choice) = match candidates.len() {
         0 => return (Vec::new(), None),
         1 => (0, None),
@@ -163,5 +172,6 @@ fn way(
     let functions = stages::split(&whole.function, apart);
     Some(Staged {
         drafts: functions.into_iter().map(draft).collect(),
+        whole,
     })
 }
