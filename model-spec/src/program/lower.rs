@@ -157,7 +157,7 @@ impl Program {
         take(ways, &lowering.graph);
         let (staged, staged_choice) = match drafts.last() {
             Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
-                stages::staged(&mut lowering, source, &last.known_pivots, &states, choose)
+                stages::staged(&mut lowering, source, last, &states, choose)
             }
             _ => (Vec::new(), None),
         };

@@ -232,6 +232,32 @@ fn numbers_in_stages_are_the_numbers_at_once() {
     }
 }
 
+/// Along a long chain each stage takes the same for every link, and two calls in stages take no
+/// longer than two at once.
+#[test]
+fn stages_grow_with_the_chain() {
+    for name in ["chain", "chain_relative"] {
+        let sizes = [24, 48, 96].map(|n| {
+            staged(name, &[("N", n)], "time, coordinates", |machine| {
+                let program = &machine.program;
+                let roles = [Role::Accelerations, Role::AtPosition, Role::AccelerationsAt];
+                let functions = roles.map(|role| function(program, role));
+                let throughput = functions.map(|function| function.cost().throughput);
+                let [at_once, at_position, at_rates] = throughput;
+                println!("{name}, N = {n}: {throughput:?} tenths of a cycle");
+                assert!(at_position + 2 * at_rates <= 2 * at_once, "{name}, N = {n}");
+                functions.map(|function| function.counts().ops())
+            })
+        });
+        let [quarter, half, whole] = sizes;
+        for (stage, ops) in whole.into_iter().enumerate() {
+            // So many operations for every further link, from the 24th to the 96th.
+            let (by_24, by_48) = (half[stage] - quarter[stage], ops - half[stage]);
+            assert_eq!(by_48, 2 * by_24, "{name}, stage {stage}");
+        }
+    }
+}
+
 /// What is repeated where only rates change is less than half of the whole, if positions are
 /// anything but constants; and where time is no argument, its stage is empty.
 #[test]

@@ -29,15 +29,16 @@ impl Staged {
 pub(super) fn staged<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
-    known_pivots: &[Pivot],
+    at_once: &Draft,
     states: &States,
     choose: &dyn Fn(&[Candidate]) -> usize,
 ) -> (Vec<Draft>, Option<Choice>) {
     let apart = lowering.model.stages;
     let mut ways = Vec::new();
-    for (basis, solution) in solutions(lowering, source) {
+    for (basis, solution) in solutions(lowering, source, at_once) {
         for factored in [false, true] {
-            let way = way(lowering, &solution, known_pivots, (basis, factored), apart);
+            let known = &at_once.known_pivots;
+            let way = way(lowering, &solution, known, (basis, factored), apart);
             ways.extend(way);
         }
     }
@@ -83,6 +84,7 @@ pub(super) fn staged<'d>(
 fn solutions<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Origin<'_, 'd>,
+    at_once: &Draft,
 ) -> Vec<(Basis, Solution)> {
     let mut solutions = Vec::new();
     let mut systems = Vec::new();
@@ -95,7 +97,7 @@ fn solutions<'d>(
         (Some(machine), Some(_)) => articulated::solve(lowering.model, machine),
         _ => None,
     };
-    let is_long = along.is_some();
+    let has_along = along.is_some();
     if let Some(along) = along {
         let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
         lowering.lower(&along.accelerations);
@@ -120,22 +122,17 @@ fn solutions<'d>(
         solutions.push((Basis::Along, solution));
     }
     for (basis, matrix, forces) in systems {
-        // Written down, the elimination of a matrix grows with the cube of its order; from here on
-        // it has not been the shorter one for a long time.
-        if is_long && forces.len() > LARGEST_MATRIX {
+        let elimination = Elimination::of(&matrix, forces.len());
+        // What takes longer than the accelerations at once is not even written down: it grows with
+        // the cube of the number of coordinates.
+        if has_along && elimination.multiplications > at_once.function.counts().ops() {
             continue;
         }
-        let elimination = Elimination::of(&matrix, forces.len());
         let solution = solve::solve(&mut lowering.graph, &matrix, &forces, elimination);
         solutions.push((basis, solution));
     }
     solutions
 }
-
-/// The most coordinates of a machine whose mass matrix is eliminated where there is another way.
-/// With M at hand, only the two substitutions are repeated, about n² products; along a machine
-/// some ten for each link.
-const LARGEST_MATRIX: usize = 16;
 
 /// The functions of one solution; none where there are no factors to take out.
 fn way(
