@@ -6,7 +6,7 @@ use lagrangian_spec::mechanics::Equations;
 use lagrangian_spec::program::{Candidate, Choice, MOST_ROUNDING, Program, Role};
 
 use crate::harness::{all_machines, machine, program, program_of_output};
-use crate::machines::{assert_mistakes_are_found, assert_proved};
+use crate::machines::{assert_mistakes_are_found, assert_proved, mistakes_found};
 
 /// The programs of a machine: in the first all functions are their first candidates, in the
 /// second their second ones, or their last where there are fewer.
@@ -63,6 +63,27 @@ fn no_mistake_in_any_candidate_survives() {
             });
         });
     }
+}
+
+/// In every candidate of every machine, a sample of some sixty mistakes.
+#[test]
+fn no_mistake_in_a_sample_from_any_machine_survives() {
+    let (mut tried, mut idle) = (0, 0);
+    for name in all_machines() {
+        machine(&name, &[], |machine| {
+            for_every_program(machine, |machine| {
+                let functions = machine.program.all_functions();
+                let statements: usize = functions.map(|f| f.code.len()).sum();
+                // Most statements may be wrong in two ways; an odd stride meets both.
+                let stride = (2 * statements / 60) | 1;
+                let (made, without_effect) = mistakes_found(machine, stride);
+                assert!(made >= 20, "{name}: {made}");
+                tried += made;
+                idle += without_effect;
+            });
+        });
+    }
+    assert!(50 * idle <= tried, "{idle} of {tried}");
 }
 
 #[test]

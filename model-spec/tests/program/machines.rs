@@ -82,8 +82,19 @@ fn a_spun_body_in_space_obeys_lagranges_equations() {
     compiled(SPUN, &[], assert_proved);
 }
 
-/// A mistake in a program is found, unless it changes nothing: terms that cancel may be wrong in the same way.
+/// Mistakes in a program are found, and few of them change nothing.
 pub fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
+    let (tried, idle) = mistakes_found(machine, stride);
+    assert!(
+        tried >= 100 && 50 * idle <= tried,
+        "{}: {idle} of {tried}",
+        machine.program.name
+    );
+}
+
+/// A mistake in a program is found, unless it changes nothing: terms that cancel may be wrong in the same way. How many were
+/// made, and how many of them change nothing.
+pub fn mistakes_found(machine: &Compiled<'_>, stride: usize) -> (usize, usize) {
     let Compiled {
         model,
         equations,
@@ -113,11 +124,7 @@ pub fn assert_mistakes_are_found(machine: &Compiled<'_>, stride: usize) {
         "{}: {tried} mistakes, {idle} of them without effect",
         program.name
     );
-    assert!(
-        tried >= 100 && 50 * idle <= tried,
-        "{}: {idle} of {tried}",
-        program.name
-    );
+    (tried, idle)
 }
 
 /// Whether two programs give the same numbers, but for rounding, at some state.
