@@ -113,6 +113,9 @@ pub struct Library {
     /// Write the one file of Rust from which it is compiled as well.
     #[arg(long, value_name = "FILE.rs")]
     pub source: Option<PathBuf>,
+    /// Write out what repeats itself, which is otherwise a loop: the same bits, from longer code.
+    #[arg(long)]
+    pub straight: bool,
 }
 
 /// Arguments of `evaluate`.

@@ -26,7 +26,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();
-    let source = source(&program, &lanes);
+    let source = source(&program, &lanes, call.straight);
     if let Some(path) = &call.source {
         write(path, &source)?;
     }
@@ -95,8 +95,12 @@ const VECTOR: &str = include_str!("../../native/src/vector.rs");
 const X86: &str = include_str!("../../native/src/x86.rs");
 
 /// The whole library as one file of Rust.
-fn source(program: &Program, lanes: &[u8]) -> String {
+fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
     let options = emit::rust::Options {
+        shortest_rolled: match is_straight {
+            true => usize::MAX,
+            false => emit::rust::SHORTEST_ROLLED,
+        },
         runtime: "crate".into(),
         // Nothing is described to a debugger here, and whole functions compile faster than pieces, which pass hundreds of
         // values through memory: a chain of 32 links in half the time.

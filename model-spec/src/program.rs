@@ -44,6 +44,8 @@ mod mutate;
 mod net;
 mod pairs;
 mod prove;
+mod repeats;
+mod restrict;
 mod rounding;
 mod schedule;
 mod solve;
@@ -58,7 +60,9 @@ pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};
 pub use prove::{Disagreement, POINTS, prove, prove_quantities};
+pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
+pub(crate) use schedule::with_operands;
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]

@@ -12,6 +12,10 @@ use crate::program::{
     self, Contracted, Contraction, Contractions, Function, Guard, Op, Source, Value,
 };
 
+mod repeats;
+
+pub use repeats::{Loops, Place, Plan, fill, runs, statements_with_loops};
+
 /// The longest expression that is put into another one.
 const LONGEST_INLINE: usize = 72;
 
@@ -213,11 +217,15 @@ struct Body<'a, L> {
     scope: Scope,
     /// How often each value is used.
     uses: Vec<u32>,
+    /// Where values stand among others that are counted.
+    places: Vec<Vec<Place>>,
     /// The names that values should have.
     wanted: Vec<Option<&'a str>>,
     /// The text of each value so far.
     texts: Vec<Option<Expression>>,
     temporaries: usize,
+    /// How many names of loops there are.
+    names: usize,
     /// Whether results become variables.
     binds_results: bool,
     /// Which products are computed by the sums that use them.
@@ -247,9 +255,11 @@ impl<'a, L: Language> Body<'a, L> {
             function,
             scope,
             uses: program::uses(function),
+            places: vec![Vec::new(); n],
             wanted: names,
             texts: vec![None; n],
             temporaries: 0,
+            names: 0,
             binds_results: !wanted.is_empty(),
             contractions,
         }
@@ -288,25 +298,8 @@ impl<'a, L: Language> Body<'a, L> {
             return;
         }
         let code = &self.function.code;
-        // Whether a value is known before any function has been called.
-        let mut is_early = vec![false; code.len()];
-        let mut angles: Vec<Value> = Vec::new();
-        for (index, op) in code.iter().enumerate() {
-            is_early[index] = match op {
-                Op::Constant(_) | Op::Pi | Op::Read(_) => true,
-                Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Neg(_) => {
-                    op.operands().all(|operand| is_early[operand.index()])
-                }
-                _ => false,
-            };
-            if let Op::Sin(angle) | Op::Cos(angle) = op
-                && is_early[angle.index()]
-                && !angles.contains(angle)
-            {
-                angles.push(*angle);
-            }
-        }
-        if angles.len() < 2 {
+        let angles = program::early_angles(self.function);
+        if angles.is_empty() {
             return;
         }
         let mut is_needed = vec![false; code.len()];
@@ -333,14 +326,33 @@ impl<'a, L: Language> Body<'a, L> {
         if self.texts[value.index()].is_some() || self.contractions.is_part(value) {
             return; // read above, the cosine beside a sine, or part of the sum that uses it
         }
-        let language = self.language;
         let expression = match self.function.op(value).clone() {
             _ if let Some(sum) = self.contractions.sum(value) => self.contraction(sum),
+            Op::Sin(angle) | Op::Cos(angle) => return self.sin_cos(angle),
+            op => self.expression(op),
+        };
+        self.define(value, expression);
+    }
+
+    /// What a value is: a variable, if it is used again.
+    fn define(&mut self, value: Value, expression: Expression) {
+        let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
+        self.texts[value.index()] = Some(expression);
+        if self.uses[value.index()] > 1 && !is_cheap {
+            self.bound(value);
+        }
+    }
+
+    /// An operation, other than a sine and a cosine.
+    fn expression(&mut self, op: Op) -> Expression {
+        let language = self.language;
+        match op {
             Op::Constant(rational) => language.constant(&rational),
             Op::Pi => language.pi(),
             // All of them were read above.
             Op::Read(source) => Expression::leaf(language.variable(source).1),
-            Op::Sin(angle) | Op::Cos(angle) => return self.sin_cos(angle),
+            Op::Sin(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Sin, a)),
+            Op::Cos(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Cos, a)),
             Op::Add(a, b) => self.combine([a, b], |[a, b]| {
                 Expression::operation("+", Binding::Sum, a, b)
             }),
@@ -366,11 +378,6 @@ impl<'a, L: Language> Body<'a, L> {
             Op::Binary(function, a, b) => {
                 self.combine([a, b], |[a, b]| language.binary(function, a, b))
             }
-        };
-        let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
-        self.texts[value.index()] = Some(expression);
-        if self.uses[value.index()] > 1 && !is_cheap {
-            self.bound(value);
         }
     }
 
@@ -449,7 +456,12 @@ impl<'a, L: Language> Body<'a, L> {
         if expression.is_leaf {
             return expression.text;
         }
-        let wanted = self.wanted[value.index()].map(str::to_owned);
+        let wanted = self
+            .wanted
+            .get(value.index())
+            .copied()
+            .flatten()
+            .map(str::to_owned);
         let name = wanted.unwrap_or_else(|| {
             self.temporaries += 1;
             format!("t{}", self.temporaries - 1)

@@ -10,6 +10,7 @@ mod kernel;
 mod lanes;
 mod language;
 mod library;
+mod prepared;
 mod stages;
 mod structs;
 mod stub;
@@ -18,9 +19,10 @@ mod types;
 
 use std::collections::BTreeMap;
 
+use super::body::Plan;
 use super::layout::Writer;
-use super::names::{Scope, flat, identifier, snake_case};
-use crate::program::{Counts, Function, Op, Program, Role, Source};
+use super::names::{Field, Scope, identifier, snake_case};
+use crate::program::{Counts, Function, Op, Program, Role};
 use docs::prose;
 use types::{Group, Types};
 
@@ -38,7 +40,15 @@ pub struct Options {
     /// The most operations of a function that is not cut into pieces. Beyond some thousand a compiler that describes every
     /// variable to a debugger needs more stack than it has.
     pub longest_whole: usize,
+    /// The fewest steps of a function in which what repeats itself is written as a loop.
+    pub shortest_rolled: usize,
 }
+
+/// The fewest steps of a function in which what repeats itself is written as a loop.
+///
+/// A chain of 9 links has 375 along its links, of which 4 repeat: so written it is compiled in less
+/// time and runs in less. Below, a function is short to a compiler and to a processor anyhow.
+pub const SHORTEST_ROLLED: usize = 300;
 
 impl Default for Options {
     fn default() -> Options {
@@ -47,6 +57,7 @@ impl Default for Options {
             origin: Vec::new(),
             formulas: BTreeMap::new(),
             longest_whole: super::cut::LONGEST_WHOLE,
+            shortest_rolled: SHORTEST_ROLLED,
         }
     }
 }
@@ -71,7 +82,8 @@ pub fn module(program: &Program, options: &Options) -> String {
 ///
 /// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`.
 pub fn library(program: &Program, options: &Options) -> String {
-    Emitter::new(program, options).library()
+    let program = program.restricted(Role::Accelerations);
+    Emitter::new(&program, options).library()
 }
 
 /// What the macro expands to: the module of a machine, and the machine's type beside it.
@@ -100,8 +112,12 @@ struct Emitter<'a> {
     coordinates: Group<'a>,
     inputs: Group<'a>,
     outputs: Group<'a>,
-    /// The fields of the prepared values.
+    /// The paths of the prepared values in their struct: `k3`, `k7[2]`.
     prepared: Vec<String>,
+    /// Those prepared values that loops count, as arrays. One may be in several of them.
+    prepared_families: Vec<Field>,
+    /// The loops of functions that have any.
+    plans: BTreeMap<Role, Plan>,
 }
 
 /// Lints that a formula may break, with the reason; whoever audits the code should see that no other is silenced.
@@ -139,24 +155,22 @@ const ALLOWED: &[(&str, &[&str])] = &[
 impl<'a> Emitter<'a> {
     fn new(program: &'a Program, options: &'a Options) -> Emitter<'a> {
         let parameters = Group::new(&program.parameters);
+        let plan = |function: &Function| {
+            let plan = Plan::of(function, true, options.shortest_rolled)?;
+            // The rest is straight in any case: loops are for functions that they make shorter.
+            let is_worth_it = 4 * plan.len() <= 3 * plan.len_straight();
+            is_worth_it.then_some((function.role, plan))
+        };
+        let is_whole = |role| matches!(role, Role::Accelerations | Role::Derivatives);
+        let rolled = program.functions.iter().filter(|f| is_whole(f.role));
+        let plans: BTreeMap<Role, Plan> = rolled.filter_map(plan).collect();
         let mut scope = Scope::with(&["singular"]);
-        let mut anonymous = 0;
-        let prepared =
-            program
-                .prepare
-                .results
-                .iter()
-                .map(|&value| match program.prepare.op(value) {
-                    Op::Read(Source::Parameter(i)) => {
-                        scope.take(&flat(&program.parameters[*i as usize].name))
-                    }
-                    _ => {
-                        anonymous += 1;
-                        scope.take(&format!("k{}", anonymous - 1))
-                    }
-                });
+        let prepared_families = prepared::families(program, &plans, &mut scope);
+        let prepared = prepared::paths(program, &prepared_families, &mut scope);
         Emitter {
-            prepared: prepared.collect(),
+            prepared,
+            prepared_families,
+            plans,
             types: Types::new(&program.name),
             parameters,
             coordinates: Group::new(&program.coordinates),
@@ -262,6 +276,11 @@ impl<'a> Emitter<'a> {
                 self.writer.line(format!("// {reason}"));
             }
             self.writer.line(format!("#![allow({})]", lints.join(", ")));
+        }
+        if !self.plans.is_empty() {
+            self.writer
+                .line("// One counter for several arrays, some of them read backwards.");
+            self.writer.line("#![allow(clippy::needless_range_loop)]");
         }
     }
 

@@ -39,7 +39,7 @@ pub struct Contraction {
 }
 
 /// What is done to a product and a term.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Contracted {
     /// a·b + c
     Add,

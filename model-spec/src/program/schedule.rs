@@ -428,7 +428,7 @@ fn live(code: &[Op], roots: &[Value]) -> Vec<bool> {
 }
 
 /// The same operation on other operands.
-pub(super) fn with_operands(op: &Op, moved: impl Fn(Value) -> Value) -> Op {
+pub(crate) fn with_operands(op: &Op, mut moved: impl FnMut(Value) -> Value) -> Op {
     match *op {
         Op::Constant(_) | Op::Pi | Op::Read(_) => op.clone(),
         Op::Add(a, b) => Op::Add(moved(a), moved(b)),

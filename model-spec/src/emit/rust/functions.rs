@@ -315,7 +315,25 @@ impl<'a> Emitter<'a> {
         wanted: &[String],
         in_registers: bool,
     ) -> Vec<Text> {
-        let scope = Scope::with(&[
+        let scope = self.scope();
+        let mut writer = std::mem::take(&mut self.writer);
+        let results = body::statements(
+            &mut writer,
+            &Rust {
+                emitter: self,
+                in_registers,
+            },
+            function,
+            scope,
+            wanted,
+        );
+        self.writer = writer;
+        results
+    }
+
+    /// The names that the code of a function finds taken.
+    pub(super) fn scope(&self) -> Scope {
+        Scope::with(&[
             "p",
             "t",
             "q",
@@ -339,20 +357,7 @@ impl<'a> Emitter<'a> {
             "COORDINATES",
             "INPUTS",
             "OUTPUTS",
-        ]);
-        let mut writer = std::mem::take(&mut self.writer);
-        let results = body::statements(
-            &mut writer,
-            &Rust {
-                emitter: self,
-                in_registers,
-            },
-            function,
-            scope,
-            wanted,
-        );
-        self.writer = writer;
-        results
+        ])
     }
 
     /// What the outputs together are to be given.

@@ -10,9 +10,11 @@
 //! A function that is too long for that is cut into pieces, each a value of its own.
 
 use super::Emitter;
+use super::language::Rust;
 use super::types::Types;
+use crate::emit::body::{self, Plan};
 use crate::emit::cut::{self, Cut, Piece};
-use crate::program::{Function, Op, Reads, Role, Source};
+use crate::program::{Function, Op, Reads, Role, Shape, Source};
 
 impl Emitter<'_> {
     /// The names of the call of a function, and of its pieces.
@@ -28,10 +30,19 @@ impl Emitter<'_> {
 
     /// A function that is called often.
     pub(super) fn kernel(&mut self, function: &Function) {
-        let cut = cut::cut(function, self.prepared.len(), self.options.longest_whole);
+        let longest = self.options.longest_whole;
+        let plan = self
+            .plans
+            .get(&function.role)
+            .filter(|plan| plan.len() <= longest);
+        let plan = plan.cloned();
+        let cut = match plan {
+            Some(_) => None,
+            None => cut::cut(function, self.prepared.len(), longest),
+        };
         self.choice(function);
         self.call_as_value(function);
-        self.run(function, cut.as_ref());
+        self.run(function, plan.as_ref(), cut.as_ref());
         if let Some(cut) = &cut {
             self.pieces(function.role, cut);
         }
@@ -96,7 +107,7 @@ impl Emitter<'_> {
     }
 
     /// The code.
-    fn run(&mut self, function: &Function, cut: Option<&Cut>) {
+    fn run(&mut self, function: &Function, plan: Option<&Plan>, cut: Option<&Cut>) {
         let runtime = self.options.runtime.clone();
         let Types {
             scalar, register, ..
@@ -128,6 +139,11 @@ impl Emitter<'_> {
             self.writer.line("return Err(singular);");
             self.writer.close("}");
         }
+        if let Some(plan) = plan {
+            self.run_loops(function, plan);
+            self.writer.close("}");
+            return self.writer.close("}");
+        }
         let texts: Vec<String> = match cut {
             Some(cut) => {
                 self.run_pieces(function.role, cut);
@@ -150,6 +166,38 @@ impl Emitter<'_> {
         });
         self.writer.close("}");
         self.writer.close("}");
+    }
+
+    /// The code with what repeats itself as loops.
+    fn run_loops(&mut self, function: &Function, plan: &Plan) {
+        let mut writer = std::mem::take(&mut self.writer);
+        let rust = Rust {
+            emitter: self,
+            in_registers: true,
+        };
+        let mut scope = self.scope();
+        let name = self.function_name(function.role);
+        let name = scope.take(&name);
+        let results =
+            body::statements_with_loops(&mut writer, &rust, function, scope.clone(), plan);
+        let (texts, places): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        let texts: Vec<String> = texts.into_iter().map(|text| text.text).collect();
+        match function.shape {
+            Shape::Vector(_) => {
+                let runs = body::runs(&places);
+                let kept = |text: &str| format!("{text}.store()");
+                body::fill(&mut writer, &rust, &name, &runs, &texts, &kept, &mut scope);
+                writer.line(format!("Ok({name})"));
+            }
+            _ => {
+                let kept: Vec<String> =
+                    texts.iter().map(|text| format!("{text}.store()")).collect();
+                let value = self.arranged(function, &kept);
+                writer.expression(&format!("let {name} = "), &value, ";");
+                writer.line(format!("Ok({name})"));
+            }
+        }
+        self.writer = writer;
     }
 
     /// Names for the fields, and `n`, which loads a number.

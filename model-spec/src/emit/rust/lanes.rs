@@ -1,7 +1,7 @@
 //! Several systems at once: what the runtime's `Several` asks of emitted code.
 
 use super::Emitter;
-use super::types::{Types, literal};
+use super::types::Types;
 use crate::emit::layout::Layout;
 use crate::program::Role;
 
@@ -41,26 +41,20 @@ impl Emitter<'_> {
         // A number of every system as lanes.
         let gather = format!("let lanes = |number: fn(&Self) -> {f64}|");
         self.writer.gap();
-        let fields = |name: &String| {
-            let value = format!("lanes(|p| p.{name})");
-            (name.clone(), Layout::Atom(value))
-        };
-        let mut equations: Vec<_> = self.prepared.iter().map(fields).collect();
-        let argument = match equations.is_empty() {
-            true => "_",
-            false => "systems",
-        };
+        let is_empty = self.prepared.is_empty();
+        let argument = if is_empty { "_" } else { "systems" };
         self.writer.signature(
             "fn abreast",
             &[format!("{argument}: [&Self; {lanes}]")],
             Some("Self::Several"),
         );
-        if !equations.is_empty() {
+        if !is_empty {
             self.writer
                 .line(format!("{gather} {runtime}::Lanes(systems.map(number));"));
         }
         let has_guards = !self.program.prepare.guards.is_empty();
-        let mut value = literal(&prepared, std::mem::take(&mut equations));
+        let mut value =
+            self.prepared_literal(|slot| format!("lanes(|p| p.{})", self.prepared[slot]), &[]);
         if let (Layout::Struct(_, fields), true) = (&mut value, has_guards) {
             fields.push(("singular".into(), Layout::Atom("None".into())));
         }

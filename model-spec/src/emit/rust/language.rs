@@ -3,7 +3,7 @@
 use lagrangian_symbolic::{self as symbolic, Rational};
 
 use super::Emitter;
-use crate::emit::body::{Angle, Binding, Expression as Text, Language, Rounded};
+use crate::emit::body::{Angle, Binding, Expression as Text, Language, Loops, Place, Rounded};
 use crate::emit::layout::{Layout, Writer};
 use crate::emit::names::{Scope, flat};
 use crate::program::{Contracted, Guard, Source};
@@ -105,25 +105,8 @@ impl Language for Rust<'_> {
     }
 
     fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2], is_used: bool) {
-        if self.in_registers {
-            // What comes back is undefined in those of several lanes whose pivot vanishes.
-            let is_variable = pivot.chars().all(|c| c.is_alphanumeric() || c == '_');
-            let result = match is_variable && is_used {
-                true => format!("let {pivot} = "),
-                false => String::new(),
-            };
-            let share = number(guard.tolerance);
-            let coordinate = guard.coordinate;
-            return writer.line(format!(
-                "{result}checked({pivot}, {scale}, {share}, {coordinate})?;"
-            ));
-        }
-        writer.open(format!("if {} {{", vanishes(guard, pivot, scale)));
-        writer.line(format!(
-            "return Err(singular({}, {pivot}, {scale}));",
-            guard.coordinate
-        ));
-        writer.close("}");
+        let coordinate = guard.coordinate.to_string();
+        self.guard_of(writer, guard, [pivot, scale], is_used, &coordinate);
     }
 
     fn error(&self, of: Rounded, a: &Text, b: &Text) -> Text {
@@ -189,6 +172,95 @@ impl Language for Rust<'_> {
             Some(1) => Some("one"),
             _ => None,
         }
+    }
+}
+
+impl Loops for Rust<'_> {
+    fn places(&self, source: Source) -> Vec<Place> {
+        let emitter = self.emitter;
+        let element = |array: &str, index: u32| {
+            let whole = self.loaded(format!("{array}[@]"));
+            let (before, after) = whole.split_once('@').unwrap_or((&whole, ""));
+            Place::new(before, index as usize, after)
+        };
+        match source {
+            Source::Coordinate(i) => vec![element("q", i)],
+            Source::Velocity(i) => vec![element("v", i)],
+            Source::Acceleration(i) => vec![element("a", i)],
+            Source::Prepared(i) => {
+                let families = emitter.prepared_families.iter();
+                let places = families.filter_map(|family| {
+                    let at = family.slots.iter().position(|slot| *slot == i as usize)?;
+                    Some(element(&format!("p.{}", family.ident), at as u32))
+                });
+                places.collect()
+            }
+            Source::Parameter(i) => {
+                let mut families = emitter.parameters.fields.iter();
+                let place = families.find_map(|field| {
+                    let at = field.slots.iter().position(|slot| *slot == i as usize)?;
+                    let array = format!("self.{}", field.ident);
+                    field.is_family.then(|| element(&array, at as u32))
+                });
+                place.into_iter().collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn array(&self, writer: &mut Writer, name: &str, items: Layout) {
+        writer.expression(&format!("let {name} = "), &items, ";");
+    }
+
+    fn array_to_set(&self, writer: &mut Writer, name: &str, number: &str, count: usize) {
+        writer.line(format!("let mut {name} = [{number}; {count}];"));
+    }
+
+    fn variable_to_set(&self, writer: &mut Writer, name: &str, value: &str) {
+        writer.statement(&format!("let mut {name} ="), &format!("{value};"));
+    }
+
+    fn set(&self, writer: &mut Writer, what: &str, value: &str) {
+        writer.statement(&format!("{what} ="), &format!("{value};"));
+    }
+
+    fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize) {
+        writer.open(format!("for {} in 0..{count} {{", counter.unwrap_or("_")));
+    }
+
+    fn guard_of(
+        &self,
+        writer: &mut Writer,
+        guard: &Guard,
+        [pivot, scale]: [&str; 2],
+        is_used: bool,
+        coordinate: &str,
+    ) {
+        if self.in_registers {
+            // What comes back is undefined in those of several lanes whose pivot vanishes.
+            let is_variable = pivot.chars().all(|c| c.is_alphanumeric() || c == '_');
+            let result = match is_variable && is_used {
+                true => format!("let {pivot} = "),
+                false => String::new(),
+            };
+            let share = number(guard.tolerance);
+            return writer.line(format!(
+                "{result}checked({pivot}, {scale}, {share}, {coordinate})?;"
+            ));
+        }
+        writer.open(format!("if {} {{", vanishes(guard, pivot, scale)));
+        writer.line(format!(
+            "return Err(singular({coordinate}, {pivot}, {scale}));"
+        ));
+        writer.close("}");
+    }
+
+    fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2] {
+        writer.line(format!(
+            "let {name} = {}::sin_cos_all({angles});",
+            self.number()
+        ));
+        [0, 1].map(|which| Place::new(format!("{name}["), at, format!("].{which}")))
     }
 }
 

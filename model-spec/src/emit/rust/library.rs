@@ -7,6 +7,7 @@ use super::Emitter;
 use super::language::number;
 use super::types::{Group, Types, literal};
 use crate::emit::layout::Layout;
+use crate::emit::names::Field;
 use crate::program::{Role, Slot};
 
 impl Emitter<'_> {
@@ -87,8 +88,15 @@ impl Emitter<'_> {
             &["&self".into(), format!("f: impl {fn_trait}({scalar}) -> R")],
             Some(&format!("{prepared}<R>")),
         );
-        let field = |name: &String| (name.clone(), Layout::Atom(format!("f(self.{name})")));
-        let mut value = literal(&prepared, self.prepared.iter().map(field).collect());
+        let field = |field: Field| {
+            let value = match field.is_family {
+                true => format!("self.{}.map(&f)", field.ident),
+                false => format!("f(self.{})", field.ident),
+            };
+            (field.ident, Layout::Atom(value))
+        };
+        let fields = self.prepared_fields().into_iter().map(field);
+        let mut value = literal(&prepared, fields.collect());
         if let Layout::Struct(_, fields) = &mut value
             && !self.program.prepare.guards.is_empty()
         {

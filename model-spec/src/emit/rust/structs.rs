@@ -192,18 +192,26 @@ impl Emitter<'_> {
         with_guards
             .results
             .extend(guards.iter().flat_map(|guard| [guard.pivot, guard.scale]));
-        let mut wanted = self.prepared.clone();
+        let name = |path: &String| path.replace('[', "_").replace(']', "");
+        let mut wanted: Vec<String> = self.prepared.iter().map(name).collect();
         for guard in guards {
             wanted.extend(["pivot", "scale"].map(|what| format!("{what}_{}", guard.coordinate)));
         }
-        let texts = self.statements(&with_guards, &wanted, false);
+        let mut families = Vec::new();
+        let texts: Vec<String> = match self.plan_of_prepare(&with_guards) {
+            Some(plan) => {
+                let (texts, filled) = self.prepare_with_loops(&with_guards, &plan);
+                families = filled;
+                texts
+            }
+            None => {
+                let texts = self.statements(&with_guards, &wanted, false);
+                texts.into_iter().map(|text| text.text).collect()
+            }
+        };
         let (values, pivots) = texts.split_at(self.prepared.len());
-        let mut fields: Vec<(String, Layout)> = Vec::new();
-        for (field, value) in self.prepared.iter().zip(values) {
-            fields.push((field.clone(), Layout::Atom(value.text.clone())));
-        }
         for (i, (guard, pair)) in function.guards.iter().zip(pivots.chunks(2)).enumerate() {
-            let (pivot, scale) = (&pair[0].text, &pair[1].text);
+            let (pivot, scale) = (&pair[0], &pair[1]);
             let condition = vanishes(guard, pivot, scale);
             match i {
                 0 => self
@@ -216,8 +224,7 @@ impl Emitter<'_> {
                 guard.coordinate
             ));
         }
-        let prepared = literal(&self.types.prepared, fields);
-        let prepared = match prepared {
+        let prepared = match self.prepared_literal(|slot| values[slot].clone(), &families) {
             Layout::Struct(name, mut fields) if !function.guards.is_empty() => {
                 self.writer.middle("} else {");
                 self.writer.line("None");
@@ -342,10 +349,9 @@ impl Emitter<'_> {
             scalar,
             machine,
             ..
-        } = &self.types;
+        } = self.types.clone();
         let f64 = self.types.known("f64");
         let head = format!("pub struct {prepared}<{scalar} = {f64}> {{");
-        let field = format!(": {scalar},");
         let marker = format!("scalar: ::core::marker::PhantomData<{scalar}>,");
         let docs = format!(
             "The parameters of a [`{machine}`], with the work done that depends on them alone."
@@ -355,10 +361,20 @@ impl Emitter<'_> {
         self.docs(&docs);
         self.writer.line("#[derive(Clone, Copy, Debug, PartialEq)]");
         self.writer.open(head);
-        for (i, name) in self.prepared.clone().iter().enumerate() {
-            let formula = self.program.prepared.get(i).map_or("", String::as_str);
-            self.docs(&format!("`{formula}`"));
-            self.writer.line(format!("{name}{field}"));
+        for field in self.prepared_fields() {
+            let formula = |slot: usize| self.program.prepared.get(slot).map_or("", String::as_str);
+            let (docs, kind) = match field.slots.as_slice() {
+                [first, .., last] if field.is_family => (
+                    format!("`{}` to `{}`", formula(*first), formula(*last)),
+                    format!("[{scalar}; {}]", field.slots.len()),
+                ),
+                slots => {
+                    let formula = slots.first().map_or("", |slot| formula(*slot));
+                    (format!("`{formula}`"), scalar.clone())
+                }
+            };
+            self.docs(&docs);
+            self.writer.line(format!("{}: {kind},", field.ident));
         }
         if self.prepared.is_empty() {
             self.writer.line(marker);

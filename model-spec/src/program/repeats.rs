@@ -1,0 +1,727 @@
+//! Repeats: stretches of a function that do the same again and again, on other values.
+//!
+//! The links of a chain, equal arms of a tree, mechanisms in a row: their code is the same body,
+//! once for each of them. Nothing here knows of links. A function is a row of [`Step`]s; a *repeat*
+//! of period p is a stretch in which each step does what the step p before it does, and in which
+//! every operand is related to its counterpart p steps before in one way throughout:
+//!
+//! * it is a value of the same iteration, or one of the iteration before (*carried*);
+//! * it was known before the stretch begins, the same in all iterations, or another in each (a
+//!   *column*).
+//!
+//! This is the converse of unrolling a loop (as in M. Stepp, R. Tate, S. Lerner, *Equality-based
+//! translation validator for LLVM*, and LLVM's own pass for rerolling), on code that never was one.
+//! Whether a product is contracted into a sum is part of what a step does, so a loop has the bits
+//! of the straight code.
+
+use rustc_hash::FxHashMap;
+
+use super::schedule::with_operands;
+use super::{Contracted, Contractions, Function, Op, Value};
+
+/// The fewest iterations of a repeat: fewer are shorter written out.
+const FEWEST: usize = 4;
+
+/// The longest body that is looked for, in steps. Looking takes time proportional to it.
+const LONGEST_BODY: usize = 1500;
+
+/// The fewest steps that a repeat must save to be worth its head, its arrays and its last lines; and
+/// the least part of a function where values must be put into arrays for it. The links of a machine
+/// are most of it; what saves less are sums of products that look alike by chance, and to put their
+/// operands into arrays costs more than is won.
+const LEAST_SAVING: i64 = 24;
+const LEAST_SHARE: i64 = 16;
+
+/// In how many places at most a body is tried to begin.
+const MOST_PHASES: usize = 64;
+
+/// What an emitter writes as one statement at most.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Step {
+    /// What it does.
+    pub kind: Kind,
+    /// The values that it computes: one, or a sine and a cosine; of those that exist.
+    pub defines: [Option<Value>; 2],
+    /// What it does it to.
+    pub operands: Vec<Value>,
+    /// Of a guard, its place in [`Function::guards`].
+    pub guard: usize,
+}
+
+/// What a step does, whatever the operands are.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// An operation; its own operands mean nothing.
+    Operation(Op),
+    /// A product and a sum in one: two factors and a term.
+    Contraction(Contracted),
+    /// Sine, cosine or both of an angle.
+    Circular,
+    /// Sines and cosines of several angles at once.
+    AllCircular,
+    /// A guard: a pivot and its scale; the bits of the tolerance.
+    Guard(u64),
+}
+
+/// A stretch of steps that repeats itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Repeat {
+    /// The first step.
+    pub start: usize,
+    /// The number of steps of an iteration.
+    pub period: usize,
+    /// The number of iterations.
+    pub count: usize,
+    /// For each step of the first iteration what its operands are.
+    pub operands: Vec<Vec<Operand>>,
+}
+
+/// What an operand of a step in a repeat is.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Operand {
+    /// A value of the same iteration, by its name in the first.
+    Same(Value),
+    /// A value of the iteration before, by its name in the first; and what the first has instead.
+    Carried(Value, Value),
+    /// The same value in all iterations, known before.
+    Invariant(Value),
+    /// For each iteration a value that is known before the first.
+    Column(Vec<Value>),
+}
+
+impl Repeat {
+    /// The step after the last.
+    pub fn end(&self) -> usize {
+        self.start + self.period * self.count
+    }
+}
+
+/// A function as steps.
+#[derive(Clone, Debug)]
+pub struct Steps {
+    /// The steps, in the order in which they are to be written.
+    pub steps: Vec<Step>,
+    /// The angles of [`Kind::AllCircular`], with the values of their sines and cosines.
+    pub angles: Vec<(Value, [Option<Value>; 2])>,
+}
+
+impl Steps {
+    /// The steps of a function. `is_for_speed`: products are contracted, and all angles that can be
+    /// are taken at once, as early as they are known.
+    pub fn of(function: &Function, is_for_speed: bool) -> Steps {
+        let contractions = match is_for_speed {
+            true => Contractions::of(function),
+            false => Contractions::none(function),
+        };
+        let mut circular: FxHashMap<Value, [Option<Value>; 2]> = FxHashMap::default();
+        for (index, op) in function.code.iter().enumerate() {
+            let value = Some(Value(index as u32));
+            match op {
+                Op::Sin(angle) => circular.entry(*angle).or_default()[0] = value,
+                Op::Cos(angle) => circular.entry(*angle).or_default()[1] = value,
+                _ => {}
+            }
+        }
+        let angles = match is_for_speed {
+            true => early_angles(function),
+            false => Vec::new(),
+        };
+        let mut steps = Steps {
+            steps: Vec::with_capacity(function.code.len()),
+            angles: Vec::new(),
+        };
+        let mut is_done = vec![false; function.code.len()];
+        if !angles.is_empty() {
+            let mut is_needed = vec![false; function.code.len()];
+            for angle in &angles {
+                is_needed[angle.index()] = true;
+            }
+            for (index, op) in function.code.iter().enumerate().rev() {
+                if is_needed[index] {
+                    op.operands()
+                        .for_each(|operand| is_needed[operand.index()] = true);
+                }
+            }
+            for index in (0..function.code.len()).filter(|&index| is_needed[index]) {
+                steps.operation(function, &contractions, &circular, index, &mut is_done);
+            }
+            for angle in angles {
+                let pair = circular[&angle];
+                for value in pair.into_iter().flatten() {
+                    is_done[value.index()] = true;
+                }
+                steps.angles.push((angle, pair));
+            }
+            steps.steps.push(Step {
+                kind: Kind::AllCircular,
+                defines: [None, None],
+                operands: Vec::new(),
+                guard: 0,
+            });
+        }
+        let mut guards = function.guards.iter().enumerate().peekable();
+        for index in 0..function.code.len() {
+            steps.operation(function, &contractions, &circular, index, &mut is_done);
+            let is_there =
+                |value: Value| value.index() <= index || matches!(function.op(value), Op::Read(_));
+            while let Some((guard, what)) =
+                guards.next_if(|(_, guard)| is_there(guard.pivot) && is_there(guard.scale))
+            {
+                steps.steps.push(Step {
+                    kind: Kind::Guard(what.tolerance.to_bits()),
+                    defines: [None, None],
+                    operands: vec![what.pivot, what.scale],
+                    guard,
+                });
+            }
+        }
+        steps
+    }
+
+    fn operation(
+        &mut self,
+        function: &Function,
+        contractions: &Contractions,
+        circular: &FxHashMap<Value, [Option<Value>; 2]>,
+        index: usize,
+        is_done: &mut [bool],
+    ) {
+        let value = Value(index as u32);
+        let op = function.op(value);
+        let is_leaf = matches!(op, Op::Constant(_) | Op::Pi | Op::Read(_));
+        if is_leaf || contractions.is_part(value) || std::mem::replace(&mut is_done[index], true) {
+            return;
+        }
+        let mut defines = [Some(value), None];
+        let (kind, operands) = match (contractions.sum(value), op) {
+            (Some(sum), _) => {
+                let [a, b] = sum.factors;
+                (Kind::Contraction(sum.kind), vec![a, b, sum.term])
+            }
+            (_, Op::Sin(angle) | Op::Cos(angle)) => {
+                defines = circular[angle];
+                for value in defines.into_iter().flatten() {
+                    is_done[value.index()] = true;
+                }
+                (Kind::Circular, vec![*angle])
+            }
+            _ => (
+                Kind::Operation(with_operands(op, |_| Value(0))),
+                op.operands().collect(),
+            ),
+        };
+        self.steps.push(Step {
+            kind,
+            defines,
+            operands,
+            guard: 0,
+        });
+    }
+
+    /// The repeats, in order; they do not overlap. Steps change places where two repeats become one.
+    pub fn repeats(&mut self, function: &Function) -> Vec<Repeat> {
+        let mut repeats = Finder::new(self, function).repeats();
+        let mut at = 0;
+        while at + 1 < repeats.len() {
+            match self.fused(function, &repeats[at], &repeats[at + 1]) {
+                Some((steps, fused)) => {
+                    self.steps = steps;
+                    repeats.splice(at..at + 2, [fused]);
+                }
+                None => at += 1,
+            }
+        }
+        repeats
+    }
+
+    /// Two repeats as one whose iterations do what an iteration of either does, where what lies
+    /// between them can be done before or after both.
+    ///
+    /// Two sweeps along a chain in the same direction wait for each other no longer, and what the
+    /// first leaves for the second need not be kept (loop fusion, K. Kennedy and J. R. Allen,
+    /// *Optimizing Compilers for Modern Architectures*, 2002, section 6.2).
+    fn fused(
+        &self,
+        function: &Function,
+        first: &Repeat,
+        second: &Repeat,
+    ) -> Option<(Vec<Step>, Repeat)> {
+        let finder = Finder::new(self, function);
+        let place = |value: Value| finder.places[value.index()].map(|(step, _)| step);
+        // How many iterations the first is ahead of the second.
+        let of_first = |value: &Value| {
+            let step = place(*value).filter(|step| (first.start..first.end()).contains(step))?;
+            Some(((step - first.start) / first.period) as isize)
+        };
+        let ahead = second.operands.iter().flatten().filter_map(|operand| {
+            let Operand::Column(column) = operand else {
+                return None;
+            };
+            let each = column.iter().enumerate();
+            each.filter_map(|(i, value)| Some(of_first(value)? - i as isize))
+                .max()
+        });
+        let ahead = ahead.max().unwrap_or(0);
+        let (skip_first, skip_second) = (ahead.max(0) as usize, (-ahead).max(0) as usize);
+        let left = |repeat: &Repeat, skip: usize| repeat.count.checked_sub(skip);
+        let count = left(first, skip_first)?.min(left(second, skip_second)?);
+        if count < FEWEST || count + FEWEST < first.count.max(second.count) {
+            return None;
+        }
+        // In the loop: these. Before it, what does not need the loop; after it, what does.
+        let body = |repeat: &Repeat, skip: usize, i: usize| {
+            let start = repeat.start + (skip + i) * repeat.period;
+            start..start + repeat.period
+        };
+        let range = first.start..second.end();
+        let mut in_loop = vec![false; range.len()];
+        for i in 0..count {
+            for step in body(first, skip_first, i).chain(body(second, skip_second, i)) {
+                in_loop[step - range.start] = true;
+            }
+        }
+        let mut needs_loop = vec![false; range.len()];
+        let (mut before, mut after) = (Vec::new(), Vec::new());
+        for step in range.clone() {
+            let mut operands = self.steps[step].operands.iter().filter_map(|x| place(*x));
+            let at = step - range.start;
+            needs_loop[at] =
+                in_loop[at] || operands.any(|x| x >= range.start && needs_loop[x - range.start]);
+            match (in_loop[at], needs_loop[at]) {
+                (true, _) => {}
+                (_, true) => after.push(step),
+                (_, false) => before.push(step),
+            }
+        }
+        // Guards stay in their order.
+        let is_guard = |step: &usize| matches!(self.steps[*step].kind, Kind::Guard(_));
+        let mut bodies_of_second = body(second, skip_second, 0);
+        if self.steps[range.clone()]
+            .iter()
+            .any(|step| step.kind == Kind::AllCircular)
+            || bodies_of_second.any(|step| is_guard(&step))
+            || before
+                .iter()
+                .any(|step| is_guard(step) && *step >= first.end())
+        {
+            return None;
+        }
+        let loops =
+            (0..count).flat_map(|i| body(first, skip_first, i).chain(body(second, skip_second, i)));
+        let start = range.start + before.len();
+        let order = (0..range.start)
+            .chain(before)
+            .chain(loops)
+            .chain(after)
+            .chain(range.end..self.steps.len());
+        let steps = Steps {
+            steps: order.map(|step| self.steps[step].clone()).collect(),
+            angles: self.angles.clone(),
+        };
+        let finder = Finder::new(&steps, function);
+        let is_in_order = steps.steps[..range.end]
+            .iter()
+            .enumerate()
+            .all(|(at, step)| {
+                let known =
+                    |value: &Value| finder.places[value.index()].is_none_or(|(x, _)| x < at);
+                step.operands.iter().all(known)
+            });
+        let period = first.period + second.period;
+        let (found, _) = finder.follow(start, period, start + period * count);
+        let fused = finder.repeat(start, period, count);
+        let fused = fused.filter(|_| is_in_order && found == count)?;
+        Some((steps.steps, fused))
+    }
+}
+
+/// The angles that need nothing but arguments and sums and products of them, if there are several.
+pub fn early_angles(function: &Function) -> Vec<Value> {
+    let code = &function.code;
+    // Whether a value is known before any function has been called.
+    let mut is_early = vec![false; code.len()];
+    let mut is_angle = vec![false; code.len()];
+    let mut angles: Vec<Value> = Vec::new();
+    for (index, op) in code.iter().enumerate() {
+        is_early[index] = match op {
+            Op::Constant(_) | Op::Pi | Op::Read(_) => true,
+            Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Neg(_) => {
+                op.operands().all(|operand| is_early[operand.index()])
+            }
+            _ => false,
+        };
+        if let Op::Sin(angle) | Op::Cos(angle) = op
+            && is_early[angle.index()]
+            && !std::mem::replace(&mut is_angle[angle.index()], true)
+        {
+            angles.push(*angle);
+        }
+    }
+    match angles.len() {
+        0 | 1 => Vec::new(),
+        _ => angles,
+    }
+}
+
+/// Where a value comes from: one of a kind of things that are counted.
+type Origin = (u32, i64);
+
+struct Finder<'a> {
+    steps: &'a [Step],
+    function: &'a Function,
+    /// The kinds of the steps, by number.
+    kinds: Vec<u32>,
+    /// For each value the step that computes it, and which of the two results it is there; nothing
+    /// for arguments, and for sines and cosines that are known before.
+    places: Vec<Option<(usize, usize)>>,
+    /// For each value that no step computes by itself, which of what it is.
+    origins: Vec<Option<Origin>>,
+}
+
+/// A repeat that may be chosen.
+#[derive(Clone, Copy)]
+struct Candidate {
+    start: usize,
+    period: usize,
+    count: usize,
+    saving: i64,
+}
+
+impl<'a> Finder<'a> {
+    fn new(steps: &'a Steps, function: &'a Function) -> Finder<'a> {
+        let mut numbers: FxHashMap<&Kind, u32> = FxHashMap::default();
+        let kinds = steps.steps.iter().map(|step| {
+            let next = numbers.len() as u32;
+            *numbers.entry(&step.kind).or_insert(next)
+        });
+        let kinds = kinds.collect();
+        let mut places = vec![None; function.code.len()];
+        for (index, step) in steps.steps.iter().enumerate() {
+            for (which, value) in step.defines.iter().enumerate() {
+                if let Some(value) = value {
+                    places[value.index()] = Some((index, which));
+                }
+            }
+        }
+        let mut origins: Vec<Option<Origin>> = vec![None; function.code.len()];
+        for (index, op) in function.code.iter().enumerate() {
+            use super::Source::*;
+            origins[index] = match op {
+                Op::Read(source) => Some(match source {
+                    Parameter(i) => (0, i64::from(*i)),
+                    Prepared(i) => (1, i64::from(*i)),
+                    Time => (2, 0),
+                    Coordinate(i) => (3, i64::from(*i)),
+                    Velocity(i) => (4, i64::from(*i)),
+                    Input(i) => (5, i64::from(*i)),
+                    Acceleration(i) => (6, i64::from(*i)),
+                    AtTime(i) => (9, i64::from(*i)),
+                    AtPosition(i) => (10, i64::from(*i)),
+                }),
+                _ => None,
+            };
+        }
+        for (index, (_, pair)) in steps.angles.iter().enumerate() {
+            for (which, value) in pair.iter().enumerate() {
+                if let Some(value) = value {
+                    origins[value.index()] = Some((7 + which as u32, index as i64));
+                }
+            }
+        }
+        Finder {
+            steps: &steps.steps,
+            function,
+            kinds,
+            places,
+            origins,
+        }
+    }
+
+    fn repeats(&self) -> Vec<Repeat> {
+        let mut candidates = self.candidates();
+        // What saves most first; of equals the shortest body, then the first.
+        candidates.sort_by_key(|c| (-c.saving, c.period, c.start));
+        let mut chosen: Vec<Candidate> = Vec::new();
+        for candidate in candidates {
+            let end = candidate.start + candidate.period * candidate.count;
+            let is_free = |other: &Candidate| {
+                end <= other.start || other.start + other.period * other.count <= candidate.start
+            };
+            if chosen.iter().all(is_free) {
+                chosen.push(candidate);
+            }
+        }
+        chosen.sort_by_key(|candidate| candidate.start);
+        let mut repeats: Vec<Repeat> = chosen
+            .iter()
+            .filter_map(|c| self.repeat(c.start, c.period, c.count))
+            .collect();
+        // What is no large part may read arrays that are there, and no others.
+        let least = self.steps.len() / LEAST_SHARE as usize;
+        while let Some(worst) = repeats.iter().position(|repeat| {
+            let is_small = repeat.period * (repeat.count - 1) < least;
+            let mut operands = repeat.operands.iter().flatten();
+            is_small
+                && operands.any(|operand| match operand {
+                    Operand::Column(column) => !self.is_array(column, &repeats),
+                    _ => false,
+                })
+        }) {
+            repeats.remove(worst);
+        }
+        repeats
+    }
+
+    /// Whether a column is an array without its values being put into one.
+    fn is_array(&self, column: &[Value], repeats: &[Repeat]) -> bool {
+        let origin = |value: &Value| {
+            let Some((step, which)) = self.places[value.index()] else {
+                return self.origins[value.index()];
+            };
+            let (number, repeat) = repeats
+                .iter()
+                .enumerate()
+                .find(|(_, repeat)| (repeat.start..repeat.end()).contains(&step))?;
+            let (iteration, offset) = (
+                (step - repeat.start) / repeat.period,
+                (step - repeat.start) % repeat.period,
+            );
+            let array = 16 + 2 * (number * self.steps.len() + offset) + which;
+            Some((array as u32, iteration as i64))
+        };
+        column
+            .iter()
+            .map(origin)
+            .collect::<Option<Vec<Origin>>>()
+            .is_some_and(|origins| is_counted(&origins))
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let n = self.steps.len();
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for period in 1..=LONGEST_BODY.min(n / FEWEST) {
+            let mut first = period;
+            while first < n {
+                if self.kinds[first] != self.kinds[first - period] {
+                    first += 1;
+                    continue;
+                }
+                // Steps `start..end` are of one kind with those a period before or after.
+                let mut end = first;
+                while end < n && self.kinds[end] == self.kinds[end - period] {
+                    end += 1;
+                }
+                self.candidates_within(first - period, end, period, &mut candidates);
+                first = end + 1;
+            }
+        }
+        candidates
+    }
+
+    fn candidates_within(
+        &self,
+        mut start: usize,
+        end: usize,
+        period: usize,
+        candidates: &mut Vec<Candidate>,
+    ) {
+        while start + FEWEST * period <= end {
+            // A repeat of a repeat.
+            let known = candidates.iter().find(|c| {
+                period.is_multiple_of(c.period)
+                    && period > c.period
+                    && c.start <= start + period
+                    && start < c.start + c.period * c.count
+            });
+            if let Some(known) = known {
+                start = known.start + known.period * known.count;
+                continue;
+            }
+            let (count, next) = self.follow(start, period, end);
+            if count < FEWEST {
+                start = next.max(start + 1);
+                continue;
+            }
+            // The same stretch, cut into iterations elsewhere, may carry less; an iteration later, all
+            // that it reads may be counted.
+            let best = (start..start + 2 * period)
+                .step_by(period.div_ceil(MOST_PHASES))
+                .filter_map(|start| {
+                    let (count, _) = self.follow(start, period, end);
+                    self.repeat(start, period, count).map(|r| self.rate(&r))
+                })
+                .max_by_key(|c| (c.saving, std::cmp::Reverse(c.start)));
+            if let Some(best) = best.filter(|c| c.saving >= LEAST_SAVING) {
+                candidates.push(best);
+            }
+            start += count * period;
+        }
+    }
+
+    /// Whether a value is known before a step.
+    fn is_before(&self, value: Value, start: usize) -> bool {
+        self.places[value.index()].is_none_or(|(step, _)| step < start)
+    }
+
+    /// How many iterations there are from a step on, and where to look next if there are too few.
+    fn follow(&self, start: usize, period: usize, limit: usize) -> (usize, usize) {
+        let mut end = start + period;
+        let mut next = start + 1;
+        while end < limit {
+            if self.kinds[end] != self.kinds[end - period] {
+                break;
+            }
+            let iteration = (end - start) / period;
+            let (this, before) = (&self.steps[end], &self.steps[end - period]);
+            let operands = this.operands.iter().zip(&before.operands);
+            let mut unlike =
+                operands.filter(|(a, b)| !self.is_like(**a, **b, start, period, iteration));
+            if let Some((_, before)) = unlike.next() {
+                // As soon as the earlier one is known before, the later may be carried; one that is
+                // known before already has to be so in the first iteration.
+                next = match self.places[before.index()] {
+                    Some((step, _)) if step >= start => step + 1,
+                    _ => (end + 1).saturating_sub(2 * period),
+                };
+                break;
+            }
+            if this.defines.map(|x| x.is_some()) != before.defines.map(|x| x.is_some())
+                || !self.counts_on(end, start, period)
+            {
+                next = end - period + 1;
+                break;
+            }
+            end += 1;
+        }
+        ((end - start) / period, next)
+    }
+
+    /// Whether an operand is related to its counterpart in the iteration before as it must be.
+    fn is_like(
+        &self,
+        this: Value,
+        before: Value,
+        start: usize,
+        period: usize,
+        iteration: usize,
+    ) -> bool {
+        let place = |value: Value| self.places[value.index()].filter(|(step, _)| *step >= start);
+        match (place(this), place(before)) {
+            (None, None) => true,
+            (None, Some(_)) => false,
+            (Some((step, _)), None) => iteration == 1 && step < start + period,
+            (Some(this), Some(before)) => this.0 == before.0 + period && this.1 == before.1,
+        }
+    }
+
+    /// Whether the coordinates of guards are counted up or down.
+    fn counts_on(&self, step: usize, start: usize, period: usize) -> bool {
+        let coordinate = |step: usize| match self.steps[step].kind {
+            Kind::Guard(_) => self.function.guards[self.steps[step].guard].coordinate as i64,
+            _ => 0,
+        };
+        step < start + 2 * period
+            || coordinate(step) - coordinate(step - period)
+                == coordinate(step - period) - coordinate(step - 2 * period)
+    }
+
+    /// The repeat of so many iterations.
+    fn repeat(&self, start: usize, period: usize, count: usize) -> Option<Repeat> {
+        if count < FEWEST {
+            return None;
+        }
+        let operand = |step: usize, which: usize| {
+            let at = |iteration: usize| self.steps[step + iteration * period].operands[which];
+            let (first, second) = (at(0), at(1));
+            if !self.is_before(first, start) {
+                return Some(Operand::Same(first));
+            }
+            if !self.is_before(second, start) {
+                let (place, of) = self.places[second.index()]?;
+                // In the first iteration, as `follow` has seen.
+                let carried = self.steps[place].defines[of]?;
+                return Some(Operand::Carried(carried, first)).filter(|_| place < start + period);
+            }
+            let column: Vec<Value> = (0..count).map(at).collect();
+            Some(match column.iter().all(|value| *value == first) {
+                true => Operand::Invariant(first),
+                false => Operand::Column(column),
+            })
+        };
+        let mut operands = Vec::with_capacity(period);
+        for step in start..start + period {
+            let of_step = (0..self.steps[step].operands.len()).map(|which| operand(step, which));
+            let of_step: Vec<Operand> = of_step.collect::<Option<_>>()?;
+            // Where a pivot vanishes in one of several lanes, the guard makes it undefined there: it
+            // must be a variable of the body.
+            let is_argument = |value: &Value| matches!(self.function.op(*value), Op::Read(_));
+            let can_be_guarded = match of_step.first() {
+                Some(Operand::Same(_)) => true,
+                Some(Operand::Invariant(value)) => is_argument(value),
+                Some(Operand::Column(column)) => column.iter().all(is_argument),
+                _ => false,
+            };
+            if matches!(self.steps[step].kind, Kind::Guard(_)) && !can_be_guarded {
+                return None;
+            }
+            operands.push(of_step);
+        }
+        Some(Repeat {
+            start,
+            period,
+            count,
+            operands,
+        })
+    }
+
+    /// What a repeat saves: steps that need not be written, less what must be written for it.
+    fn rate(&self, repeat: &Repeat) -> Candidate {
+        let Repeat {
+            start,
+            period,
+            count,
+            ref operands,
+        } = *repeat;
+        let mut saving = ((count - 1) * period) as i64;
+        let mut carried: Vec<&Operand> = Vec::new();
+        for operand in operands.iter().flatten() {
+            match operand {
+                Operand::Column(column) if !self.is_counted(column) => saving -= count as i64,
+                Operand::Carried(..) if !carried.contains(&operand) => {
+                    carried.push(operand);
+                    saving -= 1;
+                }
+                _ => {}
+            }
+        }
+        Candidate {
+            start,
+            period,
+            count,
+            saving,
+        }
+    }
+
+    /// Whether a column is counted up or down in one array, or can be put into one.
+    fn is_counted(&self, column: &[Value]) -> bool {
+        let origin = |value: &Value| match self.places[value.index()] {
+            Some((step, which)) => Some((16 + which as u32, step as i64)),
+            None => self.origins[value.index()],
+        };
+        let Some(origins) = column.iter().map(origin).collect::<Option<Vec<Origin>>>() else {
+            return false;
+        };
+        is_counted(&origins)
+    }
+}
+
+/// Whether these are members of one array at even distances, or can be.
+fn is_counted(origins: &[Origin]) -> bool {
+    // Prepared values can be put into any order.
+    let is_prepared = origins[0].0 == 1;
+    origins.windows(2).all(|pair| pair[0].0 == pair[1].0)
+        && (is_prepared
+            || origins
+                .windows(3)
+                .all(|three| three[1].1 - three[0].1 == three[2].1 - three[1].1))
+}
