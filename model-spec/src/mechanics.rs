@@ -101,6 +101,9 @@ pub struct Unprojected<'d> {
     pub inertia: Vec<[Expr<'d>; 3]>,
     /// `u` and the load on it.
     pub loads: Vec<(Expr<'d>, Expr<'d>)>,
+    /// `u` and the acceleration of free fall along it, where it is not among the loads: the load is
+    /// this times the weight of `u u`.
+    pub gravity: Vec<(Expr<'d>, Expr<'d>)>,
     /// Whether velocities have accelerations where no coordinate has one; if not, these are among
     /// the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
     pub drifts: bool,
@@ -260,6 +263,8 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
     let potential_energy = energy::potential_energy(model);
     let dissipation = energy::dissipation(model, &mut x.coasting(model));
 
+    let mut weightless = Loads::default();
+    projection.add_applied(&mut weightless);
     let mut applied = Loads::default();
     projection.add_gravity(&mut applied);
     projection.add_applied(&mut applied);
@@ -274,7 +279,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         mass_matrix: projection.mass_matrix()?,
         bias: projection.project(&projection.bias_loads(1, false), all.clone()),
         applied: projection.project(&applied, all.clone()),
-        unprojected: Some(projection.unprojected(&applied, &forces)),
+        unprojected: Some(projection.unprojected(&weightless, &forces)),
         forces: projection.project(&forces, all),
         unbalanced: match model.derivatives.is_empty() {
             true => Vec::new(),

@@ -30,6 +30,7 @@ use crate::model::{Name, Stages, Variable};
 use crate::unit::Unit;
 
 mod articulated;
+mod bars;
 mod choose;
 mod cost;
 mod count;
@@ -55,7 +56,7 @@ mod verify;
 pub use choose::{Basis, Candidate, Choice, Form, MOST_ROUNDING, best};
 pub use cost::{Cost, cycles};
 pub use count::Counts;
-pub use fusion::{Contracted, Contraction, Contractions, Side, fused, uses};
+pub use fusion::{Contracted, Contraction, Contractions, Side, fused, ready, uses};
 pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};

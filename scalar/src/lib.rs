@@ -186,6 +186,13 @@ pub trait Scalar:
             None
         }
     }
+    /// Itself, but undefined in those of several lanes in which `fault` is. A number of one lane comes back as it is: a
+    /// fault in it is an error of the whole call.
+    #[inline(always)]
+    fn tainted(self, fault: Self) -> Self {
+        let _ = fault;
+        self
+    }
     /// The nearest `f64`, for messages.
     fn to_f64(self) -> f64;
 

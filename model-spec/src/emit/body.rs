@@ -194,11 +194,44 @@ pub fn statements(
             language.guard(body.writer, guard, [&pivot, &scale], is_used);
         }
     }
-    function
-        .results
-        .iter()
-        .map(|&value| body.result(value))
-        .collect()
+    body.results()
+}
+
+/// What is left to check after the statements of a function.
+pub struct Unchecked {
+    /// The results.
+    pub results: Vec<Expression>,
+    /// Of each guard the pivot and its scale.
+    pub guards: Vec<[String; 2]>,
+    /// The result that is known last.
+    pub latest: usize,
+}
+
+/// The same without the guards: these are for the caller to check, after everything else.
+pub fn unchecked(
+    writer: &mut Writer,
+    language: &impl Language,
+    function: &Function,
+    scope: Scope,
+    wanted: &[String],
+) -> Unchecked {
+    let mut body = Body::new(writer, language, function, scope, wanted);
+    body.read_arguments();
+    body.all_angles();
+    for index in 0..function.code.len() {
+        body.operation(Value(index as u32));
+    }
+    let results = body.results();
+    let guards = function.guards.iter();
+    let guards = guards.map(|guard| [guard.pivot, guard.scale].map(|value| body.bound(value)));
+    let ready = program::ready(function);
+    let places = 0..function.results.len();
+    let latest = places.max_by_key(|&place| ready[function.results[place].index()]);
+    Unchecked {
+        guards: guards.collect(),
+        results,
+        latest: latest.unwrap_or(0),
+    }
 }
 
 /// Whether an expression is too long to be put into another one.
@@ -474,6 +507,11 @@ impl<'a, L: Language> Body<'a, L> {
         self.language.bind(self.writer, &name, text);
         self.texts[value.index()] = Some(Expression::leaf(name.clone()));
         name
+    }
+
+    fn results(&mut self) -> Vec<Expression> {
+        let results = self.function.results.iter();
+        results.map(|&value| self.result(value)).collect()
     }
 
     fn result(&mut self, value: Value) -> Expression {

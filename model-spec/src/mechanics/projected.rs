@@ -302,8 +302,8 @@ impl<'a, 'd> Projection<'a, 'd> {
             .collect()
     }
 
-    /// Inertia, and loads, on velocities: `applied`, with inertia itself from the rates on; in space
-    /// `forces`, with the bias among them.
+    /// Inertia, and loads, on velocities: `applied`, gravity apart, with inertia itself from the rates
+    /// on; in space `forces`, with the bias and gravity among them.
     ///
     /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. In space all that a motion
     /// without accelerations demands is a load, computed from the ground to the tips along axes that
@@ -313,10 +313,13 @@ impl<'a, 'd> Projection<'a, 'd> {
         let drifts = self.model.space == Space::Plane;
         let loads = if drifts { applied } else { forces };
         let velocities = self.velocities_of(&self.inertial, rate);
-        let mut inertia = Vec::new();
+        let (mut inertia, mut gravity) = (Vec::new(), Vec::new());
         for (body, velocity) in self.inertial.iter().zip(&velocities) {
-            let points = body.points.iter().zip(&velocity.points);
-            inertia.extend(points.map(|(point, &u)| [u, u, point.weight]));
+            let points = || body.points.iter().zip(&velocity.points);
+            inertia.extend(points().map(|(point, &u)| [u, u, point.weight]));
+            if drifts {
+                gravity.extend(points().filter_map(|(point, &u)| Some((u, point.gravity?))));
+            }
             if let (Some((mass, ..)), Some(linear)) = (body.centre, velocity.linear) {
                 inertia.extend(linear.map(|u| [u, u, mass]));
             }
@@ -347,9 +350,11 @@ impl<'a, 'd> Projection<'a, 'd> {
         );
         inertia.retain(|[_, _, weight]| !weight.is_zero());
         acting.retain(|(_, load)| !load.is_zero());
+        gravity.retain(|(_, g)| !g.is_zero());
         super::Unprojected {
             inertia,
             loads: acting,
+            gravity,
             drifts,
         }
     }

@@ -37,6 +37,7 @@ use lagrangian_symbolic::{
 };
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::bars::{self, Arm};
 use crate::mechanics::Unprojected;
 use crate::model::Model;
 
@@ -49,6 +50,10 @@ const BUDGET: usize = 40_000;
 pub(super) struct Solution<'d> {
     pub(super) accelerations: Vec<Expr<'d>>,
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
+    /// Symbols in all of these, and what they stand for: a value that is computed once.
+    pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
+    /// What parameters decide and must not vanish either, with the coordinates of what it belongs to.
+    pub(super) lengths: Vec<(usize, Expr<'d>)>,
     /// What was done, in order.
     pub(super) steps: Vec<Step<'d>>,
     /// The coordinates by the nodes of their velocities.
@@ -56,8 +61,13 @@ pub(super) struct Solution<'d> {
 }
 
 /// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
-pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Solution<'d>> {
+pub(super) fn solve<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    order: Order,
+) -> Option<Solution<'d>> {
     let mut front = Front::of(model, machine, true);
+    front.order = order;
     let mut steps = front.places();
     while let Some(mut left) = front.next()? {
         steps.append(&mut left);
@@ -68,8 +78,13 @@ pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<
     } in steps.iter().rev()
     {
         let terms = parts.iter().map(|(part, c)| *c * known[part]);
-        let terms = std::iter::once(*alone).chain(terms).collect();
-        known.insert(*of, front.totals.total(terms));
+        let terms = std::iter::once(*alone).chain(terms);
+        let total = match order {
+            Order::Short => front.totals.total(terms.collect()),
+            // A common factor would have to wait for the parts.
+            Order::Ahead => model.dag.sum(terms),
+        };
+        known.insert(*of, total);
     }
     let pivots: Vec<_> = steps
         .iter()
@@ -85,7 +100,13 @@ pub(super) fn solve<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<
     for (id, coordinate) in &velocities {
         accelerations[*coordinate] = *known.get(id)?;
     }
+    let lengths = front.lengths.iter().filter_map(|(turning, length)| {
+        let coordinate = front.touches[turning].last()?;
+        Some((*coordinate, *length))
+    });
     Some(Solution {
+        lengths: lengths.collect(),
+        names: front.names,
         accelerations,
         pivots,
         coordinates: velocities,
@@ -106,6 +127,7 @@ pub(super) fn mass_matrix<'d>(
     let unloaded = Unprojected {
         inertia: machine.inertia.clone(),
         loads: Vec::new(),
+        gravity: Vec::new(),
         drifts: false,
     };
     let mut front = Front::of(model, &unloaded, false);
@@ -157,8 +179,30 @@ struct Place<'d> {
     rest: Expr<'d>,
 }
 
+/// What is computed first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// One elimination after the other, in the fewest operations.
+    Short,
+    /// What does not wait for the last division before what does: with an update `− w wᵀ/d` on its
+    /// way, `Cᵀ G C` is made of G as it was, and `w` becomes `Cᵀ w`, so that the next pivot waits for
+    /// one multiplication and one subtraction only. This is the same elimination, with more operations.
+    Ahead,
+}
+
+/// An update `− w wᵀ/d` of the form that is not made yet.
+struct Update<'d> {
+    /// `w`, by row.
+    column: BTreeMap<Id, Expr<'d>>,
+    /// `d`.
+    pivot: Expr<'d>,
+}
+
 struct Front<'d> {
     dag: &'d Dag,
+    order: Order,
+    /// Updates that are not made yet.
+    late: Vec<Update<'d>>,
     /// The coordinates by the nodes of their velocities, or of those in their places.
     coordinates: BTreeMap<Id, usize>,
     /// What stands in the places of the coordinates' velocities.
@@ -177,6 +221,14 @@ struct Front<'d> {
     uses: Vec<usize>,
     /// Whether velocities accelerate where no coordinate does.
     drifts: bool,
+    /// What falls freely where the machine is seen from, with its acceleration there.
+    falls: FxHashMap<Id, Expr<'d>>,
+    /// Whether coefficients may be given names.
+    may_name: bool,
+    /// Coefficients by names, and what these stand for.
+    names: Vec<(Expr<'d>, Expr<'d>)>,
+    /// Squares of the lengths of bars that are in denominators, with the nodes of their turning.
+    lengths: Vec<(Id, Expr<'d>)>,
     totals: Totals<'d>,
     /// How many terms have come into G and g.
     terms: usize,
@@ -194,6 +246,8 @@ impl<'d> Front<'d> {
         let time = model.time.as_symbol().map(|t| (t, dag.one()));
         let mut front = Front {
             dag,
+            order: Order::Short,
+            late: Vec::new(),
             coordinates: coordinates.map(|(index, c)| (c.v.id(), index)).collect(),
             places: model.coordinates.iter().map(|_| None).collect(),
             touches: FxHashMap::default(),
@@ -203,6 +257,10 @@ impl<'d> Front<'d> {
             loads: BTreeMap::new(),
             uses: vec![0; model.coordinates.len()],
             drifts: machine.drifts,
+            falls: FxHashMap::default(),
+            may_name: machine.drifts && places,
+            names: Vec::new(),
+            lengths: Vec::new(),
             totals: Totals {
                 dag,
                 made: FxHashSet::default(),
@@ -210,11 +268,15 @@ impl<'d> Front<'d> {
             },
             terms: 0,
         };
-        let inertial = machine.inertia.iter().flat_map(|[u, w, _]| [*u, *w]);
-        let loaded = machine.loads.iter().map(|(u, _)| *u);
-        let velocities = model.coordinates.iter().map(|c| c.v);
-        let roots: Vec<_> = inertial.chain(loaded).chain(velocities).collect();
-        front.find_linear(&roots);
+        front.find_linear(&front.roots(model, machine));
+        let bars::Replaced { machine, lengths } = bars::replaced(machine, &front.arms());
+        let machine = &machine;
+        let roots = front.roots(model, machine);
+        if !lengths.is_empty() {
+            front.forget();
+            front.find_linear(&roots);
+        }
+        front.lengths = lengths;
         if places {
             front.find_places(&roots, machine);
         }
@@ -224,7 +286,9 @@ impl<'d> Front<'d> {
         for &[u, w, weight] in &machine.inertia {
             front.add_inertia(u, w, weight);
         }
-        front.add_loads(&machine.loads, model);
+        let weights = front.gravity(machine);
+        let loads = machine.loads.iter().copied().chain(weights);
+        front.add_loads(&loads.collect::<Vec<_>>(), model);
         front
     }
 
@@ -293,9 +357,62 @@ impl<'d> Front<'d> {
                 self.coordinates.insert(place.id, index);
             }
         }
+        self.forget();
+        self.find_linear(roots);
+    }
+
+    /// The velocities that inertia and loads are on, and the coordinates'.
+    fn roots(&self, model: &Model<'d>, machine: &Unprojected<'d>) -> Vec<Expr<'d>> {
+        let inertial = machine.inertia.iter().flat_map(|[u, w, _]| [*u, *w]);
+        let loaded = machine.loads.iter().map(|(u, _)| *u);
+        let velocities = model.coordinates.iter().map(|c| c.v);
+        inertial.chain(loaded).chain(velocities).collect()
+    }
+
+    /// The components of points on bars: of a velocity and one turn, at a distance across the bar.
+    fn arms(&self) -> BTreeMap<Id, Arm<'d>> {
+        let mut arms: BTreeMap<Id, Arm<'d>> = BTreeMap::new();
+        let mut nodes: Vec<Id> = self.touches.keys().copied().collect();
+        nodes.sort_unstable();
+        for id in nodes {
+            if self.coordinates.contains_key(&id) || !self.is_linear(id) {
+                continue;
+            }
+            let Some(Composition { parts, rest }) = self.composition(id) else {
+                continue;
+            };
+            let mut parts = parts;
+            parts.sort_by_key(|(_, c)| c.stage() > Stage::PARAMETER);
+            let &[(joint, one), (turning, across)] = parts.as_slice() else {
+                continue;
+            };
+            if one != self.dag.one() || across.stage() <= Stage::PARAMETER || !rest.is_zero() {
+                continue;
+            }
+            // Measured from the joint, where it is from another point of the bar.
+            let arm = match arms.get(&joint) {
+                Some(inner) if inner.turning == turning => Arm {
+                    joint: inner.joint,
+                    across: inner.across + across,
+                    ..*inner
+                },
+                _ => Arm {
+                    joint,
+                    turning,
+                    across,
+                    carries: false,
+                },
+            };
+            let carries = self.parents.contains_key(&id);
+            arms.insert(id, Arm { carries, ..arm });
+        }
+        arms
+    }
+
+    /// Forgets what [`find_linear`](Self::find_linear) found.
+    fn forget(&mut self) {
         self.touches.clear();
         self.parents.clear();
-        self.find_linear(roots);
     }
 
     /// What velocities with another in their place follow from: `v = ±(u − Σ c·part − rest)`.
@@ -306,7 +423,7 @@ impl<'d> Front<'d> {
             let parts = place.parts.iter().map(|(part, c)| (*part, -(sign * *c)));
             Step {
                 of: place.velocity,
-                alone: -(sign * self.drift(&[], place.rest)),
+                alone: -(sign * (self.drift(&[], place.rest) + self.fall(place.id, &place.parts))),
                 parts: std::iter::once((place.id, sign)).chain(parts).collect(),
                 pivot: None,
             }
@@ -509,18 +626,24 @@ impl<'d> Front<'d> {
     }
 
     fn eliminate(&mut self, id: Id) -> Option<Step<'d>> {
-        let (pivot, row, load) = self.take(id);
+        let (mut pivot, mut row, load) = self.take(id);
+        self.catch_up(id, &mut pivot, &mut row);
         if pivot.is_zero() {
             return None;
         }
         let load = self.totals.total(load);
         let ratios: Vec<(Id, Expr<'d>)> =
             row.iter().map(|(x, value)| (*x, *value / pivot)).collect();
-        for (position, (x, ratio)) in ratios.iter().enumerate() {
-            for (y, value) in &row[..=position] {
-                self.add(*x, *y, -(*ratio * *value));
-            }
+        for (x, ratio) in &ratios {
             self.add_load(*x, -(*ratio * load));
+        }
+        let update = Update {
+            column: row.into_iter().collect(),
+            pivot,
+        };
+        match self.order {
+            Order::Short => self.make(&update),
+            Order::Ahead => self.late.push(update),
         }
         let parts = ratios.into_iter().map(|(x, ratio)| (x, -ratio)).collect();
         Some(Step {
@@ -529,6 +652,46 @@ impl<'d> Front<'d> {
             parts,
             pivot: Some(pivot),
         })
+    }
+
+    /// `G −= w wᵀ/d`.
+    fn make(&mut self, update: &Update<'d>) {
+        for (position, (x, value)) in update.column.iter().enumerate() {
+            let ratio = *value / update.pivot;
+            for (y, other) in update.column.iter().take(position + 1) {
+                self.add(*x, *y, -(ratio * *other));
+            }
+        }
+    }
+
+    /// Makes all updates of one row that has been taken from the form, and those that it is in, of the
+    /// others.
+    fn catch_up(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
+        let (due, others) = std::mem::take(&mut self.late)
+            .into_iter()
+            .partition::<Vec<_>, _>(|update| update.column.contains_key(&id));
+        self.late = others;
+        let mut row_terms: BTreeMap<Id, Vec<Expr<'d>>> =
+            row.drain(..).map(|(x, value)| (x, vec![value])).collect();
+        let mut own_terms = vec![*own];
+        for mut update in due {
+            let Some(value) = update.column.remove(&id) else {
+                continue;
+            };
+            own_terms.push(-(value.square() / update.pivot));
+            for (x, other) in &update.column {
+                let terms = row_terms.entry(*x).or_default();
+                terms.push(-(value / update.pivot * *other));
+            }
+            self.make(&update);
+        }
+        *own = self.dag.sum(own_terms);
+        for (x, terms) in row_terms {
+            let value = self.dag.sum(terms);
+            if !value.is_zero() {
+                row.push((x, value));
+            }
+        }
     }
 
     /// The velocities that give way together with one: those that have parts in common with it, and
@@ -543,7 +706,12 @@ impl<'d> Front<'d> {
             .filter(|id| *id != first && !self.coordinates.contains_key(id))
             .filter(|id| !touched.is_disjoint(&self.touches[id]))
             .collect();
-        let coupled = |id: &&Id| self.form[&first].contains_key(*id);
+        let both = |update: &Update<'d>, id: &Id| {
+            update.column.contains_key(&first) && update.column.contains_key(id)
+        };
+        let coupled = |id: &&Id| {
+            self.form[&first].contains_key(*id) || self.late.iter().any(|update| both(update, id))
+        };
         for &id in others.iter().filter(coupled) {
             let composition = self.composition(id)?;
             let shares = composition
@@ -582,10 +750,12 @@ impl<'d> Front<'d> {
 
     /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, its rows
     /// and columns `G` become `Cᵀ B`, so that what columns have in common is computed once.
-    fn replace(&mut self, group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
-        let drifts: Vec<Expr<'d>> = group
+    fn replace(&mut self, mut group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
+        let mut drifts: Vec<Expr<'d>> = group
             .iter()
-            .map(|(_, Composition { parts, rest })| self.drift(parts, *rest))
+            .map(|(id, Composition { parts, rest })| {
+                self.drift(parts, *rest) + self.fall(*id, parts)
+            })
             .collect();
         let position: BTreeMap<Id, usize> = group
             .iter()
@@ -611,8 +781,17 @@ impl<'d> Front<'d> {
             }
             loads.push(load);
         }
+        if self.may_name && self.is_full(&group, &inner) {
+            self.name_coefficients(&mut group, &mut drifts);
+        }
         for (k, mut load) in loads.into_iter().enumerate() {
-            load.extend(inner[k].iter().map(|(l, value)| -(*value * drifts[*l])));
+            let drifting = drifts
+                .iter()
+                .enumerate()
+                .filter(|(_, drift)| !drift.is_zero());
+            load.extend(
+                drifting.map(|(l, drift)| -(self.with_late(&group, &inner, k, l) * *drift)),
+            );
             let load = self.totals.total(load);
             for (x, c) in &group[k].1.parts {
                 self.enter(*x);
@@ -628,6 +807,20 @@ impl<'d> Front<'d> {
             }
         }
         self.congruence(&group, &inner);
+        for update in &mut self.late {
+            let mut terms: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
+            for (id, composition) in &group {
+                if let Some(value) = update.column.remove(id) {
+                    for (x, c) in &composition.parts {
+                        terms.entry(*x).or_default().push(*c * value);
+                    }
+                }
+            }
+            for (x, mut terms) in terms {
+                terms.extend(update.column.remove(&x));
+                update.column.insert(x, self.totals.total(terms));
+            }
+        }
         let steps = group.into_iter().zip(drifts);
         steps
             .map(|((of, Composition { parts, .. }), alone)| Step {
@@ -637,6 +830,82 @@ impl<'d> Front<'d> {
                 pivot: None,
             })
             .collect()
+    }
+
+    /// Whether the velocities of a group are coupled by what varies: then no identity of sines and
+    /// cosines makes `Cᵀ G C` shorter.
+    fn is_full(&self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) -> bool {
+        let couples = |(k, l): (usize, usize)| {
+            k != l && self.with_late(group, inner, k, l).stage() > Stage::PARAMETER
+        };
+        (0..group.len()).any(|k| (0..k).any(|l| couples((k, l))))
+    }
+
+    /// Gives names to coefficients such as `l cos φ`, so that they are computed once and stay together:
+    /// with `l` taken out of sums and `cos φ` left inside, every use has its own multiplication.
+    fn name_coefficients(&mut self, group: &mut [(Id, Composition<'d>)], drifts: &mut [Expr<'d>]) {
+        let first = self.names.len();
+        for (_, composition) in group.iter() {
+            for (_, c) in &composition.parts {
+                let (_, factors) = factors_of(*c);
+                let stage = |(factor, _): &(Id, i32)| self.dag.expr(*factor).stage();
+                let known = factors
+                    .iter()
+                    .filter(|f| stage(f) <= Stage::PARAMETER)
+                    .count();
+                let whole = self.product_of(&factors);
+                let is_new = self.names.iter().all(|(_, meaning)| *meaning != whole);
+                if known > 0 && known < factors.len() && is_new {
+                    let name = self.dag.symbol("coefficient", c.stage());
+                    self.names.push((name, whole));
+                }
+            }
+        }
+        let names = &self.names[first..];
+        for (_, composition) in group.iter_mut() {
+            for (_, c) in &mut composition.parts {
+                *c = self.with_names(*c, names);
+            }
+        }
+        for drift in drifts.iter_mut() {
+            *drift = self.with_names(*drift, names);
+        }
+    }
+
+    /// The same with names for the coefficients that are factors of its terms.
+    fn with_names(&self, e: Expr<'d>, names: &[(Expr<'d>, Expr<'d>)]) -> Expr<'d> {
+        let named = |term: Expr<'d>| {
+            let (_, factors) = factors_of(term);
+            let is_factor = |meaning: Expr<'d>| {
+                let (_, parts) = factors_of(meaning);
+                parts.iter().all(|part| factors.contains(part))
+            };
+            let name = names.iter().find(|(_, meaning)| is_factor(*meaning));
+            name.map_or(term, |(name, meaning)| term / *meaning * *name)
+        };
+        self.dag.sum(terms_of(e).into_iter().map(named))
+    }
+
+    fn product_of(&self, factors: &[(Id, i32)]) -> Expr<'d> {
+        let powers = factors.iter();
+        self.dag
+            .product(powers.map(|(factor, power)| self.dag.expr(*factor).powi(*power)))
+    }
+
+    /// An entry of G of two velocities of a group, with the updates that are not made yet.
+    fn with_late(
+        &self,
+        group: &[(Id, Composition<'d>)],
+        inner: &[Vec<(usize, Expr<'d>)>],
+        k: usize,
+        l: usize,
+    ) -> Expr<'d> {
+        let made = inner[k].iter().filter(|(other, _)| *other == l);
+        let late = self.late.iter().filter_map(|update| {
+            let [w_k, w_l] = [k, l].map(|k| update.column.get(&group[k].0));
+            Some(-(*w_k? * *w_l? / update.pivot))
+        });
+        self.dag.sum(made.map(|(_, value)| *value).chain(late))
     }
 
     /// Adds `Cᵀ G C`.
@@ -750,6 +1019,57 @@ impl<'d> Front<'d> {
         let drift = self.dag.sum(terms);
         self.totals.made(drift);
         drift
+    }
+
+    /// What the acceleration of `Σ c w` has beside those of its parts because all of them are measured
+    /// from [free fall](Front::falls).
+    fn fall(&self, id: Id, parts: &[(Id, Expr<'d>)]) -> Expr<'d> {
+        let of = |id: &Id| self.falls.get(id).copied().unwrap_or(self.dag.zero());
+        let terms = parts.iter().map(|(part, c)| *c * of(part));
+        self.dag.sum(terms.chain([-of(&id)]))
+    }
+
+    /// Gravity: the machine is seen from where all falls freely.
+    ///
+    /// There nothing has weight, and the ground accelerates upwards; no load comes to any body, and
+    /// no sum of weights is rounded that the ground bears anyway.
+    fn gravity(&mut self, machine: &Unprojected<'d>) -> Vec<(Expr<'d>, Expr<'d>)> {
+        let mut acting: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
+        for &(u, g) in &machine.gravity {
+            acting.entry(u.id()).or_default().push(g);
+        }
+        for (id, g) in &acting {
+            let moves = self.touches.contains_key(id) && self.is_linear(*id);
+            if moves && !self.coordinates.contains_key(id) {
+                self.falls.insert(*id, g[0]);
+            }
+        }
+        // So is what they are built on.
+        let mut open: BTreeSet<Id> = self.falls.keys().copied().collect();
+        while let Some(id) = open.pop_last() {
+            let Some(Composition { parts, .. }) = self.composition(id) else {
+                continue;
+            };
+            let unit = |(part, c): &&(Id, Expr<'d>)| {
+                *c == self.dag.one() && !self.coordinates.contains_key(part)
+            };
+            let carriers: Vec<Id> = parts.iter().filter(unit).map(|(part, _)| *part).collect();
+            if let [carrier] = carriers.as_slice()
+                && !self.falls.contains_key(carrier)
+            {
+                self.falls.insert(*carrier, self.falls[&id]);
+                open.insert(*carrier);
+            }
+        }
+        // What is left of weights from there: mostly nothing.
+        let mut loads = Vec::new();
+        for &[u, w, weight] in &machine.inertia {
+            let here = acting.get_mut(&u.id()).filter(|_| u == w);
+            let weighs = here.and_then(Vec::pop).unwrap_or(self.dag.zero());
+            let falls = self.falls.get(&u.id()).copied();
+            loads.push((u, weight * (weighs - falls.unwrap_or(self.dag.zero()))));
+        }
+        loads
     }
 
     /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that

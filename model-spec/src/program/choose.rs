@@ -34,6 +34,8 @@ pub enum Basis {
     Expanded,
     /// Inertia and loads where they are, eliminated from the tips of the machine to the ground.
     Along,
+    /// The same, with as little as there can be between one division and the next.
+    Ahead,
 }
 
 /// A way to make a function.
@@ -134,6 +136,7 @@ impl fmt::Display for Form {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match (self.role, self.basis) {
             (_, Basis::Along) => "eliminated along the machine",
+            (_, Basis::Ahead) => "eliminated along the machine, pivots ahead",
             (Role::Accelerations | Role::AccelerationsAt, Basis::Derived) => "from the mass matrix",
             (Role::Accelerations | Role::AccelerationsAt, Basis::Expanded) => {
                 "from the mass matrix multiplied out"

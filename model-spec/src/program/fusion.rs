@@ -165,6 +165,12 @@ impl Timing {
     }
 }
 
+/// For each operation, how long after the arguments its value is known if nothing else has to wait,
+/// in tenths of a cycle.
+pub fn ready(function: &Function) -> Vec<u64> {
+    Timing::of(function).ready
+}
+
 /// How often each value is used: by operations, guards and as a result.
 pub fn uses(function: &Function) -> Vec<u32> {
     let mut uses = vec![0; function.code.len()];

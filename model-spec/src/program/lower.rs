@@ -6,7 +6,7 @@ mod stages;
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
 use rustc_hash::FxHashMap;
 
-use super::articulated;
+use super::articulated::{self, Order};
 use super::choose::{Basis, Candidate, Choice, Form, best};
 use super::formula::formula;
 use super::graph::{Graph, Id, Scaled};
@@ -324,6 +324,31 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
+    /// Lets symbols stand for values that are computed once.
+    fn name(&mut self, names: &[(Expr<'d>, Expr<'d>)]) {
+        for (name, meaning) in names {
+            self.lower(&[*meaning]);
+            let whole = self.graph.whole(self.values[&meaning.id()]);
+            self.values.insert(name.id(), whole);
+        }
+    }
+
+    /// Squares of lengths that must not vanish, as pivots of their coordinates.
+    fn lengths(&mut self, lengths: &[(usize, Expr<'d>)]) -> Vec<Pivot> {
+        let squares: Vec<Expr<'d>> = lengths.iter().map(|(_, length)| *length).collect();
+        self.lower(&squares);
+        let values = self.values(&squares).into_iter();
+        let pivots = lengths
+            .iter()
+            .zip(values)
+            .map(|(&(coordinate, _), pivot)| Pivot {
+                coordinate,
+                pivot,
+                scale: pivot,
+            });
+        pivots.collect()
+    }
+
     fn node(&mut self, node: &symbolic::Node) -> Scaled {
         match node {
             symbolic::Node::Constant(value) => self.graph.constant(value),
@@ -567,10 +592,12 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) ->
         .system(source.expanded)
         .filter(|(m, f)| *m != systems[0].1 || *f != systems[0].2);
     systems.extend(expanded.map(|(matrix, forces)| (Basis::Expanded, matrix, forces)));
-    let mut drafts = match source.unprojected {
-        Some(machine) => along_the_machine(lowering, &systems[0].1, machine),
-        None => Vec::new(),
-    };
+    let mut drafts = Vec::new();
+    for basis in [Basis::Along, Basis::Ahead] {
+        if let Some(machine) = source.unprojected {
+            drafts.extend(along_the_machine(lowering, &systems[0].1, machine, basis));
+        }
+    }
     let shortest = drafts
         .iter()
         .map(|draft| draft.function.counts().ops())
@@ -597,7 +624,7 @@ fn derivatives<'d>(
 ) -> Option<Draft> {
     let (quantities, unprojected) = match accelerations.form.basis {
         Basis::Expanded => (source.expanded, None),
-        Basis::Derived | Basis::Along => (source.quantities, source.unprojected),
+        Basis::Derived | Basis::Along | Basis::Ahead => (source.quantities, source.unprojected),
     };
     let slopes = (source.slopes)(accelerations.form.basis);
     let (matrix, forces) = lowering.system(quantities)?;
@@ -634,16 +661,25 @@ fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     matrix: &[Scaled],
     machine: &Unprojected<'d>,
+    basis: Basis,
 ) -> Vec<Draft> {
+    let order = match basis {
+        Basis::Ahead => Order::Ahead,
+        _ => Order::Short,
+    };
     let Some(articulated::Solution {
         accelerations,
         pivots,
+        lengths,
+        names,
         ..
-    }) = articulated::solve(lowering.model, machine)
+    }) = articulated::solve(lowering.model, machine, order)
     else {
         return Vec::new();
     };
+    lowering.name(&names);
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
+    let lengths = lowering.lengths(&lengths);
     lowering.lower(&accelerations);
     lowering.lower(&values);
     let results = lowering.values(&accelerations);
@@ -659,11 +695,11 @@ fn along_the_machine<'d>(
             scale: scale(coordinate, pivot),
         });
         let solution = Solution {
-            pivots: pivots.collect(),
+            pivots: pivots.chain(lengths.iter().copied()).collect(),
             accelerations: results.clone(),
             columns: Vec::new(),
         };
-        solved(&mut lowering.graph, solution, Basis::Along)
+        solved(&mut lowering.graph, solution, basis)
     };
     let diagonal = |i: usize| matrix[Shape::index(i, i)];
     let full = with_scales(&|i, _| diagonal(i));

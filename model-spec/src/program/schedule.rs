@@ -15,9 +15,10 @@ use lagrangian_symbolic::Rational;
 use rustc_hash::FxHashMap;
 
 use super::cost::latency;
+use super::fusion::Contractions;
 use super::graph::Id;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
-use super::{Op, Source, Value, stages};
+use super::{Function, Op, Role, Shape, Source, Value, stages};
 
 /// A function's code, prepared values still called by their nodes.
 pub(super) struct Code {
@@ -47,7 +48,7 @@ pub(super) fn schedule(net: &Net) -> Code {
             }
         })
         .collect();
-    let (code, roots) = reorder(&builder.code, &roots);
+    let (code, roots) = by_time(reorder(&builder.code, &roots));
     Code {
         code,
         roots,
@@ -413,6 +414,224 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
         .map(|root| place[root.index()].expect("roots are reached"))
         .collect();
     (ordered, roots)
+}
+
+/// The operations in the order in which a processor starts them.
+///
+/// A processor looks ahead, but not far: what stands a few hundred operations behind what waits is
+/// not seen. So operations that wait for each other, as those from link to link of a chain do, must
+/// stand among those of another such row, or the two rows take their times one after the other. This
+/// simulates a processor with two units for arithmetic that starts, of the operations whose operands
+/// are known, the ones that the longest row of others waits for (list scheduling: T. C. Hu, *Parallel
+/// sequencing and assembly line problems*, Operations Research 9 (1961) 841–848).
+///
+/// Products that are contracted into sums, and what is only read, stay where they are used first.
+/// Where the work takes longer than the longest row, nothing needs to be looked for, and the order of
+/// the fewest values at hand stays.
+fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
+    let function = Function {
+        role: Role::Output(0),
+        shape: Shape::Vector(roots.len()),
+        code,
+        results: roots,
+        guards: Vec::new(),
+    };
+    let cost = function.cost();
+    if cost.path <= cost.throughput || function.code.len() > LONGEST {
+        return (function.code, function.results);
+    }
+    let rows = Rows::of(&function);
+    let mut writer = InOrder::new(&function);
+    for index in rows.started() {
+        writer.write(index);
+    }
+    let roots = function.results.iter();
+    roots.for_each(|root| writer.write(root.index()));
+    let place = |root: &Value| writer.place[root.index()].expect("roots are written");
+    let roots = function.results.iter().map(place).collect();
+    (writer.code, roots)
+}
+
+/// What waits for what.
+struct Rows {
+    /// How long an operation takes, in tenths of a cycle; `None` for what is no operation of its own.
+    takes: Vec<Option<u64>>,
+    /// The operations that wait for each.
+    users: Vec<Vec<u32>>,
+    /// How many each waits for.
+    waits: Vec<u32>,
+}
+
+/// The longest function in the order of time. Longer ones are cut into pieces or written as loops, for
+/// which what belongs together must stand together.
+const LONGEST: usize = 4000;
+
+/// Operations of arithmetic that are started in a cycle.
+const UNITS: u32 = 2;
+const CYCLE: u64 = 10;
+
+impl Rows {
+    fn of(function: &Function) -> Rows {
+        let n = function.code.len();
+        let contractions = Contractions::of(function);
+        let mut rows = Rows {
+            takes: Vec::with_capacity(n),
+            users: vec![Vec::new(); n],
+            waits: vec![0; n],
+        };
+        let is_read = |op: &Op| matches!(op, Op::Constant(_) | Op::Pi | Op::Read(_));
+        for (index, op) in function.code.iter().enumerate() {
+            let value = Value(index as u32);
+            if is_read(op) || contractions.is_part(value) {
+                rows.takes.push(None);
+                continue;
+            }
+            rows.takes.push(Some(latency(op)));
+            let operands: Vec<Value> = match contractions.sum(value) {
+                Some(sum) => vec![sum.factors[0], sum.factors[1], sum.term],
+                None => op.operands().collect(),
+            };
+            for operand in operands {
+                if rows.takes[operand.index()].is_some() {
+                    rows.users[operand.index()].push(value.0);
+                    rows.waits[index] += 1;
+                }
+            }
+        }
+        rows
+    }
+
+    /// How long it is from the start of each to the end of all that wait for it.
+    fn heights(&self) -> Vec<u64> {
+        let mut heights = vec![0; self.takes.len()];
+        for index in (0..heights.len()).rev() {
+            let after = self.users[index].iter();
+            let after = after.map(|user| heights[*user as usize]).max();
+            heights[index] = after.unwrap_or(0) + self.takes[index].unwrap_or(0);
+        }
+        heights
+    }
+
+    /// The operations in the order of their starts.
+    fn started(mut self) -> Vec<usize> {
+        let heights = self.heights();
+        let mut known: Vec<u64> = vec![0; heights.len()];
+        // By the time when their operands are known; and those of which they are, by height.
+        let mut later: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
+        let mut now: BinaryHeap<(u64, Reverse<u32>)> = BinaryHeap::new();
+        for (index, takes) in self.takes.iter().enumerate() {
+            if takes.is_some() && self.waits[index] == 0 {
+                later.push(Reverse((0, index as u32)));
+            }
+        }
+        let mut order = Vec::with_capacity(heights.len());
+        let (mut time, mut busy) = (0, 0);
+        loop {
+            while let Some(&Reverse((at, index))) = later.peek()
+                && at <= time
+            {
+                later.pop();
+                now.push((heights[index as usize], Reverse(index)));
+            }
+            if busy == UNITS || now.is_empty() {
+                let Some(next) = later.peek().map(|Reverse((at, _))| *at) else {
+                    if now.is_empty() {
+                        return order;
+                    }
+                    (time, busy) = (time + CYCLE, 0);
+                    continue;
+                };
+                time = if now.is_empty() {
+                    next.max(time)
+                } else {
+                    time + CYCLE
+                };
+                busy = 0;
+                continue;
+            }
+            let Some((_, Reverse(index))) = now.pop() else {
+                continue;
+            };
+            let index = index as usize;
+            order.push(index);
+            busy += 1;
+            let end = time + self.takes[index].unwrap_or(0);
+            for &user in &self.users[index] {
+                let user = user as usize;
+                known[user] = known[user].max(end);
+                self.waits[user] -= 1;
+                if self.waits[user] == 0 {
+                    later.push(Reverse((known[user], user as u32)));
+                }
+            }
+        }
+    }
+}
+
+/// Writes operations in a given order, what is not written yet of their operands before them.
+struct InOrder<'a> {
+    function: &'a Function,
+    /// Sines by their angles, and cosines.
+    circular: FxHashMap<(Value, bool), usize>,
+    place: Vec<Option<Value>>,
+    code: Vec<Op>,
+}
+
+impl<'a> InOrder<'a> {
+    fn new(function: &'a Function) -> InOrder<'a> {
+        let circular = function.code.iter().enumerate();
+        let circular = circular.filter_map(|(index, op)| match op {
+            Op::Sin(angle) => Some(((*angle, true), index)),
+            Op::Cos(angle) => Some(((*angle, false), index)),
+            _ => None,
+        });
+        InOrder {
+            function,
+            circular: circular.collect(),
+            place: vec![None; function.code.len()],
+            code: Vec::with_capacity(function.code.len()),
+        }
+    }
+
+    fn write(&mut self, index: usize) {
+        let mut open = vec![(index, false)];
+        while let Some((index, is_ready)) = open.pop() {
+            if self.place[index].is_some() {
+                continue;
+            }
+            let op = &self.function.code[index];
+            if !is_ready {
+                open.push((index, true));
+                let operands: Vec<Value> = op.operands().collect();
+                open.extend(
+                    operands
+                        .iter()
+                        .rev()
+                        .map(|operand| (operand.index(), false)),
+                );
+                continue;
+            }
+            self.push(index);
+            // Sine and cosine of one angle next to each other.
+            let partner = match *op {
+                Op::Sin(angle) => self.circular.get(&(angle, false)),
+                Op::Cos(angle) => self.circular.get(&(angle, true)),
+                _ => None,
+            };
+            if let Some(&partner) = partner
+                && self.place[partner].is_none()
+            {
+                self.push(partner);
+            }
+        }
+    }
+
+    fn push(&mut self, index: usize) {
+        self.place[index] = Some(Value(self.code.len() as u32));
+        let moved = |operand: Value| self.place[operand.index()].expect("operands come first");
+        self.code
+            .push(with_operands(&self.function.code[index], moved));
+    }
 }
 
 fn live(code: &[Op], roots: &[Value]) -> Vec<bool> {

@@ -6,9 +6,9 @@ use super::Emitter;
 use super::docs::slot_docs;
 use super::language::Rust;
 use super::types::Types;
-use crate::emit::body::{self, Expression as Text, Language};
+use crate::emit::body::{self, Expression as Text, Language, Unchecked};
 use crate::emit::cut::{self, Cut, Piece, Place};
-use crate::emit::layout::Layout;
+use crate::emit::layout::{Layout, Writer};
 use crate::emit::names::{Scope, flat};
 use crate::program::{Function, Op, Reads, Role, Shape, Source};
 
@@ -315,18 +315,30 @@ impl<'a> Emitter<'a> {
         wanted: &[String],
         in_registers: bool,
     ) -> Vec<Text> {
-        let scope = self.scope();
+        self.in_scope(in_registers, |writer, language, scope| {
+            body::statements(writer, language, function, scope, wanted)
+        })
+    }
+
+    /// The same without its checks of pivots, in registers.
+    pub(super) fn unchecked(&mut self, function: &Function, wanted: &[String]) -> Unchecked {
+        self.in_scope(true, |writer, language, scope| {
+            body::unchecked(writer, language, function, scope, wanted)
+        })
+    }
+
+    /// Writes statements, with the names taken that a function has anyway.
+    fn in_scope<T>(
+        &mut self,
+        in_registers: bool,
+        write: impl FnOnce(&mut Writer, &Rust<'_>, Scope) -> T,
+    ) -> T {
         let mut writer = std::mem::take(&mut self.writer);
-        let results = body::statements(
-            &mut writer,
-            &Rust {
-                emitter: self,
-                in_registers,
-            },
-            function,
-            scope,
-            wanted,
-        );
+        let language = Rust {
+            emitter: self,
+            in_registers,
+        };
+        let results = write(&mut writer, &language, self.scope());
         self.writer = writer;
         results
     }
@@ -348,6 +360,8 @@ impl<'a> Emitter<'a> {
             "circular",
             "singular",
             "checked",
+            "sound",
+            "fault",
             "vanishes",
             "None",
             "Some",

@@ -10,11 +10,11 @@
 //! A function that is too long for that is cut into pieces, each a value of its own.
 
 use super::Emitter;
-use super::language::Rust;
+use super::language::{Rust, number};
 use super::types::Types;
-use crate::emit::body::{self, Plan};
+use crate::emit::body::{self, Binding, Plan, Unchecked};
 use crate::emit::cut::{self, Cut, Piece};
-use crate::program::{Function, Op, Reads, Role, Shape, Source};
+use crate::program::{Function, Guard, Op, Reads, Role, Shape, Source};
 
 impl Emitter<'_> {
     /// The names of the call of a function, and of its pieces.
@@ -151,15 +151,14 @@ impl Emitter<'_> {
             }
             None => {
                 let wanted = self.result_names(function);
-                let texts = self.statements(function, &wanted, true);
-                texts.into_iter().map(|text| text.text).collect()
+                let body = self.unchecked(function, &wanted);
+                let texts = body.results.iter();
+                let texts: Vec<String> = texts.map(|text| text.at_least(Binding::Atom)).collect();
+                self.checks(function, &body, &texts);
+                texts
             }
         };
-        let name = self.function_name(function.role);
-        let kept: Vec<String> = texts.iter().map(|text| format!("{text}.store()")).collect();
-        let value = self.arranged(function, &kept);
-        self.writer
-            .expression(&format!("let {name} = "), &value, ";");
+        let name = self.kept(function, &texts);
         self.writer.line(match self.fails(function) {
             true => format!("Ok({name})"),
             false => name,
@@ -198,6 +197,54 @@ impl Emitter<'_> {
             }
         }
         self.writer = writer;
+    }
+
+    /// Checks all pivots, after everything has been computed.
+    ///
+    /// A compiler moves what is not needed where a check fails behind it: were there a check within
+    /// the code, one recursion along a chain would have to wait until the one before it, with the
+    /// pivots, has come to its end. So there is one, and it waits for the result that is known last,
+    /// too.
+    fn checks(&mut self, function: &Function, body: &Unchecked, results: &[String]) {
+        if body.guards.is_empty() {
+            return;
+        }
+        let register = self.types.register.clone();
+        let guards = || function.guards.iter().zip(&body.guards);
+        let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
+            let share = number(guard.tolerance);
+            format!("{pivot}.exceeds({register}::from_f64({share}) * {scale})")
+        };
+        let last = format!("{}.is_finite()", results[body.latest]);
+        let conditions: Vec<String> = guards().map(exceeds).chain([last]).collect();
+        self.writer
+            .statement("let sound =", &format!("{};", conditions.join(" & ")));
+        self.writer.open("if !sound {");
+        self.writer.line(format!("let fault = {register}::ZERO;"));
+        for (guard, [pivot, scale]) in guards() {
+            let share = number(guard.tolerance);
+            let coordinate = guard.coordinate;
+            self.writer.line(format!(
+                "let fault = fault.tainted(checked({pivot}, {scale}, {share}, {coordinate})?);"
+            ));
+        }
+        let tainted = results.iter().map(|text| format!("{text}.tainted(fault)"));
+        let name = self.kept(function, &tainted.collect::<Vec<_>>());
+        self.writer.line(format!("return Ok({name});"));
+        self.writer.close("}");
+    }
+
+    /// The results as they are kept outside of registers; their name comes back.
+    fn kept(&mut self, function: &Function, results: &[String]) -> String {
+        let name = self.function_name(function.role);
+        let kept: Vec<String> = results
+            .iter()
+            .map(|text| format!("{text}.store()"))
+            .collect();
+        let value = self.arranged(function, &kept);
+        self.writer
+            .expression(&format!("let {name} = "), &value, ";");
+        name
     }
 
     /// Names for the fields, and `n`, which loads a number.

@@ -8,9 +8,10 @@
 
 use lagrangian_symbolic::Expr;
 
+use super::super::articulated::{self, Order};
 use super::super::graph::{Graph, Scaled};
 use super::super::solve::{self, Elimination, Pivot};
-use super::super::{Basis, Role, Shape, articulated};
+use super::super::{Basis, Role, Shape};
 use super::{Draft, Lowering, Planned};
 use crate::mechanics::Unprojected;
 
@@ -116,7 +117,8 @@ fn along_the_machine<'d>(
     asked: &Asked<'_, 'd>,
     machine: &Unprojected<'d>,
 ) -> Option<Solved> {
-    let solution = articulated::solve(lowering.model, machine)?;
+    let solution = articulated::solve(lowering.model, machine, Order::Short)?;
+    lowering.name(&solution.names);
     lowering.lower(&solution.accelerations);
     let mut unknowns = asked.forces.len();
     let mut numbers = solution.coordinates;

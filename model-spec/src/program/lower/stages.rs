@@ -94,11 +94,15 @@ fn solutions<'d>(
         systems.extend(system.map(|(matrix, forces)| (basis, matrix, forces)));
     }
     let along = match (source.unprojected, systems.first()) {
-        (Some(machine), Some(_)) => articulated::solve(lowering.model, machine),
+        (Some(machine), Some(_)) => {
+            articulated::solve(lowering.model, machine, articulated::Order::Short)
+        }
         _ => None,
     };
     let has_along = along.is_some();
     if let Some(along) = along {
+        lowering.name(&along.names);
+        let lengths = lowering.lengths(&along.lengths);
         let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
         lowering.lower(&along.accelerations);
         lowering.lower(&values);
@@ -115,7 +119,7 @@ fn solutions<'d>(
             }
         });
         let solution = Solution {
-            pivots: pivots.collect(),
+            pivots: pivots.chain(lengths).collect(),
             accelerations: lowering.values(&along.accelerations),
             columns: Vec::new(),
         };

@@ -1,0 +1,191 @@
+//! The inertia of bars in the plane, as masses at their joints.
+//!
+//! A bar turns at the rate `ω` about a joint `H` that moves, and carries something else at a point
+//! `T`, `u_T = u_H + l ω` with `l` across the bar. The velocity of a body on the line through both
+//! is `u = (1 − λ) u_H + λ u_T`, and because `(u_T − u_H)² = l² ω²`,
+//!
+//! ```text
+//! m u² = (1 − λ) m u_H² + λ m u_T² − λ (1 − λ) m l² ω²
+//! ```
+//!
+//! So two masses and what is left of the inertia stand for the body in every motion: work of the
+//! parameter stage, after which `H` and `T` alone are in the equations. Where bars hang on bars each
+//! joint has one mass. Of the ten operations that a centre of mass between the joints costs a link of
+//! a chain, none is left.
+//!
+//! For a bar between two joints and a body between them the terms are of the size of what they stand
+//! for: `λ (1 − λ) ≤ ¼`. They are larger than that by `1/λ` where the body is close to `H`, has next to
+//! no inertia of its own, and next to nothing hangs on `T`; as many digits are lost in its turning.
+//!
+//! The same substitution in space is that of [`lumps`](crate::mechanics), from where the idea is:
+//! W. Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop
+//! robots*, Int. J. Robotics Res. 14 (1995) 112–128.
+
+use std::collections::BTreeMap;
+
+use lagrangian_symbolic::{Expr, Id, Stage};
+
+use crate::mechanics::Unprojected;
+
+/// A component of the velocity of a point on a bar: `u = u_H + c ω`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arm<'d> {
+    /// `u_H`.
+    pub joint: Id,
+    /// `ω`.
+    pub turning: Id,
+    /// `c`.
+    pub across: Expr<'d>,
+    /// Whether other velocities are built from it.
+    pub carries: bool,
+}
+
+/// A machine with its bodies on bars replaced, and the squares of bars' lengths that have come into
+/// denominators, each with the node of the bar's turning.
+pub(super) struct Replaced<'d> {
+    pub machine: Unprojected<'d>,
+    pub lengths: Vec<(Id, Expr<'d>)>,
+}
+
+/// Replaces bodies by masses at the joints of their bars.
+///
+/// `arms` are the nodes that are components of points on bars.
+pub(super) fn replaced<'d>(
+    machine: &Unprojected<'d>,
+    arms: &BTreeMap<Id, Arm<'d>>,
+) -> Replaced<'d> {
+    let mut replaced = Replaced {
+        machine: machine.clone(),
+        lengths: Vec::new(),
+    };
+    if !machine.drifts {
+        return replaced;
+    }
+    let carried = carried(arms);
+    let mut gone: Vec<Bar<'d>> = Vec::new();
+    replaced.machine.inertia.clear();
+    let mut rest = machine.inertia.as_slice();
+    while let Some((&first, others)) = rest.split_first() {
+        rest = others;
+        let on_bar = others
+            .first()
+            .and_then(|&second| bar(first, second, arms, &carried));
+        let Some(bar) = on_bar else {
+            replaced.machine.inertia.push(first);
+            continue;
+        };
+        rest = &others[1..];
+        let [u, _, mass] = first;
+        let dag = u.dag();
+        let (near, far) = (mass * (1 - bar.share), mass * bar.share);
+        for (joint, tip) in bar.joint.iter().zip(&bar.tip) {
+            let [joint, tip] = [joint, tip].map(|id| dag.expr(*id));
+            replaced.machine.inertia.push([joint, joint, near]);
+            replaced.machine.inertia.push([tip, tip, far]);
+        }
+        let turning = dag.expr(bar.turning);
+        // λ² l² and λ l² are products of lengths, without a quotient.
+        let [squared, single] = [2, 1].map(|power| bar.share.powi(power) * bar.length_squared);
+        let left = mass * (squared - single);
+        replaced.machine.inertia.push([turning, turning, left]);
+        if !replaced.lengths.iter().any(|(id, _)| *id == bar.turning) {
+            replaced.lengths.push((bar.turning, bar.length_squared));
+        }
+        gone.push(bar);
+    }
+    let on = |u: Expr<'d>| {
+        gone.iter().find_map(|bar| {
+            let component = bar.body.iter().position(|id| *id == u.id())?;
+            let ends = [bar.joint[component], bar.tip[component]];
+            Some((bar, ends.map(|id| u.dag().expr(id))))
+        })
+    };
+    replaced.machine.loads.clear();
+    for &(u, load) in &machine.loads {
+        match on(u) {
+            Some((bar, [joint, tip])) => {
+                let parts = [(joint, load * (1 - bar.share)), (tip, load * bar.share)];
+                replaced.machine.loads.extend(parts);
+            }
+            None => replaced.machine.loads.push((u, load)),
+        }
+    }
+    replaced.machine.gravity.clear();
+    for &(u, g) in &machine.gravity {
+        let ends = on(u).map_or(vec![u], |(_, ends)| ends.to_vec());
+        replaced
+            .machine
+            .gravity
+            .extend(ends.into_iter().map(|u| (u, g)));
+    }
+    replaced
+}
+
+/// A body on a bar.
+struct Bar<'d> {
+    body: [Id; 2],
+    joint: [Id; 2],
+    tip: [Id; 2],
+    turning: Id,
+    /// `λ`.
+    share: Expr<'d>,
+    /// `l²`.
+    length_squared: Expr<'d>,
+}
+
+/// The points on each bar that carry something, one component each.
+fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
+    let mut carried: BTreeMap<(Id, Id), Vec<Id>> = BTreeMap::new();
+    for (id, arm) in arms.iter().filter(|(_, arm)| arm.carries) {
+        carried
+            .entry((arm.joint, arm.turning))
+            .or_default()
+            .push(*id);
+    }
+    carried
+}
+
+/// The bar that a point is on, if there is another point in the same direction from its joint.
+fn bar<'d>(
+    [x, x_again, weight]: [Expr<'d>; 3],
+    [y, y_again, weight_of_y]: [Expr<'d>; 3],
+    arms: &BTreeMap<Id, Arm<'d>>,
+    carried: &BTreeMap<(Id, Id), Vec<Id>>,
+) -> Option<Bar<'d>> {
+    let is_point = x == x_again && y == y_again && weight == weight_of_y;
+    if !is_point || weight.stage() > Stage::PARAMETER {
+        return None;
+    }
+    let body = [x.id(), y.id()];
+    let [at_x, at_y] = [arms.get(&body[0])?, arms.get(&body[1])?];
+    if at_x.turning != at_y.turning || at_x.joint == at_y.joint {
+        return None;
+    }
+    let fixed = |e: Expr<'d>| e.stage() <= Stage::PARAMETER;
+    let others = |arm: &Arm<'d>| {
+        let points = carried.get(&(arm.joint, arm.turning));
+        points.into_iter().flatten().copied()
+    };
+    for tip_x in others(at_x).filter(|id| !body.contains(id)) {
+        let share = at_x.across / arms[&tip_x].across;
+        if !fixed(share) {
+            continue;
+        }
+        let is_tip = |id: &Id| at_y.across == share * arms[id].across;
+        let Some(tip_y) = others(at_y).filter(|id| !body.contains(id)).find(is_tip) else {
+            continue;
+        };
+        let length_squared = arms[&tip_x].across.square() + arms[&tip_y].across.square();
+        if fixed(length_squared) {
+            return Some(Bar {
+                body,
+                joint: [at_x.joint, at_y.joint],
+                tip: [tip_x, tip_y],
+                turning: at_x.turning,
+                share,
+                length_squared,
+            });
+        }
+    }
+    None
+}
