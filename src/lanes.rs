@@ -1,5 +1,7 @@
 //! The same machine at several states, or with several sets of parameters, at once.
 
+use core::fmt::{self, Display};
+
 use lagrangian_native::Lanes;
 
 use crate::{Singular, System, Vector};
@@ -8,12 +10,10 @@ use crate::{Singular, System, Vector};
 /// sweeps over parameters or start values, where one evaluation does not wait for another. `N` is
 /// 2, 4 or 8.
 ///
-/// A lane's result is that of the system alone, bit for bit, whatever the other lanes hold.
-///
-/// No lane stops the others. One whose parameters leave it without accelerations gets NaN; one
-/// whose mass matrix becomes singular on the way gets what division by a vanished pivot gives.
-/// There is no error: where [`System::accelerations`] refuses because rounding has left too little
-/// of a pivot, a lane may hold numbers of no worth.
+/// A lane's result is that of the system alone, bit for bit, whatever the other lanes hold. No lane
+/// stops the others: one that has no accelerations has its error, which is that of the system
+/// alone, and the others have their numbers. (They are then evaluated one by one, which takes `N`
+/// times as long.)
 ///
 /// ```
 /// use lagrangian::{Lanes, Several};
@@ -27,22 +27,52 @@ use crate::{Singular, System, Vector};
 /// let q = [Lanes::splat(0.3), Lanes::splat(-0.2)];
 /// let v = [Lanes::splat(0.0); 2];
 /// let u = four.default_inputs(&systems[0]);
-/// let a = four.accelerations(Lanes::splat(0.0), &q, &v, &u);
+/// let mut a = v;
+/// four.accelerations(Lanes::splat(0.0), &q, &v, &u, &mut a)?;
 /// assert!(a[0][0].abs() > a[0][3].abs()); // the shortest starts fastest
+/// # Ok::<(), lagrangian::SomeSingular<4>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Several<S: Abreast<N>, const N: usize> {
     equations: S::Several,
+    /// The same, for where one of them stops the others.
+    systems: [S; N],
     /// The lanes that have no accelerations at all, where there are any.
     singular: Option<[bool; N]>,
 }
+
+/// Some of several systems have no accelerations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SomeSingular<const N: usize> {
+    /// What each lane stopped at; the accelerations of such a lane are not numbers.
+    pub lanes: [Option<Singular>; N],
+}
+
+impl<const N: usize> Display for SomeSingular<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lanes = self.lanes.iter().enumerate();
+        let stopped = lanes.filter_map(|(lane, singular)| Some((lane, singular.as_ref()?)));
+        for (place, (lane, singular)) in stopped.enumerate() {
+            let separator = if place == 0 { "" } else { "; " };
+            write!(f, "{separator}lane {lane}: {singular}")?;
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> core::error::Error for SomeSingular<N> {}
 
 impl<S: Abreast<N>, const N: usize> Several<S, N> {
     /// A system for each lane.
     pub fn new(systems: [&S; N]) -> Self {
         let singular = systems.map(S::is_singular);
+        // Nothing comes of equations that have no accelerations: others take their place.
+        let whole = systems.into_iter().find(|system| !system.is_singular());
+        let stand_in = |system: &S| if system.is_singular() { whole } else { None };
+        let evaluated = systems.map(|system| stand_in(system).unwrap_or(system));
         Several {
-            equations: S::abreast(systems),
+            equations: S::abreast(evaluated),
+            systems: systems.map(|system| *system),
             singular: singular.contains(&true).then_some(singular),
         }
     }
@@ -52,35 +82,61 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
         Several::new([system; N])
     }
 
-    /// What emitted functions take for these systems.
+    /// What emitted functions take for these systems. A system that has no accelerations at all is
+    /// represented by another one.
     pub fn equations(&self) -> &S::Several {
         &self.equations
     }
 
     /// Accelerations `a = M⁻¹ f` of every lane: at time `t`, coordinates `q`, rates `v` and inputs
     /// `u` of that lane.
+    ///
+    /// # Errors
+    /// If there are lanes that have none. All others have got theirs.
+    #[inline]
     pub fn accelerations(
         &self,
         t: Lanes<N>,
         q: &S::Vectors,
         v: &S::Vectors,
         u: &S::SeveralInputs,
-    ) -> S::Vectors {
-        // No lane stops the others, so there is no error; were there one, it would concern all of
-        // them.
-        let (mut a, is_error) = match S::accelerations_abreast(&self.equations, t, q, v, u) {
-            Ok(a) => (a, false),
-            Err(_) => (S::Vectors::ZEROS, true),
-        };
-        if is_error || self.singular.is_some() {
-            let undefined = self.singular.filter(|_| !is_error).unwrap_or([true; N]);
-            for row in a.as_mut() {
-                for (number, _) in row.0.iter_mut().zip(undefined).filter(|(_, is)| *is) {
-                    *number = f64::NAN;
-                }
+        a: &mut S::Vectors,
+    ) -> Result<(), SomeSingular<N>> {
+        let evaluated = S::accelerations_abreast(&self.equations, t, q, v, u, a);
+        match (evaluated, self.singular) {
+            (Ok(()), None) => Ok(()),
+            (Ok(()), Some(singular)) => self.one_by_one(singular, t, (q, v, u), a),
+            (Err(_), _) => self.one_by_one([true; N], t, (q, v, u), a),
+        }
+    }
+
+    /// The accelerations of these lanes, each by itself.
+    #[cold]
+    fn one_by_one(
+        &self,
+        lanes: [bool; N],
+        t: Lanes<N>,
+        (q, v, u): (&S::Vectors, &S::Vectors, &S::SeveralInputs),
+        a: &mut S::Vectors,
+    ) -> Result<(), SomeSingular<N>> {
+        let mut singular = [None; N];
+        for (lane, system) in self.systems.iter().enumerate().filter(|(k, _)| lanes[*k]) {
+            let (q, v) = (q.lane(lane), v.lane(lane));
+            let u = S::inputs_of_lane(u, lane);
+            let mut own = q.zeros_like();
+            singular[lane] = system.accelerations(t[lane], &q, &v, &u, &mut own).err();
+            for (row, number) in a.as_mut().iter_mut().zip(own.as_slice()) {
+                row[lane] = if singular[lane].is_some() {
+                    f64::NAN
+                } else {
+                    *number
+                };
             }
         }
-        a
+        match singular.iter().any(Option::is_some) {
+            true => Err(SomeSingular { lanes: singular }),
+            false => Ok(()),
+        }
     }
 
     /// A vector for each lane, side by side.
@@ -107,11 +163,11 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
 
 /// Equations of motion of which `N` can be evaluated at once, by [`Several`]. Emitted code
 /// implements it.
-pub trait Abreast<const N: usize>: System {
+pub trait Abreast<const N: usize>: System + Copy {
     /// The equations of `N` systems.
     type Several: Clone + Copy + core::fmt::Debug;
     /// One row of lanes per coordinate, in the order of the description.
-    type Vectors: LaneVector<N>;
+    type Vectors: LaneVector<N, Vector = Self::Vector>;
     /// The inputs of `N` systems by name.
     type SeveralInputs;
 
@@ -121,25 +177,41 @@ pub trait Abreast<const N: usize>: System {
     /// Inputs for each of them.
     fn inputs_abreast(inputs: [&Self::Inputs; N]) -> Self::SeveralInputs;
 
+    /// The inputs of one of them; `lane` is less than N.
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Self::Inputs;
+
     /// Whether the parameters alone leave the system without accelerations.
     fn is_singular(&self) -> bool;
 
-    /// [`System::accelerations`] of every lane.
+    /// [`System::accelerations`] of every lane, or of none if one of them has none.
     fn accelerations_abreast(
         several: &Self::Several,
         t: Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, Singular>;
+        a: &mut Self::Vectors,
+    ) -> Result<(), Singular>;
 }
 
 /// `[Lanes<N>; D]`: a row of `N` lanes for each of D coordinates.
 pub trait LaneVector<const N: usize>: Copy + AsRef<[Lanes<N>]> + AsMut<[Lanes<N>]> {
+    /// One number for each coordinate.
+    type Vector: Vector;
+
     /// Zeros everywhere.
     const ZEROS: Self;
+
+    /// The numbers of a lane, which is less than N.
+    fn lane(&self, lane: usize) -> Self::Vector;
 }
 
 impl<const N: usize, const D: usize> LaneVector<N> for [Lanes<N>; D] {
+    type Vector = [f64; D];
+
     const ZEROS: Self = [Lanes::splat(0.0); D];
+
+    fn lane(&self, lane: usize) -> [f64; D] {
+        self.map(|row| row[lane])
+    }
 }

@@ -80,7 +80,7 @@ mod simulation;
 mod solution;
 
 pub use balance::{Alongside, Energies, EnergyBalance, EnergyIntegrals, NoBalance};
-pub use lanes::{Abreast, LaneVector, Several};
+pub use lanes::{Abreast, LaneVector, Several, SomeSingular};
 pub use methods::{METHODS, Method};
 pub use piece::Piece;
 pub use stepper::{

@@ -353,7 +353,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t3 = n(p.k11) * t2;
         let t4 = sin_theta.neg_mul_add(n(p.k2), theta_dot * n(p.hinge));
         let t5 = t2.neg_mul_add(t3, n(p.k8));
-        let t5 = checked(t5, n(p.k8), 1.7763568394002505e-15, 1)?;
+        check(t5, n(p.k8), 1.7763568394002505e-15, 1)?;
         let t6 = t1.mul_add(t3, t4) / t5;
         let x_ddot = t3.mul_add(t6, n(p.k11) * t1);
         let theta_ddot = -t6;
@@ -536,8 +536,7 @@ impl ::lagrangian::System for Prepared {
         u: &Inputs,
         result: &mut [f64; 2],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, v, u)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -653,6 +652,12 @@ where
         }
     }
 
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+        Inputs {
+            push: inputs.push[lane],
+        }
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -663,8 +668,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, v, u)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v, u }, result)
     }
 }
 
@@ -681,19 +687,19 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -701,7 +707,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

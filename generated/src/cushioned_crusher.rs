@@ -939,11 +939,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t66 = n(p.k27) * phi2_dot.mul_add(s2_dot * n(p.k28), t45);
         let t67 = cos_phi2.neg_mul_add(t62, sin_phi2.mul_add(t63, t66)) / s2;
         let t68 = s2 * t64;
-        checked(t68, t68, 7.993605777301127e-15, 7)?;
+        check(t68, t68, 7.993605777301127e-15, 7)?;
         let t69 = s1 * s1;
         let t70 = n(p.m1) * t69;
         let t71 = t69 * n(p.k13);
-        checked(t70, t71, 7.993605777301127e-15, 4)?;
+        check(t70, t71, 7.993605777301127e-15, 4)?;
         let x_ddot = n(p.k34) * t38;
         let y_ddot = n(p.k34) * t39;
         let theta_ddot = t36 * n(p.k31);
@@ -1311,8 +1311,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, t, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1481,6 +1480,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1491,8 +1494,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, t, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
     }
 }
 
@@ -1518,19 +1522,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1538,7 +1542,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

@@ -882,12 +882,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t135 = t107.neg_mul_add(phi2_ddot, n(p.k25) * t54);
         let t136 = t70.neg_mul_add(y_ddot, t62.neg_mul_add(s2_ddot, t135));
         let t137 = n(p.k26) - t58;
-        checked(t137, n(p.k7), 7.993605777301127e-15, 0)?;
+        check(t137, n(p.k7), 7.993605777301127e-15, 0)?;
         let t138 = t77 - t78;
-        checked(t138, n(p.k7), 7.993605777301127e-15, 1)?;
-        checked(t93, t92, 7.993605777301127e-15, 4)?;
-        checked(t103, n(p.m2), 7.993605777301127e-15, 6)?;
-        checked(t127, t124, 7.993605777301127e-15, 7)?;
+        check(t138, n(p.k7), 7.993605777301127e-15, 1)?;
+        check(t93, t92, 7.993605777301127e-15, 4)?;
+        check(t103, n(p.m2), 7.993605777301127e-15, 6)?;
+        check(t127, t124, 7.993605777301127e-15, 7)?;
         let x_ddot = t130 - t132;
         let theta_ddot = -n(p.k21).mul_add(t133, t134);
         let s1_ddot = t56.mul_add(t133, t136);
@@ -1138,8 +1138,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, t, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1283,6 +1282,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1293,8 +1296,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, t, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
     }
 }
 
@@ -1320,19 +1324,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1340,7 +1344,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

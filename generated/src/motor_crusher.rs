@@ -850,14 +850,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t56 = t53.neg_mul_add(cos_phi1, t51.mul_add(sin_phi1, t55)) / s1;
         let t57 = t15.neg_mul_add(t51, t50.mul_add(t31 * n(p.k8), t16));
         let t58 = s2 * (s2 * n(p.m2));
-        checked(t58, t58, 8.881784197001252e-15, 7)?;
+        check(t58, t58, 8.881784197001252e-15, 7)?;
         let t59 = s1 * s1;
         let t60 = t59 * n(p.m1);
         let t61 = t59 * n(p.k7);
-        checked(t60, t61, 8.881784197001252e-15, 4)?;
-        checked(t23, n(p.k11), 8.881784197001252e-15, 1)?;
-        checked(t38, n(p.k11), 8.881784197001252e-15, 0)?;
-        checked(t49, n(p.k13), 8.881784197001252e-15, 2)?;
+        check(t60, t61, 8.881784197001252e-15, 4)?;
+        check(t23, n(p.k11), 8.881784197001252e-15, 1)?;
+        check(t38, n(p.k11), 8.881784197001252e-15, 0)?;
+        check(t49, n(p.k13), 8.881784197001252e-15, 2)?;
         let x_ddot = -t51;
         let y_ddot = -t53;
         let theta_ddot = -t50;
@@ -1170,8 +1170,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 10],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 10], matrix: &mut [f64; 100]) {
@@ -1318,6 +1317,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1328,8 +1331,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
     }
 }
 
@@ -1355,19 +1359,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1375,7 +1379,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

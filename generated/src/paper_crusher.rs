@@ -874,12 +874,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t125 = t99.mul_sub(phi2_ddot, n(p.k25) * t34);
         let t126 = t53.mul_add(y_ddot, t78.mul_add(s2_ddot, t125));
         let t127 = n(p.k26) - t50;
-        checked(t127, n(p.k11), 7.993605777301127e-15, 0)?;
+        check(t127, n(p.k11), 7.993605777301127e-15, 0)?;
         let t128 = t60 - t61;
-        checked(t128, n(p.k11), 7.993605777301127e-15, 1)?;
-        checked(t74, t73, 7.993605777301127e-15, 4)?;
-        checked(t95, n(p.m2), 7.993605777301127e-15, 6)?;
-        checked(t119, t116, 7.993605777301127e-15, 7)?;
+        check(t128, n(p.k11), 7.993605777301127e-15, 1)?;
+        check(t74, t73, 7.993605777301127e-15, 4)?;
+        check(t95, n(p.m2), 7.993605777301127e-15, 6)?;
+        check(t119, t116, 7.993605777301127e-15, 7)?;
         let theta_ddot = n(p.k21).mul_sub(x_ddot, t124);
         let s1_ddot = -t36.mul_add(x_ddot, t126);
         let phi1_ddot = -t120;
@@ -1121,8 +1121,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, t, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1268,6 +1267,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1278,8 +1281,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, t, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
     }
 }
 
@@ -1305,19 +1309,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1325,7 +1329,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

@@ -339,8 +339,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 1],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q }, result)
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
@@ -443,6 +442,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -453,8 +456,9 @@ where
         q: &Self::Vectors,
         _: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q }, result)
     }
 }
 
@@ -475,7 +479,7 @@ fn quantities<'a, const N: usize>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

@@ -1119,7 +1119,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t147 = cos_q_4.mul_add(t146, n(p.k55).mul_add(t136, t144 * t145));
         let t148 = t0.mul_add(t126, t4.mul_add(t147, t130 * t137));
         let t149 = t4.mul_add(t148, t0.mul_add(t139, t140));
-        let t149 = checked(t149, t149, 5.329070518200751e-15, 0)?;
+        check(t149, t149, 5.329070518200751e-15, 0)?;
         let t150 = N::ONE / t149;
         let t151 = t115.neg_mul_add(n(p.k45), sin_q_5 * n(p.k3));
         let t152 = cos_q_5.neg_mul_add(t122, cos_q_6 * cos_q_4);
@@ -1168,7 +1168,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t195 = N::from_f64(2.0).neg_mul_add(t194, n(p.k13)) - t192;
         let t196 = t193 + t195;
         let t197 = t173.neg_mul_add(t174, t196);
-        let t197 = checked(t197, t196, 5.329070518200751e-15, 1)?;
+        check(t197, t196, 5.329070518200751e-15, 1)?;
         let t198 = N::ONE / t197;
         let t199 = cos_q_5.mul_add(t165, cos_q_6 * sin_q_4);
         let t200 = sin_q_4.mul_sub(t151, cos_q_4 * t119);
@@ -1183,7 +1183,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t209 = n(u.tau[2]) - q_3_dot.mul_sub(n(p.friction), t180);
         let t210 = t208.mul_add(t187, t206.neg_mul_add(t111, t209));
         let t211 = t207.neg_mul_add(t208, t205.neg_mul_add(t206, t191));
-        let t211 = checked(t211, t191, 5.329070518200751e-15, 2)?;
+        check(t211, t191, 5.329070518200751e-15, 2)?;
         let t212 = N::ONE / t211;
         let t213 = t207.mul_add(t204, t205.mul_add(t157, t201));
         let t214 = t212 * t213;
@@ -1199,7 +1199,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t224 = t222.neg_mul_add(t210, t223);
         let t225 = t219.neg_mul_add(t220, t216.neg_mul_add(t217, t128));
         let t226 = t221.neg_mul_add(t222, t225);
-        let t226 = checked(t226, t128, 5.329070518200751e-15, 3)?;
+        check(t226, t128, 5.329070518200751e-15, 3)?;
         let t227 = N::ONE / t226;
         let t228 = t219.neg_mul_add(t204, t216.mul_add(t157, t154));
         let t229 = t221.neg_mul_add(t214, t228);
@@ -1222,7 +1222,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t246 = t245.neg_mul_add(t224, t241.neg_mul_add(t210, t242));
         let t247 = t238.neg_mul_add(t239, t233.neg_mul_add(t234, t144));
         let t248 = t244.neg_mul_add(t245, t240.neg_mul_add(t241, t247));
-        let t248 = checked(t248, t144, 5.329070518200751e-15, 4)?;
+        check(t248, t144, 5.329070518200751e-15, 4)?;
         let t249 = N::ONE / t248;
         let t250 = t238.neg_mul_add(t204, t233.mul_sub(t157, t119));
         let t251 = t244.neg_mul_add(t230, t240.neg_mul_add(t214, t250));
@@ -1231,7 +1231,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t254 = t203.neg_mul_add(t204, t156.neg_mul_add(t157, n(p.k3)));
         let t255 = t229.neg_mul_add(t230, t213.neg_mul_add(t214, t254));
         let t256 = t251.neg_mul_add(t252, t255);
-        let t256 = checked(t256, n(p.k3), 5.329070518200751e-15, 5)?;
+        check(t256, n(p.k3), 5.329070518200751e-15, 5)?;
         let q_6_ddot = t252.neg_mul_add(t246, t253) / t256;
         let q_5_ddot = t252.neg_mul_add(q_6_ddot, t249 * t246);
         let t257 = t157.mul_add(q_6_ddot, t150 * t111);
@@ -1552,8 +1552,7 @@ impl ::lagrangian::System for Prepared {
         u: &Inputs,
         result: &mut [f64; 6],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, v, u)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
@@ -1733,6 +1732,19 @@ where
         }
     }
 
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+        Inputs {
+            tau: [
+                inputs.tau[0][lane],
+                inputs.tau[1][lane],
+                inputs.tau[2][lane],
+                inputs.tau[3][lane],
+                inputs.tau[4][lane],
+                inputs.tau[5][lane],
+            ],
+        }
+    }
+
     fn is_singular(&self) -> bool {
         false
     }
@@ -1743,8 +1755,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, v, u)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v, u }, result)
     }
 }
 
@@ -1761,19 +1774,19 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 

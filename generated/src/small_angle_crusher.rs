@@ -810,7 +810,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t56 = t55 - x_dot.mul_add(n(p.k21), n(p.k20) * x);
         let t57 = t42.neg_mul_add(t37, t53.neg_mul_add(t51, t56));
         let t58 = t41.neg_mul_add(t42, t52.neg_mul_add(t53, n(p.k15)));
-        let t58 = checked(t58, n(p.k15), 7.993605777301127e-15, 0)?;
+        check(t58, n(p.k15), 7.993605777301127e-15, 0)?;
         let t59 = N::ONE / t58;
         let t60 = t41.neg_mul_add(t40, n(p.m2) * cos_phi2);
         let t61 = t59 * t60;
@@ -827,7 +827,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t72 = t70.neg_mul_add(t57, t71);
         let t73 = t63.neg_mul_add(t64, t65.neg_mul_add(t66, n(p.k15)));
         let t74 = t69.neg_mul_add(t70, t73);
-        let t74 = checked(t74, n(p.k15), 7.993605777301127e-15, 1)?;
+        check(t74, n(p.k15), 7.993605777301127e-15, 1)?;
         let t75 = N::ONE / t74;
         let t76 = t63.neg_mul_add(t40, n(p.m2) * sin_phi2);
         let t77 = t69.neg_mul_add(t61, t76);
@@ -844,7 +844,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t88 = t87.neg_mul_add(t72, t84.mul_add(t57, t85));
         let t89 = s1 * t82;
         let t90 = t86.neg_mul_add(t87, t83.neg_mul_add(t84, t89));
-        let t90 = checked(t90, t89, 7.993605777301127e-15, 4)?;
+        check(t90, t89, 7.993605777301127e-15, 4)?;
         let t91 = N::ONE / t90;
         let t92 = cos_phi1 * sin_phi2;
         let t93 = sin_phi1 * cos_phi2;
@@ -855,7 +855,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t98 = t96.neg_mul_add(t88, t97);
         let t99 = t60.neg_mul_add(t61, t39.neg_mul_add(t40, n(p.m2)));
         let t100 = t95.neg_mul_add(t96, t77.neg_mul_add(t78, t99));
-        let t100 = checked(t100, n(p.m2), 7.993605777301127e-15, 6)?;
+        check(t100, n(p.m2), 7.993605777301127e-15, 6)?;
         let t101 = N::ONE / t100;
         let t102 = n(p.m2) * s2;
         let t103 = t102 * (t93 - t92);
@@ -880,7 +880,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t122 = t105.neg_mul_add(t106, t103.neg_mul_add(t104, t121));
         let t123 = t110.neg_mul_add(t111, t107.neg_mul_add(t108, t122));
         let t124 = t113.neg_mul_add(t114, t123);
-        let t124 = checked(t124, t121, 7.993605777301127e-15, 7)?;
+        check(t124, t121, 7.993605777301127e-15, 7)?;
         let phi2_ddot = t114.mul_add(t98, t120) / t124;
         let s2_ddot = t114.mul_add(phi2_ddot, t101 * t98);
         let t125 = t111.neg_mul_add(phi2_ddot, t91 * t88);
@@ -1140,8 +1140,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, t, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1290,6 +1289,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1300,8 +1303,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, t, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
     }
 }
 
@@ -1327,19 +1331,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1347,7 +1351,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

@@ -575,8 +575,7 @@ impl ::lagrangian::System for Prepared {
         u: &Inputs,
         result: &mut [f64; 8],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, u)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, u }, result)
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 8], matrix: &mut [f64; 64]) {
@@ -693,6 +692,12 @@ where
         }
     }
 
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+        Inputs {
+            pull: inputs.pull[lane],
+        }
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -703,8 +708,9 @@ where
         q: &Self::Vectors,
         _: &Self::Vectors,
         u: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, u)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, u }, result)
     }
 }
 
@@ -734,7 +740,7 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

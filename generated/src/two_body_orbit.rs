@@ -305,7 +305,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t0 = N::ONE / r;
         let t1 = t0.mul_sub(t0 * n(p.G), r * n(p.k9) * (phi_dot * phi_dot));
         let t2 = r * (r * n(p.k2));
-        checked(t2, t2, 1.7763568394002505e-15, 1)?;
+        check(t2, t2, 1.7763568394002505e-15, 1)?;
         let r_ddot = n(p.k10) * t1;
         let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
         let accelerations = [r_ddot.store(), phi_ddot.store()];
@@ -468,8 +468,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 2],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -582,6 +581,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -592,8 +595,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
     }
 }
 
@@ -619,19 +623,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -639,7 +643,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

@@ -378,13 +378,13 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t3 = n(u.tau1) - n(p.k6).mul_add(cos_q1, t1);
         let t4 = sin_q2.mul_add(t2, t3);
         let t5 = cos_q2.mul_add(n(p.k8), n(p.k9));
-        let t5 = checked(t5, t5, 1.7763568394002505e-15, 0)?;
+        check(t5, t5, 1.7763568394002505e-15, 0)?;
         let t6 = N::ONE / t5;
         let t7 = cos_q2.mul_add(n(p.k7), n(p.k4));
         let t8 = t6 * t7;
         let t9 = q1_dot * (n(p.k7) * q1_dot);
         let t10 = t7.neg_mul_add(t8, n(p.k4));
-        let t10 = checked(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
+        check(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
         let t11 = t8.neg_mul_add(t4, sin_q2.neg_mul_add(t9, n(u.tau2) - t1));
         let q2_ddot = t11 / t10;
         let q1_ddot = t8.neg_mul_add(q2_ddot, t6 * t4);
@@ -563,8 +563,7 @@ impl ::lagrangian::System for Prepared {
         u: &Inputs,
         result: &mut [f64; 2],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, q, v, u)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -678,6 +677,13 @@ where
         }
     }
 
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+        Inputs {
+            tau1: inputs.tau1[lane],
+            tau2: inputs.tau2[lane],
+        }
+    }
+
     fn is_singular(&self) -> bool {
         false
     }
@@ -688,8 +694,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, q, v, u)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v, u }, result)
     }
 }
 
@@ -706,19 +713,19 @@ fn quantities<'a, const N: usize>(
     names.iter().map(quantity).zip(values)
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 

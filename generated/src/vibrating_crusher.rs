@@ -702,11 +702,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t34 = t30.mul_add(t33, phi1_dot * (phi1_dot * s1));
         let t35 = t30.mul_add(t32, phi1_dot * (N::from_f64(2.0) * s1_dot));
         let t36 = s2 * (s2 * n(p.m2));
-        checked(t36, t36, 7.993605777301127e-15, 7)?;
+        check(t36, t36, 7.993605777301127e-15, 7)?;
         let t37 = s1 * s1;
         let t38 = t37 * n(p.m1);
         let t39 = t37 * n(p.k7);
-        checked(t38, t39, 7.993605777301127e-15, 4)?;
+        check(t38, t39, 7.993605777301127e-15, 4)?;
         let x_ddot = n(p.k18) * t30;
         let y_ddot = n(p.k18) * t31;
         let theta_ddot = t28 * n(p.k19);
@@ -972,8 +972,7 @@ impl ::lagrangian::System for Prepared {
         _: &Inputs,
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
-        *result = accelerations(self, t, q, v)?;
-        Ok(())
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1109,6 +1108,10 @@ where
         Inputs {}
     }
 
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
     fn is_singular(&self) -> bool {
         self.singular.is_some()
     }
@@ -1119,8 +1122,9 @@ where
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::SeveralInputs,
-    ) -> Result<Self::Vectors, ::lagrangian::Singular> {
-        accelerations(p, t, q, v)
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
     }
 }
 
@@ -1146,19 +1150,19 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
     }
 }
 
-/// A pivot of which elimination has left more than rounding errors of a diagonal element. Where
-/// numbers have several lanes, it is undefined in those in which there is nothing left.
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
 #[inline(always)]
-fn checked<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<N, ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::Singular> {
     let bound = N::from_f64(share) * diagonal;
-    match pivot.guarded(bound) {
-        Some(pivot) => Ok(pivot),
-        None => Err(singular(coordinate, pivot, diagonal)),
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
     }
 }
 
@@ -1166,7 +1170,7 @@ fn checked<N: ::lagrangian::Scalar>(
 /// no number.
 fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
-    pivot.guarded(bound).is_none()
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.

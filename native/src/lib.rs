@@ -7,7 +7,7 @@
 //!
 //! | processor | `f64` | `Lanes<2>` | `Lanes<4>` | `Lanes<8>` |
 //! | --- | --- | --- | --- | --- |
-//! | x86-64 with AVX-512 | fused | 128 bits | 256 bits | 512 bits |
+//! | x86-64 with AVX-512 | fused | 128 bits | 256 bits, 32 registers | 512 bits |
 //! | x86-64 with AVX2 and FMA | fused | 128 bits | 256 bits | twice 256 bits |
 //! | AArch64 | fused | one by one | one by one | one by one |
 //! | others, or `strict-libm` | plain | one by one | one by one | one by one |
@@ -84,6 +84,51 @@ pub type Fused = register::Register<f64>;
 pub trait Number: Copy {
     /// Runs a computation in the fastest arithmetic that there is for such numbers here.
     fn run<K: Kernel<Self>>(kernel: K) -> K::Output;
+
+    /// Runs a computation that may fail and puts its result where it belongs.
+    ///
+    /// Between the arithmetic and whoever asked for it stand functions, out of line because of their instructions. What
+    /// they return goes through memory, where it is copied in pieces of another size than it was stored in: several times
+    /// the length of an instruction, a good part of a small machine's evaluation.
+    ///
+    /// # Errors
+    /// Those of the computation; `result` is then left as it is.
+    #[inline(always)]
+    fn run_in_place<R, E, K>(kernel: K, result: &mut R) -> Result<(), E>
+    where
+        K: Kernel<Self, Output = Result<R, E>>,
+    {
+        let mut error = None;
+        let in_place = InPlace {
+            kernel,
+            result,
+            error: &mut error,
+        };
+        Self::run(in_place);
+        match error {
+            None => Ok(()),
+            Some(error) => Err(error),
+        }
+    }
+}
+
+/// A kernel and where its result goes.
+struct InPlace<'a, K, R, E> {
+    kernel: K,
+    result: &'a mut R,
+    error: &'a mut Option<E>,
+}
+
+impl<T: Copy, R, E, K: Kernel<T, Output = Result<R, E>>> Kernel<T> for InPlace<'_, K, R, E> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = T>>(self) {
+        match self.kernel.run::<N>() {
+            Ok(result) => *self.result = result,
+            Err(error) => *self.error = Some(error),
+        }
+    }
 }
 
 macro_rules! fastest {
@@ -130,7 +175,7 @@ fn plainly<N: Scalar, K: Kernel<N::Stored>>(kernel: K) -> K::Output {
 fastest! {
     f64: One else f64, f64;
     Lanes<2>: Two else [f64; 2], plain::Plain<2>;
-    Lanes<4>: Four else [f64; 4], plain::Plain<4>;
+    Lanes<4>: FourOfMany, Four else [f64; 4], plain::Plain<4>;
     Lanes<8>: Eight, TwiceFour else [f64; 8], plain::Plain<8>;
 }
 

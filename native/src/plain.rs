@@ -124,14 +124,6 @@ impl<const N: usize> Scalar for Plain<N> {
     fn exceeds(self, bound: Self) -> bool {
         self.all(bound, |x, bound| x > bound)
     }
-    #[inline(always)]
-    fn guarded(self, bound: Self) -> Option<Self> {
-        Some(self.zip(bound, |x, bound| if x > bound { x } else { f64::NAN }))
-    }
-    #[inline(always)]
-    fn tainted(self, fault: Self) -> Self {
-        self.zip(fault, |x, fault| if fault.is_nan() { f64::NAN } else { x })
-    }
     /// The first lane's.
     #[inline(always)]
     fn to_f64(self) -> f64 {

@@ -170,22 +170,6 @@ impl<V: Vector> Scalar for Register<V> {
     fn exceeds(self, bound: Self) -> bool {
         V::all(bound.0.less(self.0))
     }
-    #[inline(always)]
-    fn guarded(self, bound: Self) -> Option<Self> {
-        if !V::SEVERAL {
-            return self.exceeds(bound).then_some(self);
-        }
-        let undefined = V::splat(f64::NAN);
-        Some(Register(V::select(bound.0.less(self.0), self.0, undefined)))
-    }
-    #[inline(always)]
-    fn tainted(self, fault: Self) -> Self {
-        if !V::SEVERAL {
-            return self;
-        }
-        let undefined = V::splat(f64::NAN);
-        Register(V::select(fault.0.at_most(fault.0), self.0, undefined))
-    }
     /// The first number.
     #[inline(always)]
     fn to_f64(self) -> f64 {

@@ -176,23 +176,6 @@ pub trait Scalar:
     /// Whether `self > bound` holds for certain (in every lane, for every number of an interval). False for what is
     /// undefined. In a field without an order: whether the two differ.
     fn exceeds(self, bound: Self) -> bool;
-    /// A divisor that must exceed a bound: itself, or nothing where it [does not](Scalar::exceeds). A number of several lanes
-    /// always comes back, undefined in those lanes where it does not, so that no lane stops the others.
-    #[inline(always)]
-    fn guarded(self, bound: Self) -> Option<Self> {
-        if self.exceeds(bound) {
-            Some(self)
-        } else {
-            None
-        }
-    }
-    /// Itself, but undefined in those of several lanes in which `fault` is. A number of one lane comes back as it is: a
-    /// fault in it is an error of the whole call.
-    #[inline(always)]
-    fn tainted(self, fault: Self) -> Self {
-        let _ = fault;
-        self
-    }
     /// The nearest `f64`, for messages.
     fn to_f64(self) -> f64;
 

@@ -46,8 +46,8 @@ pub trait Language {
         cos: Option<&str>,
         angle: &Expression,
     );
-    /// Leaves the function where a pivot vanishes; whether the pivot is used after that.
-    fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], is_used: bool);
+    /// Leaves the function where a pivot vanishes.
+    fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2]);
     /// A free name for a variable, the nearest to `name`.
     fn identifier(&self, scope: &mut Scope, name: &str) -> String;
     /// What an angle may be called in the names of its sine and cosine: `theta1`, of `n(q[0])` too.
@@ -185,13 +185,7 @@ pub fn statements(
         while let Some(guard) = guards.next_if(|guard| body.is_ready(guard, index)) {
             let pivot = body.bound(guard.pivot);
             let scale = body.bound(guard.scale);
-            let later = &function.code[index + 1..];
-            let is_used = later
-                .iter()
-                .flat_map(Op::operands)
-                .any(|x| x == guard.pivot)
-                || function.results.contains(&guard.pivot);
-            language.guard(body.writer, guard, [&pivot, &scale], is_used);
+            language.guard(body.writer, guard, [&pivot, &scale]);
         }
     }
     body.results()

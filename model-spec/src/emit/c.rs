@@ -655,7 +655,7 @@ impl Language for Emitter<'_> {
         }
     }
 
-    fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2], _: bool) {
+    fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2]) {
         writer.open(format!("if ({}) {{", condition(guard, pivot, scale)));
         writer.line(format!("return {};", guard.coordinate + 1));
         writer.close("}");

@@ -148,7 +148,6 @@ pub trait Loops: Language {
         writer: &mut Writer,
         guard: &Guard,
         names: [&str; 2],
-        is_used: bool,
         coordinate: &str,
     );
     /// The sines and cosines of all angles of an array; where those of the angle at an index stand.
@@ -299,24 +298,9 @@ impl<L: Loops> Body<'_, L> {
             Kind::AllCircular => self.all_circular(&plan.steps.angles),
             Kind::Guard(_) => {
                 let guard = &self.function.guards[step.guard];
-                // What comes back is undefined in lanes whose pivot vanishes: a variable, no element.
-                let is_element = !self.places[guard.pivot.index()].is_empty();
-                if is_element && !matches!(self.function.op(guard.pivot), Op::Read(_)) {
-                    let element = self.text(guard.pivot).text;
-                    let name = format!("t{}", self.temporaries);
-                    self.temporaries += 1;
-                    self.bind(guard.pivot, &name, &element);
-                    self.places[guard.pivot.index()].clear();
-                }
                 let names = [guard.pivot, guard.scale].map(|value| self.bound(value));
-                let later = &plan.steps.steps[index + 1..];
-                let is_used = later
-                    .iter()
-                    .any(|step| step.operands.contains(&guard.pivot))
-                    || self.function.results.contains(&guard.pivot);
                 let [pivot, scale] = names.each_ref().map(String::as_str);
-                self.language
-                    .guard(self.writer, guard, [pivot, scale], is_used);
+                self.language.guard(self.writer, guard, [pivot, scale]);
             }
             _ => {
                 let value = step.defines.into_iter().flatten().next();
@@ -493,15 +477,9 @@ impl<L: Loops> Body<'_, L> {
                     let (first, second) = (at(0).coordinate, at(1).coordinate);
                     let coordinate = counted(first, second as i64 - first as i64, &counter);
                     let names = [of[0], of[1]].map(|value| self.bound(value));
-                    let later = &operands[offset + 1..];
-                    let is_used = set.contains(&of[0])
-                        || later
-                            .iter()
-                            .flatten()
-                            .any(|operand| aliases[operand] == of[0]);
                     let [pivot, scale] = names.each_ref().map(String::as_str);
                     let guard = at(0);
-                    language.guard_of(self.writer, guard, [pivot, scale], is_used, &coordinate);
+                    language.guard_of(self.writer, guard, [pivot, scale], &coordinate);
                 }
                 Kind::Contraction(kind) => {
                     let sum = Contraction {

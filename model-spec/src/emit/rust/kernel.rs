@@ -220,17 +220,12 @@ impl Emitter<'_> {
         self.writer
             .statement("let sound =", &format!("{};", conditions.join(" & ")));
         self.writer.open("if !sound {");
-        self.writer.line(format!("let fault = {register}::ZERO;"));
         for (guard, [pivot, scale]) in guards() {
             let share = number(guard.tolerance);
             let coordinate = guard.coordinate;
-            self.writer.line(format!(
-                "let fault = fault.tainted(checked({pivot}, {scale}, {share}, {coordinate})?);"
-            ));
+            self.writer
+                .line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
         }
-        let tainted = results.iter().map(|text| format!("{text}.tainted(fault)"));
-        let name = self.kept(function, &tainted.collect::<Vec<_>>());
-        self.writer.line(format!("return Ok({name});"));
         self.writer.close("}");
     }
 

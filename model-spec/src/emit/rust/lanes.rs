@@ -83,6 +83,30 @@ impl Emitter<'_> {
         self.writer.close("}");
 
         self.writer.gap();
+        let [several, lane] = match has_inputs {
+            true => ["inputs", "lane"],
+            false => ["_", "_"],
+        };
+        self.writer.signature(
+            "fn inputs_of_lane",
+            &[
+                format!("{several}: &Self::SeveralInputs"),
+                format!("{lane}: {usize}"),
+            ],
+            Some(&inputs),
+        );
+        let value = match has_inputs {
+            true => {
+                let paths = &self.inputs.paths;
+                self.inputs
+                    .literal(&inputs, |slot| format!("inputs.{}[lane]", paths[slot]))
+            }
+            false => Layout::Struct(inputs.clone(), Vec::new()),
+        };
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+
+        self.writer.gap();
         self.writer
             .signature("fn is_singular", &["&self".into()], Some(&bool));
         self.writer.line(match has_guards {
@@ -91,29 +115,16 @@ impl Emitter<'_> {
         });
         self.writer.close("}");
 
-        self.accelerations_abreast(
-            &number,
-            &format!("{result}<Self::Vectors, {runtime}::Singular>"),
-        );
+        self.accelerations_abreast(&number, &format!("{result}<(), {runtime}::Singular>"));
         self.writer.close("}");
     }
 
     fn accelerations_abreast(&mut self, number: &str, result: &str) {
         let n = self.program.dimension();
-        let (call, used) = match self.emitted(Role::Accelerations) {
-            Some(function) => {
-                let arguments = self.arguments(self.needs(function));
-                let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
-                let name = self.function_name(Role::Accelerations);
-                (format!("{name}({})", names.join(", ")), names)
-            }
-            None => {
-                let runtime = &self.options.runtime;
-                (
-                    format!("Ok([{runtime}::Lanes::splat(0.0); {n}])"),
-                    Vec::new(),
-                )
-            }
+        let call = self.accelerations_in_place(number, "p");
+        let used = match self.emitted(Role::Accelerations) {
+            Some(function) => self.arguments(self.needs(function)),
+            None => Vec::new(),
         };
         let arguments = [
             ("p", "&Self::Several"),
@@ -123,13 +134,48 @@ impl Emitter<'_> {
             ("u", "&Self::SeveralInputs"),
         ]
         .map(|(name, kind)| {
-            let shown = if used.contains(&name) { name } else { "_" };
+            let is_used = used.iter().any(|(used, _)| *used == name);
+            let shown = if is_used { name } else { "_" };
             format!("{shown}: {kind}")
-        });
+        })
+        .into_iter()
+        .chain(["result: &mut Self::Vectors".to_owned()])
+        .collect::<Vec<_>>();
         self.writer.gap();
         self.writer
             .signature("fn accelerations_abreast", &arguments, Some(result));
-        self.writer.line(call);
+        match call {
+            Some(call) => self.writer.line(call),
+            None => {
+                let runtime = self.options.runtime.clone();
+                self.writer
+                    .line(format!("*result = [{runtime}::Lanes::splat(0.0); {n}];"));
+                self.writer.line("Ok(())");
+            }
+        }
         self.writer.close("}");
+    }
+
+    /// The accelerations of `equations` on numbers of this type, computed where `result` points to; `None` if there is no
+    /// function for them.
+    pub(super) fn accelerations_in_place(&self, number: &str, equations: &str) -> Option<String> {
+        let function = self.emitted(Role::Accelerations)?;
+        let runtime = &self.options.runtime;
+        let [call, _] = &self.types.accelerations;
+        let arguments = self.arguments(self.needs(function));
+        let fields: Vec<String> = arguments
+            .iter()
+            .map(|(name, _)| match *name {
+                "p" if equations != "p" => format!("p: {equations}"),
+                name => name.to_owned(),
+            })
+            .collect();
+        let kernel = match fields.is_empty() {
+            true => format!("{call}(::core::marker::PhantomData::<{number}>)"),
+            false => format!("{call} {{ {} }}", fields.join(", ")),
+        };
+        Some(format!(
+            "<{number} as {runtime}::Number>::run_in_place({kernel}, result)"
+        ))
     }
 }

@@ -104,9 +104,9 @@ impl Language for Rust<'_> {
         }
     }
 
-    fn guard(&self, writer: &mut Writer, guard: &Guard, [pivot, scale]: [&str; 2], is_used: bool) {
+    fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2]) {
         let coordinate = guard.coordinate.to_string();
-        self.guard_of(writer, guard, [pivot, scale], is_used, &coordinate);
+        self.guard_of(writer, guard, names, &coordinate);
     }
 
     fn error(&self, of: Rounded, a: &Text, b: &Text) -> Text {
@@ -233,20 +233,11 @@ impl Loops for Rust<'_> {
         writer: &mut Writer,
         guard: &Guard,
         [pivot, scale]: [&str; 2],
-        is_used: bool,
         coordinate: &str,
     ) {
         if self.in_registers {
-            // What comes back is undefined in those of several lanes whose pivot vanishes.
-            let is_variable = pivot.chars().all(|c| c.is_alphanumeric() || c == '_');
-            let result = match is_variable && is_used {
-                true => format!("let {pivot} = "),
-                false => String::new(),
-            };
             let share = number(guard.tolerance);
-            return writer.line(format!(
-                "{result}checked({pivot}, {scale}, {share}, {coordinate})?;"
-            ));
+            return writer.line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
         }
         writer.open(format!("if {} {{", vanishes(guard, pivot, scale)));
         writer.line(format!(

@@ -194,17 +194,18 @@ impl Emitter<'_> {
             self.types.known("Result"),
             self.options.runtime
         );
-        let call = self.call(Role::Accelerations);
+        let f64 = self.types.known("f64");
+        let call = self.accelerations_in_place(&f64, "self");
         self.method(
             "accelerations",
             &["t", "q", "v", "u", "result"],
             Some(&result),
-            |body| {
-                match call {
-                    Some(call) => body.line(format!("*result = {call}?;")),
-                    None => body.line(format!("*result = [0.0; {n}];")),
+            |body| match call {
+                Some(call) => body.line(call),
+                None => {
+                    body.line(format!("*result = [0.0; {n}];"));
+                    body.line("Ok(())");
                 }
-                body.line("Ok(())");
             },
         );
         let call = self.call(Role::MassMatrix);
@@ -401,27 +402,27 @@ impl Emitter<'_> {
         let result = self.types.known("Result");
         self.writer.gap();
         self.docs(
-            "A pivot of which elimination has left more than rounding errors of a diagonal element. \
-             Where numbers have several lanes, it is undefined in those in which there is nothing left.",
+            "Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element, in any of \
+             several lanes.",
         );
         self.writer.line("#[inline(always)]");
         self.writer.signature(
-            &format!("fn checked<{register}: {runtime}::Scalar>"),
+            &format!("fn check<{register}: {runtime}::Scalar>"),
             &[
                 format!("pivot: {register}"),
                 format!("diagonal: {register}"),
                 format!("share: {}", self.types.known("f64")),
                 format!("coordinate: {}", self.types.known("usize")),
             ],
-            Some(&format!("{result}<{register}, {runtime}::Singular>")),
+            Some(&format!("{result}<(), {runtime}::Singular>")),
         );
         self.writer.line(format!(
             "let bound = {register}::from_f64(share) * diagonal;"
         ));
-        self.writer.open("match pivot.guarded(bound) {");
-        self.writer.line("Some(pivot) => Ok(pivot),");
+        self.writer.open("match pivot.exceeds(bound) {");
+        self.writer.line("true => Ok(()),");
         self.writer
-            .line("None => Err(singular(coordinate, pivot, diagonal)),");
+            .line("false => Err(singular(coordinate, pivot, diagonal)),");
         self.writer.close("}");
         self.writer.close("}");
     }
@@ -447,7 +448,7 @@ impl Emitter<'_> {
         );
         self.writer
             .line(format!("let bound = {scalar}::from_f64(share) * diagonal;"));
-        self.writer.line("pivot.guarded(bound).is_none()");
+        self.writer.line("!pivot.exceeds(bound)");
         self.writer.close("}");
     }
 
