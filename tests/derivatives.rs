@@ -2,8 +2,11 @@
 //! numbers through the emitted accelerations.
 #![cfg(feature = "macros")]
 
+mod support;
+
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
-use lagrangian::{Linearize, System};
+use lagrangian::{Linearize, Machine, System};
+use support::library;
 
 lagrangian::machine! {
     /// A damped pendulum with a motor.
@@ -126,6 +129,81 @@ fn what_is_linearized_is_what_was_derived() {
     assert_eq!(a, found.accelerations);
     assert_eq!(by_q.as_slice(), found.by_coordinates.as_flattened());
     assert_eq!(by_v.as_slice(), found.by_rates.as_flattened());
+}
+
+/// A description that asks for no derivatives has them in the interpreter all the same, by dual numbers. The same chain with
+/// and without the section: one differentiates the forces and solves, the other carries the derivative through everything.
+#[test]
+fn what_nobody_asked_for_is_linearized_by_dual_numbers() {
+    let text = |derivatives: &str| {
+        format!(
+            "machine Chain in plane {{
+                parameters {{ l: m = 0.3, m: kg = 0.5, A: m = 0.1, w: rad/s = 7, k: N*m = 2, b: N*m*s = 0.1, g: m/s^2 = 9.81 }}
+                constants {{ N = 4 }}
+                coordinates {{ q[1..N]: rad = 0.3 }}
+                inputs {{ tau: N*m = 0.7 }}
+                frames {{
+                    joint[0] = ground.shift(A*sin(w*t), 0),
+                    joint[i in 1..N] = joint[i-1].turn(q[i]).shift(0, -l)
+                }}
+                bodies {{ bob[i in 1..N] {{ mass: m, at: joint[i].origin }} }}
+                gravity (0, -g);
+                torsion_springs {{ last {{ stiffness: k, twist: q[N] }} }}
+                dissipations {{ hinge: b*der(q[1])^2/2 }}
+                forces {{ motor {{ on: q[2], value: tau }} }}
+                {derivatives}
+            }}"
+        )
+    };
+    let asked = library::machine(&text("derivatives { coordinates, rates }")).prepare();
+    let unasked = library::machine(&text("")).prepare();
+    let (q, v) = (vec![0.7, -0.4, 1.1, 0.2], vec![1.3, -2.1, 0.4, 3.0]);
+    let mut u = unasked.default_inputs();
+    assert_eq!(u.set("tau", 1.9), Ok(()));
+    let linearized = |system: &lagrangian::interpreted::InterpretedSystem| {
+        let (mut a, mut by_q, mut by_v) = (vec![0.0; 4], vec![0.0; 16], vec![0.0; 16]);
+        system
+            .linearize(0.3, &q, &v, &u, &mut a, &mut by_q, &mut by_v)
+            .expect("not singular");
+        [a, by_q, by_v]
+    };
+    let mut alone = vec![0.0; 4];
+    unasked
+        .accelerations(0.3, &q, &v, &u, &mut alone)
+        .expect("not singular");
+    for (found, exact) in linearized(&unasked).iter().zip(linearized(&asked)) {
+        let size = exact.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+        assert!(size > 0.0);
+        for (found, exact) in found.iter().zip(exact) {
+            // Some hundred operations on numbers of the size of the largest; no entry of this chain is 0.
+            let limit = 1e3 * f64::EPSILON * size;
+            assert!((found - exact).abs() <= limit, "{found}, not {exact}");
+        }
+    }
+    let [a, ..] = linearized(&unasked);
+    let size = alone.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+    for (a, alone) in a.iter().zip(&alone) {
+        assert!(
+            (a - alone).abs() <= 1e3 * f64::EPSILON * size,
+            "{a}, not {alone}"
+        );
+    }
+}
+
+/// Where the accelerations do not exist, neither do their derivatives.
+#[test]
+fn dual_numbers_refuse_what_accelerations_refuse() {
+    let text = "machine Polar in plane {
+        coordinates { r: m = 1, phi: rad }
+        bodies { bead { mass: 1, at: r*(cos(phi), sin(phi)) } }
+    }";
+    let system = library::machine(text).prepare();
+    let (q, v, u) = (vec![0.0, 0.3], vec![0.1, 0.2], system.default_inputs());
+    let (mut a, mut by_q, mut by_v) = (vec![0.0; 2], vec![0.0; 4], vec![0.0; 4]);
+    let alone = system.accelerations(0.0, &q, &v, &u, &mut a);
+    let refused = system.linearize(0.0, &q, &v, &u, &mut a, &mut by_q, &mut by_v);
+    assert_eq!(refused.map_err(|e| e.coordinate), Err(1));
+    assert_eq!(refused, alone);
 }
 
 /// Derivatives of the derivatives' own code: the matrix by coordinates is generic over its numbers too.
