@@ -25,6 +25,13 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A motion is to be differentiated by what the accelerations' derivatives are not known by.
+    UnknownVariable {
+        /// The name.
+        name: String,
+        /// What the description's `derivatives` asks for, of parameters and inputs.
+        known: std::vec::Vec<String>,
+    },
     /// There is no method of integration of that name.
     UnknownMethod {
         /// The name.
@@ -168,6 +175,17 @@ impl Display for Error {
                 write!(f, "`{setting}({value})`: must be {needed}")
             }
             Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
+            Self::UnknownVariable { name, known } => {
+                let known = match known.is_empty() {
+                    true => "nothing but the state".into(),
+                    false => known.join(", "),
+                };
+                write!(
+                    f,
+                    "accelerations are not differentiated by `{name}`, which has to be in the description's `derivatives`; \
+                     there is: {known}"
+                )
+            }
             Self::UnknownMethod { name } => {
                 write!(f, "no method of integration is named `{name}`; there are")?;
                 for (i, method) in crate::METHODS.iter().enumerate() {

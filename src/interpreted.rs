@@ -11,9 +11,13 @@ use std::vec;
 use std::vec::Vec;
 
 use lagrangian_scalar::{Dual, Kernel, Scalar};
+use lagrangian_spec::model::Variable;
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
-use crate::{Assumption, Linearize, Machine, Number, Quantity, Singular, Staged, State, System};
+use crate::{
+    Assumption, Differentiate, Linearize, Machine, Number, Quantity, Singular, Staged, State,
+    System,
+};
 
 /// A machine whose equations are interpreted, with the values of its parameters.
 #[derive(Clone, Debug)]
@@ -569,6 +573,56 @@ impl InterpretedSystem {
 /// The arguments of a stage.
 fn at<'a>(t: f64, q: &'a [f64], v: &'a [f64], u: &'a [f64]) -> Arguments<'a, f64> {
     Arguments { t, q, v, u, a: &[] }
+}
+
+impl Differentiate for InterpretedSystem {
+    fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
+        let own = match self.program.has_linearization() {
+            true => &self.program.derivatives[2 * self.program.dimension()..],
+            false => &[],
+        };
+        own.iter().map(|variable| {
+            let Label { name, unit } = match variable {
+                Variable::Coordinate(i) | Variable::Rate(i) => &self.names.coordinates[*i],
+                Variable::Input(i) => &self.names.inputs[*i],
+                Variable::Parameter(i) => &self.names.parameters[*i],
+            };
+            Quantity { name, unit }
+        })
+    }
+
+    fn differentiate(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &Named,
+        a: &mut Vec<f64>,
+        by_coordinates: &mut Vec<f64>,
+        by_rates: &mut Vec<f64>,
+        by_variables: &mut [f64],
+    ) -> Result<(), Singular> {
+        let n = q.len();
+        if !self.program.has_linearization() {
+            return self.linearize(t, q, v, u, a, by_coordinates, by_rates);
+        }
+        let others = self.program.derivatives.len() - 2 * n;
+        let width = 1 + 2 * n + others;
+        let mut rows = vec![0.0; n * width];
+        let u = &u.values;
+        let arguments = Arguments { t, q, v, u, a: &[] };
+        self.call(Role::Derivatives, arguments, &mut rows)?;
+        for (i, row) in rows.chunks_exact(width).enumerate() {
+            a[i] = row[0];
+            by_coordinates[i * n..][..n].copy_from_slice(&row[1..][..n]);
+            by_rates[i * n..][..n].copy_from_slice(&row[1 + n..][..n]);
+            let room = by_variables.iter_mut().skip(i * others);
+            for (to, from) in room.zip(&row[1 + 2 * n..]) {
+                *to = *from;
+            }
+        }
+        Ok(())
+    }
 }
 
 impl InterpretedSystem {

@@ -75,6 +75,8 @@ mod event;
 #[cfg(feature = "std")]
 mod run;
 #[cfg(feature = "std")]
+mod sensitivities;
+#[cfg(feature = "std")]
 mod simulation;
 #[cfg(feature = "std")]
 mod solution;
@@ -88,8 +90,8 @@ pub use stepper::{
     Tolerance, Work,
 };
 pub use system::{
-    Assumption, Coordinates, Inputs, Linearize, Machine, Outputs, Quantity, Singular, Staged,
-    State, System,
+    Assumption, Coordinates, Differentiate, Inputs, Linearize, Machine, Outputs, Quantity,
+    Singular, Staged, State, System,
 };
 pub use vector::Vector;
 
@@ -97,6 +99,8 @@ pub use vector::Vector;
 pub use error::{Error, Warning};
 #[cfg(feature = "std")]
 pub use event::{Crossing, Event};
+#[cfg(feature = "std")]
+pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]
 pub use simulation::{Progress, Simulation};
 #[cfg(feature = "std")]

@@ -283,6 +283,34 @@ pub trait Staged: System {
     ) -> Result<(), Singular>;
 }
 
+/// Equations of motion that know how their accelerations change with parameters and inputs too.
+///
+/// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the
+/// interpreter.
+pub trait Differentiate: Linearize {
+    /// Names and units of the inputs and parameters by which accelerations are differentiated, in
+    /// the order of the columns: those that the description's `derivatives` asks for.
+    fn variables(&self) -> impl ExactSizeIterator<Item = Quantity<'_>>;
+
+    /// [`linearize`](Linearize::linearize), and row after row the derivatives by the
+    /// [`variables`](Self::variables). What has no room in `by_variables` is left out.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a state, and the four things that are asked of it"
+    )]
+    fn differentiate(
+        &self,
+        t: f64,
+        q: &Self::Vector,
+        v: &Self::Vector,
+        u: &Self::Inputs,
+        a: &mut Self::Vector,
+        by_coordinates: &mut Self::Matrix,
+        by_rates: &mut Self::Matrix,
+        by_variables: &mut [f64],
+    ) -> Result<(), Singular>;
+}
+
 /// Where a machine is and how fast it moves, at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<C> {

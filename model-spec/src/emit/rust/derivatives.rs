@@ -138,5 +138,75 @@ impl Emitter<'_> {
         self.writer.line("Ok(())");
         self.writer.close("}");
         self.writer.close("}");
+        self.impl_differentiate(&arguments, &call);
+    }
+
+    /// `Differentiate`: the same with what else is differentiated by.
+    fn impl_differentiate(&mut self, arguments: &[String], call: &str) {
+        let runtime = self.options.runtime.clone();
+        let [f64, str] = ["f64", "str"].map(|name| self.types.known(name));
+        let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
+        let iterator = self.types.known("ExactSizeIterator");
+        let n = self.program.dimension();
+        let others = &self.program.derivatives[2 * n..];
+        let names = others.iter().map(|variable| {
+            let slot = match variable {
+                Variable::Coordinate(i) | Variable::Rate(i) => &self.program.coordinates[*i],
+                Variable::Input(i) => &self.program.inputs[*i],
+                Variable::Parameter(i) => &self.program.parameters[*i],
+            };
+            format!("({:?}, {:?})", slot.name.to_string(), slot.unit.to_string())
+        });
+        let table = Layout::array(names);
+        let width = others.len();
+        // The fields after the first two.
+        let fields: Vec<&str> = self.derivative_fields()[2..]
+            .iter()
+            .map(|field| field.name)
+            .collect();
+
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl {runtime}::Differentiate for {} {{",
+            self.types.prepared
+        ));
+        let quantities = format!("impl {iterator}<Item = {runtime}::Quantity<'_>>");
+        self.writer
+            .signature("fn variables", &["&self".into()], Some(&quantities));
+        let head = format!("const VARIABLES: [(&{str}, &{str}); {width}] = ");
+        self.writer.expression(&head, &table, ";");
+        self.writer.line("VARIABLES.iter().map(quantity)");
+        self.writer.close("}");
+
+        self.writer.gap();
+        let mut arguments = arguments.to_vec();
+        let room = if width > 0 { "by_variables" } else { "_" };
+        arguments.push(format!("{room}: &mut [{f64}]"));
+        self.writer
+            .signature("fn differentiate", &arguments, Some(&result));
+        self.writer.line(format!("let derivatives = {call}?;"));
+        self.writer.line("*a = derivatives.accelerations;");
+        for name in ["by_coordinates", "by_rates"] {
+            self.writer
+                .line(format!("let rows = derivatives.{name}.as_flattened();"));
+            self.writer.line(format!("{name}.copy_from_slice(rows);"));
+        }
+        if width > 0 {
+            self.writer.open(format!(
+                "for (i, row) in by_variables.chunks_exact_mut({width}).take({n}).enumerate() {{"
+            ));
+            let chain = fields.iter().skip(1).fold(
+                format!("derivatives.{}[i].iter()", fields[0]),
+                |all, name| format!("{all}.chain(&derivatives.{name}[i])"),
+            );
+            self.writer
+                .open(format!("for (to, from) in row.iter_mut().zip({chain}) {{"));
+            self.writer.line("*to = *from;");
+            self.writer.close("}");
+            self.writer.close("}");
+        }
+        self.writer.line("Ok(())");
+        self.writer.close("}");
+        self.writer.close("}");
     }
 }

@@ -1,0 +1,484 @@
+//! How a motion changes with its start, with parameters and with inputs.
+//!
+//! With `x(t; s)` a motion and `s` a number that it depends on, the derivative `y = ∂q/∂s` obeys the
+//! variational equation, equation (I.14.5) of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary
+//! Differential Equations I*, 2nd ed. 1993:
+//!
+//! ```text
+//! ÿ = ∂a/∂q y + ∂a/∂v ẏ + ∂a/∂s
+//! ```
+//!
+//! It is of second order, as the motion is. So the motion and its derivatives are one more
+//! [`System`], and all that is done to systems can be done to it.
+
+use core::cell::RefCell;
+use std::string::{String, ToString};
+use std::vec;
+use std::vec::Vec;
+
+use crate::{
+    Assumption, Coordinates, Differentiate, Error, Machine, Quantity, Singular, State, System,
+    Vector,
+};
+
+/// A machine, its motion together with the derivatives of the motion.
+///
+/// It is a [`Machine`] itself: a [`Simulation`](crate::Simulation) runs it with any method, its
+/// events, samples and states between the steps. Coordinates and rates are [`Varied`]: those of the
+/// machine, and their derivatives by each variable in the order in which the variables were asked
+/// for, in SI units: `rad` by `m` is `rad/m`.
+///
+/// Motion and derivatives are integrated together, and the tolerance holds for both. Derivatives may
+/// grow where the motion does not (in a resonance as t, in chaos as e^{λt}), so steps that are good
+/// enough for the motion alone say nothing of how good its derivatives are. In return the motion's
+/// own steps are others, by as much as the tolerance allows. Its absolute part is the same number
+/// for all; [`absolute_of`](crate::Simulation::absolute_of) sets it for one of them, `"theta by l"`.
+///
+/// The machine's system must know its derivatives: a description with `derivatives { coordinates,
+/// rates, … }`, which names the parameters and `inputs` too if they are varied; or the interpreter.
+/// Inputs are numbers here, or functions of time: what a law makes of the *state*
+/// ([`inputs`](crate::Simulation::inputs)) is not differentiated.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use lagrangian::{Machine, Sensitive, Simulation};
+///
+/// lagrangian::machine! {
+///     machine Pendulum in plane {
+///         parameters { l: m = 0.5, g: m/s^2 = 9.81 }
+///         coordinates { theta: rad = 1 }
+///         bodies { ball { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+///         gravity (0, -g);
+///         derivatives { coordinates, rates, l }
+///     }
+/// }
+///
+/// let pendulum = Pendulum::default();
+/// let sensitive = Sensitive::new(&pendulum).by("l")?.by_start("theta")?;
+/// let run = Simulation::new(&sensitive).until(2.0).run(sensitive.start())?;
+/// let q = run.at(1.5)?.q;
+/// println!("{} rad, {} rad/m, {} rad/rad", q.value.theta, q.by[0].theta, q.by[1].theta);
+///
+/// // A pendulum of another length is where the derivative says, but for the length's square.
+/// let longer = Pendulum { l: 0.5001, ..pendulum };
+/// let other = Simulation::new(&longer).until(2.0).run(longer.start())?;
+/// let difference = other.at(1.5)?.q.theta - q.value.theta;
+/// assert!((difference - q.by[0].theta * 0.0001).abs() < 1e-5 * difference.abs() + 1e-6);
+/// # Ok::<(), lagrangian::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Sensitive<'m, M> {
+    machine: &'m M,
+    variables: Vec<Variable>,
+    /// Parameters and inputs whose derivatives there are.
+    known: usize,
+    names: Vec<(String, String)>,
+}
+
+/// A value with its derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Varied<C> {
+    /// The value.
+    pub value: C,
+    /// Its derivatives by each of the variables.
+    pub by: Vec<C>,
+}
+
+/// What a motion is differentiated by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Variable {
+    /// The start value of a coordinate.
+    Start(usize),
+    /// The start value of a rate.
+    StartRate(usize),
+    /// One of [`Differentiate::variables`].
+    Other(usize),
+}
+
+impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
+    /// The motion of `machine`, so far without derivatives.
+    pub fn new(machine: &'m M) -> Self {
+        let system = machine.prepare();
+        let coordinates = system.coordinates();
+        Self {
+            machine,
+            variables: Vec::new(),
+            known: system.variables().len(),
+            names: coordinates
+                .map(|Quantity { name, unit }| (name.to_string(), unit.to_string()))
+                .collect(),
+        }
+    }
+
+    /// By the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
+    ///
+    /// # Errors
+    /// If there is no such coordinate.
+    pub fn by_start(self, coordinate: &str) -> Result<Self, Error> {
+        let index = self.coordinate(coordinate)?;
+        Ok(self.with_start(index))
+    }
+
+    /// By the start value of a coordinate's rate.
+    ///
+    /// # Errors
+    /// If there is no such coordinate.
+    pub fn by_start_rate(self, coordinate: &str) -> Result<Self, Error> {
+        let index = self.coordinate(coordinate)?;
+        Ok(self.with_start_rate(index))
+    }
+
+    /// By the start values of all coordinates, then of all rates: the state transition matrix, a
+    /// column for each.
+    pub fn by_state(mut self) -> Self {
+        let n = self.dimension();
+        for i in 0..n {
+            self = self.with_start(i);
+        }
+        for i in 0..n {
+            self = self.with_start_rate(i);
+        }
+        self
+    }
+
+    /// By a parameter or an input. Start values are held: where the description computes them from
+    /// the parameter, that part is not in the derivative.
+    ///
+    /// # Errors
+    /// If the accelerations' derivatives by it are not there: it must be in the `derivatives` of the
+    /// description.
+    pub fn by(self, name: &str) -> Result<Self, Error> {
+        let system = self.machine.prepare();
+        let found = system
+            .variables()
+            .enumerate()
+            .find(|(_, variable)| variable.name == name)
+            .map(|(index, variable)| (index, variable.unit.to_string()));
+        match found {
+            Some((index, unit)) => Ok(self.with(Variable::Other(index), (name, &unit))),
+            None => Err(Error::UnknownVariable {
+                name: name.into(),
+                known: system
+                    .variables()
+                    .map(|variable| variable.name.to_string())
+                    .collect(),
+            }),
+        }
+    }
+
+    /// A start of the motion: that of the machine, and the derivatives of it, which are 0 and 1.
+    pub fn start_from(
+        &self,
+        State { t, q, v }: State<Coordinates<M>>,
+    ) -> State<Varied<Coordinates<M>>> {
+        let system = self.machine.prepare();
+        let unit = |index: Option<usize>| {
+            let mut unit = <M::System as System>::Vector::zeros(self.dimension());
+            if let Some(index) = index {
+                unit.as_mut_slice()[index] = 1.0;
+            }
+            system.to_coordinates(&unit)
+        };
+        let by = |of: fn(&Variable) -> Option<usize>| {
+            let variables = self.variables.iter();
+            variables.map(|variable| unit(of(variable))).collect()
+        };
+        let start = |variable: &Variable| match variable {
+            Variable::Start(index) => Some(*index),
+            _ => None,
+        };
+        let start_rate = |variable: &Variable| match variable {
+            Variable::StartRate(index) => Some(*index),
+            _ => None,
+        };
+        State {
+            t,
+            q: Varied {
+                value: q,
+                by: by(start),
+            },
+            v: Varied {
+                value: v,
+                by: by(start_rate),
+            },
+        }
+    }
+
+    /// The number of the machine's own coordinates.
+    fn dimension(&self) -> usize {
+        self.names.len() / (1 + self.variables.len())
+    }
+
+    fn coordinate(&self, name: &str) -> Result<usize, Error> {
+        let own = &self.names[..self.dimension()];
+        let index = own.iter().position(|(own, _)| own == name);
+        index.ok_or_else(|| Error::UnknownCoordinate { name: name.into() })
+    }
+
+    fn with_start(self, index: usize) -> Self {
+        let (name, unit) = self.names[index].clone();
+        self.with(Variable::Start(index), (&name, &unit))
+    }
+
+    fn with_start_rate(self, index: usize) -> Self {
+        let (name, unit) = &self.names[index];
+        let (name, unit) = (std::format!("der({name})"), std::format!("({unit}/s)"));
+        self.with(Variable::StartRate(index), (&name, &unit))
+    }
+
+    fn with(mut self, variable: Variable, (name, unit): (&str, &str)) -> Self {
+        for i in 0..self.dimension() {
+            let (own, own_unit) = &self.names[i];
+            let entry = (
+                std::format!("{own} by {name}"),
+                std::format!("{own_unit}/{unit}"),
+            );
+            self.names.push(entry);
+        }
+        self.variables.push(variable);
+        self
+    }
+}
+
+impl<M: Machine<System: Differentiate>> Machine for Sensitive<'_, M> {
+    type System = SensitiveSystem<M::System>;
+
+    fn name(&self) -> &str {
+        self.machine.name()
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.machine.parameters()
+    }
+
+    fn prepare(&self) -> Self::System {
+        let n = self.dimension();
+        SensitiveSystem {
+            system: self.machine.prepare(),
+            names: self.names.clone(),
+            dimension: n,
+            variables: self.variables.clone(),
+            scratch: RefCell::new(Scratch {
+                matrices: [
+                    <M::System as System>::Matrix::zeros(n * n),
+                    <M::System as System>::Matrix::zeros(n * n),
+                ],
+                others: vec![0.0; n * self.known],
+            }),
+        }
+    }
+
+    fn start(&self) -> State<Varied<Coordinates<M>>> {
+        self.start_from(self.machine.start())
+    }
+}
+
+/// The equations of motion of a [`Sensitive`] machine, variational equations among them.
+///
+/// Vectors are the machine's own, one after another: the values, then the derivatives by each
+/// variable. Whatever else a system is asked for (matrices, forces, energies, outputs) is the
+/// machine's.
+#[derive(Clone, Debug)]
+pub struct SensitiveSystem<S: System> {
+    system: S,
+    names: Vec<(String, String)>,
+    dimension: usize,
+    variables: Vec<Variable>,
+    scratch: RefCell<Scratch<S::Matrix>>,
+}
+
+/// What an evaluation writes.
+#[derive(Clone, Debug)]
+struct Scratch<T> {
+    /// By coordinates and by rates.
+    matrices: [T; 2],
+    /// By parameters and inputs.
+    others: Vec<f64>,
+}
+
+impl<S: Differentiate> SensitiveSystem<S> {
+    /// The machine's own part of a vector.
+    fn own(&self, vector: &[f64]) -> S::Vector {
+        let mut own = S::Vector::zeros(self.dimension);
+        for (to, from) in own.as_mut_slice().iter_mut().zip(vector) {
+            *to = *from;
+        }
+        own
+    }
+
+    /// Writes the machine's own part of a vector.
+    fn put(own: &S::Vector, vector: &mut [f64]) {
+        for (to, from) in vector.iter_mut().zip(own.as_slice()) {
+            *to = *from;
+        }
+    }
+}
+
+impl<S: Differentiate> System for SensitiveSystem<S> {
+    type Vector = Vec<f64>;
+    type Matrix = Vec<f64>;
+    type Coordinates = Varied<S::Coordinates>;
+    type Inputs = S::Inputs;
+    type Outputs = S::Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
+        let names = self.names.iter();
+        names.map(|(name, unit)| Quantity { name, unit })
+    }
+
+    fn to_coordinates(&self, vector: &Vec<f64>) -> Self::Coordinates {
+        let mut parts = vector
+            .chunks(self.dimension.max(1))
+            .map(|part| self.system.to_coordinates(&self.own(part)));
+        // Without coordinates there are no parts.
+        let none = || self.system.to_coordinates(&self.own(&[]));
+        Varied {
+            value: parts.next().unwrap_or_else(none),
+            by: match self.dimension {
+                0 => self.variables.iter().map(|_| none()).collect(),
+                _ => parts.collect(),
+            },
+        }
+    }
+
+    fn to_vector(&self, coordinates: &Self::Coordinates) -> Vec<f64> {
+        let Varied { value, by } = coordinates;
+        let mut vector = vec![0.0; self.names.len()];
+        // What is missing is 0, and what is too much is not there.
+        let parts = core::iter::once(value).chain(by);
+        for (part, to) in parts.zip(vector.chunks_mut(self.dimension.max(1))) {
+            Self::put(&self.system.to_vector(part), to);
+        }
+        vector
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &S::Inputs,
+        a: &mut Vec<f64>,
+    ) -> Result<(), Singular> {
+        let n = self.dimension;
+        let mut scratch = self.scratch.borrow_mut();
+        let Scratch {
+            matrices: [by_q, by_v],
+            others,
+        } = &mut *scratch;
+        let mut own = S::Vector::zeros(n);
+        let (own_q, own_v) = (self.own(q), self.own(v));
+        self.system
+            .differentiate(t, &own_q, &own_v, u, &mut own, by_q, by_v, others)?;
+        Self::put(&own, a);
+        let (by_q, by_v) = (by_q.as_slice(), by_v.as_slice());
+        for (k, variable) in self.variables.iter().enumerate() {
+            let part = (k + 1) * n..(k + 2) * n;
+            let (y, rate) = (&q[part.clone()], &v[part.clone()]);
+            for (i, to) in a[part].iter_mut().enumerate() {
+                let row = i * n..(i + 1) * n;
+                let rows = by_q[row.clone()].iter().zip(y);
+                let rates = by_v[row].iter().zip(rate);
+                let sum: f64 = rows.chain(rates).map(|(k, y)| k * y).sum();
+                let own = match variable {
+                    Variable::Other(j) => others[i * (others.len() / n) + j],
+                    _ => 0.0,
+                };
+                *to = sum + own;
+            }
+        }
+        Ok(())
+    }
+
+    fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
+        let mut own = S::Matrix::zeros(self.dimension * self.dimension);
+        self.system.mass_matrix(t, &self.own(q), &mut own);
+        for (to, from) in matrix.iter_mut().zip(own.as_slice()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut Vec<f64>) {
+        let mut own = S::Vector::zeros(self.dimension);
+        self.system.bias(t, &self.own(q), &self.own(v), &mut own);
+        Self::put(&own, bias);
+    }
+
+    fn applied(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs, applied: &mut Vec<f64>) {
+        let mut own = S::Vector::zeros(self.dimension);
+        self.system
+            .applied(t, &self.own(q), &self.own(v), u, &mut own);
+        Self::put(&own, applied);
+    }
+
+    fn forces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs, forces: &mut Vec<f64>) {
+        let mut own = S::Vector::zeros(self.dimension);
+        self.system
+            .forces(t, &self.own(q), &self.own(v), u, &mut own);
+        Self::put(&own, forces);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
+        self.system.kinetic_energy(t, &self.own(q), &self.own(v))
+    }
+
+    fn potential_energy(&self, t: f64, q: &Vec<f64>, u: &S::Inputs) -> f64 {
+        self.system.potential_energy(t, &self.own(q), u)
+    }
+
+    fn dissipation(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs) -> f64 {
+        self.system.dissipation(t, &self.own(q), &self.own(v), u)
+    }
+
+    fn work_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>, u: &S::Inputs) -> f64 {
+        self.system
+            .work_rate(t, &self.own(q), &self.own(v), &self.own(a), u)
+    }
+
+    fn dissipation_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs) -> f64 {
+        self.system
+            .dissipation_rate(t, &self.own(q), &self.own(v), u)
+    }
+
+    fn default_inputs(&self) -> S::Inputs {
+        self.system.default_inputs()
+    }
+
+    fn input_values(
+        &self,
+        inputs: &S::Inputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.system.input_values(inputs)
+    }
+
+    fn outputs(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        a: &Vec<f64>,
+        u: &S::Inputs,
+    ) -> S::Outputs {
+        self.system
+            .outputs(t, &self.own(q), &self.own(v), &self.own(a), u)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &S::Outputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.system.output_values(outputs)
+    }
+
+    fn assumptions(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &S::Inputs,
+    ) -> impl ExactSizeIterator<Item = Assumption<'_>> {
+        let (q, v) = (self.own(q), self.own(v));
+        let facts: Vec<Assumption<'_>> = self.system.assumptions(t, &q, &v, u).collect();
+        facts.into_iter()
+    }
+}
