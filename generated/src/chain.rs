@@ -6,12 +6,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 33 | 18 | 1 | 0 | 0 | 52 |
+//! | `prepare` | 41 | 20 | 1 | 0 | 0 | 62 |
 //! | `mass_matrix` | 84 | 28 | 0 | 8 | 0 | 128 |
 //! | `bias` | 103 | 60 | 0 | 8 | 0 | 179 |
 //! | `applied` | 8 | 0 | 0 | 8 | 0 | 16 |
 //! | `forces` | 104 | 68 | 0 | 8 | 0 | 188 |
-//! | `accelerations` | 363 | 237 | 7 | 8 | 0 | 623 |
+//! | `accelerations` | 293 | 176 | 7 | 8 | 0 | 492 |
 //! | `kinetic_energy` | 88 | 47 | 0 | 8 | 0 | 151 |
 //! | `potential_energy` | 16 | 21 | 0 | 8 | 0 | 45 |
 //! | `output_end` | 1 | 7 | 0 | 8 | 0 | 16 |
@@ -71,42 +71,52 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l * self.m;
+        let k1 = self.l * t0;
         let t1 = self.g * t0;
-        let k2 = S::from_f64(0.5) * t1;
-        let t2 = self.l * t0;
-        let k11 = self.J + t2 * S::from_f64(7.25);
+        let k3 = S::from_f64(0.5) * t1;
+        let t2 = k1 * S::from_f64(0.25);
+        let k19 = self.J + t2;
+        let t3 = S::ONE / k19;
+        let k33 = t2 * t3;
         let k0 = self.l * S::from_f64(0.5);
-        let k1 = self.m * self.g;
-        let k3 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t2);
-        let k4 = S::from_f64(0.5) * t2;
-        let k5 = t2 * S::from_f64(1.5);
-        let k6 = t2 * S::from_f64(2.5);
-        let k7 = t2 * S::from_f64(3.5);
-        let k8 = t2 * S::from_f64(4.5);
-        let k9 = t2 * S::from_f64(5.5);
-        let k10 = t2 * S::from_f64(6.5);
-        let k12 = self.J + t2 * S::from_f64(6.25);
-        let k13 = self.J + t2 * S::from_f64(5.25);
-        let k14 = self.J + t2 * S::from_f64(4.25);
-        let k15 = self.J + t2 * S::from_f64(3.25);
-        let k16 = self.J + t2 * S::from_f64(2.25);
-        let k17 = self.J + t2 * S::from_f64(1.25);
-        let k18 = self.J + t2 * S::from_f64(0.25);
-        let k19 = self.m * S::from_f64(0.5);
-        let k20 = t0 * S::from_f64(0.25);
-        let k21 = S::from_f64(0.5) * t0;
-        let k22 = -(t1 * S::from_f64(7.5));
-        let k23 = -(t1 * S::from_f64(6.5));
-        let k24 = -(t1 * S::from_f64(5.5));
-        let k25 = -(t1 * S::from_f64(4.5));
-        let k26 = -(t1 * S::from_f64(3.5));
-        let k27 = -(t1 * S::from_f64(2.5));
-        let k28 = -(t1 * S::from_f64(1.5));
-        let k29 = -k2;
-        let k30 = -self.l;
-        let k31 = S::ONE / k11;
-        let singular = if vanishes(k11, k11, 7.105427357601002e-15) {
-            Some(singular(0, k11, k11))
+        let k2 = self.m * self.g;
+        let k4 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
+        let k5 = S::from_f64(0.5) * k1;
+        let k6 = k1 * S::from_f64(1.5);
+        let k7 = k1 * S::from_f64(2.5);
+        let k8 = k1 * S::from_f64(3.5);
+        let k9 = k1 * S::from_f64(4.5);
+        let k10 = k1 * S::from_f64(5.5);
+        let k11 = k1 * S::from_f64(6.5);
+        let k12 = self.J + k1 * S::from_f64(7.25);
+        let k13 = self.J + k1 * S::from_f64(6.25);
+        let k14 = self.J + k1 * S::from_f64(5.25);
+        let k15 = self.J + k1 * S::from_f64(4.25);
+        let k16 = self.J + k1 * S::from_f64(3.25);
+        let k17 = self.J + k1 * S::from_f64(2.25);
+        let k18 = self.J + k1 * S::from_f64(1.25);
+        let k20 = self.m * S::from_f64(0.5);
+        let k21 = t0 * S::from_f64(0.25);
+        let k22 = S::from_f64(0.5) * t0;
+        let k23 = -(t1 * S::from_f64(7.5));
+        let k24 = -(t1 * S::from_f64(6.5));
+        let k25 = -(t1 * S::from_f64(5.5));
+        let k26 = -(t1 * S::from_f64(4.5));
+        let k27 = -(t1 * S::from_f64(3.5));
+        let k28 = -(t1 * S::from_f64(2.5));
+        let k29 = -(t1 * S::from_f64(1.5));
+        let k30 = -k3;
+        let k31 = -self.l;
+        let k32 = k1 * k33;
+        let k34 = self.g * S::from_f64(0.5);
+        let k35 = S::from_f64(0.25) * t3;
+        let k36 = self.l * k1;
+        let k37 = k1 * k1;
+        let k38 = self.l * S::from_f64(0.25);
+        let k39 = -t0;
+        let k40 = -(t0 * t3);
+        let singular = if vanishes(k19, k19, 7.105427357601002e-15) {
+            Some(singular(7, k19, k19))
         } else {
             None
         };
@@ -147,6 +157,15 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
             k29,
             k30,
             k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
+            k37,
+            k38,
+            k39,
+            k40,
             singular,
         }
     }
@@ -216,68 +235,86 @@ pub struct Prepared<S = f64> {
     g: S,
     /// `0.5*l`
     k0: S,
-    /// `m*g`
+    /// `l^2*m`
     k1: S,
-    /// `0.5*l*m*g`
+    /// `m*g`
     k2: S,
-    /// `0.125*(l^2*m + 4*J)`
+    /// `0.5*l*m*g`
     k3: S,
-    /// `0.5*l^2*m`
+    /// `0.125*(l^2*m + 4*J)`
     k4: S,
-    /// `1.5*l^2*m`
+    /// `0.5*l^2*m`
     k5: S,
-    /// `2.5*l^2*m`
+    /// `1.5*l^2*m`
     k6: S,
-    /// `3.5*l^2*m`
+    /// `2.5*l^2*m`
     k7: S,
-    /// `4.5*l^2*m`
+    /// `3.5*l^2*m`
     k8: S,
-    /// `5.5*l^2*m`
+    /// `4.5*l^2*m`
     k9: S,
-    /// `6.5*l^2*m`
+    /// `5.5*l^2*m`
     k10: S,
-    /// `J + 7.25*l^2*m`
+    /// `6.5*l^2*m`
     k11: S,
-    /// `J + 6.25*l^2*m`
+    /// `J + 7.25*l^2*m`
     k12: S,
-    /// `J + 5.25*l^2*m`
+    /// `J + 6.25*l^2*m`
     k13: S,
-    /// `J + 4.25*l^2*m`
+    /// `J + 5.25*l^2*m`
     k14: S,
-    /// `J + 3.25*l^2*m`
+    /// `J + 4.25*l^2*m`
     k15: S,
-    /// `J + 2.25*l^2*m`
+    /// `J + 3.25*l^2*m`
     k16: S,
-    /// `J + 1.25*l^2*m`
+    /// `J + 2.25*l^2*m`
     k17: S,
-    /// `J + 0.25*l^2*m`
+    /// `J + 1.25*l^2*m`
     k18: S,
-    /// `0.5*m`
+    /// `J + 0.25*l^2*m`
     k19: S,
-    /// `0.25*l*m`
+    /// `0.5*m`
     k20: S,
-    /// `0.5*l*m`
+    /// `0.25*l*m`
     k21: S,
-    /// `-7.5*l*m*g`
+    /// `0.5*l*m`
     k22: S,
-    /// `-6.5*l*m*g`
+    /// `-7.5*l*m*g`
     k23: S,
-    /// `-5.5*l*m*g`
+    /// `-6.5*l*m*g`
     k24: S,
-    /// `-4.5*l*m*g`
+    /// `-5.5*l*m*g`
     k25: S,
-    /// `-3.5*l*m*g`
+    /// `-4.5*l*m*g`
     k26: S,
-    /// `-2.5*l*m*g`
+    /// `-3.5*l*m*g`
     k27: S,
-    /// `-1.5*l*m*g`
+    /// `-2.5*l*m*g`
     k28: S,
-    /// `-0.5*l*m*g`
+    /// `-1.5*l*m*g`
     k29: S,
-    /// `-l`
+    /// `-0.5*l*m*g`
     k30: S,
-    /// `1/(J + 7.25*l^2*m)`
+    /// `-l`
     k31: S,
+    /// `0.25*l^4*m^2/(J + 0.25*l^2*m)`
+    k32: S,
+    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    k33: S,
+    /// `0.5*g`
+    k34: S,
+    /// `0.25/(J + 0.25*l^2*m)`
+    k35: S,
+    /// `l^3*m`
+    k36: S,
+    /// `l^4*m^2`
+    k37: S,
+    /// `0.25*l`
+    k38: S,
+    /// `-l*m`
+    k39: S,
+    /// `-l*m/(J + 0.25*l^2*m)`
+    k40: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -339,43 +376,43 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let m21 = (cos_q_2 * cos_q_1 + sin_q_2 * sin_q_1) * p.k10;
-    let m31 = p.k9 * (cos_q_1 * cos_q_3 + sin_q_1 * sin_q_3);
-    let m32 = p.k9 * (cos_q_2 * cos_q_3 + sin_q_2 * sin_q_3);
-    let m41 = p.k8 * (cos_q_1 * cos_q_4 + sin_q_1 * sin_q_4);
-    let m42 = p.k8 * (cos_q_2 * cos_q_4 + sin_q_2 * sin_q_4);
-    let m43 = p.k8 * (cos_q_3 * cos_q_4 + sin_q_3 * sin_q_4);
-    let m51 = p.k7 * (cos_q_1 * cos_q_5 + sin_q_1 * sin_q_5);
-    let m52 = p.k7 * (cos_q_2 * cos_q_5 + sin_q_2 * sin_q_5);
-    let m53 = p.k7 * (cos_q_3 * cos_q_5 + sin_q_3 * sin_q_5);
-    let m54 = p.k7 * (cos_q_4 * cos_q_5 + sin_q_4 * sin_q_5);
-    let m61 = p.k6 * (cos_q_1 * cos_q_6 + sin_q_1 * sin_q_6);
-    let m62 = p.k6 * (cos_q_2 * cos_q_6 + sin_q_2 * sin_q_6);
-    let m63 = p.k6 * (cos_q_3 * cos_q_6 + sin_q_3 * sin_q_6);
-    let m64 = p.k6 * (cos_q_4 * cos_q_6 + sin_q_4 * sin_q_6);
-    let m65 = p.k6 * (cos_q_5 * cos_q_6 + sin_q_5 * sin_q_6);
-    let m71 = p.k5 * (cos_q_1 * cos_q_7 + sin_q_1 * sin_q_7);
-    let m72 = p.k5 * (cos_q_2 * cos_q_7 + sin_q_2 * sin_q_7);
-    let m73 = p.k5 * (cos_q_3 * cos_q_7 + sin_q_3 * sin_q_7);
-    let m74 = p.k5 * (cos_q_4 * cos_q_7 + sin_q_4 * sin_q_7);
-    let m75 = p.k5 * (cos_q_5 * cos_q_7 + sin_q_5 * sin_q_7);
-    let m76 = p.k5 * (cos_q_6 * cos_q_7 + sin_q_6 * sin_q_7);
-    let m81 = p.k4 * (cos_q_1 * cos_q_8 + sin_q_1 * sin_q_8);
-    let m82 = p.k4 * (cos_q_2 * cos_q_8 + sin_q_2 * sin_q_8);
-    let m83 = p.k4 * (cos_q_3 * cos_q_8 + sin_q_3 * sin_q_8);
-    let m84 = p.k4 * (cos_q_4 * cos_q_8 + sin_q_4 * sin_q_8);
-    let m85 = p.k4 * (cos_q_5 * cos_q_8 + sin_q_5 * sin_q_8);
-    let m86 = p.k4 * (cos_q_6 * cos_q_8 + sin_q_6 * sin_q_8);
-    let m87 = p.k4 * (cos_q_7 * cos_q_8 + sin_q_7 * sin_q_8);
+    let m21 = (cos_q_2 * cos_q_1 + sin_q_2 * sin_q_1) * p.k11;
+    let m31 = p.k10 * (cos_q_1 * cos_q_3 + sin_q_1 * sin_q_3);
+    let m32 = p.k10 * (cos_q_2 * cos_q_3 + sin_q_2 * sin_q_3);
+    let m41 = p.k9 * (cos_q_1 * cos_q_4 + sin_q_1 * sin_q_4);
+    let m42 = p.k9 * (cos_q_2 * cos_q_4 + sin_q_2 * sin_q_4);
+    let m43 = p.k9 * (cos_q_3 * cos_q_4 + sin_q_3 * sin_q_4);
+    let m51 = p.k8 * (cos_q_1 * cos_q_5 + sin_q_1 * sin_q_5);
+    let m52 = p.k8 * (cos_q_2 * cos_q_5 + sin_q_2 * sin_q_5);
+    let m53 = p.k8 * (cos_q_3 * cos_q_5 + sin_q_3 * sin_q_5);
+    let m54 = p.k8 * (cos_q_4 * cos_q_5 + sin_q_4 * sin_q_5);
+    let m61 = p.k7 * (cos_q_1 * cos_q_6 + sin_q_1 * sin_q_6);
+    let m62 = p.k7 * (cos_q_2 * cos_q_6 + sin_q_2 * sin_q_6);
+    let m63 = p.k7 * (cos_q_3 * cos_q_6 + sin_q_3 * sin_q_6);
+    let m64 = p.k7 * (cos_q_4 * cos_q_6 + sin_q_4 * sin_q_6);
+    let m65 = p.k7 * (cos_q_5 * cos_q_6 + sin_q_5 * sin_q_6);
+    let m71 = p.k6 * (cos_q_1 * cos_q_7 + sin_q_1 * sin_q_7);
+    let m72 = p.k6 * (cos_q_2 * cos_q_7 + sin_q_2 * sin_q_7);
+    let m73 = p.k6 * (cos_q_3 * cos_q_7 + sin_q_3 * sin_q_7);
+    let m74 = p.k6 * (cos_q_4 * cos_q_7 + sin_q_4 * sin_q_7);
+    let m75 = p.k6 * (cos_q_5 * cos_q_7 + sin_q_5 * sin_q_7);
+    let m76 = p.k6 * (cos_q_6 * cos_q_7 + sin_q_6 * sin_q_7);
+    let m81 = p.k5 * (cos_q_1 * cos_q_8 + sin_q_1 * sin_q_8);
+    let m82 = p.k5 * (cos_q_2 * cos_q_8 + sin_q_2 * sin_q_8);
+    let m83 = p.k5 * (cos_q_3 * cos_q_8 + sin_q_3 * sin_q_8);
+    let m84 = p.k5 * (cos_q_4 * cos_q_8 + sin_q_4 * sin_q_8);
+    let m85 = p.k5 * (cos_q_5 * cos_q_8 + sin_q_5 * sin_q_8);
+    let m86 = p.k5 * (cos_q_6 * cos_q_8 + sin_q_6 * sin_q_8);
+    let m87 = p.k5 * (cos_q_7 * cos_q_8 + sin_q_7 * sin_q_8);
     [
-        [p.k11, m21, m31, m41, m51, m61, m71, m81],
-        [m21, p.k12, m32, m42, m52, m62, m72, m82],
-        [m31, m32, p.k13, m43, m53, m63, m73, m83],
-        [m41, m42, m43, p.k14, m54, m64, m74, m84],
-        [m51, m52, m53, m54, p.k15, m65, m75, m85],
-        [m61, m62, m63, m64, m65, p.k16, m76, m86],
-        [m71, m72, m73, m74, m75, m76, p.k17, m87],
-        [m81, m82, m83, m84, m85, m86, m87, p.k18],
+        [p.k12, m21, m31, m41, m51, m61, m71, m81],
+        [m21, p.k13, m32, m42, m52, m62, m72, m82],
+        [m31, m32, p.k14, m43, m53, m63, m73, m83],
+        [m41, m42, m43, p.k15, m54, m64, m74, m84],
+        [m51, m52, m53, m54, p.k16, m65, m75, m85],
+        [m61, m62, m63, m64, m65, p.k17, m76, m86],
+        [m71, m72, m73, m74, m75, m76, p.k18, m87],
+        [m81, m82, m83, m84, m85, m86, m87, p.k19],
     ]
 }
 
@@ -475,20 +512,20 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t53 = p.k0 * t35 + p.l * t34;
     let t54 = p.m * (t52 + t53);
     let t55 = p.k0 * t32 + p.l * t33;
-    let t56 = cos_q_1 * (t54 + (p.m * t55 + t33 * p.k20));
-    let t57 = cos_q_3 * (p.m * t52 + t53 * p.k19);
-    let t58 = cos_q_4 * (p.m * t50 + t51 * p.k19);
-    let t59 = cos_q_5 * (p.m * t48 + t49 * p.k19);
-    let t60 = cos_q_6 * (p.m * t46 + t47 * p.k19);
-    let t61 = cos_q_7 * (p.m * t44 + t45 * p.k19);
-    let h_q_1 = p.l * (sin_q_1 * (t30 + (p.m * t31 + p.k20 * t3)) - t56);
-    let h_q_2 = p.l * (sin_q_2 * (t30 + t31 * p.k19) - cos_q_2 * (t54 + t55 * p.k19));
-    let h_q_3 = p.l * (sin_q_3 * (p.m * t28 + t29 * p.k19) - t57);
-    let h_q_4 = p.l * (sin_q_4 * (p.m * t26 + t27 * p.k19) - t58);
-    let h_q_5 = p.l * (sin_q_5 * (p.m * t24 + t25 * p.k19) - t59);
-    let h_q_6 = p.l * (sin_q_6 * (p.m * t22 + t23 * p.k19) - t60);
-    let h_q_7 = p.l * (sin_q_7 * (p.m * t20 + t21 * p.k19) - t61);
-    let h_q_8 = (sin_q_8 * t20 - cos_q_8 * t44) * p.k21;
+    let t56 = cos_q_1 * (t54 + (p.m * t55 + t33 * p.k21));
+    let t57 = cos_q_3 * (p.m * t52 + t53 * p.k20);
+    let t58 = cos_q_4 * (p.m * t50 + t51 * p.k20);
+    let t59 = cos_q_5 * (p.m * t48 + t49 * p.k20);
+    let t60 = cos_q_6 * (p.m * t46 + t47 * p.k20);
+    let t61 = cos_q_7 * (p.m * t44 + t45 * p.k20);
+    let h_q_1 = p.l * (sin_q_1 * (t30 + (p.m * t31 + p.k21 * t3)) - t56);
+    let h_q_2 = p.l * (sin_q_2 * (t30 + t31 * p.k20) - cos_q_2 * (t54 + t55 * p.k20));
+    let h_q_3 = p.l * (sin_q_3 * (p.m * t28 + t29 * p.k20) - t57);
+    let h_q_4 = p.l * (sin_q_4 * (p.m * t26 + t27 * p.k20) - t58);
+    let h_q_5 = p.l * (sin_q_5 * (p.m * t24 + t25 * p.k20) - t59);
+    let h_q_6 = p.l * (sin_q_6 * (p.m * t22 + t23 * p.k20) - t60);
+    let h_q_7 = p.l * (sin_q_7 * (p.m * t20 + t21 * p.k20) - t61);
+    let h_q_8 = (sin_q_8 * t20 - cos_q_8 * t44) * p.k22;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -521,14 +558,14 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [S; 8] {
     let sin_q_6 = q_6.sin();
     let sin_q_7 = q_7.sin();
     let sin_q_8 = q_8.sin();
-    let q_q_1 = p.k22 * sin_q_1;
-    let q_q_2 = p.k23 * sin_q_2;
-    let q_q_3 = p.k24 * sin_q_3;
-    let q_q_4 = p.k25 * sin_q_4;
-    let q_q_5 = p.k26 * sin_q_5;
-    let q_q_6 = p.k27 * sin_q_6;
-    let q_q_7 = p.k28 * sin_q_7;
-    let q_q_8 = p.k29 * sin_q_8;
+    let q_q_1 = p.k23 * sin_q_1;
+    let q_q_2 = p.k24 * sin_q_2;
+    let q_q_3 = p.k25 * sin_q_3;
+    let q_q_4 = p.k26 * sin_q_4;
+    let q_q_5 = p.k27 * sin_q_5;
+    let q_q_6 = p.k28 * sin_q_6;
+    let q_q_7 = p.k29 * sin_q_7;
+    let q_q_8 = p.k30 * sin_q_8;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5, q_q_6, q_q_7, q_q_8]
 }
 
@@ -614,24 +651,24 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t53 = p.g + (p.k0 * t35 + p.l * t34);
     let t54 = p.m * (t52 + t53);
     let t55 = p.g + (p.k0 * t32 + p.l * t33);
-    let t56 = sin_q_1 * (t54 + (p.m * t55 + p.k19 * (p.g + p.k0 * t33)));
-    let t57 = sin_q_3 * (p.m * t52 + t53 * p.k19);
-    let t58 = sin_q_4 * (p.m * t50 + t51 * p.k19);
-    let t59 = sin_q_5 * (p.m * t48 + t49 * p.k19);
-    let t60 = sin_q_6 * (p.m * t46 + t47 * p.k19);
-    let t61 = sin_q_7 * (p.m * t44 + t45 * p.k19);
-    let f_q_1 = p.l * (cos_q_1 * (t30 + (p.m * t31 + t3 * p.k20)) - t56);
-    let f_q_2 = p.l * (cos_q_2 * (t30 + p.k19 * t31) - sin_q_2 * (t54 + t55 * p.k19));
-    let f_q_3 = p.l * (cos_q_3 * (p.m * t28 + p.k19 * t29) - t57);
-    let f_q_4 = p.l * (cos_q_4 * (p.m * t26 + p.k19 * t27) - t58);
-    let f_q_5 = p.l * (cos_q_5 * (p.m * t24 + p.k19 * t25) - t59);
-    let f_q_6 = p.l * (cos_q_6 * (p.m * t22 + p.k19 * t23) - t60);
-    let f_q_7 = p.l * (cos_q_7 * (p.m * t20 + p.k19 * t21) - t61);
-    let f_q_8 = (cos_q_8 * t20 - sin_q_8 * t44) * p.k21;
+    let t56 = sin_q_1 * (t54 + (p.m * t55 + p.k20 * (p.g + p.k0 * t33)));
+    let t57 = sin_q_3 * (p.m * t52 + t53 * p.k20);
+    let t58 = sin_q_4 * (p.m * t50 + t51 * p.k20);
+    let t59 = sin_q_5 * (p.m * t48 + t49 * p.k20);
+    let t60 = sin_q_6 * (p.m * t46 + t47 * p.k20);
+    let t61 = sin_q_7 * (p.m * t44 + t45 * p.k20);
+    let f_q_1 = p.l * (cos_q_1 * (t30 + (p.m * t31 + t3 * p.k21)) - t56);
+    let f_q_2 = p.l * (cos_q_2 * (t30 + p.k20 * t31) - sin_q_2 * (t54 + t55 * p.k20));
+    let f_q_3 = p.l * (cos_q_3 * (p.m * t28 + p.k20 * t29) - t57);
+    let f_q_4 = p.l * (cos_q_4 * (p.m * t26 + p.k20 * t27) - t58);
+    let f_q_5 = p.l * (cos_q_5 * (p.m * t24 + p.k20 * t25) - t59);
+    let f_q_6 = p.l * (cos_q_6 * (p.m * t22 + p.k20 * t23) - t60);
+    let f_q_7 = p.l * (cos_q_7 * (p.m * t20 + p.k20 * t21) - t61);
+    let f_q_8 = (cos_q_8 * t20 - sin_q_8 * t44) * p.k22;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -678,253 +715,232 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_6_dot = n(v[5]);
         let q_7_dot = n(v[6]);
         let q_8_dot = n(v[7]);
-        let angles = [q_2, q_1, q_3, q_4, q_5, q_6, q_7, q_8];
+        let angles = [q_8, q_7, q_6, q_5, q_4, q_3, q_2, q_1];
         let circular = N::sin_cos_all(angles);
-        let (sin_q_2, cos_q_2) = circular[0];
-        let (sin_q_1, cos_q_1) = circular[1];
-        let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_4, cos_q_4) = circular[3];
-        let (sin_q_5, cos_q_5) = circular[4];
-        let (sin_q_6, cos_q_6) = circular[5];
-        let (sin_q_7, cos_q_7) = circular[6];
-        let (sin_q_8, cos_q_8) = circular[7];
-        let t0 = q_2_dot * q_2_dot;
-        let t1 = t0 * sin_q_2;
-        let t2 = q_1_dot * q_1_dot;
-        let t3 = sin_q_1 * t2;
-        let t4 = t1 + t3;
-        let t5 = q_3_dot * q_3_dot;
-        let t6 = t5 * sin_q_3;
-        let t7 = t6 + t4;
-        let t8 = q_4_dot * q_4_dot;
-        let t9 = t8 * sin_q_4;
-        let t10 = t9 + t7;
-        let t11 = q_5_dot * q_5_dot;
-        let t12 = t11 * sin_q_5;
-        let t13 = t12 + t10;
-        let t14 = q_6_dot * q_6_dot;
-        let t15 = t14 * sin_q_6;
-        let t16 = t15 + t13;
-        let t17 = q_7_dot * q_7_dot;
-        let t18 = t17 * sin_q_7;
-        let t19 = q_8_dot * (q_8_dot * n(p.k0));
-        let t20 = n(p.l).mul_add(t18 + t16, t19 * sin_q_8);
-        let t21 = n(p.l).mul_add(t16, n(p.k0) * t18);
-        let t22 = t0 * cos_q_2;
-        let t23 = cos_q_1 * t2;
-        let t24 = t22 + t23;
-        let t25 = t5 * cos_q_3;
-        let t26 = t25 + t24;
-        let t27 = t8 * cos_q_4;
-        let t28 = t27 + t26;
-        let t29 = t11 * cos_q_5;
-        let t30 = t29 + t28;
-        let t31 = t14 * cos_q_6;
-        let t32 = t31 + t30;
-        let t33 = t17 * cos_q_7;
-        let t34 = n(p.g) + n(p.l).mul_add(t33 + t32, t19 * cos_q_8);
-        let t35 = n(p.g) + n(p.l).mul_add(t32, n(p.k0) * t33);
-        let t36 = cos_q_7 * n(p.m).mul_add(t20, n(p.k19) * t21);
-        let t37 = n(p.m).mul_add(t34, t35 * n(p.k19));
-        let t38 = t20 + t21;
-        let t39 = n(p.l).mul_add(t13, n(p.k0) * t15);
-        let t40 = t38 + t39;
-        let t41 = n(p.l).mul_add(t10, n(p.k0) * t12);
-        let t42 = t40 + t41;
-        let t43 = n(p.l).mul_add(t7, n(p.k0) * t9);
-        let t44 = t42 + t43;
-        let t45 = n(p.l).mul_add(t4, n(p.k0) * t6);
-        let t46 = n(p.m) * (t44 + t45);
-        let t47 = n(p.k0).mul_add(t1, n(p.l) * t3);
-        let t48 = t34 + t35;
-        let t49 = n(p.g) + n(p.l).mul_add(t30, n(p.k0) * t31);
-        let t50 = t48 + t49;
-        let t51 = n(p.g) + n(p.l).mul_add(t28, n(p.k0) * t29);
-        let t52 = t50 + t51;
-        let t53 = n(p.g) + n(p.l).mul_add(t26, n(p.k0) * t27);
-        let t54 = t52 + t53;
-        let t55 = n(p.g) + n(p.l).mul_add(t24, n(p.k0) * t25);
-        let t56 = n(p.m) * (t54 + t55);
-        let t57 = n(p.g) + n(p.k0).mul_add(t22, n(p.l) * t23);
-        let t58 = n(p.k19) * n(p.k0).mul_add(t23, n(p.g));
-        let t59 = cos_q_1 * (t46 + n(p.m).mul_add(t47, t3 * n(p.k20)));
-        let t60 = sin_q_1.neg_mul_add(t56 + n(p.m).mul_add(t57, t58), t59);
-        let t61 = n(p.l) * t60;
-        let t62 = n(p.k5) * cos_q_1.mul_add(cos_q_7, sin_q_1 * sin_q_7);
-        let t63 = n(p.k31) * t62;
-        let t64 = n(p.l) * sin_q_7.neg_mul_add(t37, t36);
-        let t65 = cos_q_2 * n(p.k19).mul_add(t47, t46);
-        let t66 = sin_q_2.neg_mul_add(t57.mul_add(n(p.k19), t56), t65);
-        let t67 = cos_q_1.mul_add(cos_q_2, sin_q_1 * sin_q_2) * n(p.k10);
-        let t68 = n(p.k31) * t67;
-        let t69 = t61.neg_mul_add(t68, n(p.l) * t66);
-        let t70 = t67.neg_mul_add(t68, n(p.k12));
-        check(t70, n(p.k12), 7.105427357601002e-15, 1)?;
-        let t71 = N::ONE / t70;
-        let t72 = n(p.k5) * cos_q_7.mul_add(cos_q_2, sin_q_7 * sin_q_2);
-        let t73 = t67.neg_mul_add(t63, t72);
-        let t74 = t71 * t73;
-        let t75 = cos_q_3 * n(p.m).mul_add(t44, n(p.k19) * t45);
-        let t76 = n(p.m).mul_add(t54, t55 * n(p.k19));
-        let t77 = n(p.k9) * cos_q_1.mul_add(cos_q_3, sin_q_1 * sin_q_3);
-        let t78 = n(p.k31) * t77;
-        let t79 = n(p.l) * sin_q_3.neg_mul_add(t76, t75);
-        let t80 = n(p.k9) * cos_q_3.mul_add(cos_q_2, sin_q_3 * sin_q_2);
-        let t81 = t67.neg_mul_add(t78, t80);
-        let t82 = t71 * t81;
-        let t83 = t82.neg_mul_add(t69, t61.neg_mul_add(t78, t79));
-        let t84 = t81.neg_mul_add(t82, t77.neg_mul_add(t78, n(p.k13)));
-        check(t84, n(p.k13), 7.105427357601002e-15, 2)?;
-        let t85 = N::ONE / t84;
-        let t86 = n(p.k5) * cos_q_7.mul_add(cos_q_3, sin_q_7 * sin_q_3);
-        let t87 = t81.neg_mul_add(t74, t77.neg_mul_add(t63, t86));
-        let t88 = t85 * t87;
-        let t89 = t74.neg_mul_add(t69, t61.neg_mul_add(t63, t64));
-        let t90 = cos_q_4 * n(p.m).mul_add(t42, n(p.k19) * t43);
-        let t91 = n(p.m).mul_add(t52, t53 * n(p.k19));
-        let t92 = n(p.k8) * cos_q_1.mul_add(cos_q_4, sin_q_1 * sin_q_4);
-        let t93 = n(p.k31) * t92;
-        let t94 = n(p.l) * sin_q_4.neg_mul_add(t91, t90);
-        let t95 = n(p.k8) * cos_q_4.mul_add(cos_q_2, sin_q_4 * sin_q_2);
-        let t96 = t67.neg_mul_add(t93, t95);
-        let t97 = t71 * t96;
-        let t98 = n(p.k8) * cos_q_4.mul_add(cos_q_3, sin_q_4 * sin_q_3);
-        let t99 = t81.neg_mul_add(t97, t77.neg_mul_add(t93, t98));
-        let t100 = t85 * t99;
-        let t101 = t97.neg_mul_add(t69, t61.neg_mul_add(t93, t94));
-        let t102 = t100.neg_mul_add(t83, t101);
-        let t103 = t96.neg_mul_add(t97, t92.neg_mul_add(t93, n(p.k14)));
-        let t104 = t99.neg_mul_add(t100, t103);
-        check(t104, n(p.k14), 7.105427357601002e-15, 3)?;
-        let t105 = N::ONE / t104;
-        let t106 = n(p.k5) * cos_q_7.mul_add(cos_q_4, sin_q_7 * sin_q_4);
-        let t107 = t96.neg_mul_add(t74, t92.neg_mul_add(t63, t106));
-        let t108 = t99.neg_mul_add(t88, t107);
-        let t109 = t105 * t108;
-        let t110 = cos_q_5 * n(p.m).mul_add(t40, n(p.k19) * t41);
-        let t111 = n(p.m).mul_add(t50, t51 * n(p.k19));
-        let t112 = n(p.k7) * cos_q_1.mul_add(cos_q_5, sin_q_1 * sin_q_5);
-        let t113 = n(p.k31) * t112;
-        let t114 = n(p.l) * sin_q_5.neg_mul_add(t111, t110);
-        let t115 = n(p.k7) * cos_q_5.mul_add(cos_q_2, sin_q_5 * sin_q_2);
-        let t116 = t67.neg_mul_add(t113, t115);
-        let t117 = t71 * t116;
-        let t118 = n(p.k7) * cos_q_5.mul_add(cos_q_3, sin_q_5 * sin_q_3);
-        let t119 = t81.neg_mul_add(t117, t77.neg_mul_add(t113, t118));
-        let t120 = t85 * t119;
-        let t121 = t117.neg_mul_add(t69, t61.neg_mul_add(t113, t114));
-        let t122 = n(p.k7) * cos_q_5.mul_add(cos_q_4, sin_q_5 * sin_q_4);
-        let t123 = t96.neg_mul_add(t117, t92.neg_mul_add(t113, t122));
-        let t124 = t99.neg_mul_add(t120, t123);
-        let t125 = t105 * t124;
-        let t126 = t125.neg_mul_add(t102, t120.neg_mul_add(t83, t121));
-        let t127 = t116.neg_mul_add(t117, t112.neg_mul_add(t113, n(p.k15)));
-        let t128 = t124.neg_mul_add(t125, t119.neg_mul_add(t120, t127));
-        check(t128, n(p.k15), 7.105427357601002e-15, 4)?;
-        let t129 = N::ONE / t128;
-        let t130 = n(p.k5) * cos_q_7.mul_add(cos_q_5, sin_q_7 * sin_q_5);
-        let t131 = t116.neg_mul_add(t74, t112.neg_mul_add(t63, t130));
-        let t132 = t124.neg_mul_add(t109, t119.neg_mul_add(t88, t131));
-        let t133 = t129 * t132;
-        let t134 = t109.neg_mul_add(t102, t88.neg_mul_add(t83, t89));
-        let t135 = cos_q_6 * n(p.m).mul_add(t38, n(p.k19) * t39);
-        let t136 = n(p.m).mul_add(t48, t49 * n(p.k19));
-        let t137 = n(p.k6) * cos_q_1.mul_add(cos_q_6, sin_q_1 * sin_q_6);
-        let t138 = n(p.k31) * t137;
-        let t139 = n(p.l) * sin_q_6.neg_mul_add(t136, t135);
-        let t140 = n(p.k6) * cos_q_6.mul_add(cos_q_2, sin_q_6 * sin_q_2);
-        let t141 = t67.neg_mul_add(t138, t140);
-        let t142 = t71 * t141;
-        let t143 = n(p.k6) * cos_q_6.mul_add(cos_q_3, sin_q_6 * sin_q_3);
-        let t144 = t81.neg_mul_add(t142, t77.neg_mul_add(t138, t143));
-        let t145 = t85 * t144;
-        let t146 = t142.neg_mul_add(t69, t61.neg_mul_add(t138, t139));
-        let t147 = n(p.k6) * cos_q_6.mul_add(cos_q_4, sin_q_6 * sin_q_4);
-        let t148 = t96.neg_mul_add(t142, t92.neg_mul_add(t138, t147));
-        let t149 = t99.neg_mul_add(t145, t148);
-        let t150 = t105 * t149;
-        let t151 = n(p.k6) * cos_q_6.mul_add(cos_q_5, sin_q_6 * sin_q_5);
-        let t152 = t116.neg_mul_add(t142, t112.neg_mul_add(t138, t151));
-        let t153 = t124.neg_mul_add(t150, t119.neg_mul_add(t145, t152));
-        let t154 = t129 * t153;
-        let t155 = t150.neg_mul_add(t102, t145.neg_mul_add(t83, t146));
-        let t156 = t154.neg_mul_add(t126, t155);
-        let t157 = t141.neg_mul_add(t142, t137.neg_mul_add(t138, n(p.k16)));
-        let t158 = t149.neg_mul_add(t150, t144.neg_mul_add(t145, t157));
-        let t159 = t153.neg_mul_add(t154, t158);
-        check(t159, n(p.k16), 7.105427357601002e-15, 5)?;
-        let t160 = N::ONE / t159;
-        let t161 = n(p.k5) * cos_q_7.mul_add(cos_q_6, sin_q_7 * sin_q_6);
-        let t162 = t141.neg_mul_add(t74, t137.neg_mul_add(t63, t161));
-        let t163 = t149.neg_mul_add(t109, t144.neg_mul_add(t88, t162));
-        let t164 = t153.neg_mul_add(t133, t163);
-        let t165 = t160 * t164;
-        let t166 = t165.neg_mul_add(t156, t133.neg_mul_add(t126, t134));
-        let t167 = t73.neg_mul_add(t74, t62.neg_mul_add(t63, n(p.k17)));
-        let t168 = t108.neg_mul_add(t109, t87.neg_mul_add(t88, t167));
-        let t169 = t164.neg_mul_add(t165, t132.neg_mul_add(t133, t168));
-        check(t169, n(p.k17), 7.105427357601002e-15, 6)?;
-        let t170 = N::ONE / t169;
-        let t171 = n(p.k4) * cos_q_1.mul_add(cos_q_8, sin_q_1 * sin_q_8);
-        let t172 = n(p.k31) * t171;
-        let t173 = n(p.k4) * cos_q_8.mul_add(cos_q_2, sin_q_8 * sin_q_2);
-        let t174 = t67.neg_mul_add(t172, t173);
-        let t175 = t71 * t174;
-        let t176 = n(p.k4) * cos_q_8.mul_add(cos_q_3, sin_q_8 * sin_q_3);
-        let t177 = t81.neg_mul_add(t175, t77.neg_mul_add(t172, t176));
-        let t178 = t85 * t177;
-        let t179 = n(p.k4) * cos_q_8.mul_add(cos_q_4, sin_q_8 * sin_q_4);
-        let t180 = t96.neg_mul_add(t175, t92.neg_mul_add(t172, t179));
-        let t181 = t99.neg_mul_add(t178, t180);
-        let t182 = t105 * t181;
-        let t183 = n(p.k4) * cos_q_8.mul_add(cos_q_5, sin_q_8 * sin_q_5);
-        let t184 = t116.neg_mul_add(t175, t112.neg_mul_add(t172, t183));
-        let t185 = t124.neg_mul_add(t182, t119.neg_mul_add(t178, t184));
-        let t186 = t129 * t185;
-        let t187 = n(p.k4) * cos_q_8.mul_add(cos_q_6, sin_q_8 * sin_q_6);
-        let t188 = t141.neg_mul_add(t175, t137.neg_mul_add(t172, t187));
-        let t189 = t149.neg_mul_add(t182, t144.neg_mul_add(t178, t188));
-        let t190 = t153.neg_mul_add(t186, t189);
-        let t191 = t160 * t190;
-        let t192 = n(p.k4) * cos_q_8.mul_add(cos_q_7, sin_q_8 * sin_q_7);
-        let t193 = t73.neg_mul_add(t175, t62.neg_mul_add(t172, t192));
-        let t194 = t108.neg_mul_add(t182, t87.neg_mul_add(t178, t193));
-        let t195 = t164.neg_mul_add(t191, t132.neg_mul_add(t186, t194));
-        let t196 = t170 * t195;
-        let t197 = sin_q_8.neg_mul_add(t34, cos_q_8 * t20) * n(p.k21);
-        let t198 = t175.neg_mul_add(t69, t61.neg_mul_add(t172, t197));
-        let t199 = t182.neg_mul_add(t102, t178.neg_mul_add(t83, t198));
-        let t200 = t191.neg_mul_add(t156, t186.neg_mul_add(t126, t199));
-        let t201 = t174.neg_mul_add(t175, t171.neg_mul_add(t172, n(p.k18)));
-        let t202 = t181.neg_mul_add(t182, t177.neg_mul_add(t178, t201));
-        let t203 = t190.neg_mul_add(t191, t185.neg_mul_add(t186, t202));
-        let t204 = t195.neg_mul_add(t196, t203);
-        check(t204, n(p.k18), 7.105427357601002e-15, 7)?;
-        let q_8_ddot = t196.neg_mul_add(t166, t200) / t204;
-        let q_7_ddot = t196.neg_mul_add(q_8_ddot, t170 * t166);
-        let t205 = t175.neg_mul_add(q_8_ddot, t71 * t69);
-        let t206 = t191.neg_mul_add(q_8_ddot, t160 * t156);
-        let q_6_ddot = t165.neg_mul_add(q_7_ddot, t206);
-        let t207 = t74.neg_mul_add(q_7_ddot, t205);
-        let t208 = t186.neg_mul_add(q_8_ddot, t129 * t126);
-        let t209 = t133.neg_mul_add(q_7_ddot, t208);
-        let q_5_ddot = t154.neg_mul_add(q_6_ddot, t209);
-        let t210 = t142.neg_mul_add(q_6_ddot, t207);
-        let t211 = t182.neg_mul_add(q_8_ddot, t105 * t102);
-        let t212 = t109.neg_mul_add(q_7_ddot, t211);
-        let t213 = t150.neg_mul_add(q_6_ddot, t212);
-        let q_4_ddot = t125.neg_mul_add(q_5_ddot, t213);
-        let t214 = t117.neg_mul_add(q_5_ddot, t210);
-        let t215 = t178.neg_mul_add(q_8_ddot, t85 * t83);
-        let t216 = t88.neg_mul_add(q_7_ddot, t215);
-        let t217 = t145.neg_mul_add(q_6_ddot, t216);
-        let t218 = t120.neg_mul_add(q_5_ddot, t217);
-        let q_3_ddot = t100.neg_mul_add(q_4_ddot, t218);
-        let q_2_ddot = t82.neg_mul_add(q_3_ddot, t97.neg_mul_add(q_4_ddot, t214));
-        let t219 = t172.mul_sub(q_8_ddot, n(p.k31) * t61);
-        let t220 = t138.mul_add(q_6_ddot, t63.mul_add(q_7_ddot, t219));
-        let t221 = t93.mul_add(q_4_ddot, t113.mul_add(q_5_ddot, t220));
-        let q_1_ddot = -t68.mul_add(q_2_ddot, t78.mul_add(q_3_ddot, t221));
+        let (sin_q_8, cos_q_8) = circular[0];
+        let (sin_q_7, cos_q_7) = circular[1];
+        let (sin_q_6, cos_q_6) = circular[2];
+        let (sin_q_5, cos_q_5) = circular[3];
+        let (sin_q_4, cos_q_4) = circular[4];
+        let (sin_q_3, cos_q_3) = circular[5];
+        let (sin_q_2, cos_q_2) = circular[6];
+        let (sin_q_1, cos_q_1) = circular[7];
+        let t0 = cos_q_8.mul_add(cos_q_7, sin_q_8 * sin_q_7);
+        let t1 = t0.neg_mul_add(t0 * n(p.k32), n(p.k18));
+        check(t1, n(p.k18), 7.105427357601002e-15, 6)?;
+        let t2 = N::ONE / t1;
+        let t3 = sin_q_8 * n(p.k33);
+        let t4 = t0.neg_mul_add(t3, sin_q_7 * N::from_f64(1.5));
+        let t5 = cos_q_8 * n(p.k33);
+        let t6 = t0.neg_mul_add(t5, cos_q_7 * N::from_f64(1.5));
+        let t7 = t2.mul_add(t4 * t6, cos_q_8 * (sin_q_8 * n(p.k35)));
+        let t8 = n(p.k1) * sin_q_6;
+        let t9 = n(p.k1) * t2;
+        let t10 = t6 * t9;
+        let t11 = cos_q_8.neg_mul_add(t5, N::from_f64(2.0));
+        let t12 = t6.neg_mul_add(t10, t11);
+        let t13 = cos_q_6.mul_sub(t12, t8 * t7);
+        let t14 = n(p.k1) * cos_q_6;
+        let t15 = t4 * t9;
+        let t16 = sin_q_8.neg_mul_add(t3, N::from_f64(2.0));
+        let t17 = t4.neg_mul_add(t15, t16);
+        let t18 = sin_q_6.mul_sub(t17, t14 * t7);
+        let t19 = t14.mul_add(t13, t8.mul_add(t18, n(p.k19)));
+        check(t19, n(p.k17), 7.105427357601002e-15, 5)?;
+        let t20 = N::ONE / t19;
+        let t21 = sin_q_6.mul_add(N::from_f64(0.5), t18);
+        let t22 = cos_q_6.mul_add(N::from_f64(0.5), t13);
+        let t23 = t20.mul_add(t21 * t22, t7);
+        let t24 = n(p.k1) * sin_q_5;
+        let t25 = n(p.k1) * t20;
+        let t26 = t22 * t25;
+        let t27 = t22.neg_mul_add(t26, N::ONE + t12);
+        let t28 = cos_q_5.mul_sub(t27, t24 * t23);
+        let t29 = n(p.k1) * cos_q_5;
+        let t30 = t21 * t25;
+        let t31 = t21.neg_mul_add(t30, N::ONE + t17);
+        let t32 = sin_q_5.mul_sub(t31, t29 * t23);
+        let t33 = t29.mul_add(t28, t24.mul_add(t32, n(p.k19)));
+        check(t33, n(p.k16), 7.105427357601002e-15, 4)?;
+        let t34 = N::ONE / t33;
+        let t35 = sin_q_5.mul_add(N::from_f64(0.5), t32);
+        let t36 = cos_q_5.mul_add(N::from_f64(0.5), t28);
+        let t37 = t34.mul_add(t35 * t36, t23);
+        let t38 = n(p.k1) * sin_q_4;
+        let t39 = n(p.k1) * t34;
+        let t40 = t36 * t39;
+        let t41 = t36.neg_mul_add(t40, N::ONE + t27);
+        let t42 = cos_q_4.mul_sub(t41, t38 * t37);
+        let t43 = n(p.k1) * cos_q_4;
+        let t44 = t35 * t39;
+        let t45 = t35.neg_mul_add(t44, N::ONE + t31);
+        let t46 = sin_q_4.mul_sub(t45, t43 * t37);
+        let t47 = t43.mul_add(t42, t38.mul_add(t46, n(p.k19)));
+        check(t47, n(p.k15), 7.105427357601002e-15, 3)?;
+        let t48 = N::ONE / t47;
+        let t49 = sin_q_4.mul_add(N::from_f64(0.5), t46);
+        let t50 = cos_q_4.mul_add(N::from_f64(0.5), t42);
+        let t51 = t48.mul_add(t49 * t50, t37);
+        let t52 = n(p.k1) * sin_q_3;
+        let t53 = n(p.k1) * t48;
+        let t54 = t50 * t53;
+        let t55 = t50.neg_mul_add(t54, N::ONE + t41);
+        let t56 = cos_q_3.mul_sub(t55, t52 * t51);
+        let t57 = n(p.k1) * cos_q_3;
+        let t58 = t49 * t53;
+        let t59 = t49.neg_mul_add(t58, N::ONE + t45);
+        let t60 = sin_q_3.mul_sub(t59, t57 * t51);
+        let t61 = t57.mul_add(t56, t52.mul_add(t60, n(p.k19)));
+        check(t61, n(p.k14), 7.105427357601002e-15, 2)?;
+        let t62 = N::ONE / t61;
+        let t63 = sin_q_3.mul_add(N::from_f64(0.5), t60);
+        let t64 = cos_q_3.mul_add(N::from_f64(0.5), t56);
+        let t65 = t62.mul_add(t63 * t64, t51);
+        let t66 = t65 * n(p.k36);
+        let t67 = q_2_dot * q_2_dot;
+        let t68 = sin_q_2 * t67;
+        let t69 = q_1_dot * q_1_dot;
+        let t70 = sin_q_1 * t69;
+        let t71 = t68 + t70;
+        let t72 = t51 * n(p.k36);
+        let t73 = q_3_dot * q_3_dot;
+        let t74 = sin_q_3 * t73;
+        let t75 = t37 * n(p.k36);
+        let t76 = q_4_dot * q_4_dot;
+        let t77 = sin_q_4 * t76;
+        let t78 = t23 * n(p.k36);
+        let t79 = q_5_dot * q_5_dot;
+        let t80 = sin_q_5 * t79;
+        let t81 = t7 * n(p.k36);
+        let t82 = q_6_dot * q_6_dot;
+        let t83 = sin_q_6 * t82;
+        let t84 = q_7_dot * q_7_dot;
+        let t85 = n(p.l) * t84;
+        let t86 = q_8_dot * (n(p.k0) * q_8_dot);
+        let t87 = n(p.g) + cos_q_7.mul_add(t85, cos_q_8 * t86);
+        let t88 = sin_q_7.mul_add(t85, sin_q_8 * t86);
+        let t89 = cos_q_7.neg_mul_add(t88, sin_q_7 * n(p.k34));
+        let t90 = sin_q_8.mul_sub(t87, cos_q_8 * t88);
+        let t91 = t90.neg_mul_add(t0 * n(p.k33), sin_q_7.mul_add(t87, t89));
+        let t92 = n(p.k0) * t84;
+        let t93 = t3.neg_mul_add(t90, t87 + cos_q_7.mul_add(t92, n(p.g)));
+        let t94 = n(p.l) * t82;
+        let t95 = cos_q_6 * t94;
+        let t96 = t81.mul_add(t83, t15.neg_mul_add(t91, t93));
+        let t97 = t17.mul_add(t95, t96);
+        let t98 = cos_q_6 * t82;
+        let t99 = t5.mul_add(t90, sin_q_7.mul_add(t92, t88));
+        let t100 = sin_q_6 * t94;
+        let t101 = t12.mul_add(t100, t98.mul_add(t81, t10.mul_add(t91, t99)));
+        let t102 = sin_q_6.mul_add(t97, sin_q_6 * n(p.k34));
+        let t103 = cos_q_6.neg_mul_add(t101, t102);
+        let t104 = t30.neg_mul_add(t103, t97 + n(p.k0).mul_add(t98, n(p.g)));
+        let t105 = n(p.l) * t79;
+        let t106 = cos_q_5 * t105;
+        let t107 = t31.mul_add(t106, t78.mul_add(t80, t104));
+        let t108 = cos_q_5 * t79;
+        let t109 = t26.mul_add(t103, n(p.k0).mul_add(t83, t101));
+        let t110 = sin_q_5 * t105;
+        let t111 = t27.mul_add(t110, t108.mul_add(t78, t109));
+        let t112 = sin_q_5.mul_add(t107, sin_q_5 * n(p.k34));
+        let t113 = cos_q_5.neg_mul_add(t111, t112);
+        let t114 = t107 + n(p.k0).mul_add(t108, n(p.g));
+        let t115 = n(p.l) * t76;
+        let t116 = cos_q_4 * t115;
+        let t117 = t75.mul_add(t77, t44.neg_mul_add(t113, t114));
+        let t118 = t45.mul_add(t116, t117);
+        let t119 = cos_q_4 * t76;
+        let t120 = t40.mul_add(t113, n(p.k0).mul_add(t80, t111));
+        let t121 = sin_q_4 * t115;
+        let t122 = t41.mul_add(t121, t119.mul_add(t75, t120));
+        let t123 = sin_q_4.mul_add(t118, sin_q_4 * n(p.k34));
+        let t124 = cos_q_4.neg_mul_add(t122, t123);
+        let t125 = t118 + n(p.k0).mul_add(t119, n(p.g));
+        let t126 = n(p.l) * t73;
+        let t127 = cos_q_3 * t126;
+        let t128 = t72.mul_add(t74, t58.neg_mul_add(t124, t125));
+        let t129 = t59.mul_add(t127, t128);
+        let t130 = cos_q_3 * t73;
+        let t131 = t54.mul_add(t124, n(p.k0).mul_add(t77, t122));
+        let t132 = sin_q_3 * t126;
+        let t133 = t55.mul_add(t132, t130.mul_add(t72, t131));
+        let t134 = sin_q_3.mul_add(t129, sin_q_3 * n(p.k34));
+        let t135 = cos_q_3.neg_mul_add(t133, t134);
+        let t136 = n(p.k1) * t62;
+        let t137 = t63 * t136;
+        let t138 = t129 + n(p.k0).mul_add(t130, n(p.g));
+        let t139 = t63.neg_mul_add(t137, N::ONE + t59);
+        let t140 = cos_q_1 * t69;
+        let t141 = cos_q_2 * t67;
+        let t142 = t140 + t141;
+        let t143 = n(p.l) * t142;
+        let t144 = t71.mul_add(t66, t137.neg_mul_add(t135, t138));
+        let t145 = t139.mul_add(t143, t144);
+        let t146 = N::from_f64(0.5) * sin_q_1;
+        let t147 = t140.mul_add(n(p.k0), n(p.g));
+        let t148 = n(p.g) + n(p.k0).mul_add(t141, t140 * n(p.l));
+        let t149 = n(p.k0).mul_add(t68, t70 * n(p.l));
+        let t150 = t146.mul_sub(t147, t140 * (sin_q_1 * n(p.k38)));
+        let t151 = t150 + sin_q_1.mul_sub(t148, cos_q_1 * t149);
+        let t152 = t64 * t136;
+        let t153 = t152.mul_add(t135, n(p.k0).mul_add(t74, t133));
+        let t154 = t64.neg_mul_add(t152, N::ONE + t55);
+        let t155 = n(p.l) * t71;
+        let t156 = t154.mul_add(t155, t66.mul_add(t142, t153));
+        let t157 = N::from_f64(0.5) * cos_q_2;
+        let t158 = t148.mul_sub(N::from_f64(0.5) * sin_q_2, t157 * t149);
+        let t159 = cos_q_2.neg_mul_add(t156, sin_q_2.mul_add(t145, t158));
+        let t160 = n(p.k1) * t65;
+        let t161 = cos_q_2.mul_sub(t154, t160 * sin_q_2);
+        let t162 = sin_q_2.mul_sub(t139, t160 * cos_q_2);
+        let t163 = t157.mul_add(cos_q_1, sin_q_2 * t146);
+        let t164 = t161.mul_add(cos_q_1, t162.mul_add(sin_q_1, t163));
+        let t165 = t162.mul_add(n(p.k1) * sin_q_2, n(p.k19));
+        let t166 = t161.mul_add(n(p.k1) * cos_q_2, t165);
+        check(t166, n(p.k13), 7.105427357601002e-15, 1)?;
+        let t167 = N::ONE / t166;
+        let t168 = n(p.k1) * t167;
+        let t169 = cos_q_1.neg_mul_add(t156, sin_q_1.mul_add(t145, t151));
+        let t170 = t139.mul_sub(sin_q_1, t160 * cos_q_1);
+        let t171 = t170.mul_add(n(p.k1) * sin_q_1, n(p.k18));
+        let t172 = t154.mul_sub(cos_q_1, t160 * sin_q_1);
+        let t173 = t172.mul_add(n(p.k1) * cos_q_1, t171);
+        let t174 = t167.neg_mul_add(t164 * (t164 * n(p.k37)), t173);
+        check(t174, n(p.k12), 7.105427357601002e-15, 0)?;
+        let t175 = N::ONE / t174 * t168.neg_mul_add(t164 * t159, t169);
+        let t176 = n(p.k1) * t175;
+        let t177 = t164.neg_mul_add(t176, t159);
+        let t178 = t168 * t177;
+        let t179 = sin_q_2.neg_mul_add(t178, sin_q_1.neg_mul_add(t176, t143));
+        let t180 = cos_q_2.mul_add(t178, cos_q_1.mul_add(t176, t155));
+        let t181 = t64.neg_mul_add(t180, t63.mul_add(t179, t135));
+        let t182 = t136 * t181;
+        let t183 = sin_q_3.neg_mul_add(t182, t127 + t179);
+        let t184 = cos_q_3.mul_add(t182, t132 + t180);
+        let t185 = t50.neg_mul_add(t184, t49.mul_add(t183, t124));
+        let t186 = t53 * t185;
+        let t187 = sin_q_4.neg_mul_add(t186, t116 + t183);
+        let t188 = cos_q_4.mul_add(t186, t121 + t184);
+        let t189 = t36.neg_mul_add(t188, t35.mul_add(t187, t113));
+        let t190 = t39 * t189;
+        let t191 = sin_q_5.neg_mul_add(t190, t106 + t187);
+        let t192 = cos_q_5.mul_add(t190, t110 + t188);
+        let t193 = t22.neg_mul_add(t192, t21.mul_add(t191, t103));
+        let t194 = t25 * t193;
+        let t195 = sin_q_6.neg_mul_add(t194, t95 + t191);
+        let t196 = cos_q_6.mul_add(t194, t100 + t192);
+        let t197 = t2 * t6.neg_mul_add(t196, t4.mul_add(t195, t91));
+        let t198 = sin_q_8 * N::from_f64(0.5);
+        let t199 = t195.mul_add(t198, N::from_f64(0.5) * t90);
+        let t200 = t196.neg_mul_add(cos_q_8 * N::from_f64(0.5), t199);
+        let q_1_ddot = t175 * n(p.k39);
+        let q_2_ddot = t177 * (t167 * n(p.k39));
+        let q_3_ddot = t181 * (t62 * n(p.k39));
+        let q_4_ddot = t185 * (t48 * n(p.k39));
+        let q_5_ddot = t189 * (t34 * n(p.k39));
+        let q_6_ddot = t193 * (t20 * n(p.k39));
+        let q_7_ddot = n(p.k39) * t197;
+        let q_8_ddot = n(p.k40) * t197.neg_mul_add(t0 * n(p.k5), t200);
         let accelerations = [
             q_1_ddot.store(),
             q_2_ddot.store(),
@@ -977,7 +993,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &
     let t10 = p.k0 * t0 + sin_q_1 * t9;
     let t11 = p.k0 * t4 + cos_q_1 * t9;
     let t12 = p.m * (t10 * t10 + t11 * t11) + q_2_dot * (q_2_dot * p.J);
-    let t13 = S::from_f64(0.5) * t12 + q_1_dot * (q_1_dot * p.k3);
+    let t13 = S::from_f64(0.5) * t12 + q_1_dot * (q_1_dot * p.k4);
     let t14 = t2 + t1;
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let t15 = sin_q_4 * q_4_dot;
@@ -1050,7 +1066,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     let t6 = cos_q_6 + t4;
     let cos_q_8 = q_8.cos();
     let t7 = p.k0 * cos_q_7 + p.l * t6 + (p.k0 * cos_q_6 + p.l * t4 + t5);
-    -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t6) + t7) * p.k1 + cos_q_1 * p.k2)
+    -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t6) + t7) * p.k2 + cos_q_1 * p.k3)
 }
 
 /// Height of the chain's end above the hinge. Unit: m.
@@ -1077,7 +1093,7 @@ pub fn output_end<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let cos_q_7 = q_7.cos();
     let t0 = cos_q_6 + (cos_q_5 + (cos_q_4 + (cos_q_3 + (cos_q_2 + cos_q_1))));
     let cos_q_8 = q_8.cos();
-    p.k30 * (cos_q_8 + (cos_q_7 + t0))
+    p.k31 * (cos_q_8 + (cos_q_7 + t0))
 }
 
 /// Everything that the description asks to observe.
@@ -1280,6 +1296,15 @@ where
             k29: lanes(|p| p.k29),
             k30: lanes(|p| p.k30),
             k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            k37: lanes(|p| p.k37),
+            k38: lanes(|p| p.k38),
+            k39: lanes(|p| p.k39),
+            k40: lanes(|p| p.k40),
             singular: None,
         }
     }
@@ -1304,10 +1329,7 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
     }
 }
 

@@ -6,12 +6,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 28 | 6 | 0 | 0 | 0 | 34 |
+//! | `prepare` | 35 | 7 | 1 | 0 | 0 | 43 |
 //! | `mass_matrix` | 126 | 103 | 0 | 8 | 0 | 245 |
 //! | `bias` | 103 | 81 | 0 | 8 | 0 | 200 |
 //! | `applied` | 9 | 21 | 0 | 8 | 0 | 38 |
 //! | `forces` | 104 | 89 | 0 | 8 | 0 | 209 |
-//! | `accelerations` | 405 | 325 | 8 | 8 | 0 | 754 |
+//! | `accelerations` | 294 | 197 | 7 | 8 | 0 | 514 |
 //! | `kinetic_energy` | 88 | 61 | 0 | 8 | 0 | 165 |
 //! | `potential_energy` | 22 | 28 | 0 | 8 | 0 | 58 |
 //!
@@ -69,34 +69,50 @@ impl<S> ChainRelative<S> {
 impl<S: ::lagrangian::Scalar> ChainRelative<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let t0 = self.l * self.m;
-        let k1 = self.l * t0;
-        let t1 = self.g * t0;
-        let k3 = S::from_f64(0.5) * t1;
-        let k5 = self.J + k1 * S::from_f64(0.25);
+        let k4 = self.l * self.m;
+        let k1 = self.l * k4;
+        let t0 = self.g * k4;
+        let k3 = S::from_f64(0.5) * t0;
+        let t1 = k1 * S::from_f64(0.25);
+        let k6 = self.J + t1;
+        let k29 = self.J + k1 * S::from_f64(1.25);
+        let k31 = S::ONE / k6;
+        let k28 = t1 * k31;
         let k0 = self.l * S::from_f64(0.5);
         let k2 = self.m * self.g;
-        let k4 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
-        let k6 = S::from_f64(0.5) * t0;
-        let k7 = self.m * S::from_f64(0.5);
-        let k8 = t0 * S::from_f64(0.25);
-        let k9 = t1 * S::from_f64(1.5);
-        let k10 = t1 * S::from_f64(2.5);
-        let k11 = t1 * S::from_f64(3.5);
-        let k12 = t1 * S::from_f64(4.5);
-        let k13 = t1 * S::from_f64(5.5);
-        let k14 = t1 * S::from_f64(6.5);
-        let k15 = t1 * S::from_f64(7.5);
-        let k16 = S::from_f64(0.5) * k1;
-        let k17 = t0 * S::from_f64(1.5);
-        let k18 = k5 + (self.J + k1 * S::from_f64(1.25));
-        let k19 = t0 * S::from_f64(2.0);
-        let k20 = t0 * S::from_f64(3.0);
-        let k21 = t0 * S::from_f64(4.0);
-        let k22 = t0 * S::from_f64(5.0);
-        let k23 = t0 * S::from_f64(6.0);
-        let k24 = self.J + k1 * S::from_f64(7.25);
-        let k25 = -k3;
+        let k5 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
+        let k7 = S::from_f64(0.5) * k4;
+        let k8 = self.m * S::from_f64(0.5);
+        let k9 = k4 * S::from_f64(0.25);
+        let k10 = t0 * S::from_f64(1.5);
+        let k11 = t0 * S::from_f64(2.5);
+        let k12 = t0 * S::from_f64(3.5);
+        let k13 = t0 * S::from_f64(4.5);
+        let k14 = t0 * S::from_f64(5.5);
+        let k15 = t0 * S::from_f64(6.5);
+        let k16 = t0 * S::from_f64(7.5);
+        let k17 = S::from_f64(0.5) * k1;
+        let k18 = k4 * S::from_f64(1.5);
+        let k19 = k6 + k29;
+        let k20 = k4 * S::from_f64(2.0);
+        let k21 = k4 * S::from_f64(3.0);
+        let k22 = k4 * S::from_f64(4.0);
+        let k23 = k4 * S::from_f64(5.0);
+        let k24 = k4 * S::from_f64(6.0);
+        let k25 = self.J + k1 * S::from_f64(7.25);
+        let k26 = -k3;
+        let k27 = k1 * k28;
+        let k30 = self.g * S::from_f64(0.5);
+        let k32 = S::from_f64(0.25) * k31;
+        let k33 = self.l * k1;
+        let k34 = k1 * k1;
+        let k35 = self.l * S::from_f64(0.25);
+        let k36 = -k4;
+        let singular = if vanishes(k6, k6, 7.105427357601002e-15) {
+            Some(singular(7, k6, k6))
+        } else {
+            None
+        };
         Prepared {
             l: self.l,
             m: self.m,
@@ -128,6 +144,18 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
             k23,
             k24,
             k25,
+            k26,
+            k27,
+            k28,
+            k29,
+            k30,
+            k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
+            singular,
         }
     }
 
@@ -199,50 +227,74 @@ pub struct Prepared<S = f64> {
     k2: S,
     /// `0.5*l*m*g`
     k3: S,
-    /// `0.125*(l^2*m + 4*J)`
+    /// `l*m`
     k4: S,
-    /// `J + 0.25*l^2*m`
+    /// `0.125*(l^2*m + 4*J)`
     k5: S,
-    /// `0.5*l*m`
+    /// `J + 0.25*l^2*m`
     k6: S,
-    /// `0.5*m`
+    /// `0.5*l*m`
     k7: S,
-    /// `0.25*l*m`
+    /// `0.5*m`
     k8: S,
-    /// `1.5*l*m*g`
+    /// `0.25*l*m`
     k9: S,
-    /// `2.5*l*m*g`
+    /// `1.5*l*m*g`
     k10: S,
-    /// `3.5*l*m*g`
+    /// `2.5*l*m*g`
     k11: S,
-    /// `4.5*l*m*g`
+    /// `3.5*l*m*g`
     k12: S,
-    /// `5.5*l*m*g`
+    /// `4.5*l*m*g`
     k13: S,
-    /// `6.5*l*m*g`
+    /// `5.5*l*m*g`
     k14: S,
-    /// `7.5*l*m*g`
+    /// `6.5*l*m*g`
     k15: S,
-    /// `0.5*l^2*m`
+    /// `7.5*l*m*g`
     k16: S,
-    /// `1.5*l*m`
+    /// `0.5*l^2*m`
     k17: S,
-    /// `J + J + 0.25*l^2*m + 1.25*l^2*m`
+    /// `1.5*l*m`
     k18: S,
-    /// `2*l*m`
+    /// `J + J + 0.25*l^2*m + 1.25*l^2*m`
     k19: S,
-    /// `3*l*m`
+    /// `2*l*m`
     k20: S,
-    /// `4*l*m`
+    /// `3*l*m`
     k21: S,
-    /// `5*l*m`
+    /// `4*l*m`
     k22: S,
-    /// `6*l*m`
+    /// `5*l*m`
     k23: S,
-    /// `J + 7.25*l^2*m`
+    /// `6*l*m`
     k24: S,
-    /// `-0.5*l*m*g`
+    /// `J + 7.25*l^2*m`
     k25: S,
+    /// `-0.5*l*m*g`
+    k26: S,
+    /// `0.25*l^4*m^2/(J + 0.25*l^2*m)`
+    k27: S,
+    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    k28: S,
+    /// `J + 1.25*l^2*m`
+    k29: S,
+    /// `0.5*g`
+    k30: S,
+    /// `1/(J + 0.25*l^2*m)`
+    k31: S,
+    /// `0.25/(J + 0.25*l^2*m)`
+    k32: S,
+    /// `l^3*m`
+    k33: S,
+    /// `l^4*m^2`
+    k34: S,
+    /// `0.25*l`
+    k35: S,
+    /// `-l*m`
+    k36: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
 }
 
 /// Mass matrix `M`, row by row.
@@ -278,46 +330,46 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
     let t6 = t5 + q_8;
     let (sin_t6, cos_t6) = t6.sin_cos();
     let (sin_t5, cos_t5) = t5.sin_cos();
-    let t7 = p.k6 * cos_t6 + p.k17 * cos_t5;
+    let t7 = p.k7 * cos_t6 + p.k18 * cos_t5;
     let (sin_t4, cos_t4) = t4.sin_cos();
-    let t8 = p.k6 * sin_t6 + p.k17 * sin_t5;
+    let t8 = p.k7 * sin_t6 + p.k18 * sin_t5;
     let t9 = cos_t6 * cos_t5 + sin_t6 * sin_t5;
-    let m77 = t9 * p.k1 + p.k18;
+    let m77 = t9 * p.k1 + p.k19;
     let m76 = p.l * (cos_t4 * t7 + sin_t4 * t8) + m77;
-    let t10 = cos_t4 * p.k19 + t7;
-    let t11 = sin_t4 * p.k19 + t8;
-    let m66 = p.l * (cos_t4 * t10 + sin_t4 * t11) + (m76 + p.k5);
-    let t12 = p.k6 * cos_t4 + t10;
+    let t10 = cos_t4 * p.k20 + t7;
+    let t11 = sin_t4 * p.k20 + t8;
+    let m66 = p.l * (cos_t4 * t10 + sin_t4 * t11) + (m76 + p.k6);
+    let t12 = p.k7 * cos_t4 + t10;
     let (sin_t3, cos_t3) = t3.sin_cos();
-    let t13 = p.k6 * sin_t4 + t11;
+    let t13 = p.k7 * sin_t4 + t11;
     let m65 = p.l * (cos_t3 * t12 + sin_t3 * t13) + m66;
-    let t14 = cos_t3 * p.k20 + t12;
-    let t15 = sin_t3 * p.k20 + t13;
-    let m55 = m65 + (p.k5 + p.l * (cos_t3 * t14 + sin_t3 * t15));
-    let t16 = p.k6 * cos_t3 + t14;
+    let t14 = cos_t3 * p.k21 + t12;
+    let t15 = sin_t3 * p.k21 + t13;
+    let m55 = m65 + (p.k6 + p.l * (cos_t3 * t14 + sin_t3 * t15));
+    let t16 = p.k7 * cos_t3 + t14;
     let (sin_t2, cos_t2) = t2.sin_cos();
-    let t17 = p.k6 * sin_t3 + t15;
+    let t17 = p.k7 * sin_t3 + t15;
     let m54 = p.l * (cos_t2 * t16 + sin_t2 * t17) + m55;
-    let t18 = cos_t2 * p.k21 + t16;
-    let t19 = sin_t2 * p.k21 + t17;
-    let m44 = m54 + (p.k5 + p.l * (cos_t2 * t18 + sin_t2 * t19));
-    let t20 = p.k6 * cos_t2 + t18;
+    let t18 = cos_t2 * p.k22 + t16;
+    let t19 = sin_t2 * p.k22 + t17;
+    let m44 = m54 + (p.k6 + p.l * (cos_t2 * t18 + sin_t2 * t19));
+    let t20 = p.k7 * cos_t2 + t18;
     let (sin_t1, cos_t1) = t1.sin_cos();
-    let t21 = p.k6 * sin_t2 + t19;
+    let t21 = p.k7 * sin_t2 + t19;
     let m43 = p.l * (cos_t1 * t20 + sin_t1 * t21) + m44;
-    let t22 = cos_t1 * p.k22 + t20;
-    let t23 = sin_t1 * p.k22 + t21;
-    let m33 = m43 + (p.k5 + p.l * (cos_t1 * t22 + sin_t1 * t23));
-    let t24 = p.k6 * cos_t1 + t22;
+    let t22 = cos_t1 * p.k23 + t20;
+    let t23 = sin_t1 * p.k23 + t21;
+    let m33 = m43 + (p.k6 + p.l * (cos_t1 * t22 + sin_t1 * t23));
+    let t24 = p.k7 * cos_t1 + t22;
     let (sin_t0, cos_t0) = t0.sin_cos();
-    let t25 = p.k6 * sin_t1 + t23;
+    let t25 = p.k7 * sin_t1 + t23;
     let m32 = p.l * (t24 * cos_t0 + sin_t0 * t25) + m33;
-    let t26 = t24 + cos_t0 * p.k23;
-    let t27 = t25 + sin_t0 * p.k23;
-    let m22 = m32 + (p.k5 + p.l * (cos_t0 * t26 + sin_t0 * t27));
+    let t26 = t24 + cos_t0 * p.k24;
+    let t27 = t25 + sin_t0 * p.k24;
+    let m22 = m32 + (p.k6 + p.l * (cos_t0 * t26 + sin_t0 * t27));
     let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t28 = sin_q_1 * (sin_t0 * p.k16 + p.l * t27);
-    let t29 = cos_q_1 * (cos_t0 * p.k16 + p.l * t26) + t28;
+    let t28 = sin_q_1 * (sin_t0 * p.k17 + p.l * t27);
+    let t29 = cos_q_1 * (cos_t0 * p.k17 + p.l * t26) + t28;
     let m42 = m43 + p.l * (t20 * cos_t0 + sin_t0 * t21);
     let m53 = m54 + p.l * (cos_t1 * t16 + sin_t1 * t17);
     let m52 = p.l * (t16 * cos_t0 + sin_t0 * t17) + m53;
@@ -328,20 +380,20 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
     let m74 = p.l * (cos_t2 * t7 + sin_t2 * t8) + m75;
     let m73 = p.l * (cos_t1 * t7 + sin_t1 * t8) + m74;
     let m72 = p.l * (t7 * cos_t0 + sin_t0 * t8) + m73;
-    let m87 = p.k5 + t9 * p.k16;
-    let m86 = p.k16 * (cos_t4 * cos_t6 + sin_t4 * sin_t6) + m87;
-    let m85 = p.k16 * (cos_t3 * cos_t6 + sin_t3 * sin_t6) + m86;
-    let m84 = p.k16 * (cos_t2 * cos_t6 + sin_t2 * sin_t6) + m85;
-    let m83 = p.k16 * (cos_t1 * cos_t6 + sin_t1 * sin_t6) + m84;
-    let m82 = p.k16 * (cos_t6 * cos_t0 + sin_t6 * sin_t0) + m83;
-    let m11 = t29 * S::from_f64(2.0) + (m22 + p.k24);
+    let m87 = p.k6 + t9 * p.k17;
+    let m86 = p.k17 * (cos_t4 * cos_t6 + sin_t4 * sin_t6) + m87;
+    let m85 = p.k17 * (cos_t3 * cos_t6 + sin_t3 * sin_t6) + m86;
+    let m84 = p.k17 * (cos_t2 * cos_t6 + sin_t2 * sin_t6) + m85;
+    let m83 = p.k17 * (cos_t1 * cos_t6 + sin_t1 * sin_t6) + m84;
+    let m82 = p.k17 * (cos_t6 * cos_t0 + sin_t6 * sin_t0) + m83;
+    let m11 = t29 * S::from_f64(2.0) + (m22 + p.k25);
     let m21 = m22 + t29;
     let m31 = m32 + p.l * (t24 * cos_q_1 + t25 * sin_q_1);
     let m41 = p.l * (t20 * cos_q_1 + t21 * sin_q_1) + m42;
     let m51 = p.l * (t16 * cos_q_1 + t17 * sin_q_1) + m52;
     let m61 = p.l * (t12 * cos_q_1 + t13 * sin_q_1) + m62;
     let m71 = p.l * (t7 * cos_q_1 + t8 * sin_q_1) + m72;
-    let m81 = p.k16 * (cos_t6 * cos_q_1 + sin_t6 * sin_q_1) + m82;
+    let m81 = p.k17 * (cos_t6 * cos_q_1 + sin_t6 * sin_q_1) + m82;
     [
         [m11, m21, m31, m41, m51, m61, m71, m81],
         [m21, m22, m32, m42, m52, m62, m72, m82],
@@ -350,7 +402,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [[S;
         [m51, m52, m53, m54, m55, m65, m75, m85],
         [m61, m62, m63, m64, m65, m66, m76, m86],
         [m71, m72, m73, m74, m75, m76, m77, m87],
-        [m81, m82, m83, m84, m85, m86, m87, p.k5],
+        [m81, m82, m83, m84, m85, m86, m87, p.k6],
     ]
 }
 
@@ -445,37 +497,37 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let t51 = p.k0 * t49 + p.l * t48;
     let t52 = t50 + t51;
     let t53 = p.k0 * t47 + p.l * t46;
-    let t54 = sin_t24 * (p.m * t36 + t37 * p.k7) - cos_t24 * (p.m * t52 + t53 * p.k7);
-    let t55 = sin_t29 * (p.m * t34 + t35 * p.k7) - cos_t29 * (p.m * t50 + t51 * p.k7);
-    let h_q_8 = (sin_t33 * t34 - cos_t33 * t50) * p.k6;
+    let t54 = sin_t24 * (p.m * t36 + t37 * p.k8) - cos_t24 * (p.m * t52 + t53 * p.k8);
+    let t55 = sin_t29 * (p.m * t34 + t35 * p.k8) - cos_t29 * (p.m * t50 + t51 * p.k8);
+    let h_q_8 = (sin_t33 * t34 - cos_t33 * t50) * p.k7;
     let h_q_7 = p.l * t55 + h_q_8;
     let h_q_6 = p.l * t54 + h_q_7;
     let t56 = t36 + t37;
     let t57 = p.k0 * t20 + p.l * t16;
     let t58 = t52 + t53;
     let t59 = p.k0 * t45 + p.l * t44;
-    let t60 = sin_t19 * (p.m * t56 + t57 * p.k7) - cos_t19 * (p.m * t58 + t59 * p.k7);
+    let t60 = sin_t19 * (p.m * t56 + t57 * p.k8) - cos_t19 * (p.m * t58 + t59 * p.k8);
     let h_q_5 = p.l * t60 + h_q_6;
     let t61 = t56 + t57;
     let t62 = p.k0 * t15 + p.l * t11;
     let t63 = t58 + t59;
     let t64 = p.k0 * t43 + p.l * t42;
-    let t65 = sin_t14 * (p.m * t61 + t62 * p.k7) - cos_t14 * (p.m * t63 + t64 * p.k7);
+    let t65 = sin_t14 * (p.m * t61 + t62 * p.k8) - cos_t14 * (p.m * t63 + t64 * p.k8);
     let h_q_4 = p.l * t65 + h_q_5;
     let t66 = t61 + t62;
     let t67 = p.k0 * t5 + p.l * t10;
     let t68 = t63 + t64;
     let t69 = p.k0 * t38 + p.l * t41;
-    let t70 = sin_t4 * (p.m * t66 + t67 * p.k7) - cos_t4 * (p.m * t68 + t69 * p.k7);
+    let t70 = sin_t4 * (p.m * t66 + t67 * p.k8) - cos_t4 * (p.m * t68 + t69 * p.k8);
     let h_q_3 = p.l * t70 + h_q_4;
     let t71 = p.m * (t66 + t67);
     let t72 = p.k0 * t7 + p.l * t9;
     let t73 = p.m * (t68 + t69);
     let t74 = p.k0 * t39 + p.l * t40;
-    let t75 = p.l * (sin_t3 * (t71 + t72 * p.k7) - cos_t3 * (t73 + t74 * p.k7));
+    let t75 = p.l * (sin_t3 * (t71 + t72 * p.k8) - cos_t3 * (t73 + t74 * p.k8));
     let h_q_2 = t75 + h_q_3;
-    let t76 = cos_q_1 * (t73 + (p.m * t74 + t40 * p.k8));
-    let h_q_1 = p.l * (sin_q_1 * (t71 + (p.m * t72 + p.k8 * t9)) - t76) + h_q_2;
+    let t76 = cos_q_1 * (t73 + (p.m * t74 + t40 * p.k9));
+    let h_q_1 = p.l * (sin_q_1 * (t71 + (p.m * t72 + p.k9 * t9)) - t76) + h_q_2;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -535,26 +587,26 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> [S; 8] {
     let t6 = t5 + q_8;
     let sin_t6 = t6.sin();
     let sin_t5 = t5.sin();
-    let t7 = sin_t6 * p.k3 + p.k9 * sin_t5;
+    let t7 = sin_t6 * p.k3 + p.k10 * sin_t5;
     let sin_t4 = t4.sin();
-    let t8 = p.k10 * sin_t4 + t7;
+    let t8 = p.k11 * sin_t4 + t7;
     let sin_t3 = t3.sin();
-    let t9 = p.k11 * sin_t3 + t8;
+    let t9 = p.k12 * sin_t3 + t8;
     let sin_t2 = t2.sin();
-    let t10 = p.k12 * sin_t2 + t9;
+    let t10 = p.k13 * sin_t2 + t9;
     let sin_t1 = t1.sin();
-    let t11 = p.k13 * sin_t1 + t10;
+    let t11 = p.k14 * sin_t1 + t10;
     let sin_t0 = t0.sin();
-    let t12 = p.k14 * sin_t0 + t11;
+    let t12 = p.k15 * sin_t0 + t11;
     let sin_q_1 = q_1.sin();
-    let q_q_1 = -(p.k15 * sin_q_1 + t12);
+    let q_q_1 = -(p.k16 * sin_q_1 + t12);
     let q_q_2 = -t12;
     let q_q_3 = -t11;
     let q_q_4 = -t10;
     let q_q_5 = -t9;
     let q_q_6 = -t8;
     let q_q_7 = -t7;
-    let q_q_8 = sin_t6 * p.k25;
+    let q_q_8 = sin_t6 * p.k26;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5, q_q_6, q_q_7, q_q_8]
 }
 
@@ -638,41 +690,41 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let t51 = p.g + (p.k0 * t49 + p.l * t48);
     let t52 = t50 + t51;
     let t53 = p.g + (p.k0 * t47 + p.l * t46);
-    let t54 = cos_t24 * (p.m * t36 + p.k7 * t37) - sin_t24 * (p.m * t52 + t53 * p.k7);
-    let t55 = cos_t29 * (p.m * t34 + p.k7 * t35) - sin_t29 * (p.m * t50 + t51 * p.k7);
-    let f_q_8 = (cos_t33 * t34 - sin_t33 * t50) * p.k6;
+    let t54 = cos_t24 * (p.m * t36 + p.k8 * t37) - sin_t24 * (p.m * t52 + t53 * p.k8);
+    let t55 = cos_t29 * (p.m * t34 + p.k8 * t35) - sin_t29 * (p.m * t50 + t51 * p.k8);
+    let f_q_8 = (cos_t33 * t34 - sin_t33 * t50) * p.k7;
     let f_q_7 = p.l * t55 + f_q_8;
     let f_q_6 = p.l * t54 + f_q_7;
     let t56 = t36 + t37;
     let t57 = p.k0 * t20 + p.l * t16;
     let t58 = t52 + t53;
     let t59 = p.g + (p.k0 * t45 + p.l * t44);
-    let t60 = cos_t19 * (p.m * t56 + p.k7 * t57) - sin_t19 * (p.m * t58 + t59 * p.k7);
+    let t60 = cos_t19 * (p.m * t56 + p.k8 * t57) - sin_t19 * (p.m * t58 + t59 * p.k8);
     let f_q_5 = p.l * t60 + f_q_6;
     let t61 = t56 + t57;
     let t62 = p.k0 * t15 + p.l * t11;
     let t63 = t58 + t59;
     let t64 = p.g + (p.k0 * t43 + p.l * t42);
-    let t65 = cos_t14 * (p.m * t61 + p.k7 * t62) - sin_t14 * (p.m * t63 + t64 * p.k7);
+    let t65 = cos_t14 * (p.m * t61 + p.k8 * t62) - sin_t14 * (p.m * t63 + t64 * p.k8);
     let f_q_4 = p.l * t65 + f_q_5;
     let t66 = t61 + t62;
     let t67 = p.k0 * t5 + p.l * t10;
     let t68 = t63 + t64;
     let t69 = p.g + (p.k0 * t38 + p.l * t41);
-    let t70 = cos_t4 * (p.m * t66 + p.k7 * t67) - sin_t4 * (p.m * t68 + t69 * p.k7);
+    let t70 = cos_t4 * (p.m * t66 + p.k8 * t67) - sin_t4 * (p.m * t68 + t69 * p.k8);
     let f_q_3 = p.l * t70 + f_q_4;
     let t71 = p.m * (t66 + t67);
     let t72 = p.k0 * t7 + p.l * t9;
     let t73 = p.m * (t68 + t69);
     let t74 = p.g + (p.k0 * t39 + p.l * t40);
-    let t75 = p.l * (cos_t3 * (t71 + p.k7 * t72) - sin_t3 * (t73 + t74 * p.k7));
+    let t75 = p.l * (cos_t3 * (t71 + p.k8 * t72) - sin_t3 * (t73 + t74 * p.k8));
     let f_q_2 = t75 + f_q_3;
-    let t76 = sin_q_1 * (t73 + (p.m * t74 + p.k7 * (p.g + p.k0 * t40)));
-    let f_q_1 = p.l * (cos_q_1 * (t71 + (p.m * t72 + t9 * p.k8)) - t76) + f_q_2;
+    let t76 = sin_q_1 * (t73 + (p.m * t74 + p.k8 * (p.g + p.k0 * t40)));
+    let f_q_1 = p.l * (cos_q_1 * (t71 + (p.m * t72 + t9 * p.k9)) - t76) + f_q_2;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -700,6 +752,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
     fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
         let q_1 = n(q[0]);
         let q_2 = n(q[1]);
         let q_3 = n(q[2]);
@@ -734,292 +789,237 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let (sin_t0, cos_t0) = circular[6];
         let (sin_q_1, cos_q_1) = circular[7];
         let t7 = cos_t6.mul_add(cos_t5, sin_t6 * sin_t5);
-        let t8 = t7.mul_add(n(p.k1), n(p.k18));
-        let t9 = cos_t6.mul_add(n(p.k6), cos_t5 * n(p.k17));
-        let t10 = sin_t6.mul_add(n(p.k6), sin_t5 * n(p.k17));
-        let t11 = n(p.l).mul_add(t9.mul_add(cos_t4, sin_t4 * t10), t8);
-        let t12 = cos_t4.mul_add(n(p.k19), t9);
-        let t13 = sin_t4.mul_add(n(p.k19), t10);
-        let t14 = cos_t4.mul_add(t12, sin_t4 * t13);
-        let t15 = n(p.l).mul_add(t14, n(p.k5) + t11);
-        let t16 = n(p.k6).mul_add(cos_t4, t12);
-        let t17 = n(p.k6).mul_add(sin_t4, t13);
-        let t18 = n(p.l).mul_add(t16.mul_add(cos_t3, sin_t3 * t17), t15);
-        let t19 = cos_t3.mul_add(n(p.k20), t16);
-        let t20 = sin_t3.mul_add(n(p.k20), t17);
-        let t21 = n(p.l).mul_add(cos_t3.mul_add(t19, sin_t3 * t20), n(p.k5));
-        let t22 = t18 + t21;
-        let t23 = n(p.k6).mul_add(cos_t3, t19);
-        let t24 = n(p.k6).mul_add(sin_t3, t20);
-        let t25 = n(p.l).mul_add(t23.mul_add(cos_t2, sin_t2 * t24), t22);
-        let t26 = cos_t2.mul_add(n(p.k21), t23);
-        let t27 = sin_t2.mul_add(n(p.k21), t24);
-        let t28 = n(p.l).mul_add(cos_t2.mul_add(t26, sin_t2 * t27), n(p.k5));
-        let t29 = t25 + t28;
-        let t30 = n(p.k6).mul_add(cos_t2, t26);
-        let t31 = n(p.k6).mul_add(sin_t2, t27);
-        let t32 = n(p.l).mul_add(t30.mul_add(cos_t1, sin_t1 * t31), t29);
-        let t33 = cos_t1.mul_add(n(p.k22), t30);
-        let t34 = sin_t1.mul_add(n(p.k22), t31);
-        let t35 = n(p.l).mul_add(cos_t1.mul_add(t33, sin_t1 * t34), n(p.k5));
-        let t36 = t32 + t35;
-        let t37 = n(p.k6).mul_add(cos_t1, t33);
-        let t38 = n(p.k6).mul_add(sin_t1, t34);
-        let t39 = n(p.l).mul_add(t37.mul_add(cos_t0, sin_t0 * t38), t36);
-        let t40 = cos_t0.mul_add(n(p.k23), t37);
-        let t41 = sin_t0.mul_add(n(p.k23), t38);
-        let t42 = n(p.l).mul_add(cos_t0.mul_add(t40, sin_t0 * t41), n(p.k5));
-        let t43 = t39 + t42;
-        let t44 = sin_q_1 * n(p.l).mul_add(t41, sin_t0 * n(p.k16));
-        let t45 = n(p.l).mul_add(t40, cos_t0 * n(p.k16));
-        let t46 = cos_q_1.mul_add(t45, t44);
-        let t47 = t46.mul_add(N::from_f64(2.0), t43 + n(p.k24));
-        check(t47, t47, 7.105427357601002e-15, 0)?;
-        let t48 = N::ONE / t47;
-        let t49 = t43 + t46;
-        let t50 = t48 * t49;
-        let t51 = t49.neg_mul_add(t50, t43);
-        check(t51, t43, 7.105427357601002e-15, 1)?;
-        let t52 = N::ONE / t51;
-        let t53 = n(p.l).mul_add(t37.mul_add(cos_q_1, t38 * sin_q_1), t39);
-        let t54 = t48 * t53;
-        let t55 = t49.neg_mul_add(t54, t39);
-        let t56 = t52 * t55;
-        let t57 = t55.neg_mul_add(t56, t53.neg_mul_add(t54, t36));
-        check(t57, t36, 7.105427357601002e-15, 2)?;
-        let t58 = N::ONE / t57;
-        let t59 = n(p.l).mul_add(t30.mul_add(cos_t0, t31 * sin_t0), t32);
-        let t60 = n(p.l).mul_add(t30.mul_add(cos_q_1, t31 * sin_q_1), t59);
-        let t61 = t48 * t60;
-        let t62 = t49.neg_mul_add(t61, t59);
-        let t63 = t52 * t62;
-        let t64 = t55.neg_mul_add(t63, t53.neg_mul_add(t61, t32));
-        let t65 = t58 * t64;
-        let t66 = t62.neg_mul_add(t63, t60.neg_mul_add(t61, t29));
-        let t67 = t64.neg_mul_add(t65, t66);
-        check(t67, t29, 7.105427357601002e-15, 3)?;
-        let t68 = N::ONE / t67;
-        let t69 = n(p.l).mul_add(t23.mul_add(cos_t1, t24 * sin_t1), t25);
-        let t70 = n(p.l).mul_add(t23.mul_add(cos_t0, t24 * sin_t0), t69);
-        let t71 = n(p.l).mul_add(t23.mul_add(cos_q_1, t24 * sin_q_1), t70);
-        let t72 = t48 * t71;
-        let t73 = t49.neg_mul_add(t72, t70);
-        let t74 = t52 * t73;
-        let t75 = t55.neg_mul_add(t74, t53.neg_mul_add(t72, t69));
-        let t76 = t58 * t75;
-        let t77 = t62.neg_mul_add(t74, t60.neg_mul_add(t72, t25));
-        let t78 = t64.neg_mul_add(t76, t77);
-        let t79 = t68 * t78;
-        let t80 = t73.neg_mul_add(t74, t71.neg_mul_add(t72, t22));
-        let t81 = t78.neg_mul_add(t79, t75.neg_mul_add(t76, t80));
-        check(t81, t22, 7.105427357601002e-15, 4)?;
-        let t82 = N::ONE / t81;
-        let t83 = n(p.l).mul_add(t16.mul_add(cos_t2, t17 * sin_t2), t18);
-        let t84 = n(p.l).mul_add(t16.mul_add(cos_t1, t17 * sin_t1), t83);
-        let t85 = n(p.l).mul_add(t16.mul_add(cos_t0, t17 * sin_t0), t84);
-        let t86 = n(p.l).mul_add(t16.mul_add(cos_q_1, t17 * sin_q_1), t85);
-        let t87 = t48 * t86;
-        let t88 = t49.neg_mul_add(t87, t85);
-        let t89 = t52 * t88;
-        let t90 = t55.neg_mul_add(t89, t53.neg_mul_add(t87, t84));
-        let t91 = t58 * t90;
-        let t92 = t62.neg_mul_add(t89, t60.neg_mul_add(t87, t83));
-        let t93 = t64.neg_mul_add(t91, t92);
-        let t94 = t68 * t93;
-        let t95 = t73.neg_mul_add(t89, t71.neg_mul_add(t87, t18));
-        let t96 = t78.neg_mul_add(t94, t75.neg_mul_add(t91, t95));
-        let t97 = t82 * t96;
-        let t98 = t88.neg_mul_add(t89, t86.neg_mul_add(t87, t15));
-        let t99 = t93.neg_mul_add(t94, t90.neg_mul_add(t91, t98));
-        let t100 = t96.neg_mul_add(t97, t99);
-        check(t100, t15, 7.105427357601002e-15, 5)?;
-        let t101 = N::ONE / t100;
-        let t102 = n(p.l).mul_add(t9.mul_add(cos_t3, t10 * sin_t3), t11);
-        let t103 = n(p.l).mul_add(t9.mul_add(cos_t2, t10 * sin_t2), t102);
-        let t104 = n(p.l).mul_add(t9.mul_add(cos_t1, t10 * sin_t1), t103);
-        let t105 = n(p.l).mul_add(t9.mul_add(cos_t0, t10 * sin_t0), t104);
-        let t106 = n(p.l).mul_add(t9.mul_add(cos_q_1, t10 * sin_q_1), t105);
-        let t107 = t48 * t106;
-        let t108 = t49.neg_mul_add(t107, t105);
-        let t109 = t52 * t108;
-        let t110 = t55.neg_mul_add(t109, t53.neg_mul_add(t107, t104));
-        let t111 = t58 * t110;
-        let t112 = t62.neg_mul_add(t109, t60.neg_mul_add(t107, t103));
-        let t113 = t64.neg_mul_add(t111, t112);
-        let t114 = t68 * t113;
-        let t115 = t73.neg_mul_add(t109, t71.neg_mul_add(t107, t102));
-        let t116 = t78.neg_mul_add(t114, t75.neg_mul_add(t111, t115));
-        let t117 = t82 * t116;
-        let t118 = t88.neg_mul_add(t109, t86.neg_mul_add(t107, t11));
-        let t119 = t93.neg_mul_add(t114, t90.neg_mul_add(t111, t118));
-        let t120 = t96.neg_mul_add(t117, t119);
-        let t121 = t101 * t120;
-        let t122 = t108.neg_mul_add(t109, t106.neg_mul_add(t107, t8));
-        let t123 = t113.neg_mul_add(t114, t110.neg_mul_add(t111, t122));
-        let t124 = t120.neg_mul_add(t121, t116.neg_mul_add(t117, t123));
-        check(t124, t8, 7.105427357601002e-15, 6)?;
-        let t125 = N::ONE / t124;
-        let t126 = t7.mul_add(n(p.k16), n(p.k5));
-        let t127 = cos_t6.mul_add(cos_t4, sin_t6 * sin_t4);
-        let t128 = n(p.k16).mul_add(t127, t126);
-        let t129 = cos_t6.mul_add(cos_t3, sin_t6 * sin_t3);
-        let t130 = n(p.k16).mul_add(t129, t128);
-        let t131 = cos_t6.mul_add(cos_t2, sin_t6 * sin_t2);
-        let t132 = n(p.k16).mul_add(t131, t130);
-        let t133 = cos_t6.mul_add(cos_t1, sin_t6 * sin_t1);
-        let t134 = n(p.k16).mul_add(t133, t132);
-        let t135 = cos_t6.mul_add(cos_t0, sin_t6 * sin_t0);
-        let t136 = n(p.k16).mul_add(t135, t134);
-        let t137 = cos_t6.mul_add(cos_q_1, sin_t6 * sin_q_1);
-        let t138 = n(p.k16).mul_add(t137, t136);
-        let t139 = t48 * t138;
-        let t140 = t49.neg_mul_add(t139, t136);
-        let t141 = t52 * t140;
-        let t142 = t55.neg_mul_add(t141, t53.neg_mul_add(t139, t134));
-        let t143 = t58 * t142;
-        let t144 = t62.neg_mul_add(t141, t60.neg_mul_add(t139, t132));
-        let t145 = t64.neg_mul_add(t143, t144);
-        let t146 = t68 * t145;
-        let t147 = t73.neg_mul_add(t141, t71.neg_mul_add(t139, t130));
-        let t148 = t78.neg_mul_add(t146, t75.neg_mul_add(t143, t147));
-        let t149 = t82 * t148;
-        let t150 = t88.neg_mul_add(t141, t86.neg_mul_add(t139, t128));
-        let t151 = t93.neg_mul_add(t146, t90.neg_mul_add(t143, t150));
-        let t152 = t96.neg_mul_add(t149, t151);
-        let t153 = t101 * t152;
-        let t154 = t108.neg_mul_add(t141, t106.neg_mul_add(t139, t126));
-        let t155 = t113.neg_mul_add(t146, t110.neg_mul_add(t143, t154));
-        let t156 = t120.neg_mul_add(t153, t116.neg_mul_add(t149, t155));
-        let t157 = t125 * t156;
-        let t158 = q_2_dot + q_1_dot;
-        let t159 = t158 + q_3_dot;
-        let t160 = t159 * t159;
-        let t161 = sin_t1 * t160;
-        let t162 = t158 * t158;
-        let t163 = sin_t0 * t162;
-        let t164 = q_1_dot * q_1_dot;
-        let t165 = sin_q_1 * t164;
-        let t166 = t163 + t165;
-        let t167 = t161 + t166;
-        let t168 = t159 + q_4_dot;
-        let t169 = t168 * t168;
-        let t170 = sin_t2 * t169;
-        let t171 = t170 + t167;
-        let t172 = t168 + q_5_dot;
-        let t173 = t172 * t172;
-        let t174 = sin_t3 * t173;
-        let t175 = t174 + t171;
-        let t176 = t172 + q_6_dot;
-        let t177 = t176 * t176;
-        let t178 = sin_t4 * t177;
-        let t179 = t178 + t175;
-        let t180 = t176 + q_7_dot;
-        let t181 = t180 * t180;
-        let t182 = sin_t5 * t181;
-        let t183 = t180 + q_8_dot;
-        let t184 = t183 * (t183 * n(p.k0));
-        let t185 = n(p.l).mul_add(t182 + t179, sin_t6 * t184);
-        let t186 = n(p.k0).mul_add(t182, n(p.l) * t179);
-        let t187 = cos_t1 * t160;
-        let t188 = cos_t0 * t162;
-        let t189 = cos_q_1 * t164;
-        let t190 = t188 + t189;
-        let t191 = t187 + t190;
-        let t192 = cos_t2 * t169;
-        let t193 = t192 + t191;
-        let t194 = cos_t3 * t173;
-        let t195 = t194 + t193;
-        let t196 = cos_t4 * t177;
-        let t197 = t196 + t195;
-        let t198 = cos_t5 * t181;
-        let t199 = n(p.g) + n(p.l).mul_add(t198 + t197, cos_t6 * t184);
-        let t200 = n(p.g) + n(p.k0).mul_add(t198, n(p.l) * t197);
-        let t201 = cos_t5 * t185.mul_add(n(p.m), n(p.k7) * t186);
-        let t202 = t199.mul_add(n(p.m), n(p.k7) * t200);
-        let t203 = n(p.k6) * sin_t6.neg_mul_add(t199, cos_t6 * t185);
-        let t204 = n(p.l).mul_add(sin_t5.neg_mul_add(t202, t201), t203);
-        let t205 = t185 + t186;
-        let t206 = n(p.k0).mul_add(t178, n(p.l) * t175);
-        let t207 = t199 + t200;
-        let t208 = n(p.g) + n(p.k0).mul_add(t196, n(p.l) * t195);
-        let t209 = cos_t4 * n(p.m).mul_add(t205, n(p.k7) * t206);
-        let t210 = n(p.m).mul_add(t207, n(p.k7) * t208);
-        let t211 = n(p.l).mul_add(sin_t4.neg_mul_add(t210, t209), t204);
-        let t212 = t205 + t206;
-        let t213 = n(p.k0).mul_add(t174, n(p.l) * t171);
-        let t214 = t207 + t208;
-        let t215 = n(p.g) + n(p.k0).mul_add(t194, n(p.l) * t193);
-        let t216 = cos_t3 * n(p.m).mul_add(t212, n(p.k7) * t213);
-        let t217 = n(p.m).mul_add(t214, n(p.k7) * t215);
-        let t218 = n(p.l).mul_add(sin_t3.neg_mul_add(t217, t216), t211);
-        let t219 = t212 + t213;
-        let t220 = n(p.k0).mul_add(t170, n(p.l) * t167);
-        let t221 = t214 + t215;
-        let t222 = n(p.g) + n(p.k0).mul_add(t192, n(p.l) * t191);
-        let t223 = cos_t2 * n(p.m).mul_add(t219, n(p.k7) * t220);
-        let t224 = n(p.m).mul_add(t221, n(p.k7) * t222);
-        let t225 = n(p.l).mul_add(sin_t2.neg_mul_add(t224, t223), t218);
-        let t226 = t219 + t220;
-        let t227 = n(p.k0).mul_add(t161, n(p.l) * t166);
-        let t228 = t221 + t222;
-        let t229 = n(p.g) + n(p.k0).mul_add(t187, n(p.l) * t190);
-        let t230 = cos_t1 * n(p.m).mul_add(t226, n(p.k7) * t227);
-        let t231 = n(p.m).mul_add(t228, n(p.k7) * t229);
-        let t232 = n(p.l).mul_add(sin_t1.neg_mul_add(t231, t230), t225);
-        let t233 = n(p.m) * (t226 + t227);
-        let t234 = n(p.k0).mul_add(t163, n(p.l) * t165);
-        let t235 = n(p.m) * (t228 + t229);
-        let t236 = n(p.g) + n(p.k0).mul_add(t188, n(p.l) * t189);
-        let t237 = cos_t0 * n(p.k7).mul_add(t234, t233);
-        let t238 = sin_t0.neg_mul_add(n(p.k7).mul_add(t236, t235), t237);
-        let t239 = n(p.l).mul_add(t238, t232);
-        let t240 = n(p.k7) * n(p.k0).mul_add(t189, n(p.g));
-        let t241 = cos_q_1 * (t233 + n(p.m).mul_add(t234, t165 * n(p.k8)));
-        let t242 = t235 + n(p.m).mul_add(t236, t240);
-        let t243 = n(p.l).mul_add(sin_q_1.neg_mul_add(t242, t241), t239);
-        let t244 = t50.neg_mul_add(t243, t239);
-        let t245 = t56.neg_mul_add(t244, t54.neg_mul_add(t243, t232));
-        let t246 = t89.neg_mul_add(t244, t87.neg_mul_add(t243, t211));
-        let t247 = t63.neg_mul_add(t244, t61.neg_mul_add(t243, t225));
-        let t248 = t65.neg_mul_add(t245, t247);
-        let t249 = t74.neg_mul_add(t244, t72.neg_mul_add(t243, t218));
-        let t250 = t79.neg_mul_add(t248, t76.neg_mul_add(t245, t249));
-        let t251 = t94.neg_mul_add(t248, t91.neg_mul_add(t245, t246));
-        let t252 = t97.neg_mul_add(t250, t251);
-        let t253 = t109.neg_mul_add(t244, t107.neg_mul_add(t243, t204));
-        let t254 = t114.neg_mul_add(t248, t111.neg_mul_add(t245, t253));
-        let t255 = t121.neg_mul_add(t252, t117.neg_mul_add(t250, t254));
-        let t256 = t141.neg_mul_add(t244, t139.neg_mul_add(t243, t203));
-        let t257 = t146.neg_mul_add(t248, t143.neg_mul_add(t245, t256));
-        let t258 = t153.neg_mul_add(t252, t149.neg_mul_add(t250, t257));
-        let t259 = t140.neg_mul_add(t141, t138.neg_mul_add(t139, n(p.k5)));
-        let t260 = t145.neg_mul_add(t146, t142.neg_mul_add(t143, t259));
-        let t261 = t152.neg_mul_add(t153, t148.neg_mul_add(t149, t260));
-        let t262 = t156.neg_mul_add(t157, t261);
-        check(t262, n(p.k5), 7.105427357601002e-15, 7)?;
-        let q_8_ddot = t157.neg_mul_add(t255, t258) / t262;
-        let q_7_ddot = t157.neg_mul_add(q_8_ddot, t125 * t255);
-        let t263 = t139.neg_mul_add(q_8_ddot, t48 * t243);
-        let t264 = t153.neg_mul_add(q_8_ddot, t101 * t252);
-        let q_6_ddot = t121.neg_mul_add(q_7_ddot, t264);
-        let t265 = t107.neg_mul_add(q_7_ddot, t263);
-        let t266 = t149.neg_mul_add(q_8_ddot, t82 * t250);
-        let t267 = t117.neg_mul_add(q_7_ddot, t266);
-        let q_5_ddot = t97.neg_mul_add(q_6_ddot, t267);
-        let t268 = t146.neg_mul_add(q_8_ddot, t68 * t248);
-        let t269 = t114.neg_mul_add(q_7_ddot, t268);
-        let q_4_ddot = t79.neg_mul_add(q_5_ddot, t94.neg_mul_add(q_6_ddot, t269));
-        let t270 = t72.neg_mul_add(q_5_ddot, t87.neg_mul_add(q_6_ddot, t265));
-        let t271 = t143.neg_mul_add(q_8_ddot, t58 * t245);
-        let t272 = t111.neg_mul_add(q_7_ddot, t271);
-        let t273 = t76.neg_mul_add(q_5_ddot, t91.neg_mul_add(q_6_ddot, t272));
-        let q_3_ddot = t65.neg_mul_add(q_4_ddot, t273);
-        let t274 = t141.neg_mul_add(q_8_ddot, t52 * t244);
-        let t275 = t109.neg_mul_add(q_7_ddot, t274);
-        let t276 = t74.neg_mul_add(q_5_ddot, t89.neg_mul_add(q_6_ddot, t275));
-        let q_2_ddot = t56.neg_mul_add(q_3_ddot, t63.neg_mul_add(q_4_ddot, t276));
-        let t277 = t54.neg_mul_add(q_3_ddot, t61.neg_mul_add(q_4_ddot, t270));
-        let q_1_ddot = t50.neg_mul_add(q_2_ddot, t277);
+        let t8 = t7.neg_mul_add(t7 * n(p.k27), n(p.k29));
+        check(t8, t8, 7.105427357601002e-15, 6)?;
+        let t9 = N::ONE / t8;
+        let t10 = sin_t6 * n(p.k28);
+        let t11 = t7.neg_mul_add(t10, sin_t5 * N::from_f64(1.5));
+        let t12 = cos_t6 * n(p.k28);
+        let t13 = t7.neg_mul_add(t12, cos_t5 * N::from_f64(1.5));
+        let t14 = t9.mul_add(t11 * t13, cos_t6 * (sin_t6 * n(p.k32)));
+        let t15 = n(p.k1) * sin_t4;
+        let t16 = n(p.k1) * t9;
+        let t17 = t13 * t16;
+        let t18 = cos_t6.neg_mul_add(t12, N::from_f64(2.0));
+        let t19 = t13.neg_mul_add(t17, t18);
+        let t20 = cos_t4.mul_sub(t19, t15 * t14);
+        let t21 = n(p.k1) * cos_t4;
+        let t22 = t11 * t16;
+        let t23 = sin_t6.neg_mul_add(t10, N::from_f64(2.0));
+        let t24 = t11.neg_mul_add(t22, t23);
+        let t25 = sin_t4.mul_sub(t24, t21 * t14);
+        let t26 = t21.mul_add(t20, t15.mul_add(t25, n(p.k6)));
+        check(t26, t26, 7.105427357601002e-15, 5)?;
+        let t27 = N::ONE / t26;
+        let t28 = sin_t4.mul_add(N::from_f64(0.5), t25);
+        let t29 = cos_t4.mul_add(N::from_f64(0.5), t20);
+        let t30 = t27.mul_add(t28 * t29, t14);
+        let t31 = n(p.k1) * sin_t3;
+        let t32 = n(p.k1) * t27;
+        let t33 = t29 * t32;
+        let t34 = t29.neg_mul_add(t33, N::ONE + t19);
+        let t35 = cos_t3.mul_sub(t34, t31 * t30);
+        let t36 = n(p.k1) * cos_t3;
+        let t37 = t28 * t32;
+        let t38 = t28.neg_mul_add(t37, N::ONE + t24);
+        let t39 = sin_t3.mul_sub(t38, t36 * t30);
+        let t40 = t36.mul_add(t35, t31.mul_add(t39, n(p.k6)));
+        check(t40, t40, 7.105427357601002e-15, 4)?;
+        let t41 = N::ONE / t40;
+        let t42 = sin_t3.mul_add(N::from_f64(0.5), t39);
+        let t43 = cos_t3.mul_add(N::from_f64(0.5), t35);
+        let t44 = t41.mul_add(t42 * t43, t30);
+        let t45 = n(p.k1) * sin_t2;
+        let t46 = n(p.k1) * t41;
+        let t47 = t43 * t46;
+        let t48 = t43.neg_mul_add(t47, N::ONE + t34);
+        let t49 = cos_t2.mul_sub(t48, t45 * t44);
+        let t50 = n(p.k1) * cos_t2;
+        let t51 = t42 * t46;
+        let t52 = t42.neg_mul_add(t51, N::ONE + t38);
+        let t53 = sin_t2.mul_sub(t52, t50 * t44);
+        let t54 = t50.mul_add(t49, t45.mul_add(t53, n(p.k6)));
+        check(t54, t54, 7.105427357601002e-15, 3)?;
+        let t55 = N::ONE / t54;
+        let t56 = sin_t2.mul_add(N::from_f64(0.5), t53);
+        let t57 = cos_t2.mul_add(N::from_f64(0.5), t49);
+        let t58 = t55.mul_add(t56 * t57, t44);
+        let t59 = n(p.k1) * sin_t1;
+        let t60 = n(p.k1) * t55;
+        let t61 = t57 * t60;
+        let t62 = t57.neg_mul_add(t61, N::ONE + t48);
+        let t63 = cos_t1.mul_sub(t62, t59 * t58);
+        let t64 = n(p.k1) * cos_t1;
+        let t65 = t56 * t60;
+        let t66 = t56.neg_mul_add(t65, N::ONE + t52);
+        let t67 = sin_t1.mul_sub(t66, t64 * t58);
+        let t68 = t64.mul_add(t63, t59.mul_add(t67, n(p.k6)));
+        check(t68, t68, 7.105427357601002e-15, 2)?;
+        let t69 = N::ONE / t68;
+        let t70 = sin_t1.mul_add(N::from_f64(0.5), t67);
+        let t71 = cos_t1.mul_add(N::from_f64(0.5), t63);
+        let t72 = t69.mul_add(t70 * t71, t58);
+        let t73 = t72 * n(p.k33);
+        let t74 = q_1_dot + q_2_dot;
+        let t75 = t74 * t74;
+        let t76 = sin_t0 * t75;
+        let t77 = q_1_dot * q_1_dot;
+        let t78 = sin_q_1 * t77;
+        let t79 = t76 + t78;
+        let t80 = t58 * n(p.k33);
+        let t81 = t74 + q_3_dot;
+        let t82 = t81 * t81;
+        let t83 = sin_t1 * t82;
+        let t84 = t44 * n(p.k33);
+        let t85 = t81 + q_4_dot;
+        let t86 = t85 * t85;
+        let t87 = sin_t2 * t86;
+        let t88 = t30 * n(p.k33);
+        let t89 = t85 + q_5_dot;
+        let t90 = t89 * t89;
+        let t91 = sin_t3 * t90;
+        let t92 = t14 * n(p.k33);
+        let t93 = t89 + q_6_dot;
+        let t94 = t93 * t93;
+        let t95 = sin_t4 * t94;
+        let t96 = t93 + q_7_dot;
+        let t97 = t96 * t96;
+        let t98 = n(p.l) * t97;
+        let t99 = t96 + q_8_dot;
+        let t100 = t99 * (n(p.k0) * t99);
+        let t101 = n(p.g) + cos_t6.mul_add(t100, cos_t5 * t98);
+        let t102 = sin_t6.mul_add(t100, sin_t5 * t98);
+        let t103 = cos_t5.neg_mul_add(t102, sin_t5 * n(p.k30));
+        let t104 = sin_t6.mul_sub(t101, cos_t6 * t102);
+        let t105 = sin_t5.mul_add(t101, t103);
+        let t106 = t104.neg_mul_add(t7 * n(p.k28), t105);
+        let t107 = n(p.k0) * t97;
+        let t108 = t10.neg_mul_add(t104, t101 + cos_t5.mul_add(t107, n(p.g)));
+        let t109 = n(p.l) * t94;
+        let t110 = cos_t4 * t109;
+        let t111 = t92.mul_add(t95, t22.neg_mul_add(t106, t108));
+        let t112 = t24.mul_add(t110, t111);
+        let t113 = cos_t4 * t94;
+        let t114 = t12.mul_add(t104, sin_t5.mul_add(t107, t102));
+        let t115 = sin_t4 * t109;
+        let t116 = t113.mul_add(t92, t17.mul_add(t106, t114));
+        let t117 = t19.mul_add(t115, t116);
+        let t118 = sin_t4.mul_add(t112, sin_t4 * n(p.k30));
+        let t119 = cos_t4.neg_mul_add(t117, t118);
+        let t120 = t112 + n(p.k0).mul_add(t113, n(p.g));
+        let t121 = n(p.l) * t90;
+        let t122 = cos_t3 * t121;
+        let t123 = t88.mul_add(t91, t37.neg_mul_add(t119, t120));
+        let t124 = t38.mul_add(t122, t123);
+        let t125 = cos_t3 * t90;
+        let t126 = t33.mul_add(t119, n(p.k0).mul_add(t95, t117));
+        let t127 = sin_t3 * t121;
+        let t128 = t34.mul_add(t127, t125.mul_add(t88, t126));
+        let t129 = sin_t3.mul_add(t124, sin_t3 * n(p.k30));
+        let t130 = cos_t3.neg_mul_add(t128, t129);
+        let t131 = t124 + n(p.k0).mul_add(t125, n(p.g));
+        let t132 = n(p.l) * t86;
+        let t133 = cos_t2 * t132;
+        let t134 = t84.mul_add(t87, t51.neg_mul_add(t130, t131));
+        let t135 = t52.mul_add(t133, t134);
+        let t136 = cos_t2 * t86;
+        let t137 = t47.mul_add(t130, n(p.k0).mul_add(t91, t128));
+        let t138 = sin_t2 * t132;
+        let t139 = t48.mul_add(t138, t136.mul_add(t84, t137));
+        let t140 = sin_t2.mul_add(t135, sin_t2 * n(p.k30));
+        let t141 = cos_t2.neg_mul_add(t139, t140);
+        let t142 = t135 + n(p.k0).mul_add(t136, n(p.g));
+        let t143 = n(p.l) * t82;
+        let t144 = cos_t1 * t143;
+        let t145 = t80.mul_add(t83, t65.neg_mul_add(t141, t142));
+        let t146 = t66.mul_add(t144, t145);
+        let t147 = cos_t1 * t82;
+        let t148 = t61.mul_add(t141, n(p.k0).mul_add(t87, t139));
+        let t149 = sin_t1 * t143;
+        let t150 = t62.mul_add(t149, t147.mul_add(t80, t148));
+        let t151 = sin_t1.mul_add(t146, sin_t1 * n(p.k30));
+        let t152 = cos_t1.neg_mul_add(t150, t151);
+        let t153 = n(p.k1) * t69;
+        let t154 = t70 * t153;
+        let t155 = t146 + n(p.k0).mul_add(t147, n(p.g));
+        let t156 = t70.neg_mul_add(t154, N::ONE + t66);
+        let t157 = cos_t0 * t75;
+        let t158 = cos_q_1 * t77;
+        let t159 = t158 + t157;
+        let t160 = n(p.l) * t159;
+        let t161 = t79.mul_add(t73, t154.neg_mul_add(t152, t155));
+        let t162 = t156.mul_add(t160, t161);
+        let t163 = N::from_f64(0.5) * sin_q_1;
+        let t164 = t158.mul_add(n(p.k0), n(p.g));
+        let t165 = n(p.k0).mul_add(t76, t78 * n(p.l));
+        let t166 = t163.mul_sub(t164, t158 * (sin_q_1 * n(p.k35)));
+        let t167 = n(p.g) + n(p.k0).mul_add(t157, t158 * n(p.l));
+        let t168 = sin_q_1.mul_add(t167, cos_q_1.neg_mul_add(t165, t166));
+        let t169 = t71 * t153;
+        let t170 = t169.mul_add(t152, n(p.k0).mul_add(t83, t150));
+        let t171 = t71.neg_mul_add(t169, N::ONE + t62);
+        let t172 = n(p.l) * t79;
+        let t173 = t171.mul_add(t172, t73.mul_add(t159, t170));
+        let t174 = N::from_f64(0.5) * cos_t0;
+        let t175 = t167.mul_sub(N::from_f64(0.5) * sin_t0, t174 * t165);
+        let t176 = cos_t0.neg_mul_add(t173, sin_t0.mul_add(t162, t175));
+        let t177 = n(p.k1) * t72;
+        let t178 = cos_t0.mul_sub(t171, t177 * sin_t0);
+        let t179 = sin_t0.mul_sub(t156, t177 * cos_t0);
+        let t180 = t174.mul_add(cos_q_1, sin_t0 * t163);
+        let t181 = t178.mul_add(cos_q_1, t179.mul_add(sin_q_1, t180));
+        let t182 = t179.mul_add(n(p.k1) * sin_t0, n(p.k6));
+        let t183 = t178.mul_add(n(p.k1) * cos_t0, t182);
+        check(t183, t183, 7.105427357601002e-15, 1)?;
+        let t184 = N::ONE / t183;
+        let t185 = n(p.k1) * t184;
+        let t186 = cos_q_1.neg_mul_add(t173, sin_q_1.mul_add(t162, t168));
+        let t187 = t156.mul_sub(sin_q_1, t177 * cos_q_1);
+        let t188 = t187.mul_add(n(p.k1) * sin_q_1, n(p.k29));
+        let t189 = t171.mul_sub(cos_q_1, t177 * sin_q_1);
+        let t190 = t189.mul_add(n(p.k1) * cos_q_1, t188);
+        let t191 = t184.neg_mul_add(t181 * (t181 * n(p.k34)), t190);
+        check(t191, t191, 7.105427357601002e-15, 0)?;
+        let t192 = N::ONE / t191 * t185.neg_mul_add(t181 * t176, t186);
+        let t193 = n(p.k1) * t192;
+        let t194 = t181.neg_mul_add(t193, t176);
+        let t195 = t184 * t194;
+        let t196 = t185 * t194;
+        let t197 = sin_t0.neg_mul_add(t196, sin_q_1.neg_mul_add(t193, t160));
+        let t198 = cos_t0.mul_add(t196, cos_q_1.mul_add(t193, t172));
+        let t199 = t71.neg_mul_add(t198, t70.mul_add(t197, t152));
+        let t200 = t69 * t199;
+        let t201 = t153 * t199;
+        let t202 = sin_t1.neg_mul_add(t201, t144 + t197);
+        let t203 = cos_t1.mul_add(t201, t149 + t198);
+        let t204 = t57.neg_mul_add(t203, t56.mul_add(t202, t141));
+        let t205 = t55 * t204;
+        let t206 = t60 * t204;
+        let t207 = sin_t2.neg_mul_add(t206, t133 + t202);
+        let t208 = cos_t2.mul_add(t206, t138 + t203);
+        let t209 = t43.neg_mul_add(t208, t42.mul_add(t207, t130));
+        let t210 = t41 * t209;
+        let t211 = t46 * t209;
+        let t212 = sin_t3.neg_mul_add(t211, t122 + t207);
+        let t213 = cos_t3.mul_add(t211, t127 + t208);
+        let t214 = t29.neg_mul_add(t213, t28.mul_add(t212, t119));
+        let t215 = t27 * t214;
+        let t216 = t32 * t214;
+        let t217 = sin_t4.neg_mul_add(t216, t110 + t212);
+        let t218 = cos_t4.mul_add(t216, t115 + t213);
+        let t219 = t9 * t13.neg_mul_add(t218, t11.mul_add(t217, t106));
+        let t220 = sin_t6 * N::from_f64(0.5);
+        let t221 = t217.mul_add(t220, N::from_f64(0.5) * t104);
+        let t222 = t218.neg_mul_add(cos_t6 * N::from_f64(0.5), t221);
+        let t223 = t219.neg_mul_add(t7 * n(p.k17), t222);
+        let q_1_ddot = t192 * n(p.k36);
+        let q_2_ddot = n(p.k4) * (t192 - t195);
+        let q_3_ddot = n(p.k36) * (t200 - t195);
+        let q_4_ddot = n(p.k36) * (t205 - t200);
+        let q_5_ddot = n(p.k36) * (t210 - t205);
+        let q_6_ddot = n(p.k36) * (t215 - t210);
+        let q_7_ddot = n(p.k36) * (t219 - t215);
+        let q_8_ddot = n(p.k4) * t223.neg_mul_add(n(p.k31), t219);
         let accelerations = [
             q_1_ddot.store(),
             q_2_ddot.store(),
@@ -1122,7 +1122,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &
     let (sin_t55, cos_t55) = t55.sin_cos();
     let t56 = t54 * sin_t55 + p.l * (t47 + t44);
     let t57 = t54 * cos_t55 + p.l * (t50 + t49);
-    let t58 = t52 + (t43 + (t34 + (t25 + (t24 + (t23 + q_1_dot * (q_1_dot * p.k4))))));
+    let t58 = t52 + (t43 + (t34 + (t25 + (t24 + (t23 + q_1_dot * (q_1_dot * p.k5))))));
     let t59 = S::from_f64(0.5) * (p.m * (t56 * t56 + t57 * t57) + t53 * (t53 * p.J));
     t59 + t58
 }
@@ -1357,6 +1357,18 @@ where
             k23: lanes(|p| p.k23),
             k24: lanes(|p| p.k24),
             k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            singular: None,
         }
     }
 
@@ -1369,7 +1381,7 @@ where
     }
 
     fn is_singular(&self) -> bool {
-        false
+        self.singular.is_some()
     }
 
     fn accelerations_abreast(
@@ -1380,10 +1392,7 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
-            Accelerations { p, q, v },
-            result,
-        )
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
     }
 }
 
@@ -1414,6 +1423,13 @@ fn check<N: ::lagrangian::Scalar>(
         true => Ok(()),
         false => Err(singular(coordinate, pivot, diagonal)),
     }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
 }
 
 /// What is left of a pivot, for the message.
