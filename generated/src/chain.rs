@@ -6,12 +6,12 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 41 | 20 | 1 | 0 | 0 | 62 |
+//! | `prepare` | 43 | 19 | 1 | 0 | 0 | 63 |
 //! | `mass_matrix` | 84 | 28 | 0 | 8 | 0 | 128 |
 //! | `bias` | 103 | 60 | 0 | 8 | 0 | 179 |
 //! | `applied` | 8 | 0 | 0 | 8 | 0 | 16 |
 //! | `forces` | 104 | 68 | 0 | 8 | 0 | 188 |
-//! | `accelerations` | 293 | 176 | 7 | 8 | 0 | 492 |
+//! | `accelerations` | 324 | 192 | 7 | 8 | 0 | 539 |
 //! | `kinetic_energy` | 88 | 47 | 0 | 8 | 0 | 151 |
 //! | `potential_energy` | 16 | 21 | 0 | 8 | 0 | 45 |
 //! | `output_end` | 1 | 7 | 0 | 8 | 0 | 16 |
@@ -70,34 +70,35 @@ impl<S> Chain<S> {
 impl<S: ::lagrangian::Scalar> Chain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let t0 = self.l * self.m;
-        let k1 = self.l * t0;
-        let t1 = self.g * t0;
-        let k3 = S::from_f64(0.5) * t1;
-        let t2 = k1 * S::from_f64(0.25);
+        let k3 = self.l * self.m;
+        let pivot_2 = self.l * self.l;
+        let t0 = self.l * k3;
+        let t1 = self.g * k3;
+        let k22 = S::from_f64(0.5) * k3;
+        let t2 = t0 * S::from_f64(0.25);
+        let k2 = S::from_f64(0.5) * t1;
         let k19 = self.J + t2;
         let t3 = S::ONE / k19;
-        let k33 = t2 * t3;
+        let t4 = S::from_f64(0.25) * t3;
         let k0 = self.l * S::from_f64(0.5);
-        let k2 = self.m * self.g;
-        let k4 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
-        let k5 = S::from_f64(0.5) * k1;
-        let k6 = k1 * S::from_f64(1.5);
-        let k7 = k1 * S::from_f64(2.5);
-        let k8 = k1 * S::from_f64(3.5);
-        let k9 = k1 * S::from_f64(4.5);
-        let k10 = k1 * S::from_f64(5.5);
-        let k11 = k1 * S::from_f64(6.5);
-        let k12 = self.J + k1 * S::from_f64(7.25);
-        let k13 = self.J + k1 * S::from_f64(6.25);
-        let k14 = self.J + k1 * S::from_f64(5.25);
-        let k15 = self.J + k1 * S::from_f64(4.25);
-        let k16 = self.J + k1 * S::from_f64(3.25);
-        let k17 = self.J + k1 * S::from_f64(2.25);
-        let k18 = self.J + k1 * S::from_f64(1.25);
+        let k1 = self.m * self.g;
+        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t0);
+        let k5 = S::from_f64(0.5) * t0;
+        let k6 = t0 * S::from_f64(1.5);
+        let k7 = t0 * S::from_f64(2.5);
+        let k8 = t0 * S::from_f64(3.5);
+        let k9 = t0 * S::from_f64(4.5);
+        let k10 = t0 * S::from_f64(5.5);
+        let k11 = t0 * S::from_f64(6.5);
+        let k12 = self.J + t0 * S::from_f64(7.25);
+        let k13 = self.J + t0 * S::from_f64(6.25);
+        let k14 = self.J + t0 * S::from_f64(5.25);
+        let k15 = self.J + t0 * S::from_f64(4.25);
+        let k16 = self.J + t0 * S::from_f64(3.25);
+        let k17 = self.J + t0 * S::from_f64(2.25);
+        let k18 = self.J + t0 * S::from_f64(1.25);
         let k20 = self.m * S::from_f64(0.5);
-        let k21 = t0 * S::from_f64(0.25);
-        let k22 = S::from_f64(0.5) * t0;
+        let k21 = k3 * S::from_f64(0.25);
         let k23 = -(t1 * S::from_f64(7.5));
         let k24 = -(t1 * S::from_f64(6.5));
         let k25 = -(t1 * S::from_f64(5.5));
@@ -105,18 +106,28 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
         let k27 = -(t1 * S::from_f64(3.5));
         let k28 = -(t1 * S::from_f64(2.5));
         let k29 = -(t1 * S::from_f64(1.5));
-        let k30 = -k3;
+        let k30 = -k2;
         let k31 = -self.l;
-        let k32 = k1 * k33;
-        let k34 = self.g * S::from_f64(0.5);
-        let k35 = S::from_f64(0.25) * t3;
-        let k36 = self.l * k1;
-        let k37 = k1 * k1;
-        let k38 = self.l * S::from_f64(0.25);
-        let k39 = -t0;
-        let k40 = -(t0 * t3);
+        let k32 = t0 * t4;
+        let k33 = self.J - t2;
+        let k34 = t4 * pivot_2;
+        let k35 = S::from_f64(0.5) * pivot_2;
+        let k36 = self.m * self.m;
+        let k37 = k22 * t3;
+        let k38 = self.m * S::from_f64(1.5);
+        let k39 = t4 * (k3 * k3);
         let singular = if vanishes(k19, k19, 7.105427357601002e-15) {
             Some(singular(7, k19, k19))
+        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
+            Some(singular(2, pivot_2, pivot_2))
+        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
+            Some(singular(3, pivot_2, pivot_2))
+        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
+            Some(singular(4, pivot_2, pivot_2))
+        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
+            Some(singular(5, pivot_2, pivot_2))
+        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
+            Some(singular(6, pivot_2, pivot_2))
         } else {
             None
         };
@@ -165,7 +176,6 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
             k37,
             k38,
             k39,
-            k40,
             singular,
         }
     }
@@ -235,11 +245,11 @@ pub struct Prepared<S = f64> {
     g: S,
     /// `0.5*l`
     k0: S,
-    /// `l^2*m`
-    k1: S,
     /// `m*g`
-    k2: S,
+    k1: S,
     /// `0.5*l*m*g`
+    k2: S,
+    /// `l*m`
     k3: S,
     /// `0.125*(l^2*m + 4*J)`
     k4: S,
@@ -297,24 +307,22 @@ pub struct Prepared<S = f64> {
     k30: S,
     /// `-l`
     k31: S,
-    /// `0.25*l^4*m^2/(J + 0.25*l^2*m)`
-    k32: S,
     /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    k32: S,
+    /// `J - 0.25*l^2*m`
     k33: S,
-    /// `0.5*g`
+    /// `0.25*l^2/(J + 0.25*l^2*m)`
     k34: S,
-    /// `0.25/(J + 0.25*l^2*m)`
+    /// `0.5*l^2`
     k35: S,
-    /// `l^3*m`
+    /// `m^2`
     k36: S,
-    /// `l^4*m^2`
+    /// `0.5*l*m/(J + 0.25*l^2*m)`
     k37: S,
-    /// `0.25*l`
+    /// `1.5*m`
     k38: S,
-    /// `-l*m`
+    /// `0.25*l^2*m^2/(J + 0.25*l^2*m)`
     k39: S,
-    /// `-l*m/(J + 0.25*l^2*m)`
-    k40: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -448,84 +456,84 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) ->
     let q_6_dot = v[5];
     let q_7_dot = v[6];
     let q_8_dot = v[7];
-    let t0 = q_2_dot * q_2_dot;
     let (sin_q_2, cos_q_2) = q_2.sin_cos();
-    let t1 = t0 * cos_q_2;
-    let t2 = q_1_dot * q_1_dot;
     let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t3 = cos_q_1 * t2;
-    let t4 = t1 + t3;
-    let t5 = q_3_dot * q_3_dot;
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
-    let t6 = t5 * cos_q_3;
-    let t7 = t6 + t4;
-    let t8 = q_4_dot * q_4_dot;
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
-    let t9 = t8 * cos_q_4;
-    let t10 = t9 + t7;
-    let t11 = q_5_dot * q_5_dot;
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let t12 = t11 * cos_q_5;
-    let t13 = t12 + t10;
-    let t14 = q_6_dot * q_6_dot;
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
-    let t15 = t14 * cos_q_6;
-    let t16 = t15 + t13;
-    let t17 = q_7_dot * q_7_dot;
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
-    let t18 = t17 * cos_q_7;
-    let t19 = q_8_dot * (q_8_dot * p.k0);
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let t20 = t19 * cos_q_8 + p.l * (t18 + t16);
-    let t21 = p.k0 * t18 + p.l * t16;
-    let t22 = t20 + t21;
-    let t23 = p.k0 * t15 + p.l * t13;
-    let t24 = t22 + t23;
-    let t25 = p.k0 * t12 + p.l * t10;
-    let t26 = t24 + t25;
-    let t27 = p.k0 * t9 + p.l * t7;
-    let t28 = t26 + t27;
-    let t29 = p.k0 * t6 + p.l * t4;
-    let t30 = p.m * (t28 + t29);
-    let t31 = p.k0 * t1 + p.l * t3;
-    let t32 = t0 * sin_q_2;
-    let t33 = sin_q_1 * t2;
-    let t34 = t32 + t33;
-    let t35 = t5 * sin_q_3;
-    let t36 = t35 + t34;
-    let t37 = t8 * sin_q_4;
-    let t38 = t37 + t36;
-    let t39 = t11 * sin_q_5;
-    let t40 = t39 + t38;
-    let t41 = t14 * sin_q_6;
-    let t42 = t41 + t40;
-    let t43 = t17 * sin_q_7;
-    let t44 = t19 * sin_q_8 + p.l * (t43 + t42);
-    let t45 = p.k0 * t43 + p.l * t42;
-    let t46 = t44 + t45;
-    let t47 = p.k0 * t41 + p.l * t40;
-    let t48 = t46 + t47;
-    let t49 = p.k0 * t39 + p.l * t38;
-    let t50 = t48 + t49;
-    let t51 = p.k0 * t37 + p.l * t36;
-    let t52 = t50 + t51;
-    let t53 = p.k0 * t35 + p.l * t34;
-    let t54 = p.m * (t52 + t53);
-    let t55 = p.k0 * t32 + p.l * t33;
-    let t56 = cos_q_1 * (t54 + (p.m * t55 + t33 * p.k21));
-    let t57 = cos_q_3 * (p.m * t52 + t53 * p.k20);
-    let t58 = cos_q_4 * (p.m * t50 + t51 * p.k20);
-    let t59 = cos_q_5 * (p.m * t48 + t49 * p.k20);
-    let t60 = cos_q_6 * (p.m * t46 + t47 * p.k20);
-    let t61 = cos_q_7 * (p.m * t44 + t45 * p.k20);
-    let h_q_1 = p.l * (sin_q_1 * (t30 + (p.m * t31 + p.k21 * t3)) - t56);
-    let h_q_2 = p.l * (sin_q_2 * (t30 + t31 * p.k20) - cos_q_2 * (t54 + t55 * p.k20));
-    let h_q_3 = p.l * (sin_q_3 * (p.m * t28 + t29 * p.k20) - t57);
-    let h_q_4 = p.l * (sin_q_4 * (p.m * t26 + t27 * p.k20) - t58);
-    let h_q_5 = p.l * (sin_q_5 * (p.m * t24 + t25 * p.k20) - t59);
-    let h_q_6 = p.l * (sin_q_6 * (p.m * t22 + t23 * p.k20) - t60);
-    let h_q_7 = p.l * (sin_q_7 * (p.m * t20 + t21 * p.k20) - t61);
-    let h_q_8 = (sin_q_8 * t20 - cos_q_8 * t44) * p.k22;
+    let t0 = q_2_dot * q_2_dot;
+    let t1 = q_1_dot * q_1_dot;
+    let t2 = q_3_dot * q_3_dot;
+    let t3 = q_4_dot * q_4_dot;
+    let t4 = q_5_dot * q_5_dot;
+    let t5 = q_6_dot * q_6_dot;
+    let t6 = q_7_dot * q_7_dot;
+    let t7 = q_8_dot * (q_8_dot * p.k0);
+    let t8 = t0 * sin_q_2;
+    let t9 = sin_q_1 * t1;
+    let t10 = t0 * cos_q_2;
+    let t11 = cos_q_1 * t1;
+    let t12 = t2 * sin_q_3;
+    let t13 = t2 * cos_q_3;
+    let t14 = t3 * sin_q_4;
+    let t15 = t3 * cos_q_4;
+    let t16 = t8 + t9;
+    let t17 = t4 * sin_q_5;
+    let t18 = t10 + t11;
+    let t19 = t4 * cos_q_5;
+    let t20 = t5 * sin_q_6;
+    let t21 = t5 * cos_q_6;
+    let t22 = t6 * sin_q_7;
+    let t23 = t6 * cos_q_7;
+    let t24 = t12 + t16;
+    let t25 = t13 + t18;
+    let t26 = t14 + t24;
+    let t27 = t15 + t25;
+    let t28 = t17 + t26;
+    let t29 = p.k0 * t17 + p.l * t26;
+    let t30 = t19 + t27;
+    let t31 = p.k0 * t19 + p.l * t27;
+    let t32 = p.k0 * t14 + p.l * t24;
+    let t33 = p.k0 * t15 + p.l * t25;
+    let t34 = p.k0 * t12 + p.l * t16;
+    let t35 = t20 + t28;
+    let t36 = p.k0 * t20 + p.l * t28;
+    let t37 = t21 + t30;
+    let t38 = p.k0 * t21 + p.l * t30;
+    let t39 = p.k0 * t13 + p.l * t18;
+    let t40 = p.k0 * t8 + p.l * t9;
+    let t41 = p.k0 * t22 + p.l * t35;
+    let t42 = p.k0 * t23 + p.l * t37;
+    let t43 = p.k0 * t10 + p.l * t11;
+    let t44 = t7 * sin_q_8 + p.l * (t22 + t35);
+    let t45 = t7 * cos_q_8 + p.l * (t23 + t37);
+    let t46 = t44 + t41;
+    let t47 = t45 + t42;
+    let t48 = t46 + t36;
+    let t49 = t47 + t38;
+    let t50 = t48 + t29;
+    let t51 = t49 + t31;
+    let t52 = cos_q_7 * (p.m * t44 + t41 * p.k20);
+    let t53 = t50 + t32;
+    let t54 = t51 + t33;
+    let t55 = cos_q_6 * (p.m * t46 + t36 * p.k20);
+    let t56 = cos_q_5 * (p.m * t48 + t29 * p.k20);
+    let t57 = p.m * (t53 + t34);
+    let t58 = p.m * (t54 + t39);
+    let t59 = cos_q_4 * (p.m * t50 + t32 * p.k20);
+    let t60 = cos_q_3 * (p.m * t53 + t34 * p.k20);
+    let t61 = sin_q_1 * (t58 + (p.m * t43 + p.k21 * t11));
+    let h_q_1 = p.l * (t61 - cos_q_1 * (t57 + (p.m * t40 + t9 * p.k21)));
+    let h_q_2 = p.l * (sin_q_2 * (t58 + t43 * p.k20) - cos_q_2 * (t57 + t40 * p.k20));
+    let h_q_3 = p.l * (sin_q_3 * (p.m * t54 + t39 * p.k20) - t60);
+    let h_q_4 = p.l * (sin_q_4 * (p.m * t51 + t33 * p.k20) - t59);
+    let h_q_5 = p.l * (sin_q_5 * (p.m * t49 + t31 * p.k20) - t56);
+    let h_q_6 = p.l * (sin_q_6 * (p.m * t47 + t38 * p.k20) - t55);
+    let h_q_7 = p.l * (sin_q_7 * (p.m * t45 + t42 * p.k20) - t52);
+    let h_q_8 = (sin_q_8 * t45 - cos_q_8 * t44) * p.k22;
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5, h_q_6, h_q_7, h_q_8]
 }
 
@@ -587,88 +595,88 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &[S; 8]) 
     let q_6_dot = v[5];
     let q_7_dot = v[6];
     let q_8_dot = v[7];
-    let t0 = q_2_dot * q_2_dot;
     let (sin_q_2, cos_q_2) = q_2.sin_cos();
-    let t1 = t0 * sin_q_2;
-    let t2 = q_1_dot * q_1_dot;
     let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t3 = sin_q_1 * t2;
-    let t4 = t1 + t3;
-    let t5 = q_3_dot * q_3_dot;
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
-    let t6 = t5 * sin_q_3;
-    let t7 = t6 + t4;
-    let t8 = q_4_dot * q_4_dot;
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
-    let t9 = t8 * sin_q_4;
-    let t10 = t9 + t7;
-    let t11 = q_5_dot * q_5_dot;
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let t12 = t11 * sin_q_5;
-    let t13 = t12 + t10;
-    let t14 = q_6_dot * q_6_dot;
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
-    let t15 = t14 * sin_q_6;
-    let t16 = t15 + t13;
-    let t17 = q_7_dot * q_7_dot;
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
-    let t18 = t17 * sin_q_7;
-    let t19 = q_8_dot * (q_8_dot * p.k0);
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let t20 = t19 * sin_q_8 + p.l * (t18 + t16);
-    let t21 = p.k0 * t18 + p.l * t16;
-    let t22 = t20 + t21;
-    let t23 = p.k0 * t15 + p.l * t13;
-    let t24 = t22 + t23;
-    let t25 = p.k0 * t12 + p.l * t10;
-    let t26 = t24 + t25;
-    let t27 = p.k0 * t9 + p.l * t7;
-    let t28 = t26 + t27;
-    let t29 = p.k0 * t6 + p.l * t4;
-    let t30 = p.m * (t28 + t29);
-    let t31 = p.k0 * t1 + p.l * t3;
-    let t32 = t0 * cos_q_2;
-    let t33 = cos_q_1 * t2;
-    let t34 = t32 + t33;
-    let t35 = t5 * cos_q_3;
-    let t36 = t35 + t34;
-    let t37 = t8 * cos_q_4;
-    let t38 = t37 + t36;
-    let t39 = t11 * cos_q_5;
-    let t40 = t39 + t38;
-    let t41 = t14 * cos_q_6;
-    let t42 = t41 + t40;
-    let t43 = t17 * cos_q_7;
-    let t44 = p.g + (t19 * cos_q_8 + p.l * (t43 + t42));
-    let t45 = p.g + (p.k0 * t43 + p.l * t42);
-    let t46 = t44 + t45;
-    let t47 = p.g + (p.k0 * t41 + p.l * t40);
-    let t48 = t46 + t47;
-    let t49 = p.g + (p.k0 * t39 + p.l * t38);
-    let t50 = t48 + t49;
-    let t51 = p.g + (p.k0 * t37 + p.l * t36);
-    let t52 = t50 + t51;
-    let t53 = p.g + (p.k0 * t35 + p.l * t34);
-    let t54 = p.m * (t52 + t53);
-    let t55 = p.g + (p.k0 * t32 + p.l * t33);
-    let t56 = sin_q_1 * (t54 + (p.m * t55 + p.k20 * (p.g + p.k0 * t33)));
-    let t57 = sin_q_3 * (p.m * t52 + t53 * p.k20);
-    let t58 = sin_q_4 * (p.m * t50 + t51 * p.k20);
-    let t59 = sin_q_5 * (p.m * t48 + t49 * p.k20);
-    let t60 = sin_q_6 * (p.m * t46 + t47 * p.k20);
-    let t61 = sin_q_7 * (p.m * t44 + t45 * p.k20);
-    let f_q_1 = p.l * (cos_q_1 * (t30 + (p.m * t31 + t3 * p.k21)) - t56);
-    let f_q_2 = p.l * (cos_q_2 * (t30 + p.k20 * t31) - sin_q_2 * (t54 + t55 * p.k20));
-    let f_q_3 = p.l * (cos_q_3 * (p.m * t28 + p.k20 * t29) - t57);
-    let f_q_4 = p.l * (cos_q_4 * (p.m * t26 + p.k20 * t27) - t58);
-    let f_q_5 = p.l * (cos_q_5 * (p.m * t24 + p.k20 * t25) - t59);
-    let f_q_6 = p.l * (cos_q_6 * (p.m * t22 + p.k20 * t23) - t60);
-    let f_q_7 = p.l * (cos_q_7 * (p.m * t20 + p.k20 * t21) - t61);
-    let f_q_8 = (cos_q_8 * t20 - sin_q_8 * t44) * p.k22;
+    let t0 = q_2_dot * q_2_dot;
+    let t1 = q_1_dot * q_1_dot;
+    let t2 = q_3_dot * q_3_dot;
+    let t3 = q_4_dot * q_4_dot;
+    let t4 = q_5_dot * q_5_dot;
+    let t5 = q_6_dot * q_6_dot;
+    let t6 = q_7_dot * q_7_dot;
+    let t7 = q_8_dot * (q_8_dot * p.k0);
+    let t8 = t0 * sin_q_2;
+    let t9 = t0 * cos_q_2;
+    let t10 = sin_q_1 * t1;
+    let t11 = cos_q_1 * t1;
+    let t12 = t2 * sin_q_3;
+    let t13 = t2 * cos_q_3;
+    let t14 = t3 * sin_q_4;
+    let t15 = t3 * cos_q_4;
+    let t16 = t4 * sin_q_5;
+    let t17 = t4 * cos_q_5;
+    let t18 = t8 + t10;
+    let t19 = t9 + t11;
+    let t20 = t5 * sin_q_6;
+    let t21 = t5 * cos_q_6;
+    let t22 = t6 * sin_q_7;
+    let t23 = t6 * cos_q_7;
+    let t24 = t12 + t18;
+    let t25 = t13 + t19;
+    let t26 = t14 + t24;
+    let t27 = t15 + t25;
+    let t28 = t16 + t26;
+    let t29 = t17 + t27;
+    let t30 = p.k0 * t16 + p.l * t26;
+    let t31 = p.k0 * t14 + p.l * t24;
+    let t32 = p.k0 * t12 + p.l * t18;
+    let t33 = t20 + t28;
+    let t34 = t21 + t29;
+    let t35 = p.k0 * t20 + p.l * t28;
+    let t36 = p.g + (p.k0 * t17 + p.l * t27);
+    let t37 = p.g + (p.k0 * t15 + p.l * t25);
+    let t38 = p.k0 * t8 + p.l * t10;
+    let t39 = p.k0 * t22 + p.l * t33;
+    let t40 = p.g + (p.k0 * t21 + p.l * t29);
+    let t41 = p.g + (p.k0 * t13 + p.l * t19);
+    let t42 = t7 * sin_q_8 + p.l * (t22 + t33);
+    let t43 = p.g + (p.k0 * t23 + p.l * t34);
+    let t44 = p.g + (p.k0 * t9 + p.l * t11);
+    let t45 = t42 + t39;
+    let t46 = p.g + (t7 * cos_q_8 + p.l * (t23 + t34));
+    let t47 = t45 + t35;
+    let t48 = t46 + t43;
+    let t49 = t47 + t30;
+    let t50 = t48 + t40;
+    let t51 = t49 + t31;
+    let t52 = t50 + t36;
+    let t53 = sin_q_6 * (p.m * t48 + t40 * p.k20);
+    let t54 = sin_q_7 * (p.m * t46 + t43 * p.k20);
+    let t55 = t52 + t37;
+    let t56 = sin_q_5 * (p.m * t50 + t36 * p.k20);
+    let t57 = p.m * (t51 + t32);
+    let t58 = sin_q_4 * (p.m * t52 + t37 * p.k20);
+    let t59 = p.m * (t55 + t41);
+    let t60 = sin_q_3 * (p.m * t55 + t41 * p.k20);
+    let t61 = sin_q_1 * (t59 + (p.m * t44 + p.k20 * (p.g + p.k0 * t11)));
+    let f_q_1 = p.l * (cos_q_1 * (t57 + (p.m * t38 + t10 * p.k21)) - t61);
+    let f_q_2 = p.l * (cos_q_2 * (t57 + p.k20 * t38) - sin_q_2 * (t59 + t44 * p.k20));
+    let f_q_3 = p.l * (cos_q_3 * (p.m * t51 + p.k20 * t32) - t60);
+    let f_q_4 = p.l * (cos_q_4 * (p.m * t49 + p.k20 * t31) - t58);
+    let f_q_5 = p.l * (cos_q_5 * (p.m * t47 + p.k20 * t30) - t56);
+    let f_q_6 = p.l * (cos_q_6 * (p.m * t45 + p.k20 * t35) - t53);
+    let f_q_7 = p.l * (cos_q_7 * (p.m * t42 + p.k20 * t39) - t54);
+    let f_q_8 = (cos_q_8 * t42 - sin_q_8 * t46) * p.k22;
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5, f_q_6, f_q_7, f_q_8]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+/// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -715,232 +723,253 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_6_dot = n(v[5]);
         let q_7_dot = n(v[6]);
         let q_8_dot = n(v[7]);
-        let angles = [q_8, q_7, q_6, q_5, q_4, q_3, q_2, q_1];
+        let angles = [q_7, q_8, q_6, q_5, q_4, q_3, q_2, q_1];
         let circular = N::sin_cos_all(angles);
-        let (sin_q_8, cos_q_8) = circular[0];
-        let (sin_q_7, cos_q_7) = circular[1];
+        let (sin_q_7, cos_q_7) = circular[0];
+        let (sin_q_8, cos_q_8) = circular[1];
         let (sin_q_6, cos_q_6) = circular[2];
         let (sin_q_5, cos_q_5) = circular[3];
         let (sin_q_4, cos_q_4) = circular[4];
         let (sin_q_3, cos_q_3) = circular[5];
         let (sin_q_2, cos_q_2) = circular[6];
         let (sin_q_1, cos_q_1) = circular[7];
-        let t0 = cos_q_8.mul_add(cos_q_7, sin_q_8 * sin_q_7);
-        let t1 = t0.neg_mul_add(t0 * n(p.k32), n(p.k18));
-        check(t1, n(p.k18), 7.105427357601002e-15, 6)?;
-        let t2 = N::ONE / t1;
-        let t3 = sin_q_8 * n(p.k33);
-        let t4 = t0.neg_mul_add(t3, sin_q_7 * N::from_f64(1.5));
-        let t5 = cos_q_8 * n(p.k33);
-        let t6 = t0.neg_mul_add(t5, cos_q_7 * N::from_f64(1.5));
-        let t7 = t2.mul_add(t4 * t6, cos_q_8 * (sin_q_8 * n(p.k35)));
-        let t8 = n(p.k1) * sin_q_6;
-        let t9 = n(p.k1) * t2;
-        let t10 = t6 * t9;
-        let t11 = cos_q_8.neg_mul_add(t5, N::from_f64(2.0));
-        let t12 = t6.neg_mul_add(t10, t11);
-        let t13 = cos_q_6.mul_sub(t12, t8 * t7);
-        let t14 = n(p.k1) * cos_q_6;
-        let t15 = t4 * t9;
-        let t16 = sin_q_8.neg_mul_add(t3, N::from_f64(2.0));
-        let t17 = t4.neg_mul_add(t15, t16);
-        let t18 = sin_q_6.mul_sub(t17, t14 * t7);
-        let t19 = t14.mul_add(t13, t8.mul_add(t18, n(p.k19)));
-        check(t19, n(p.k17), 7.105427357601002e-15, 5)?;
-        let t20 = N::ONE / t19;
-        let t21 = sin_q_6.mul_add(N::from_f64(0.5), t18);
-        let t22 = cos_q_6.mul_add(N::from_f64(0.5), t13);
-        let t23 = t20.mul_add(t21 * t22, t7);
-        let t24 = n(p.k1) * sin_q_5;
-        let t25 = n(p.k1) * t20;
-        let t26 = t22 * t25;
-        let t27 = t22.neg_mul_add(t26, N::ONE + t12);
-        let t28 = cos_q_5.mul_sub(t27, t24 * t23);
-        let t29 = n(p.k1) * cos_q_5;
-        let t30 = t21 * t25;
-        let t31 = t21.neg_mul_add(t30, N::ONE + t17);
-        let t32 = sin_q_5.mul_sub(t31, t29 * t23);
-        let t33 = t29.mul_add(t28, t24.mul_add(t32, n(p.k19)));
-        check(t33, n(p.k16), 7.105427357601002e-15, 4)?;
-        let t34 = N::ONE / t33;
-        let t35 = sin_q_5.mul_add(N::from_f64(0.5), t32);
-        let t36 = cos_q_5.mul_add(N::from_f64(0.5), t28);
-        let t37 = t34.mul_add(t35 * t36, t23);
-        let t38 = n(p.k1) * sin_q_4;
-        let t39 = n(p.k1) * t34;
-        let t40 = t36 * t39;
-        let t41 = t36.neg_mul_add(t40, N::ONE + t27);
-        let t42 = cos_q_4.mul_sub(t41, t38 * t37);
-        let t43 = n(p.k1) * cos_q_4;
-        let t44 = t35 * t39;
-        let t45 = t35.neg_mul_add(t44, N::ONE + t31);
-        let t46 = sin_q_4.mul_sub(t45, t43 * t37);
-        let t47 = t43.mul_add(t42, t38.mul_add(t46, n(p.k19)));
-        check(t47, n(p.k15), 7.105427357601002e-15, 3)?;
-        let t48 = N::ONE / t47;
-        let t49 = sin_q_4.mul_add(N::from_f64(0.5), t46);
-        let t50 = cos_q_4.mul_add(N::from_f64(0.5), t42);
-        let t51 = t48.mul_add(t49 * t50, t37);
-        let t52 = n(p.k1) * sin_q_3;
-        let t53 = n(p.k1) * t48;
-        let t54 = t50 * t53;
-        let t55 = t50.neg_mul_add(t54, N::ONE + t41);
-        let t56 = cos_q_3.mul_sub(t55, t52 * t51);
-        let t57 = n(p.k1) * cos_q_3;
-        let t58 = t49 * t53;
-        let t59 = t49.neg_mul_add(t58, N::ONE + t45);
-        let t60 = sin_q_3.mul_sub(t59, t57 * t51);
-        let t61 = t57.mul_add(t56, t52.mul_add(t60, n(p.k19)));
-        check(t61, n(p.k14), 7.105427357601002e-15, 2)?;
-        let t62 = N::ONE / t61;
-        let t63 = sin_q_3.mul_add(N::from_f64(0.5), t60);
-        let t64 = cos_q_3.mul_add(N::from_f64(0.5), t56);
-        let t65 = t62.mul_add(t63 * t64, t51);
-        let t66 = t65 * n(p.k36);
-        let t67 = q_2_dot * q_2_dot;
-        let t68 = sin_q_2 * t67;
-        let t69 = q_1_dot * q_1_dot;
-        let t70 = sin_q_1 * t69;
-        let t71 = t68 + t70;
-        let t72 = t51 * n(p.k36);
-        let t73 = q_3_dot * q_3_dot;
-        let t74 = sin_q_3 * t73;
-        let t75 = t37 * n(p.k36);
-        let t76 = q_4_dot * q_4_dot;
-        let t77 = sin_q_4 * t76;
-        let t78 = t23 * n(p.k36);
-        let t79 = q_5_dot * q_5_dot;
-        let t80 = sin_q_5 * t79;
-        let t81 = t7 * n(p.k36);
-        let t82 = q_6_dot * q_6_dot;
-        let t83 = sin_q_6 * t82;
-        let t84 = q_7_dot * q_7_dot;
-        let t85 = n(p.l) * t84;
-        let t86 = q_8_dot * (n(p.k0) * q_8_dot);
-        let t87 = n(p.g) + cos_q_7.mul_add(t85, cos_q_8 * t86);
-        let t88 = sin_q_7.mul_add(t85, sin_q_8 * t86);
-        let t89 = cos_q_7.neg_mul_add(t88, sin_q_7 * n(p.k34));
-        let t90 = sin_q_8.mul_sub(t87, cos_q_8 * t88);
-        let t91 = t90.neg_mul_add(t0 * n(p.k33), sin_q_7.mul_add(t87, t89));
-        let t92 = n(p.k0) * t84;
-        let t93 = t3.neg_mul_add(t90, t87 + cos_q_7.mul_add(t92, n(p.g)));
-        let t94 = n(p.l) * t82;
-        let t95 = cos_q_6 * t94;
-        let t96 = t81.mul_add(t83, t15.neg_mul_add(t91, t93));
-        let t97 = t17.mul_add(t95, t96);
-        let t98 = cos_q_6 * t82;
-        let t99 = t5.mul_add(t90, sin_q_7.mul_add(t92, t88));
-        let t100 = sin_q_6 * t94;
-        let t101 = t12.mul_add(t100, t98.mul_add(t81, t10.mul_add(t91, t99)));
-        let t102 = sin_q_6.mul_add(t97, sin_q_6 * n(p.k34));
-        let t103 = cos_q_6.neg_mul_add(t101, t102);
-        let t104 = t30.neg_mul_add(t103, t97 + n(p.k0).mul_add(t98, n(p.g)));
-        let t105 = n(p.l) * t79;
-        let t106 = cos_q_5 * t105;
-        let t107 = t31.mul_add(t106, t78.mul_add(t80, t104));
-        let t108 = cos_q_5 * t79;
-        let t109 = t26.mul_add(t103, n(p.k0).mul_add(t83, t101));
-        let t110 = sin_q_5 * t105;
-        let t111 = t27.mul_add(t110, t108.mul_add(t78, t109));
-        let t112 = sin_q_5.mul_add(t107, sin_q_5 * n(p.k34));
-        let t113 = cos_q_5.neg_mul_add(t111, t112);
-        let t114 = t107 + n(p.k0).mul_add(t108, n(p.g));
-        let t115 = n(p.l) * t76;
-        let t116 = cos_q_4 * t115;
-        let t117 = t75.mul_add(t77, t44.neg_mul_add(t113, t114));
-        let t118 = t45.mul_add(t116, t117);
-        let t119 = cos_q_4 * t76;
-        let t120 = t40.mul_add(t113, n(p.k0).mul_add(t80, t111));
-        let t121 = sin_q_4 * t115;
-        let t122 = t41.mul_add(t121, t119.mul_add(t75, t120));
-        let t123 = sin_q_4.mul_add(t118, sin_q_4 * n(p.k34));
-        let t124 = cos_q_4.neg_mul_add(t122, t123);
-        let t125 = t118 + n(p.k0).mul_add(t119, n(p.g));
-        let t126 = n(p.l) * t73;
-        let t127 = cos_q_3 * t126;
-        let t128 = t72.mul_add(t74, t58.neg_mul_add(t124, t125));
-        let t129 = t59.mul_add(t127, t128);
-        let t130 = cos_q_3 * t73;
-        let t131 = t54.mul_add(t124, n(p.k0).mul_add(t77, t122));
-        let t132 = sin_q_3 * t126;
-        let t133 = t55.mul_add(t132, t130.mul_add(t72, t131));
-        let t134 = sin_q_3.mul_add(t129, sin_q_3 * n(p.k34));
-        let t135 = cos_q_3.neg_mul_add(t133, t134);
-        let t136 = n(p.k1) * t62;
-        let t137 = t63 * t136;
-        let t138 = t129 + n(p.k0).mul_add(t130, n(p.g));
-        let t139 = t63.neg_mul_add(t137, N::ONE + t59);
-        let t140 = cos_q_1 * t69;
-        let t141 = cos_q_2 * t67;
-        let t142 = t140 + t141;
-        let t143 = n(p.l) * t142;
-        let t144 = t71.mul_add(t66, t137.neg_mul_add(t135, t138));
-        let t145 = t139.mul_add(t143, t144);
-        let t146 = N::from_f64(0.5) * sin_q_1;
-        let t147 = t140.mul_add(n(p.k0), n(p.g));
-        let t148 = n(p.g) + n(p.k0).mul_add(t141, t140 * n(p.l));
-        let t149 = n(p.k0).mul_add(t68, t70 * n(p.l));
-        let t150 = t146.mul_sub(t147, t140 * (sin_q_1 * n(p.k38)));
-        let t151 = t150 + sin_q_1.mul_sub(t148, cos_q_1 * t149);
-        let t152 = t64 * t136;
-        let t153 = t152.mul_add(t135, n(p.k0).mul_add(t74, t133));
-        let t154 = t64.neg_mul_add(t152, N::ONE + t55);
-        let t155 = n(p.l) * t71;
-        let t156 = t154.mul_add(t155, t66.mul_add(t142, t153));
-        let t157 = N::from_f64(0.5) * cos_q_2;
-        let t158 = t148.mul_sub(N::from_f64(0.5) * sin_q_2, t157 * t149);
-        let t159 = cos_q_2.neg_mul_add(t156, sin_q_2.mul_add(t145, t158));
-        let t160 = n(p.k1) * t65;
-        let t161 = cos_q_2.mul_sub(t154, t160 * sin_q_2);
-        let t162 = sin_q_2.mul_sub(t139, t160 * cos_q_2);
-        let t163 = t157.mul_add(cos_q_1, sin_q_2 * t146);
-        let t164 = t161.mul_add(cos_q_1, t162.mul_add(sin_q_1, t163));
-        let t165 = t162.mul_add(n(p.k1) * sin_q_2, n(p.k19));
-        let t166 = t161.mul_add(n(p.k1) * cos_q_2, t165);
-        check(t166, n(p.k13), 7.105427357601002e-15, 1)?;
-        let t167 = N::ONE / t166;
-        let t168 = n(p.k1) * t167;
-        let t169 = cos_q_1.neg_mul_add(t156, sin_q_1.mul_add(t145, t151));
-        let t170 = t139.mul_sub(sin_q_1, t160 * cos_q_1);
-        let t171 = t170.mul_add(n(p.k1) * sin_q_1, n(p.k18));
-        let t172 = t154.mul_sub(cos_q_1, t160 * sin_q_1);
-        let t173 = t172.mul_add(n(p.k1) * cos_q_1, t171);
-        let t174 = t167.neg_mul_add(t164 * (t164 * n(p.k37)), t173);
-        check(t174, n(p.k12), 7.105427357601002e-15, 0)?;
-        let t175 = N::ONE / t174 * t168.neg_mul_add(t164 * t159, t169);
-        let t176 = n(p.k1) * t175;
-        let t177 = t164.neg_mul_add(t176, t159);
-        let t178 = t168 * t177;
-        let t179 = sin_q_2.neg_mul_add(t178, sin_q_1.neg_mul_add(t176, t143));
-        let t180 = cos_q_2.mul_add(t178, cos_q_1.mul_add(t176, t155));
-        let t181 = t64.neg_mul_add(t180, t63.mul_add(t179, t135));
-        let t182 = t136 * t181;
-        let t183 = sin_q_3.neg_mul_add(t182, t127 + t179);
-        let t184 = cos_q_3.mul_add(t182, t132 + t180);
-        let t185 = t50.neg_mul_add(t184, t49.mul_add(t183, t124));
-        let t186 = t53 * t185;
-        let t187 = sin_q_4.neg_mul_add(t186, t116 + t183);
-        let t188 = cos_q_4.mul_add(t186, t121 + t184);
-        let t189 = t36.neg_mul_add(t188, t35.mul_add(t187, t113));
-        let t190 = t39 * t189;
-        let t191 = sin_q_5.neg_mul_add(t190, t106 + t187);
-        let t192 = cos_q_5.mul_add(t190, t110 + t188);
-        let t193 = t22.neg_mul_add(t192, t21.mul_add(t191, t103));
-        let t194 = t25 * t193;
-        let t195 = sin_q_6.neg_mul_add(t194, t95 + t191);
-        let t196 = cos_q_6.mul_add(t194, t100 + t192);
-        let t197 = t2 * t6.neg_mul_add(t196, t4.mul_add(t195, t91));
-        let t198 = sin_q_8 * N::from_f64(0.5);
-        let t199 = t195.mul_add(t198, N::from_f64(0.5) * t90);
-        let t200 = t196.neg_mul_add(cos_q_8 * N::from_f64(0.5), t199);
-        let q_1_ddot = t175 * n(p.k39);
-        let q_2_ddot = t177 * (t167 * n(p.k39));
-        let q_3_ddot = t181 * (t62 * n(p.k39));
-        let q_4_ddot = t185 * (t48 * n(p.k39));
-        let q_5_ddot = t189 * (t34 * n(p.k39));
-        let q_6_ddot = t193 * (t20 * n(p.k39));
-        let q_7_ddot = n(p.k39) * t197;
-        let q_8_ddot = n(p.k40) * t197.neg_mul_add(t0 * n(p.k5), t200);
+        let t0 = q_7_dot * q_7_dot;
+        let t1 = q_6_dot * q_6_dot;
+        let t2 = q_8_dot * (n(p.k22) * q_8_dot);
+        let t3 = q_5_dot * q_5_dot;
+        let t4 = q_4_dot * q_4_dot;
+        let t5 = q_3_dot * q_3_dot;
+        let t6 = q_1_dot * q_1_dot;
+        let t7 = q_2_dot * q_2_dot;
+        let t8 = n(p.l) * sin_q_7;
+        let t9 = n(p.l) * cos_q_7;
+        let t10 = sin_q_8 * cos_q_8;
+        let t11 = sin_q_8 * sin_q_8;
+        let t12 = n(p.l) * cos_q_6;
+        let t13 = cos_q_8 * cos_q_8;
+        let t14 = n(p.l) * sin_q_6;
+        let t15 = n(p.l) * cos_q_5;
+        let t16 = t8 * n(p.k38);
+        let t17 = t9 * n(p.k38);
+        let t18 = t10 * n(p.k32);
+        let t19 = n(p.k32).neg_mul_add(t11, N::from_f64(2.5));
+        let t20 = n(p.k32).neg_mul_add(t13, N::from_f64(2.5));
+        let t21 = t9.mul_add(cos_q_8, sin_q_8 * t8);
+        let t22 = n(p.l) * sin_q_5;
+        let t23 = t21 * n(p.k39);
+        let t24 = t14.mul_sub(t19, t12 * t18);
+        let t25 = t12.mul_sub(t20, t14 * t18);
+        let t26 = t21 * n(p.k32);
+        let t27 = n(p.m) * t15;
+        let t28 = t9.mul_add(t17, t8.mul_add(t16, n(p.k33)));
+        let t29 = t21.neg_mul_add(t23, t28);
+        let t30 = sin_q_8.neg_mul_add(t23, t16);
+        let t31 = cos_q_8.neg_mul_add(t23, t17);
+        let t32 = cos_q_8.neg_mul_add(t26, t9 * N::from_f64(1.5));
+        let t33 = sin_q_8.neg_mul_add(t26, t8 * N::from_f64(1.5));
+        let t34 = n(p.m) * t22;
+        let t35 = t9 * t0;
+        let t36 = N::ONE / t29;
+        let t37 = t24.mul_add(t14 * n(p.m), n(p.k33));
+        let t38 = n(p.k39) * t10;
+        let t39 = t31.mul_add(t12, t30 * t14);
+        let t40 = t8 * t0;
+        let t41 = n(p.l) * cos_q_4;
+        let t42 = n(p.l) * sin_q_4;
+        let t43 = t12 * t1;
+        let t44 = t14 * t1;
+        let t45 = n(p.m) * t41;
+        let t46 = n(p.k39).neg_mul_add(t13, n(p.k38));
+        let t47 = t40.mul_add(t46, t38.mul_add(t35, sin_q_8 * t2));
+        let t48 = n(p.m) * t42;
+        let t49 = t22 * t3;
+        let t50 = t15 * t3;
+        let t51 = t36 * t39;
+        let t52 = t36 * n(p.m);
+        let t53 = t36.mul_add(t32 * t33, t10 * n(p.k34));
+        let t54 = n(p.k39).neg_mul_add(t11, n(p.k38));
+        let t55 = t35.mul_add(t54, t38.mul_add(t40, cos_q_8 * t2));
+        let t56 = t36 * t31;
+        let t57 = t36 * t30;
+        let t58 = n(p.l) * cos_q_3;
+        let t59 = t39.neg_mul_add(t51, t25.mul_add(t12 * n(p.m), t37));
+        let t60 = t52.neg_mul_add(t33 * t33, N::ONE + t19);
+        let t61 = t51.neg_mul_add(t33, t24);
+        let t62 = t52.neg_mul_add(t32 * t32, N::ONE + t20);
+        let t63 = t51.neg_mul_add(t32, t25);
+        let t64 = t8.mul_sub(t55, t9 * t47);
+        let t65 = N::ONE / t59;
+        let t66 = t22.mul_sub(t60, t27 * t53);
+        let t67 = t15.mul_sub(t62, t34 * t53);
+        let t68 = t30.mul_add(t56, t38);
+        let t69 = t63.mul_add(t15, t61 * t22);
+        let t70 = n(p.l) * sin_q_3;
+        let t71 = t43.mul_add(t68, t56.mul_add(t64, t47));
+        let t72 = t44.neg_mul_add(t31.mul_sub(t56, n(p.m) * t20), t71);
+        let t73 = t44.mul_add(t68, t64.neg_mul_add(t57, t55));
+        let t74 = t43.neg_mul_add(t30.mul_sub(t57, n(p.m) * t19), t73);
+        let t75 = t65 * n(p.k36);
+        let t76 = n(p.m) * t65;
+        let t77 = t65.mul_add(t63 * t61, t53);
+        let t78 = n(p.m) * t58;
+        let t79 = n(p.m) * t70;
+        let t80 = t41 * t4;
+        let t81 = n(p.l) * cos_q_2;
+        let t82 = t75 * t69;
+        let t83 = t61 * t76;
+        let t84 = t63 * t76;
+        let t85 = n(p.k36) * t77;
+        let t86 = t27.mul_add(t67, t34.mul_add(t66, n(p.k33)));
+        let t87 = t69.neg_mul_add(t82, t86);
+        let t88 = t61.neg_mul_add(t82, n(p.m) * t66);
+        let t89 = t61.neg_mul_add(t83, N::ONE + t60);
+        let t90 = t63.neg_mul_add(t84, N::ONE + t62);
+        let t91 = t63.neg_mul_add(t82, n(p.m) * t67);
+        let t92 = t69.neg_mul_add(t84, t67);
+        let t93 = t69.neg_mul_add(t83, t66);
+        let t94 = t14.mul_sub(t74, t12 * t72);
+        let t95 = N::ONE / t87;
+        let t96 = t42.mul_sub(t89, t45 * t77);
+        let t97 = t41.mul_sub(t90, t48 * t77);
+        let t98 = t91.mul_add(t41, t88 * t42);
+        let t99 = t49 * t75.neg_mul_add(t63 * t63, n(p.m) * t62);
+        let t100 = t50 * t75.neg_mul_add(t61 * t61, n(p.m) * t60);
+        let t101 = t42 * t4;
+        let t102 = t84.mul_add(t94, t72) + t85.mul_add(t50, t99);
+        let t103 = t83.neg_mul_add(t94, t74) + t85.mul_add(t49, t100);
+        let t104 = n(p.l) * sin_q_2;
+        let t105 = t70 * t5;
+        let t106 = t95 * t98;
+        let t107 = n(p.m) * t95;
+        let t108 = t95.mul_add(t92 * t93, t77);
+        let t109 = t95 * t91;
+        let t110 = t95 * t88;
+        let t111 = t45.mul_add(t97, t48.mul_add(t96, n(p.k33)));
+        let t112 = t98.neg_mul_add(t106, t111);
+        let t113 = t106.neg_mul_add(t93, t96);
+        let t114 = t107.neg_mul_add(t93 * t93, N::ONE + t89);
+        let t115 = t106.neg_mul_add(t92, t97);
+        let t116 = t107.neg_mul_add(t92 * t92, N::ONE + t90);
+        let t117 = t22.mul_sub(t103, t15 * t102);
+        let t118 = N::ONE / t112;
+        let t119 = t70.mul_sub(t114, t78 * t108);
+        let t120 = t88.mul_add(t109, t85);
+        let t121 = t58.mul_sub(t116, t79 * t108);
+        let t122 = t115.mul_add(t58, t113 * t70);
+        let t123 = t80.mul_add(t120, t109.mul_add(t117, t102));
+        let t124 = t101.neg_mul_add(t91.mul_sub(t109, n(p.m) * t90), t123);
+        let t125 = t101.mul_add(t120, t117.neg_mul_add(t110, t103));
+        let t126 = t80.neg_mul_add(t88.mul_sub(t110, n(p.m) * t89), t125);
+        let t127 = n(p.k36) * t118;
+        let t128 = n(p.m) * t118;
+        let t129 = t118.mul_add(t115 * t113, t108);
+        let t130 = t58 * t5;
+        let t131 = n(p.l) * cos_q_1;
+        let t132 = n(p.l) * sin_q_1;
+        let t133 = t127 * t122;
+        let t134 = t113 * t128;
+        let t135 = n(p.m) * t129;
+        let t136 = t115 * t128;
+        let t137 = t42.mul_sub(t126, t41 * t124);
+        let t138 = n(p.k36) * t129;
+        let t139 = t78.mul_add(t121, t79.mul_add(t119, n(p.k33)));
+        let t140 = t122.neg_mul_add(t133, t139);
+        let t141 = t113.neg_mul_add(t133, n(p.m) * t119);
+        let t142 = t113.neg_mul_add(t134, t114 + N::from_f64(0.5));
+        let t143 = t115.neg_mul_add(t133, n(p.m) * t121);
+        let t144 = t115.neg_mul_add(t136, t116 + N::from_f64(0.5));
+        let t145 = N::ONE / t140;
+        let t146 = t104.mul_sub(t142, t81 * t135);
+        let t147 = sin_q_2 * (sin_q_1 * n(p.k35));
+        let t148 = t81.mul_sub(t144, t104 * t135);
+        let t149 = t105 * t127.neg_mul_add(t115 * t115, n(p.m) * t116);
+        let t150 = t143.mul_add(t81, t141 * t104);
+        let t151 = cos_q_2.mul_add(cos_q_1 * n(p.k35), t147);
+        let t152 = t130 * t127.neg_mul_add(t113 * t113, n(p.m) * t114);
+        let t153 = t136.mul_add(t137, t124) + t138.mul_add(t130, t149);
+        let t154 = t143.mul_add(t131, t141 * t132);
+        let t155 = t146.mul_add(n(p.m) * t104, n(p.k19));
+        let t156 = t134.neg_mul_add(t137, t126) + t138.mul_add(t105, t152);
+        let t157 = t148.mul_add(n(p.m) * t81, t155);
+        let t158 = t145.neg_mul_add(t150 * t150, t157);
+        let t159 = t145 * t154;
+        let t160 = t142.mul_sub(t132, t135 * t131);
+        let t161 = t145 * t141;
+        let t162 = t70.mul_sub(t156, t58 * t153);
+        let t163 = t145 * t143;
+        let t164 = N::ONE / t158;
+        let t165 = t132 * t6;
+        let t166 = cos_q_2 * t7;
+        let t167 = n(p.m) * t148.mul_add(t131, t146.mul_add(t132, t151));
+        let t168 = t150.mul_sub(t159, t167);
+        let t169 = t160.mul_add(n(p.m) * t132, n(p.k18));
+        let t170 = t144.mul_sub(t131, t135 * t132);
+        let t171 = t141.mul_add(t163, t138);
+        let t172 = t104.mul_add(t7, t165);
+        let t173 = sin_q_2.mul_add(t7 * n(p.k0), t165);
+        let t174 = n(p.l).mul_add(cos_q_1.mul_add(t6, t166), n(p.g));
+        let t175 = n(p.g) + n(p.k0).mul_add(t166, t131 * t6);
+        let t176 = t164 * t168;
+        let t177 = t172.mul_add(t171, t162.neg_mul_add(t161, t156));
+        let t178 = t174.neg_mul_add(t141.mul_sub(t161, n(p.m) * t142), t177);
+        let t179 = t173 * (cos_q_2 * n(p.k22));
+        let t180 = t154.neg_mul_add(t159, t170.mul_add(n(p.m) * t131, t169));
+        let t181 = t168.neg_mul_add(t176, t180);
+        let t182 = t173.neg_mul_add(cos_q_1 * n(p.k3), sin_q_1 * n(p.k2));
+        let t183 = t171.mul_add(t174, t163.mul_add(t162, t153));
+        let t184 = t172.neg_mul_add(t143.mul_sub(t163, n(p.m) * t144), t183);
+        let t185 = t104.mul_add(t178, t175.mul_sub(sin_q_2 * n(p.k22), t179));
+        let t186 = t81.neg_mul_add(t184, t185);
+        let t187 = t132.mul_add(t178, t175.mul_add(sin_q_1 * n(p.k3), t182));
+        let t188 = t176.mul_add(t186, t131.neg_mul_add(t184, t187));
+        let t189 = N::ONE / t181 * t188;
+        let t190 = t176.mul_add(t189, t164 * t186);
+        let t191 = t81.mul_add(t190, t131.mul_add(t189, t172));
+        let t192 = t104.neg_mul_add(t190, t132.neg_mul_add(t189, t174));
+        let t193 = t163 * t191;
+        let t194 = t161.mul_add(t192, t145 * t162);
+        let t195 = t194 - t193;
+        let t196 = t58.mul_add(t195, t105 + t191);
+        let t197 = t70.neg_mul_add(t195, t130 + t192);
+        let t198 = t136 * t196;
+        let t199 = t134.mul_add(t197, t118 * t137);
+        let t200 = t199 - t198;
+        let t201 = t41.mul_add(t200, t101 + t196);
+        let t202 = t42.neg_mul_add(t200, t80 + t197);
+        let t203 = t109 * t201;
+        let t204 = t110.mul_add(t202, t95 * t117);
+        let t205 = t204 - t203;
+        let t206 = t15.mul_add(t205, t49 + t201);
+        let t207 = t22.neg_mul_add(t205, t50 + t202);
+        let t208 = t84 * t206;
+        let t209 = t83.mul_add(t207, t65 * t94);
+        let t210 = t209 - t208;
+        let t211 = t12.mul_add(t210, t44 + t206);
+        let t212 = t14.neg_mul_add(t210, t43 + t207);
+        let t213 = t56 * t211;
+        let t214 = t57.mul_add(t212, t36 * t64);
+        let t215 = t214 - t213;
+        let t216 = sin_q_8 * t8.neg_mul_add(t215, t35 + t212);
+        let t217 = cos_q_8.mul_sub(t9.mul_add(t215, t40 + t211), t216);
+        let q_1_ddot = -t189;
+        let q_2_ddot = -t190;
+        let q_3_ddot = t193 - t194;
+        let q_4_ddot = t198 - t199;
+        let q_5_ddot = t203 - t204;
+        let q_6_ddot = t208 - t209;
+        let q_7_ddot = t213 - t214;
+        let q_8_ddot = t217 * n(p.k37);
+        let sound =
+            t29.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k18)) & t59.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k17)) & t87.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k16)) & t112.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k15)) & t140.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k14)) & t158.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k13)) & t181.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k12)) & q_8_ddot.is_finite();
+        if !sound {
+            check(t29, n(p.k18), 7.105427357601002e-15, 6)?;
+            check(t59, n(p.k17), 7.105427357601002e-15, 5)?;
+            check(t87, n(p.k16), 7.105427357601002e-15, 4)?;
+            check(t112, n(p.k15), 7.105427357601002e-15, 3)?;
+            check(t140, n(p.k14), 7.105427357601002e-15, 2)?;
+            check(t158, n(p.k13), 7.105427357601002e-15, 1)?;
+            check(t181, n(p.k12), 7.105427357601002e-15, 0)?;
+        }
         let accelerations = [
             q_1_ddot.store(),
             q_2_ddot.store(),
@@ -978,62 +1007,62 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], v: &
     let q_7_dot = v[6];
     let q_8_dot = v[7];
     let (sin_q_2, cos_q_2) = q_2.sin_cos();
-    let t0 = sin_q_2 * q_2_dot;
     let (sin_q_1, cos_q_1) = q_1.sin_cos();
-    let t1 = t0 + sin_q_1 * q_1_dot;
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
-    let t2 = sin_q_3 * q_3_dot;
-    let t3 = p.k0 * t2 + p.l * t1;
-    let t4 = cos_q_2 * q_2_dot;
-    let t5 = t4 + cos_q_1 * q_1_dot;
-    let t6 = cos_q_3 * q_3_dot;
-    let t7 = p.k0 * t6 + p.l * t5;
-    let t8 = p.m * (t3 * t3 + t7 * t7) + q_3_dot * (q_3_dot * p.J);
-    let t9 = p.l * q_1_dot;
-    let t10 = p.k0 * t0 + sin_q_1 * t9;
-    let t11 = p.k0 * t4 + cos_q_1 * t9;
-    let t12 = p.m * (t10 * t10 + t11 * t11) + q_2_dot * (q_2_dot * p.J);
-    let t13 = S::from_f64(0.5) * t12 + q_1_dot * (q_1_dot * p.k4);
-    let t14 = t2 + t1;
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
-    let t15 = sin_q_4 * q_4_dot;
-    let t16 = p.k0 * t15 + p.l * t14;
-    let t17 = t6 + t5;
-    let t18 = cos_q_4 * q_4_dot;
-    let t19 = p.k0 * t18 + p.l * t17;
-    let t20 = p.m * (t16 * t16 + t19 * t19) + q_4_dot * (q_4_dot * p.J);
-    let t21 = t15 + t14;
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let t22 = sin_q_5 * q_5_dot;
-    let t23 = p.k0 * t22 + p.l * t21;
-    let t24 = t18 + t17;
-    let t25 = cos_q_5 * q_5_dot;
-    let t26 = p.k0 * t25 + p.l * t24;
-    let t27 = p.m * (t23 * t23 + t26 * t26) + q_5_dot * (q_5_dot * p.J);
-    let t28 = S::from_f64(0.5) * t20 + (S::from_f64(0.5) * t8 + t13);
-    let t29 = t22 + t21;
     let (sin_q_6, cos_q_6) = q_6.sin_cos();
-    let t30 = sin_q_6 * q_6_dot;
-    let t31 = p.k0 * t30 + p.l * t29;
-    let t32 = t25 + t24;
-    let t33 = cos_q_6 * q_6_dot;
-    let t34 = p.k0 * t33 + p.l * t32;
-    let t35 = p.m * (t31 * t31 + t34 * t34) + q_6_dot * (q_6_dot * p.J);
-    let t36 = t30 + t29;
     let (sin_q_7, cos_q_7) = q_7.sin_cos();
-    let t37 = sin_q_7 * q_7_dot;
-    let t38 = p.k0 * t37 + p.l * t36;
-    let t39 = t33 + t32;
-    let t40 = cos_q_7 * q_7_dot;
-    let t41 = p.k0 * t40 + p.l * t39;
-    let t42 = p.m * (t38 * t38 + t41 * t41) + q_7_dot * (q_7_dot * p.J);
-    let t43 = S::from_f64(0.5) * t35 + (S::from_f64(0.5) * t27 + t28);
-    let t44 = p.k0 * q_8_dot;
     let (sin_q_8, cos_q_8) = q_8.sin_cos();
-    let t45 = t44 * sin_q_8 + p.l * (t37 + t36);
-    let t46 = t44 * cos_q_8 + p.l * (t40 + t39);
-    let t47 = p.m * (t45 * t45 + t46 * t46) + q_8_dot * (q_8_dot * p.J);
-    S::from_f64(0.5) * t47 + (S::from_f64(0.5) * t42 + t43)
+    let t0 = p.l * q_1_dot;
+    let t1 = p.k0 * q_8_dot;
+    let t2 = cos_q_2 * q_2_dot;
+    let t3 = cos_q_3 * q_3_dot;
+    let t4 = sin_q_2 * q_2_dot;
+    let t5 = sin_q_3 * q_3_dot;
+    let t6 = cos_q_4 * q_4_dot;
+    let t7 = sin_q_4 * q_4_dot;
+    let t8 = t2 + cos_q_1 * q_1_dot;
+    let t9 = p.k0 * t2 + cos_q_1 * t0;
+    let t10 = t4 + sin_q_1 * q_1_dot;
+    let t11 = p.k0 * t4 + sin_q_1 * t0;
+    let t12 = cos_q_5 * q_5_dot;
+    let t13 = t3 + t8;
+    let t14 = p.k0 * t3 + p.l * t8;
+    let t15 = t5 + t10;
+    let t16 = p.k0 * t5 + p.l * t10;
+    let t17 = sin_q_5 * q_5_dot;
+    let t18 = p.k0 * t6 + p.l * t13;
+    let t19 = t6 + t13;
+    let t20 = cos_q_6 * q_6_dot;
+    let t21 = p.k0 * t7 + p.l * t15;
+    let t22 = t7 + t15;
+    let t23 = p.k0 * t12 + p.l * t19;
+    let t24 = sin_q_6 * q_6_dot;
+    let t25 = t12 + t19;
+    let t26 = cos_q_7 * q_7_dot;
+    let t27 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.J);
+    let t28 = p.k0 * t17 + p.l * t22;
+    let t29 = t17 + t22;
+    let t30 = p.k0 * t20 + p.l * t25;
+    let t31 = sin_q_7 * q_7_dot;
+    let t32 = t20 + t25;
+    let t33 = p.m * (t16 * t16 + t14 * t14) + q_3_dot * (q_3_dot * p.J);
+    let t34 = S::from_f64(0.5) * t27 + q_1_dot * (q_1_dot * p.k4);
+    let t35 = p.k0 * t24 + p.l * t29;
+    let t36 = t24 + t29;
+    let t37 = p.k0 * t26 + p.l * t32;
+    let t38 = p.m * (t21 * t21 + t18 * t18) + q_4_dot * (q_4_dot * p.J);
+    let t39 = p.k0 * t31 + p.l * t36;
+    let t40 = t1 * cos_q_8 + p.l * (t26 + t32);
+    let t41 = p.m * (t28 * t28 + t23 * t23) + q_5_dot * (q_5_dot * p.J);
+    let t42 = S::from_f64(0.5) * t38 + (S::from_f64(0.5) * t33 + t34);
+    let t43 = t1 * sin_q_8 + p.l * (t31 + t36);
+    let t44 = p.m * (t35 * t35 + t30 * t30) + q_6_dot * (q_6_dot * p.J);
+    let t45 = p.m * (t39 * t39 + t37 * t37) + q_7_dot * (q_7_dot * p.J);
+    let t46 = S::from_f64(0.5) * t44 + (S::from_f64(0.5) * t41 + t42);
+    let t47 = p.m * (t43 * t43 + t40 * t40) + q_8_dot * (q_8_dot * p.J);
+    S::from_f64(0.5) * t47 + (S::from_f64(0.5) * t45 + t46)
 }
 
 /// Potential energy `V`, in J.
@@ -1053,20 +1082,20 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     let cos_q_3 = q_3.cos();
     let cos_q_2 = q_2.cos();
     let cos_q_1 = q_1.cos();
-    let t0 = cos_q_2 + cos_q_1;
     let cos_q_4 = q_4.cos();
-    let t1 = cos_q_3 + t0;
-    let t2 = p.k0 * cos_q_3 + p.l * t0 + (p.k0 * cos_q_2 + p.l * cos_q_1);
     let cos_q_5 = q_5.cos();
-    let t3 = cos_q_4 + t1;
     let cos_q_6 = q_6.cos();
-    let t4 = cos_q_5 + t3;
-    let t5 = p.k0 * cos_q_5 + p.l * t3 + (p.k0 * cos_q_4 + p.l * t1 + t2);
     let cos_q_7 = q_7.cos();
-    let t6 = cos_q_6 + t4;
     let cos_q_8 = q_8.cos();
-    let t7 = p.k0 * cos_q_7 + p.l * t6 + (p.k0 * cos_q_6 + p.l * t4 + t5);
-    -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t6) + t7) * p.k2 + cos_q_1 * p.k3)
+    let t0 = cos_q_2 + cos_q_1;
+    let t1 = cos_q_3 + t0;
+    let t2 = cos_q_4 + t1;
+    let t3 = p.k0 * cos_q_3 + p.l * t0 + (p.k0 * cos_q_2 + p.l * cos_q_1);
+    let t4 = cos_q_5 + t2;
+    let t5 = cos_q_6 + t4;
+    let t6 = p.k0 * cos_q_5 + p.l * t2 + (p.k0 * cos_q_4 + p.l * t1 + t3);
+    let t7 = p.k0 * cos_q_7 + p.l * t5 + (p.k0 * cos_q_6 + p.l * t4 + t6);
+    -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t5) + t7) * p.k1 + cos_q_1 * p.k2)
 }
 
 /// Height of the chain's end above the hinge. Unit: m.
@@ -1091,8 +1120,8 @@ pub fn output_end<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let cos_q_5 = q_5.cos();
     let cos_q_6 = q_6.cos();
     let cos_q_7 = q_7.cos();
-    let t0 = cos_q_6 + (cos_q_5 + (cos_q_4 + (cos_q_3 + (cos_q_2 + cos_q_1))));
     let cos_q_8 = q_8.cos();
+    let t0 = cos_q_6 + (cos_q_5 + (cos_q_4 + (cos_q_3 + (cos_q_2 + cos_q_1))));
     p.k31 * (cos_q_8 + (cos_q_7 + t0))
 }
 
@@ -1304,7 +1333,6 @@ where
             k37: lanes(|p| p.k37),
             k38: lanes(|p| p.k38),
             k39: lanes(|p| p.k39),
-            k40: lanes(|p| p.k40),
             singular: None,
         }
     }

@@ -93,18 +93,18 @@ impl<S> KapitzaPendulum<S> {
 impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k0 = self.a * self.omega;
-        let k1 = self.omega * k0;
-        let k4 = self.m * self.g;
         let t0 = self.m * self.l;
+        let k0 = self.a * self.omega;
+        let k4 = self.m * self.g;
         let k5 = self.l * t0;
+        let k1 = self.omega * k0;
         let k2 = self.l * self.l;
         let k3 = self.m * S::from_f64(0.5);
         let k6 = self.g * t0;
         let k7 = k0 * k4;
         let k8 = self.m * k0;
         let k9 = k1 * t0;
-        let k10 = S::ONE / self.l;
+        let k10 = S::ONE / k5;
         let singular = if vanishes(k5, k5, 8.881784197001252e-16) {
             Some(singular(0, k5, k5))
         } else {
@@ -214,7 +214,7 @@ pub struct Prepared<S = f64> {
     k8: S,
     /// `m*l*a*omega^2`
     k9: S,
-    /// `1/l`
+    /// `1/m/l^2`
     k10: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
@@ -237,8 +237,8 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
     let sin_theta = theta.sin();
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let h_theta = (cos_t0 - p.omega.product_error(t) * sin_t0) * (p.k9 * sin_theta);
     [h_theta]
 }
@@ -259,14 +259,14 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
 pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
     let sin_theta = theta.sin();
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = (cos_t0 - p.omega.product_error(t) * sin_t0) * (sin_theta * p.k9);
     let f_theta = sin_theta * p.k6 - t1;
     [f_theta]
 }
 
-/// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
+/// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -299,12 +299,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         }
         let theta = n(q[0]);
         let t0 = n(p.omega) * n(t);
-        let angles = [t0, theta];
+        let angles = [theta, t0];
         let circular = N::sin_cos_all(angles);
-        let (sin_t0, cos_t0) = circular[0];
-        let (sin_theta, _) = circular[1];
+        let (sin_theta, _) = circular[0];
+        let (sin_t0, cos_t0) = circular[1];
         let t1 = n(p.omega).product_error(n(t)).neg_mul_add(sin_t0, cos_t0);
-        let theta_ddot = n(p.k1).neg_mul_add(t1, n(p.g)) * (n(p.k10) * sin_theta);
+        let theta_ddot = n(p.k9).neg_mul_add(t1, n(p.k6)) * (n(p.k10) * sin_theta);
         let accelerations = [theta_ddot.store()];
         Ok(accelerations)
     }
@@ -319,12 +319,12 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
     let theta = q[0];
     let theta_dot = v[0];
     let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t1 = p.k0 * (sin_t0 + p.omega.product_error(t) * cos_t0);
-    let t2 = sin_theta * (theta_dot * p.l) + t1;
-    let t3 = cos_theta * theta_dot;
-    p.k3 * (t3 * (t3 * p.k2) + t2 * t2)
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t1 = cos_theta * theta_dot;
+    let t2 = p.k0 * (sin_t0 + p.omega.product_error(t) * cos_t0);
+    let t3 = sin_theta * (theta_dot * p.l) + t2;
+    p.k3 * (t1 * (t1 * p.k2) + t3 * t3)
 }
 
 /// Potential energy `V`, in J.
@@ -335,8 +335,8 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
     let theta = q[0];
     let t0 = p.omega * t;
-    let (sin_t0, cos_t0) = t0.sin_cos();
     let cos_theta = theta.cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = cos_theta * p.l + (cos_t0 - p.omega.product_error(t) * sin_t0) * p.a;
     p.k4 * t1
 }
@@ -357,13 +357,13 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     let theta = q[0];
     let theta_dot = v[0];
     let theta_ddot = a[0];
+    let t0 = p.omega * t;
     let (sin_theta, cos_theta) = theta.sin_cos();
-    let t0 = p.omega.product_error(t);
-    let t1 = p.omega * t;
-    let (sin_t1, cos_t1) = t1.sin_cos();
-    let t2 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
-    let t3 = sin_t1 + t0 * cos_t1;
-    (t2 + (cos_t1 - t0 * sin_t1) * p.k1) * (t3 * p.k8) - t3 * p.k7
+    let t1 = p.omega.product_error(t);
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t2 = sin_t0 + t1 * cos_t0;
+    let t3 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
+    (t3 + (cos_t0 - t1 * sin_t0) * p.k1) * (t2 * p.k8) - t2 * p.k7
 }
 
 /// Force that shakes the pivot, upwards. Unit: N.
@@ -382,8 +382,8 @@ pub fn output_force<S: ::lagrangian::Scalar>(
     let theta = q[0];
     let theta_dot = v[0];
     let theta_ddot = a[0];
-    let (sin_theta, cos_theta) = theta.sin_cos();
     let t0 = p.omega * t;
+    let (sin_theta, cos_theta) = theta.sin_cos();
     let (sin_t0, cos_t0) = t0.sin_cos();
     let t1 = (cos_theta * (theta_dot * theta_dot) + sin_theta * theta_ddot) * p.l;
     (p.g - (t1 + p.k1 * (cos_t0 - p.omega.product_error(t) * sin_t0))) * p.m

@@ -418,15 +418,15 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     let u_6 = q[5];
     let u_7 = q[6];
     let u_8 = q[7];
-    let t0 = u_4 - u_5;
-    let t1 = u_3 - u_4;
-    let t2 = u_6 - u_7;
-    let t3 = u_5 - u_6;
-    let t4 = u_2 - u_3;
-    let t5 = u_1 - u_2;
+    let t0 = u_3 - u_4;
+    let t1 = u_5 - u_6;
+    let t2 = u_1 - u_2;
+    let t3 = u_4 - u_5;
+    let t4 = u_6 - u_7;
+    let t5 = u_2 - u_3;
     let t6 = u_7 - u_8;
-    let t7 = t0 * t0 + t1 * t1 + (t2 * t2 + t3 * t3);
-    (t6 * t6 + (t4 * t4 + t5 * t5) + t7) * p.k0
+    let t7 = t3 * t3 + t0 * t0 + (t4 * t4 + t1 * t1);
+    (t6 * t6 + (t5 * t5 + t2 * t2) + t7) * p.k0
 }
 
 /// Power that drives, forces and inputs put in, in W.

@@ -94,12 +94,12 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
         let k1 = self.G * (self.m2 * self.m1);
         let t1 = self.m1 * k9;
         let k2 = self.m2 * t1;
-        let t2 = k9 * (self.m2 * k2);
-        let t3 = t1 * k2;
-        let k3 = t2 + t3;
+        let t2 = t1 * k2;
         let k5 = k2 * S::from_f64(2.0);
+        let t3 = k9 * (self.m2 * k2);
+        let k3 = t3 + t2;
         let k0 = k9 / self.G;
-        let k4 = t3 * S::from_f64(0.5) + t2 * S::from_f64(0.5);
+        let k4 = t2 * S::from_f64(0.5) + t3 * S::from_f64(0.5);
         let k6 = -k2;
         let k7 = -k1;
         let k8 = -k5;
@@ -303,11 +303,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let r_dot = n(v[0]);
         let phi_dot = n(v[1]);
         let t0 = N::ONE / r;
-        let t1 = t0.mul_sub(t0 * n(p.G), r * n(p.k9) * (phi_dot * phi_dot));
-        let t2 = r * (r * n(p.k2));
-        check(t2, t2, 1.7763568394002505e-15, 1)?;
-        let r_ddot = n(p.k10) * t1;
+        let t1 = r * (r * n(p.k2));
+        let t2 = t0.mul_sub(t0 * n(p.G), r * n(p.k9) * (phi_dot * phi_dot));
+        let r_ddot = n(p.k10) * t2;
         let phi_ddot = t0 * (phi_dot * (N::from_f64(-2.0) * r_dot));
+        let sound = t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1) & r_ddot.is_finite();
+        if !sound {
+            check(t1, t1, 1.7763568394002505e-15, 1)?;
+        }
         let accelerations = [r_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
     }
@@ -362,9 +365,9 @@ pub fn output_eccentricity_x<S: ::lagrangian::Scalar>(
     let phi = q[1];
     let r_dot = v[0];
     let phi_dot = v[1];
+    let (sin_phi, cos_phi) = phi.sin_cos();
     let t0 = r * phi_dot;
     let t1 = p.k0 * r * t0;
-    let (sin_phi, cos_phi) = phi.sin_cos();
     sin_phi * (t1 * r_dot) - cos_phi * (S::ONE - t0 * t1)
 }
 
@@ -383,9 +386,9 @@ pub fn output_eccentricity_y<S: ::lagrangian::Scalar>(
     let phi = q[1];
     let r_dot = v[0];
     let phi_dot = v[1];
+    let (sin_phi, cos_phi) = phi.sin_cos();
     let t0 = r * phi_dot;
     let t1 = p.k0 * r * t0;
-    let (sin_phi, cos_phi) = phi.sin_cos();
     -(cos_phi * (t1 * r_dot) + sin_phi * (S::ONE - t0 * t1))
 }
 

@@ -111,19 +111,19 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m1 * self.c1;
+        let t1 = self.c2 * self.m2;
+        let t2 = self.l1 * self.m2;
+        let t3 = self.c1 * t0 + self.J1;
         let k1 = t0 * self.g;
-        let t1 = self.c1 * t0 + self.J1;
-        let t2 = self.c2 * self.m2;
-        let k4 = self.J2 + self.c2 * t2;
-        let t3 = self.l1 * self.m2;
-        let k7 = self.c2 * t3;
+        let k4 = self.J2 + self.c2 * t1;
+        let k7 = self.c2 * t2;
         let k0 = self.l1 * self.l2;
         let k2 = self.m2 * self.g;
-        let k3 = S::from_f64(0.5) * t1;
-        let k5 = self.g * t2;
-        let k6 = k1 + self.g * t3;
+        let k3 = S::from_f64(0.5) * t3;
+        let k5 = self.g * t1;
+        let k6 = k1 + self.g * t2;
         let k8 = k7 * S::from_f64(2.0);
-        let k9 = k4 + (t1 + self.l1 * t3);
+        let k9 = k4 + (t3 + self.l1 * t2);
         Prepared {
             l1: self.l1,
             l2: self.l2,
@@ -301,10 +301,10 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], u: &Inputs<S>) -> [S; 2] {
     let q1 = q[0];
     let q2 = q[1];
+    let cos_q1 = q1.cos();
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
     let t1 = p.k5 * cos_t0;
-    let cos_q1 = q1.cos();
     let q_q1 = u.tau1 - (t1 + p.k6 * cos_q1);
     let q_q2 = u.tau2 - t1;
     [q_q1, q_q2]
@@ -321,11 +321,11 @@ pub fn forces<S: ::lagrangian::Scalar>(
     let q2 = q[1];
     let q1_dot = v[0];
     let q2_dot = v[1];
+    let cos_q1 = q1.cos();
     let sin_q2 = q2.sin();
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
     let t1 = p.k5 * cos_t0;
-    let cos_q1 = q1.cos();
     let t2 = sin_q2 * (q2_dot * (q2_dot * p.k7 + q1_dot * p.k8));
     let f_q1 = t2 + (u.tau1 - (t1 + p.k6 * cos_q1));
     let f_q2 = u.tau2 - t1 - sin_q2 * (q1_dot * (p.k7 * q1_dot));
@@ -368,26 +368,30 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q1_dot = n(v[0]);
         let q2_dot = n(v[1]);
         let t0 = q2 + q1;
-        let angles = [q2, t0, q1];
+        let angles = [q2, q1, t0];
         let circular = N::sin_cos_all(angles);
         let (sin_q2, cos_q2) = circular[0];
-        let (_, cos_t0) = circular[1];
-        let (_, cos_q1) = circular[2];
-        let t1 = n(p.k5) * cos_t0;
-        let t2 = q2_dot * n(p.k7).mul_add(q2_dot, n(p.k8) * q1_dot);
-        let t3 = n(u.tau1) - n(p.k6).mul_add(cos_q1, t1);
-        let t4 = sin_q2.mul_add(t2, t3);
-        let t5 = cos_q2.mul_add(n(p.k8), n(p.k9));
-        check(t5, t5, 1.7763568394002505e-15, 0)?;
-        let t6 = N::ONE / t5;
-        let t7 = cos_q2.mul_add(n(p.k7), n(p.k4));
-        let t8 = t6 * t7;
-        let t9 = q1_dot * (n(p.k7) * q1_dot);
-        let t10 = t7.neg_mul_add(t8, n(p.k4));
-        check(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
-        let t11 = t8.neg_mul_add(t4, sin_q2.neg_mul_add(t9, n(u.tau2) - t1));
+        let (_, cos_q1) = circular[1];
+        let (_, cos_t0) = circular[2];
+        let t1 = cos_q2.mul_add(n(p.k8), n(p.k9));
+        let t2 = cos_q2.mul_add(n(p.k7), n(p.k4));
+        let t3 = N::ONE / t1;
+        let t4 = n(p.k5) * cos_t0;
+        let t5 = q1_dot * (n(p.k7) * q1_dot);
+        let t6 = q2_dot * n(p.k7).mul_add(q2_dot, n(p.k8) * q1_dot);
+        let t7 = n(u.tau1) - n(p.k6).mul_add(cos_q1, t4);
+        let t8 = sin_q2.mul_add(t6, t7);
+        let t9 = t3 * t2;
+        let t10 = t2.neg_mul_add(t9, n(p.k4));
+        let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t5, n(u.tau2) - t4));
         let q2_ddot = t11 / t10;
-        let q1_ddot = t8.neg_mul_add(q2_ddot, t6 * t4);
+        let q1_ddot = t9.neg_mul_add(q2_ddot, t3 * t8);
+        let sound =
+            t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1) & t10.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k4)) & q1_ddot.is_finite();
+        if !sound {
+            check(t1, t1, 1.7763568394002505e-15, 0)?;
+            check(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
+        }
         let accelerations = [q1_ddot.store(), q2_ddot.store()];
         Ok(accelerations)
     }
@@ -405,15 +409,15 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
     let q2 = q[1];
     let q1_dot = v[0];
     let q2_dot = v[1];
-    let t0 = q2_dot + q1_dot;
-    let t1 = t0 * p.c2;
-    let t2 = q2 + q1;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = q1_dot * p.l1;
+    let t0 = q2 + q1;
     let (sin_q1, cos_q1) = q1.sin_cos();
-    let t4 = t1 * cos_t2 + t3 * cos_q1;
-    let t5 = t1 * sin_t2 + t3 * sin_q1;
-    let t6 = S::from_f64(0.5) * ((t4 * t4 + t5 * t5) * p.m2 + t0 * (t0 * p.J2));
+    let t1 = q2_dot + q1_dot;
+    let t2 = q1_dot * p.l1;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t3 = t1 * p.c2;
+    let t4 = t3 * sin_t0 + t2 * sin_q1;
+    let t5 = t3 * cos_t0 + t2 * cos_q1;
+    let t6 = S::from_f64(0.5) * ((t5 * t5 + t4 * t4) * p.m2 + t1 * (t1 * p.J2));
     t6 + q1_dot * (q1_dot * p.k3)
 }
 
@@ -425,9 +429,9 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
+    let sin_q1 = q1.sin();
     let t0 = q2 + q1;
     let sin_t0 = t0.sin();
-    let sin_q1 = q1.sin();
     p.k2 * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.k1
 }
 
@@ -450,9 +454,9 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
 pub fn output_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
+    let cos_q1 = q1.cos();
     let t0 = q2 + q1;
     let cos_t0 = t0.cos();
-    let cos_q1 = q1.cos();
     cos_t0 * p.l2 + cos_q1 * p.l1
 }
 
@@ -464,9 +468,9 @@ pub fn output_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
 pub fn output_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
+    let sin_q1 = q1.sin();
     let t0 = q2 + q1;
     let sin_t0 = t0.sin();
-    let sin_q1 = q1.sin();
     sin_t0 * p.l2 + sin_q1 * p.l1
 }
 

@@ -143,13 +143,7 @@ pub trait Loops: Language {
     /// The head of a loop that counts from 0; without a name nobody asks for the count.
     fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize);
     /// A guard of a coordinate that is counted.
-    fn guard_of(
-        &self,
-        writer: &mut Writer,
-        guard: &Guard,
-        names: [&str; 2],
-        coordinate: &str,
-    );
+    fn guard_of(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], coordinate: &str);
     /// The sines and cosines of all angles of an array; where those of the angle at an index stand.
     fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2];
 }
