@@ -1,5 +1,5 @@
-//! Machines long enough that what repeats itself is compiled as loops: the same bits as the
-//! straight program, which the interpreter runs, and the same errors.
+//! Machines of many links: the same bits as the program, which the interpreter runs, and the same
+//! errors.
 
 mod support;
 

@@ -71,63 +71,53 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k3 = self.l * self.m;
-        let pivot_2 = self.l * self.l;
-        let t0 = self.l * k3;
-        let t1 = self.g * k3;
+        let t0 = self.l * self.l;
+        let t1 = self.l * k3;
+        let t2 = self.g * k3;
         let k22 = S::from_f64(0.5) * k3;
-        let t2 = t0 * S::from_f64(0.25);
-        let k2 = S::from_f64(0.5) * t1;
-        let k19 = self.J + t2;
-        let t3 = S::ONE / k19;
-        let t4 = S::from_f64(0.25) * t3;
+        let t3 = t1 * S::from_f64(0.25);
+        let k2 = S::from_f64(0.5) * t2;
+        let k19 = self.J + t3;
+        let t4 = S::ONE / k19;
+        let t5 = S::from_f64(0.25) * t4;
         let k0 = self.l * S::from_f64(0.5);
         let k1 = self.m * self.g;
-        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t0);
-        let k5 = S::from_f64(0.5) * t0;
-        let k6 = t0 * S::from_f64(1.5);
-        let k7 = t0 * S::from_f64(2.5);
-        let k8 = t0 * S::from_f64(3.5);
-        let k9 = t0 * S::from_f64(4.5);
-        let k10 = t0 * S::from_f64(5.5);
-        let k11 = t0 * S::from_f64(6.5);
-        let k12 = self.J + t0 * S::from_f64(7.25);
-        let k13 = self.J + t0 * S::from_f64(6.25);
-        let k14 = self.J + t0 * S::from_f64(5.25);
-        let k15 = self.J + t0 * S::from_f64(4.25);
-        let k16 = self.J + t0 * S::from_f64(3.25);
-        let k17 = self.J + t0 * S::from_f64(2.25);
-        let k18 = self.J + t0 * S::from_f64(1.25);
+        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
+        let k5 = S::from_f64(0.5) * t1;
+        let k6 = t1 * S::from_f64(1.5);
+        let k7 = t1 * S::from_f64(2.5);
+        let k8 = t1 * S::from_f64(3.5);
+        let k9 = t1 * S::from_f64(4.5);
+        let k10 = t1 * S::from_f64(5.5);
+        let k11 = t1 * S::from_f64(6.5);
+        let k12 = self.J + t1 * S::from_f64(7.25);
+        let k13 = self.J + t1 * S::from_f64(6.25);
+        let k14 = self.J + t1 * S::from_f64(5.25);
+        let k15 = self.J + t1 * S::from_f64(4.25);
+        let k16 = self.J + t1 * S::from_f64(3.25);
+        let k17 = self.J + t1 * S::from_f64(2.25);
+        let k18 = self.J + t1 * S::from_f64(1.25);
         let k20 = self.m * S::from_f64(0.5);
         let k21 = k3 * S::from_f64(0.25);
-        let k23 = -(t1 * S::from_f64(7.5));
-        let k24 = -(t1 * S::from_f64(6.5));
-        let k25 = -(t1 * S::from_f64(5.5));
-        let k26 = -(t1 * S::from_f64(4.5));
-        let k27 = -(t1 * S::from_f64(3.5));
-        let k28 = -(t1 * S::from_f64(2.5));
-        let k29 = -(t1 * S::from_f64(1.5));
+        let k23 = -(t2 * S::from_f64(7.5));
+        let k24 = -(t2 * S::from_f64(6.5));
+        let k25 = -(t2 * S::from_f64(5.5));
+        let k26 = -(t2 * S::from_f64(4.5));
+        let k27 = -(t2 * S::from_f64(3.5));
+        let k28 = -(t2 * S::from_f64(2.5));
+        let k29 = -(t2 * S::from_f64(1.5));
         let k30 = -k2;
         let k31 = -self.l;
-        let k32 = t0 * t4;
-        let k33 = self.J - t2;
-        let k34 = t4 * pivot_2;
-        let k35 = S::from_f64(0.5) * pivot_2;
+        let k32 = t1 * t5;
+        let k33 = self.J - t3;
+        let k34 = t5 * t0;
+        let k35 = S::from_f64(0.5) * t0;
         let k36 = self.m * self.m;
-        let k37 = k22 * t3;
+        let k37 = k22 * t4;
         let k38 = self.m * S::from_f64(1.5);
-        let k39 = t4 * (k3 * k3);
+        let k39 = t5 * (k3 * k3);
         let singular = if vanishes(k19, k19, 7.105427357601002e-15) {
             Some(singular(7, k19, k19))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(2, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(3, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(4, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(5, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(6, pivot_2, pivot_2))
         } else {
             None
         };

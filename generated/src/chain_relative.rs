@@ -70,28 +70,28 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k4 = self.l * self.m;
-        let pivot_2 = self.l * self.l;
+        let t0 = self.l * self.l;
         let k1 = self.l * k4;
-        let t0 = self.g * k4;
+        let t1 = self.g * k4;
         let k7 = S::from_f64(0.5) * k4;
-        let t1 = k1 * S::from_f64(0.25);
-        let k3 = S::from_f64(0.5) * t0;
+        let t2 = k1 * S::from_f64(0.25);
+        let k3 = S::from_f64(0.5) * t1;
         let k32 = self.J + k1 * S::from_f64(1.25);
-        let k6 = self.J + t1;
-        let t2 = S::ONE / k6;
-        let t3 = S::from_f64(0.25) * t2;
+        let k6 = self.J + t2;
+        let t3 = S::ONE / k6;
+        let t4 = S::from_f64(0.25) * t3;
         let k0 = self.l * S::from_f64(0.5);
         let k2 = self.m * self.g;
         let k5 = S::from_f64(0.125) * (k1 + self.J * S::from_f64(4.0));
         let k8 = self.m * S::from_f64(0.5);
         let k9 = k4 * S::from_f64(0.25);
-        let k10 = t0 * S::from_f64(1.5);
-        let k11 = t0 * S::from_f64(2.5);
-        let k12 = t0 * S::from_f64(3.5);
-        let k13 = t0 * S::from_f64(4.5);
-        let k14 = t0 * S::from_f64(5.5);
-        let k15 = t0 * S::from_f64(6.5);
-        let k16 = t0 * S::from_f64(7.5);
+        let k10 = t1 * S::from_f64(1.5);
+        let k11 = t1 * S::from_f64(2.5);
+        let k12 = t1 * S::from_f64(3.5);
+        let k13 = t1 * S::from_f64(4.5);
+        let k14 = t1 * S::from_f64(5.5);
+        let k15 = t1 * S::from_f64(6.5);
+        let k16 = t1 * S::from_f64(7.5);
         let k17 = S::from_f64(0.5) * k1;
         let k18 = k4 * S::from_f64(1.5);
         let k19 = k6 + k32;
@@ -102,26 +102,16 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
         let k24 = k4 * S::from_f64(6.0);
         let k25 = self.J + k1 * S::from_f64(7.25);
         let k26 = -k3;
-        let k27 = k1 * t3;
-        let k28 = self.J - t1;
-        let k29 = t3 * pivot_2;
-        let k30 = S::from_f64(0.5) * pivot_2;
+        let k27 = k1 * t4;
+        let k28 = self.J - t2;
+        let k29 = t4 * t0;
+        let k30 = S::from_f64(0.5) * t0;
         let k31 = self.m * self.m;
         let k33 = self.m * S::from_f64(1.5);
-        let k34 = t3 * (k4 * k4);
-        let k35 = k7 * t2;
+        let k34 = t4 * (k4 * k4);
+        let k35 = k7 * t3;
         let singular = if vanishes(k6, k6, 7.105427357601002e-15) {
             Some(singular(7, k6, k6))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(2, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(3, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(4, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(5, pivot_2, pivot_2))
-        } else if vanishes(pivot_2, pivot_2, 7.105427357601002e-15) {
-            Some(singular(6, pivot_2, pivot_2))
         } else {
             None
         };

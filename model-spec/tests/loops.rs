@@ -36,14 +36,15 @@ fn code(program: &Program) -> String {
     format!("{}{}", &text[after..before], &text[rest..])
 }
 
+/// What grows with the links is the lists of values that loops are given, a line for each.
 #[test]
-fn twice_the_links_are_as_much_code() {
+fn twice_the_links_are_far_from_twice_the_code() {
     for spec in ["benches/peers/chain", "machines/chain_relative"] {
-        let [short, long] = [32, 64].map(|links| code(&chain(spec, links)));
+        let [short, long] = [128, 256].map(|links| code(&chain(spec, links)));
         assert!(short.contains("for i in 0.."), "{spec}: no loop");
         let growth = long.len() as f64 / short.len() as f64;
         assert!(
-            growth < 1.1,
+            growth < 1.4,
             "{spec}: {} bytes, {} bytes",
             short.len(),
             long.len()
@@ -51,12 +52,12 @@ fn twice_the_links_are_as_much_code() {
     }
 }
 
-/// Twelve links are written as loops, and what is short is not.
+/// Long chains are written with loops, and what fits in the order of time is not.
 #[test]
 fn loops_begin_where_a_function_is_long() {
     let has_loops = |links| code(&chain("benches/peers/chain", links)).contains("for i in");
-    assert!(has_loops(12));
-    assert!(!has_loops(4));
+    assert!(has_loops(128));
+    assert!(!has_loops(16));
 }
 
 /// `x ← x + aᵢ·qᵢ` and on, after a beginning of its own; the results are the last sum and all terms.

@@ -46,8 +46,8 @@ pub struct Options {
 
 /// The fewest steps of a function in which what repeats itself is written as a loop.
 ///
-/// A chain of 9 links has 375 along its links, of which 4 repeat: so written it is compiled in less
-/// time and runs in less. Below, a function is short to a compiler and to a processor anyhow.
+/// Below, a function is short to a compiler and to a processor anyhow; and in the order of time little
+/// repeats itself.
 pub const SHORTEST_ROLLED: usize = 300;
 
 impl Default for Options {

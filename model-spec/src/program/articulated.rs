@@ -52,8 +52,6 @@ pub(super) struct Solution<'d> {
     pub(super) pivots: Vec<(usize, Expr<'d>)>,
     /// Symbols in all of these, and what they stand for: a value that is computed once.
     pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
-    /// What parameters decide and must not vanish either, with the coordinates of what it belongs to.
-    pub(super) lengths: Vec<(usize, Expr<'d>)>,
     /// What was done, in order.
     pub(super) steps: Vec<Step<'d>>,
     /// The coordinates by the nodes of their velocities.
@@ -100,12 +98,7 @@ pub(super) fn solve<'d>(
     for (id, coordinate) in &velocities {
         accelerations[*coordinate] = *known.get(id)?;
     }
-    let lengths = front.lengths.iter().filter_map(|(turning, length)| {
-        let coordinate = front.touches[turning].last()?;
-        Some((*coordinate, *length))
-    });
     Some(Solution {
-        lengths: lengths.collect(),
         names: front.names,
         accelerations,
         pivots,
@@ -227,8 +220,6 @@ struct Front<'d> {
     may_name: bool,
     /// Coefficients by names, and what these stand for.
     names: Vec<(Expr<'d>, Expr<'d>)>,
-    /// Squares of the lengths of bars that are in denominators, with the nodes of their turning.
-    lengths: Vec<(Id, Expr<'d>)>,
     totals: Totals<'d>,
     /// How many terms have come into G and g.
     terms: usize,
@@ -260,7 +251,6 @@ impl<'d> Front<'d> {
             falls: FxHashMap::default(),
             may_name: machine.drifts && places,
             names: Vec::new(),
-            lengths: Vec::new(),
             totals: Totals {
                 dag,
                 made: FxHashSet::default(),
@@ -269,14 +259,13 @@ impl<'d> Front<'d> {
             terms: 0,
         };
         front.find_linear(&front.roots(model, machine));
-        let bars::Replaced { machine, lengths } = bars::replaced(machine, &front.arms());
-        let machine = &machine;
+        let replaced = bars::replaced(machine, &front.arms());
+        let machine = replaced.as_ref().unwrap_or(machine);
         let roots = front.roots(model, machine);
-        if !lengths.is_empty() {
+        if replaced.is_some() {
             front.forget();
             front.find_linear(&roots);
         }
-        front.lengths = lengths;
         if places {
             front.find_places(&roots, machine);
         }
@@ -808,6 +797,20 @@ impl<'d> Front<'d> {
         }
         self.congruence(&group, &inner);
         for update in &mut self.late {
+            // What drifts pulls at what the update couples it to, outside of the group.
+            let drifting = group.iter().zip(&drifts).filter_map(|((id, _), drift)| {
+                let value = *update.column.get(id)?;
+                (!drift.is_zero()).then(|| value * *drift)
+            });
+            let pull = self.dag.sum(drifting.collect::<Vec<_>>());
+            if !pull.is_zero() {
+                for (x, value) in &update.column {
+                    if !position.contains_key(x) {
+                        let load = *value / update.pivot * pull;
+                        self.loads.entry(*x).or_default().push(load);
+                    }
+                }
+            }
             let mut terms: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
             for (id, composition) in &group {
                 if let Some(value) = update.column.remove(id) {

@@ -40,30 +40,22 @@ pub(super) struct Arm<'d> {
     pub carries: bool,
 }
 
-/// A machine with its bodies on bars replaced, and the squares of bars' lengths that have come into
-/// denominators, each with the node of the bar's turning.
-pub(super) struct Replaced<'d> {
-    pub machine: Unprojected<'d>,
-    pub lengths: Vec<(Id, Expr<'d>)>,
-}
-
 /// Replaces bodies by masses at the joints of their bars.
 ///
-/// `arms` are the nodes that are components of points on bars.
+/// `arms` are the nodes that are components of points on bars. `None` if there is nothing to replace.
+/// A bar without length that carries something has no such masses: they are infinite, and the pivot of
+/// its turning is no number, which is the error of a singular machine.
 pub(super) fn replaced<'d>(
     machine: &Unprojected<'d>,
     arms: &BTreeMap<Id, Arm<'d>>,
-) -> Replaced<'d> {
-    let mut replaced = Replaced {
-        machine: machine.clone(),
-        lengths: Vec::new(),
-    };
+) -> Option<Unprojected<'d>> {
     if !machine.drifts {
-        return replaced;
+        return None;
     }
+    let mut replaced = machine.clone();
     let carried = carried(arms);
     let mut gone: Vec<Bar<'d>> = Vec::new();
-    replaced.machine.inertia.clear();
+    replaced.inertia.clear();
     let mut rest = machine.inertia.as_slice();
     while let Some((&first, others)) = rest.split_first() {
         rest = others;
@@ -71,7 +63,7 @@ pub(super) fn replaced<'d>(
             .first()
             .and_then(|&second| bar(first, second, arms, &carried));
         let Some(bar) = on_bar else {
-            replaced.machine.inertia.push(first);
+            replaced.inertia.push(first);
             continue;
         };
         rest = &others[1..];
@@ -80,18 +72,18 @@ pub(super) fn replaced<'d>(
         let (near, far) = (mass * (1 - bar.share), mass * bar.share);
         for (joint, tip) in bar.joint.iter().zip(&bar.tip) {
             let [joint, tip] = [joint, tip].map(|id| dag.expr(*id));
-            replaced.machine.inertia.push([joint, joint, near]);
-            replaced.machine.inertia.push([tip, tip, far]);
+            replaced.inertia.push([joint, joint, near]);
+            replaced.inertia.push([tip, tip, far]);
         }
         let turning = dag.expr(bar.turning);
         // λ² l² and λ l² are products of lengths, without a quotient.
         let [squared, single] = [2, 1].map(|power| bar.share.powi(power) * bar.length_squared);
         let left = mass * (squared - single);
-        replaced.machine.inertia.push([turning, turning, left]);
-        if !replaced.lengths.iter().any(|(id, _)| *id == bar.turning) {
-            replaced.lengths.push((bar.turning, bar.length_squared));
-        }
+        replaced.inertia.push([turning, turning, left]);
         gone.push(bar);
+    }
+    if gone.is_empty() {
+        return None;
     }
     let on = |u: Expr<'d>| {
         gone.iter().find_map(|bar| {
@@ -100,25 +92,22 @@ pub(super) fn replaced<'d>(
             Some((bar, ends.map(|id| u.dag().expr(id))))
         })
     };
-    replaced.machine.loads.clear();
+    replaced.loads.clear();
     for &(u, load) in &machine.loads {
         match on(u) {
             Some((bar, [joint, tip])) => {
                 let parts = [(joint, load * (1 - bar.share)), (tip, load * bar.share)];
-                replaced.machine.loads.extend(parts);
+                replaced.loads.extend(parts);
             }
-            None => replaced.machine.loads.push((u, load)),
+            None => replaced.loads.push((u, load)),
         }
     }
-    replaced.machine.gravity.clear();
+    replaced.gravity.clear();
     for &(u, g) in &machine.gravity {
         let ends = on(u).map_or(vec![u], |(_, ends)| ends.to_vec());
-        replaced
-            .machine
-            .gravity
-            .extend(ends.into_iter().map(|u| (u, g)));
+        replaced.gravity.extend(ends.into_iter().map(|u| (u, g)));
     }
-    replaced
+    Some(replaced)
 }
 
 /// A body on a bar.

@@ -333,22 +333,6 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// Squares of lengths that must not vanish, as pivots of their coordinates.
-    fn lengths(&mut self, lengths: &[(usize, Expr<'d>)]) -> Vec<Pivot> {
-        let squares: Vec<Expr<'d>> = lengths.iter().map(|(_, length)| *length).collect();
-        self.lower(&squares);
-        let values = self.values(&squares).into_iter();
-        let pivots = lengths
-            .iter()
-            .zip(values)
-            .map(|(&(coordinate, _), pivot)| Pivot {
-                coordinate,
-                pivot,
-                scale: pivot,
-            });
-        pivots.collect()
-    }
-
     fn node(&mut self, node: &symbolic::Node) -> Scaled {
         match node {
             symbolic::Node::Constant(value) => self.graph.constant(value),
@@ -670,7 +654,6 @@ fn along_the_machine<'d>(
     let Some(articulated::Solution {
         accelerations,
         pivots,
-        lengths,
         names,
         ..
     }) = articulated::solve(lowering.model, machine, order)
@@ -679,7 +662,6 @@ fn along_the_machine<'d>(
     };
     lowering.name(&names);
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
-    let lengths = lowering.lengths(&lengths);
     lowering.lower(&accelerations);
     lowering.lower(&values);
     let results = lowering.values(&accelerations);
@@ -695,7 +677,7 @@ fn along_the_machine<'d>(
             scale: scale(coordinate, pivot),
         });
         let solution = Solution {
-            pivots: pivots.chain(lengths.iter().copied()).collect(),
+            pivots: pivots.collect(),
             accelerations: results.clone(),
             columns: Vec::new(),
         };

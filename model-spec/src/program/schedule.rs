@@ -464,7 +464,7 @@ struct Rows {
 
 /// The longest function in the order of time. Longer ones are cut into pieces or written as loops, for
 /// which what belongs together must stand together.
-const LONGEST: usize = 4000;
+const LONGEST: usize = 8000;
 
 /// Operations of arithmetic that are started in a cycle.
 const UNITS: u32 = 2;

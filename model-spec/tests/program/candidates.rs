@@ -105,6 +105,8 @@ fn there_is_a_machine_for_every_way() {
     let all = [
         "eliminated along the machine",
         "eliminated along the machine, factored",
+        "eliminated along the machine, pivots ahead",
+        "eliminated along the machine, pivots ahead, factored",
         "from the mass matrix",
         "from the mass matrix multiplied out",
         "from the mass matrix multiplied out, factored",

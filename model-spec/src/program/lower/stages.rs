@@ -102,7 +102,6 @@ fn solutions<'d>(
     let has_along = along.is_some();
     if let Some(along) = along {
         lowering.name(&along.names);
-        let lengths = lowering.lengths(&along.lengths);
         let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
         lowering.lower(&along.accelerations);
         lowering.lower(&values);
@@ -119,7 +118,7 @@ fn solutions<'d>(
             }
         });
         let solution = Solution {
-            pivots: pivots.chain(lengths).collect(),
+            pivots: pivots.collect(),
             accelerations: lowering.values(&along.accelerations),
             columns: Vec::new(),
         };
