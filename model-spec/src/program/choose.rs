@@ -121,7 +121,9 @@ fn ranked(candidates: &[Candidate]) -> Vec<usize> {
     let least = candidates.iter().filter_map(|c| c.rounding).min();
     let is_rough = |candidate: &Candidate| match (candidate.rounding, least) {
         (Some(rounding), Some(least)) => !rounding.is_within(MOST_ROUNDING, least),
-        _ => false,
+        // At these states it has no value, as where it divides by a length that is zero.
+        (None, Some(_)) => true,
+        (_, None) => false,
     };
     let mut ranked: Vec<usize> = (0..candidates.len()).collect();
     ranked.sort_by(|&a, &b| {
