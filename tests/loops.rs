@@ -185,7 +185,9 @@ fn a_pivot_that_vanishes_is_the_error_of_its_coordinate() {
     let u = several.default_inputs(&systems[0]);
     let mut a = lanes(q);
     let computed = several.accelerations(Lanes::splat(0.0), &lanes(q), &lanes(v), &u, &mut a);
-    let singular = computed.expect_err("nothing holds link 8 in one lane").lanes;
+    let singular = computed
+        .expect_err("nothing holds link 8 in one lane")
+        .lanes;
     let coordinates = singular.map(|error| error.map(|error| error.coordinate));
     assert_eq!(coordinates, [None, Some(7), None, None]);
     let alone = compiled::<chain::Chain>(&systems[0], q, v).expect("it has inertia");

@@ -393,8 +393,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let pitch_ddot = -yaw_ddot.mul_add(t19 * t13, t20);
         let roll_ddot = sin_pitch.mul_add(yaw_ddot, n(p.k8) * t18);
         let t26 = t11.mul_add(t6, t21);
-        let sound =
-            t10.exceeds(N::from_f64(2.6645352591003757e-15) * t10) & t23.exceeds(N::from_f64(2.6645352591003757e-15) * t26) & pitch_ddot.is_finite();
+        let sound = t10.exceeds(N::from_f64(2.6645352591003757e-15) * t10)
+            & t23.exceeds(N::from_f64(2.6645352591003757e-15) * t26)
+            & pitch_ddot.is_finite();
         if !sound {
             check(t10, t10, 2.6645352591003757e-15, 1)?;
             check(t23, t26, 2.6645352591003757e-15, 0)?;
@@ -735,7 +736,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
     }
 }
 

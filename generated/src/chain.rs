@@ -949,8 +949,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_6_ddot = t208 - t209;
         let q_7_ddot = t213 - t214;
         let q_8_ddot = t217 * n(p.k37);
-        let sound =
-            t29.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k18)) & t59.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k17)) & t87.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k16)) & t112.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k15)) & t140.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k14)) & t158.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k13)) & t181.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k12)) & q_8_ddot.is_finite();
+        let sound = t29.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k18))
+            & t59.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k17))
+            & t87.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k16))
+            & t112.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k15))
+            & t140.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k14))
+            & t158.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k13))
+            & t181.exceeds(N::from_f64(7.105427357601002e-15) * n(p.k12))
+            & q_8_ddot.is_finite();
         if !sound {
             check(t29, n(p.k18), 7.105427357601002e-15, 6)?;
             check(t59, n(p.k17), 7.105427357601002e-15, 5)?;
@@ -1347,7 +1353,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
     }
 }
 

@@ -1007,8 +1007,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_6_ddot = t210 - t213;
         let q_7_ddot = t213 - t216;
         let q_8_ddot = t218.mul_add(n(p.k35), t216);
-        let sound =
-            t71.exceeds(N::from_f64(7.105427357601002e-15) * t71) & t93.exceeds(N::from_f64(7.105427357601002e-15) * t93) & t116.exceeds(N::from_f64(7.105427357601002e-15) * t116) & t137.exceeds(N::from_f64(7.105427357601002e-15) * t137) & t162.exceeds(N::from_f64(7.105427357601002e-15) * t162) & t179.exceeds(N::from_f64(7.105427357601002e-15) * t179) & t196.exceeds(N::from_f64(7.105427357601002e-15) * t196) & q_8_ddot.is_finite();
+        let sound = t71.exceeds(N::from_f64(7.105427357601002e-15) * t71)
+            & t93.exceeds(N::from_f64(7.105427357601002e-15) * t93)
+            & t116.exceeds(N::from_f64(7.105427357601002e-15) * t116)
+            & t137.exceeds(N::from_f64(7.105427357601002e-15) * t137)
+            & t162.exceeds(N::from_f64(7.105427357601002e-15) * t162)
+            & t179.exceeds(N::from_f64(7.105427357601002e-15) * t179)
+            & t196.exceeds(N::from_f64(7.105427357601002e-15) * t196)
+            & q_8_ddot.is_finite();
         if !sound {
             check(t71, t71, 7.105427357601002e-15, 6)?;
             check(t93, t93, 7.105427357601002e-15, 5)?;
@@ -1389,7 +1395,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
     }
 }
 

@@ -829,8 +829,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let phi2_ddot = -t52;
         let t53 = n(p.m1) * t13;
         let t54 = t13 * n(p.k11);
-        let sound =
-            t14.exceeds(N::from_f64(7.993605777301127e-15) * t14) & t53.exceeds(N::from_f64(7.993605777301127e-15) * t54) & phi2_ddot.is_finite();
+        let sound = t14.exceeds(N::from_f64(7.993605777301127e-15) * t14)
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * t54)
+            & phi2_ddot.is_finite();
         if !sound {
             check(t14, t14, 7.993605777301127e-15, 7)?;
             check(t53, t54, 7.993605777301127e-15, 4)?;
@@ -1267,7 +1268,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

@@ -949,8 +949,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let theta2_ddot = t21 * n(p.k36);
         let t68 = n(p.m1) * t23;
         let t69 = t23 * n(p.k13);
-        let sound =
-            t25.exceeds(N::from_f64(7.993605777301127e-15) * t25) & t68.exceeds(N::from_f64(7.993605777301127e-15) * t69) & phi2_ddot.is_finite();
+        let sound = t25.exceeds(N::from_f64(7.993605777301127e-15) * t25)
+            & t68.exceeds(N::from_f64(7.993605777301127e-15) * t69)
+            & phi2_ddot.is_finite();
         if !sound {
             check(t25, t25, 7.993605777301127e-15, 7)?;
             check(t68, t69, 7.993605777301127e-15, 4)?;
@@ -1498,7 +1499,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

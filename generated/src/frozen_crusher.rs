@@ -886,8 +886,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let zero = N::ZERO;
         let t136 = n(p.k26) - t36;
         let t137 = t66 - t38;
-        let sound =
-            t136.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7)) & t137.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7)) & t83.exceeds(N::from_f64(7.993605777301127e-15) * t8) & t109.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2)) & t126.exceeds(N::from_f64(7.993605777301127e-15) * t20) & theta_ddot.is_finite();
+        let sound = t136.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
+            & t137.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
+            & t83.exceeds(N::from_f64(7.993605777301127e-15) * t8)
+            & t109.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2))
+            & t126.exceeds(N::from_f64(7.993605777301127e-15) * t20)
+            & theta_ddot.is_finite();
         if !sound {
             check(t136, n(p.k7), 7.993605777301127e-15, 0)?;
             check(t137, n(p.k7), 7.993605777301127e-15, 1)?;
@@ -1301,7 +1305,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

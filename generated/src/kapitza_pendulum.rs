@@ -596,7 +596,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q },
+            result,
+        )
     }
 }
 

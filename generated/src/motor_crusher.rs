@@ -862,8 +862,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let psi_ddot = n(p.k23) * t21.mul_add(t56, t57);
         let t60 = t11 * n(p.m1);
         let t61 = t11 * n(p.k7);
-        let sound =
-            t13.exceeds(N::from_f64(8.881784197001252e-15) * t13) & t60.exceeds(N::from_f64(8.881784197001252e-15) * t61) & t20.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k11)) & t37.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k11)) & t50.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k13)) & phi1_ddot.is_finite();
+        let sound = t13.exceeds(N::from_f64(8.881784197001252e-15) * t13)
+            & t60.exceeds(N::from_f64(8.881784197001252e-15) * t61)
+            & t20.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k11))
+            & t37.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k11))
+            & t50.exceeds(N::from_f64(8.881784197001252e-15) * n(p.k13))
+            & phi1_ddot.is_finite();
         if !sound {
             check(t13, t13, 8.881784197001252e-15, 7)?;
             check(t60, t61, 8.881784197001252e-15, 4)?;
@@ -1337,7 +1341,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
     }
 }
 

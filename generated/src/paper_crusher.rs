@@ -878,8 +878,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let zero = N::ZERO;
         let t126 = n(p.k26) - t28;
         let t127 = t58 - t30;
-        let sound =
-            t126.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k11)) & t127.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k11)) & t75.exceeds(N::from_f64(7.993605777301127e-15) * t8) & t101.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2)) & t118.exceeds(N::from_f64(7.993605777301127e-15) * t12) & s1_ddot.is_finite();
+        let sound = t126.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k11))
+            & t127.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k11))
+            & t75.exceeds(N::from_f64(7.993605777301127e-15) * t8)
+            & t101.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2))
+            & t118.exceeds(N::from_f64(7.993605777301127e-15) * t12)
+            & s1_ddot.is_finite();
         if !sound {
             check(t126, n(p.k11), 7.993605777301127e-15, 0)?;
             check(t127, n(p.k11), 7.993605777301127e-15, 1)?;
@@ -1286,7 +1290,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

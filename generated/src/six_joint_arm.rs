@@ -1239,8 +1239,13 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_2_ddot = t126.mul_add(q_3_ddot, t158.neg_mul_add(q_4_ddot, t261));
         let t263 = t111.neg_mul_add(q_3_ddot, t262);
         let q_1_ddot = t82.neg_mul_add(q_2_ddot, t263);
-        let sound =
-            t59.exceeds(N::from_f64(5.329070518200751e-15) * t59) & t90.exceeds(N::from_f64(5.329070518200751e-15) * t83) & t134.exceeds(N::from_f64(5.329070518200751e-15) * t66) & t188.exceeds(N::from_f64(5.329070518200751e-15) * t36) & t229.exceeds(N::from_f64(5.329070518200751e-15) * t23) & t254.exceeds(N::from_f64(5.329070518200751e-15) * n(p.k3)) & q_1_ddot.is_finite();
+        let sound = t59.exceeds(N::from_f64(5.329070518200751e-15) * t59)
+            & t90.exceeds(N::from_f64(5.329070518200751e-15) * t83)
+            & t134.exceeds(N::from_f64(5.329070518200751e-15) * t66)
+            & t188.exceeds(N::from_f64(5.329070518200751e-15) * t36)
+            & t229.exceeds(N::from_f64(5.329070518200751e-15) * t23)
+            & t254.exceeds(N::from_f64(5.329070518200751e-15) * n(p.k3))
+            & q_1_ddot.is_finite();
         if !sound {
             check(t59, t59, 5.329070518200751e-15, 0)?;
             check(t90, t83, 5.329070518200751e-15, 1)?;
@@ -1759,7 +1764,10 @@ where
         u: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v, u }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v, u },
+            result,
+        )
     }
 }
 

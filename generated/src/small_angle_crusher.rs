@@ -890,8 +890,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let theta_ddot = t7.mul_sub(x_ddot, t8.mul_add(y_ddot, n(p.k37) * t90));
         let s1_ddot = -t21.mul_add(x_ddot, t130);
         let zero = N::ZERO;
-        let sound =
-            t28.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k15)) & t56.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k15)) & t78.exceeds(N::from_f64(7.993605777301127e-15) * t9) & t96.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2)) & t124.exceeds(N::from_f64(7.993605777301127e-15) * t13) & s1_ddot.is_finite();
+        let sound = t28.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k15))
+            & t56.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k15))
+            & t78.exceeds(N::from_f64(7.993605777301127e-15) * t9)
+            & t96.exceeds(N::from_f64(7.993605777301127e-15) * n(p.m2))
+            & t124.exceeds(N::from_f64(7.993605777301127e-15) * t13)
+            & s1_ddot.is_finite();
         if !sound {
             check(t28, n(p.k15), 7.993605777301127e-15, 0)?;
             check(t56, n(p.k15), 7.993605777301127e-15, 1)?;
@@ -1309,7 +1313,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

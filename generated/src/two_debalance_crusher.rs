@@ -775,8 +775,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
         let t42 = t11 * n(p.m1);
         let t43 = t11 * n(p.k7);
-        let sound =
-            t12.exceeds(N::from_f64(7.993605777301127e-15) * t12) & t42.exceeds(N::from_f64(7.993605777301127e-15) * t43) & phi1_ddot.is_finite();
+        let sound = t12.exceeds(N::from_f64(7.993605777301127e-15) * t12)
+            & t42.exceeds(N::from_f64(7.993605777301127e-15) * t43)
+            & phi1_ddot.is_finite();
         if !sound {
             check(t12, t12, 7.993605777301127e-15, 7)?;
             check(t42, t43, 7.993605777301127e-15, 4)?;
@@ -1201,7 +1202,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

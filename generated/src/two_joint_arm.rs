@@ -386,8 +386,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t11 = t9.neg_mul_add(t8, sin_q2.neg_mul_add(t5, n(u.tau2) - t4));
         let q2_ddot = t11 / t10;
         let q1_ddot = t9.neg_mul_add(q2_ddot, t3 * t8);
-        let sound =
-            t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1) & t10.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k4)) & q1_ddot.is_finite();
+        let sound = t1.exceeds(N::from_f64(1.7763568394002505e-15) * t1)
+            & t10.exceeds(N::from_f64(1.7763568394002505e-15) * n(p.k4))
+            & q1_ddot.is_finite();
         if !sound {
             check(t1, t1, 1.7763568394002505e-15, 0)?;
             check(t10, n(p.k4), 1.7763568394002505e-15, 1)?;
@@ -700,7 +701,10 @@ where
         u: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, q, v, u }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v, u },
+            result,
+        )
     }
 }
 

@@ -711,8 +711,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let phi2_ddot = phi2_dot * (N::from_f64(-2.0) * s2_dot) / s2;
         let t36 = t11 * n(p.m1);
         let t37 = t11 * n(p.k7);
-        let sound =
-            t12.exceeds(N::from_f64(7.993605777301127e-15) * t12) & t36.exceeds(N::from_f64(7.993605777301127e-15) * t37) & phi1_ddot.is_finite();
+        let sound = t12.exceeds(N::from_f64(7.993605777301127e-15) * t12)
+            & t36.exceeds(N::from_f64(7.993605777301127e-15) * t37)
+            & phi1_ddot.is_finite();
         if !sound {
             check(t12, t12, 7.993605777301127e-15, 7)?;
             check(t36, t37, 7.993605777301127e-15, 4)?;
@@ -1126,7 +1127,10 @@ where
         _: &Self::SeveralInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(Accelerations { p, t, q, v }, result)
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
     }
 }
 

@@ -14,6 +14,7 @@ use super::language::{Rust, number};
 use super::types::Types;
 use crate::emit::body::{self, Binding, Plan, Unchecked};
 use crate::emit::cut::{self, Cut, Piece};
+use crate::emit::layout;
 use crate::program::{Function, Guard, Op, Reads, Role, Shape, Source};
 
 impl Emitter<'_> {
@@ -217,8 +218,27 @@ impl Emitter<'_> {
         };
         let last = format!("{}.is_finite()", results[body.latest]);
         let conditions: Vec<String> = guards().map(exceeds).chain([last]).collect();
-        self.writer
-            .statement("let sound =", &format!("{};", conditions.join(" & ")));
+        // As rustfmt has it, which generated code is held to: on one line of a method, on the next, or
+        // on one line each.
+        let value = format!("{};", conditions.join(" & "));
+        let fits = |line: &str| line.chars().count() <= layout::WIDTH - 8;
+        let [whole, next] = [format!("let sound = {value}"), format!("    {value}")];
+        if fits(&whole) {
+            self.writer.line(whole);
+        } else if fits(&next) {
+            self.writer.line("let sound =");
+            self.writer.line(next);
+        } else {
+            for (place, condition) in conditions.iter().enumerate() {
+                let before = if place == 0 { "let sound = " } else { "    & " };
+                let after = if place + 1 == conditions.len() {
+                    ";"
+                } else {
+                    ""
+                };
+                self.writer.line(format!("{before}{condition}{after}"));
+            }
+        }
         self.writer.open("if !sound {");
         for (guard, [pivot, scale]) in guards() {
             let share = number(guard.tolerance);

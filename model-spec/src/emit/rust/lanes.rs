@@ -2,7 +2,7 @@
 
 use super::Emitter;
 use super::types::Types;
-use crate::emit::layout::Layout;
+use crate::emit::layout::{self, Layout};
 use crate::program::Role;
 
 impl Emitter<'_> {
@@ -145,7 +145,7 @@ impl Emitter<'_> {
         self.writer
             .signature("fn accelerations_abreast", &arguments, Some(result));
         match call {
-            Some(call) => self.writer.line(call),
+            Some(call) => call.into_iter().for_each(|line| self.writer.line(line)),
             None => {
                 let runtime = self.options.runtime.clone();
                 self.writer
@@ -158,7 +158,11 @@ impl Emitter<'_> {
 
     /// The accelerations of `equations` on numbers of this type, computed where `result` points to; `None` if there is no
     /// function for them.
-    pub(super) fn accelerations_in_place(&self, number: &str, equations: &str) -> Option<String> {
+    pub(super) fn accelerations_in_place(
+        &self,
+        number: &str,
+        equations: &str,
+    ) -> Option<Vec<String>> {
         let function = self.emitted(Role::Accelerations)?;
         let runtime = &self.options.runtime;
         let [call, _] = &self.types.accelerations;
@@ -174,8 +178,17 @@ impl Emitter<'_> {
             true => format!("{call}(::core::marker::PhantomData::<{number}>)"),
             false => format!("{call} {{ {} }}", fields.join(", ")),
         };
-        Some(format!(
-            "<{number} as {runtime}::Number>::run_in_place({kernel}, result)"
-        ))
+        let head = format!("<{number} as {runtime}::Number>::run_in_place(");
+        let whole = format!("{head}{kernel}, result)");
+        // As rustfmt has it: this is the whole of a method.
+        Some(match whole.chars().count() <= layout::WIDTH - 8 {
+            true => vec![whole],
+            false => vec![
+                head,
+                format!("    {kernel},"),
+                "    result,".to_owned(),
+                ")".to_owned(),
+            ],
+        })
     }
 }

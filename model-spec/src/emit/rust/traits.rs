@@ -201,7 +201,7 @@ impl Emitter<'_> {
             &["t", "q", "v", "u", "result"],
             Some(&result),
             |body| match call {
-                Some(call) => body.line(call),
+                Some(call) => call.into_iter().for_each(|line| body.line(line)),
                 None => {
                     body.line(format!("*result = [0.0; {n}];"));
                     body.line("Ok(())");
