@@ -722,11 +722,12 @@ impl<'d> Front<'d> {
     /// Whether one velocity is built from another.
     fn is_built_from(&self, id: Id, part: Id) -> bool {
         let mut open = vec![id];
+        let mut seen = FxHashSet::default();
         while let Some(id) = open.pop() {
             if id == part {
                 return true;
             }
-            if id > part && !self.coordinates.contains_key(&id) {
+            if id > part && !self.coordinates.contains_key(&id) && seen.insert(id) {
                 self.dag.node(id).for_each_child(|child| {
                     if child >= part && self.touches.contains_key(&child) {
                         open.push(child);
@@ -1139,8 +1140,10 @@ impl<'d> Front<'d> {
     /// Whether a node is linear in velocities.
     fn is_linear(&self, id: Id) -> bool {
         let mut open = vec![id];
+        let mut seen = FxHashSet::default();
         while let Some(id) = open.pop() {
-            if self.touches.contains_key(&id) && !self.coordinates.contains_key(&id) {
+            let is_built = self.touches.contains_key(&id) && !self.coordinates.contains_key(&id);
+            if is_built && seen.insert(id) {
                 match self.direct_parts(id) {
                     Some(parts) => open.extend(parts.into_iter().map(|(part, _)| part)),
                     None => return false,
