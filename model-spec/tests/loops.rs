@@ -36,7 +36,8 @@ fn code(program: &Program) -> String {
     format!("{}{}", &text[after..before], &text[rest..])
 }
 
-/// What grows with the links is the lists of values that loops are given, a line for each.
+/// What grows with the links is the lists of values that loops are given, a line for each: of 128
+/// links no more than half of the code.
 #[test]
 fn twice_the_links_are_far_from_twice_the_code() {
     for spec in ["benches/peers/chain", "machines/chain_relative"] {
@@ -44,7 +45,7 @@ fn twice_the_links_are_far_from_twice_the_code() {
         assert!(short.contains("for i in 0.."), "{spec}: no loop");
         let growth = long.len() as f64 / short.len() as f64;
         assert!(
-            growth < 1.4,
+            growth <= 1.5,
             "{spec}: {} bytes, {} bytes",
             short.len(),
             long.len()
