@@ -160,32 +160,35 @@ macro_rules! several {
                     unsafe {
                         let [q, v] = y.cast::<[[Lanes<$lanes>; N]; 2]>().read_unaligned();
                         let t = t.cast::<Lanes<$lanes>>().read_unaligned();
-                        let u = given(p);
                         let a = (*SLOT.0.get())
                             .as_ref()
-                            .and_then(|prepared| machine::evaluate(prepared, t, &q, &v, &u.map(Lanes::splat)))
-                            .unwrap_or_else(|| one_by_one(t, &q, &v, &u));
-                        qdd.cast::<[Lanes<$lanes>; N]>().write_unaligned(a);
+                            .and_then(|prepared| machine::evaluate(prepared, t, &q, &v, &given(p).map(Lanes::splat)));
+                        let qdd = qdd.cast::<[Lanes<$lanes>; N]>();
+                        match a {
+                            Some(a) => qdd.write_unaligned(a),
+                            None => qdd.write_unaligned(one_by_one(y, t, p)),
+                        }
                     }
                 }
 
                 /// Where one of the states has no accelerations, the others have.
                 ///
                 /// # Safety
-                /// Nobody writes the slot meanwhile.
+                /// As of the function above: `y` and `p` are read again, so that nothing of them need be kept in memory for
+                /// this.
                 #[cold]
-                unsafe fn one_by_one(
-                    t: Lanes<$lanes>,
-                    q: &[Lanes<$lanes>; N],
-                    v: &[Lanes<$lanes>; N],
-                    u: &[f64; U],
-                ) -> [Lanes<$lanes>; N] {
+                #[inline(never)]
+                unsafe fn one_by_one(y: *const f64, t: Lanes<$lanes>, p: *const f64) -> [Lanes<$lanes>; N] {
+                    // SAFETY: what the caller promises.
+                    let ([q, v], u) = unsafe {
+                        (y.cast::<[[Lanes<$lanes>; N]; 2]>().read_unaligned(), given(p))
+                    };
                     let mut all = [Lanes::splat(f64::NAN); N];
                     for lane in 0..$lanes {
                         let [q, v] = [q, v].map(|rows| rows.map(|row| row[lane]));
                         // SAFETY: what the caller promises.
                         let prepared = unsafe { (*ONE.0.get()).as_ref() };
-                        if let Some(a) = prepared.and_then(|prepared| machine::evaluate(prepared, t[lane], &q, &v, u)) {
+                        if let Some(a) = prepared.and_then(|prepared| machine::evaluate(prepared, t[lane], &q, &v, &u)) {
                             for (row, number) in all.iter_mut().zip(a) {
                                 row[lane] = number;
                             }
