@@ -166,8 +166,9 @@ where
 fn errors<M: Machine>(machine: &M, program: &Program, samples: &[Sample]) -> Vec<f64> {
     let parameters: Vec<f64> = machine.parameters().map(|(_, value)| value).collect();
     let mut judge = Judge::new(program, &parameters);
-    let u = vec![0.0; program.inputs.len()];
     let system = machine.prepare();
+    let inputs = system.default_inputs(); // what `accelerations` is given, too
+    let u: Vec<f64> = system.input_values(&inputs).map(|(_, u)| u).collect();
     let error = |at: &Sample| {
         let a = accelerations(&system, at.t, &at.q, &at.v).expect("not singular");
         judge

@@ -3,7 +3,7 @@
 use core::fmt::{self, Display};
 use std::string::String;
 
-use crate::{Quantity, StepError, System};
+use crate::{Pivot, Quantity, StepError, System};
 
 /// Why a run could not begin, or not go on.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +77,33 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// A constraint depends on others, at a pose where it did not before, and shorter steps do not
+    /// avoid it.
+    DependentConstraint {
+        /// The constraint.
+        constraint: String,
+        /// What was left of it beside the others, relative to what it had.
+        ratio: f64,
+        /// Time, in s.
+        t: f64,
+    },
+    /// Constraints contradict each other, or no state near obeys them.
+    InconsistentConstraints {
+        /// The one that is violated the most.
+        constraint: String,
+        /// Others that it depends on at this state, which it contradicts; none if there just is no
+        /// solution near.
+        with: std::vec::Vec<String>,
+        /// What is left of it, relative to the size of its terms.
+        residual: f64,
+        /// Time, in s.
+        t: f64,
+    },
+    /// The machine lends no room for the work on its constraints ([`System::lend`]).
+    NoRoomForConstraints {
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time and its error is still too great: the motion has
     /// a jump, a kink or a pole there, or the tolerance is too small.
     StepTooSmall {
@@ -134,16 +161,37 @@ impl Error {
                 coordinate: name(coordinate),
                 t,
             },
-            StepError::Singular { singular, t } => Self::SingularMassMatrix {
-                coordinate: name(singular.coordinate),
+            StepError::Singular { singular, t } => {
+                let name = singular.name(system).into();
                 // 0/0 is nothing of nothing.
-                ratio: if singular.ratio.is_nan() {
-                    0.0
-                } else {
-                    singular.ratio
-                },
+                let ratio = match singular.ratio.is_nan() {
+                    true => 0.0,
+                    false => singular.ratio,
+                };
+                match singular.at {
+                    Pivot::Coordinate(_) => Self::SingularMassMatrix {
+                        coordinate: name,
+                        ratio,
+                        t,
+                    },
+                    Pivot::Constraint(_) => Self::DependentConstraint {
+                        constraint: name,
+                        ratio,
+                        t,
+                    },
+                }
+            }
+            StepError::Inconsistent {
+                constraint,
+                residual,
+                t,
+            } => Self::InconsistentConstraints {
+                constraint: constraint_name(system, constraint),
+                with: std::vec::Vec::new(),
+                residual,
                 t,
             },
+            StepError::NoRoom { t } => Self::NoRoomForConstraints { t },
             StepError::StepTooSmall {
                 coordinate,
                 t,
@@ -153,6 +201,25 @@ impl Error {
                 step,
                 t,
             },
+        }
+    }
+}
+
+/// The name of a constraint.
+pub(crate) fn constraint_name<S: System>(system: &S, index: usize) -> String {
+    let constraint = system.constraints().nth(index);
+    constraint.map_or("?", |constraint| constraint.name).into()
+}
+
+/// Names in a sentence: `` `a`, `b` and `c` ``.
+fn quoted(names: &[String]) -> String {
+    let quoted = |name: &String| std::format!("`{name}`");
+    match names {
+        [] => String::new(),
+        [one] => quoted(one),
+        [first @ .., last] => {
+            let first: std::vec::Vec<String> = first.iter().map(quoted).collect();
+            std::format!("{} and {}", first.join(", "), quoted(last))
         }
     }
 }
@@ -229,6 +296,39 @@ impl Display for Error {
                 "the mass matrix cannot be inverted at t = {t} s: coordinate `{coordinate}` meets no inertia ({ratio:e} \
                  of what it had is left), and shorter steps do not avoid it"
             ),
+            Self::DependentConstraint {
+                constraint,
+                ratio,
+                t,
+            } => write!(
+                f,
+                "the constraint `{constraint}` depends on others at t = {t} s ({ratio:e} of it is left beside them), and \
+                 shorter steps do not avoid it"
+            ),
+            Self::InconsistentConstraints {
+                constraint,
+                with,
+                residual,
+                t,
+            } if with.is_empty() => write!(
+                f,
+                "the constraint `{constraint}` cannot be met near the state at t = {t} s: {residual:.1e} of its terms' size is \
+                 left"
+            ),
+            Self::InconsistentConstraints {
+                constraint,
+                with,
+                residual,
+                t,
+            } => write!(
+                f,
+                "the constraint `{constraint}` contradicts {} at t = {t} s: {residual:.1e} of its terms' size is left",
+                quoted(with)
+            ),
+            Self::NoRoomForConstraints { t } => write!(
+                f,
+                "the machine lends no room for the work on its constraints at t = {t} s"
+            ),
             Self::StepTooSmall {
                 coordinate,
                 step,
@@ -279,7 +379,7 @@ impl Display for Error {
 impl core::error::Error for Error {}
 
 /// What a run has to say, although it ended well.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
     /// The relative tolerance asks for more digits than there are, and was raised.
@@ -295,6 +395,23 @@ pub enum Warning {
         /// When it was noticed, in s.
         t: f64,
     },
+    /// A constraint follows from others at the start, so multipliers are not determined: those of
+    /// least norm are given, and the motion does not depend on the choice.
+    RedundantConstraint {
+        /// The constraint.
+        constraint: String,
+        /// The others.
+        with: std::vec::Vec<String>,
+    },
+    /// The start was not on the constraints, and was moved onto them.
+    StartMoved {
+        /// The coordinate, `s1`, or its rate, `der(s1)`.
+        name: String,
+        /// Its value as it was given.
+        from: f64,
+        /// Its value as the run starts.
+        to: f64,
+    },
 }
 
 impl Display for Warning {
@@ -303,6 +420,20 @@ impl Display for Warning {
             Self::ToleranceRaised { asked, used } => write!(
                 f,
                 "a relative tolerance of {asked:e} asks for more digits than there are; {used:e} was used"
+            ),
+            Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
+                f,
+                "the constraint `{constraint}` holds nothing at the start"
+            ),
+            Self::RedundantConstraint { constraint, with } => write!(
+                f,
+                "the constraint `{constraint}` is redundant beside {}: the motion is determined, the multipliers are those \
+                 of least norm",
+                quoted(with)
+            ),
+            Self::StartMoved { name, from, to } => write!(
+                f,
+                "the start was moved onto the constraints: `{name}` from {from} to {to}"
             ),
             Self::Stiff { t } => write!(
                 f,

@@ -124,7 +124,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         watch.side = side;
         let piece = made(piece, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
-            watch.value(&state(system, state_at(stepper, piece, theta)))
+            watch.value(&state(system, state_at(system, stepper, piece, theta)?))
         };
         watch.changes(exact, |watch, from, to| {
             let side_before = watch.side;
@@ -158,7 +158,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             continue;
         }
         let Some(piece) = piece else { continue };
-        let state = state(system, state_at(stepper, piece, theta));
+        let state = state(system, state_at(system, stepper, piece, theta)?);
         events.push(Event {
             name: watch.name.clone(),
             crossing,
@@ -185,17 +185,21 @@ pub(crate) fn glance_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
     (stepper.t_before() + theta * stepper.last_step(), q, v)
 }
 
-/// Time and state at a fraction of the last step.
+/// Time and state at a fraction of the last step, on the constraints.
 pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
+    system: &S,
     stepper: &Stepper<'_, S, L, A>,
     piece: &Piece<S::Vector>,
     theta: f64,
-) -> Triple<S::Vector> {
+) -> Result<Triple<S::Vector>, Error> {
     if theta == 1.0 {
-        return (stepper.t(), stepper.q().clone(), stepper.v().clone());
+        return Ok((stepper.t(), stepper.q().clone(), stepper.v().clone()));
     }
-    let (q, v) = piece.state_at(theta);
-    (piece.time_at(theta), q, v)
+    let (t, (mut q, mut v)) = (piece.time_at(theta), piece.state_at(theta));
+    stepper
+        .bring(t, &mut q, &mut v)
+        .map_err(|error| Error::of_step(error, system))?;
+    Ok((t, q, v))
 }
 
 pub(crate) fn state<S: System>(system: &S, (t, q, v): Triple<S::Vector>) -> State<S::Coordinates> {

@@ -15,8 +15,8 @@ use lagrangian_spec::model::Variable;
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
 use crate::{
-    Assumption, Differentiate, Linearize, Machine, Number, Quantity, Singular, Staged, State,
-    System,
+    Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
+    Staged, State, System,
 };
 
 /// A machine whose equations are interpreted, with the values of its parameters.
@@ -202,7 +202,7 @@ impl InterpretedSystem {
             }),
             false => interpreter.call(role, arguments, results),
         };
-        called.map_err(|program::Singular { coordinate, ratio }| Singular { coordinate, ratio })
+        called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
 
     /// A function that yields one number, and whose value exists at every state.
@@ -213,6 +213,16 @@ impl InterpretedSystem {
             Err(_) => f64::NAN,
         }
     }
+}
+
+/// The row at which elimination stopped, which the program counts through.
+fn where_it_stopped(program: &Program, singular: program::Singular) -> Singular {
+    let program::Singular { coordinate, ratio } = singular;
+    let at = match coordinate.checked_sub(program.dimension()) {
+        None => Pivot::Coordinate(coordinate),
+        Some(constraint) => Pivot::Constraint(constraint),
+    };
+    Singular { at, ratio }
 }
 
 /// A call of the interpreter, to be run with whatever instructions the processor has.
@@ -465,6 +475,79 @@ impl System for InterpretedSystem {
             strict: fact.strict,
         })
     }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
+        let constraints = self.program.constraints.iter();
+        constraints.map(|constraint| Constraint {
+            name: &constraint.name,
+            unit: &constraint.unit,
+            multiplier_unit: &constraint.multiplier_unit,
+            holonomic: constraint.holonomic,
+        })
+    }
+
+    fn residuals(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            u: &[],
+            a: &[],
+        };
+        // Nothing here is inverted.
+        let _ = self.call(Role::ConstraintPositions, arguments, positions);
+        let _ = self.call(Role::ConstraintRates, arguments, rates);
+    }
+
+    fn constraint_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        let arguments = Arguments {
+            t,
+            q,
+            v: &[],
+            u: &[],
+            a: &[],
+        };
+        let _ = self.call(Role::ConstraintMatrix, arguments, matrix);
+    }
+
+    fn constraint_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            u: &[],
+            a: &[],
+        };
+        let _ = self.call(Role::ConstraintDrift, arguments, drift);
+    }
+
+    fn multipliers(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &Named,
+        multipliers: &mut [f64],
+    ) -> Result<(), Singular> {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            u: &u.values,
+            a: &[],
+        };
+        match self.program.constraints.is_empty() {
+            true => Ok(()),
+            false => self.call(Role::Multipliers, arguments, multipliers),
+        }
+    }
 }
 
 impl Linearize for InterpretedSystem {
@@ -657,10 +740,7 @@ impl InterpretedSystem {
             };
             interpreter
                 .call(Role::Accelerations, arguments, &mut row)
-                .map_err(|program::Singular { coordinate, ratio }| Singular {
-                    coordinate,
-                    ratio,
-                })?;
+                .map_err(|singular| where_it_stopped(&self.program, singular))?;
             let to = if is_rate {
                 &mut *by_rates
             } else {

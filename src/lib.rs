@@ -53,6 +53,7 @@ extern crate std;
 
 mod balance;
 mod compensated;
+mod constraints;
 mod lanes;
 mod math;
 pub mod methods;
@@ -82,6 +83,7 @@ mod simulation;
 mod solution;
 
 pub use balance::{Alongside, Energies, EnergyBalance, EnergyIntegrals, NoBalance};
+pub use constraints::{constraint_room, least_multipliers};
 pub use lanes::{Abreast, LaneVector, Several, SomeSingular};
 pub use methods::{METHODS, Method};
 pub use piece::Piece;
@@ -90,8 +92,8 @@ pub use stepper::{
     Tolerance, Work,
 };
 pub use system::{
-    Assumption, Coordinates, Differentiate, Inputs, Linearize, Machine, Outputs, Quantity,
-    Singular, Staged, State, System,
+    Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, Machine, Outputs, Pivot,
+    Quantity, Singular, Staged, State, System,
 };
 pub use vector::Vector;
 

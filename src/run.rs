@@ -5,10 +5,13 @@ use std::time::Instant;
 use std::vec::Vec;
 
 use crate::balance::{Alongside, Energies, EnergyBalance};
+use crate::constraints::Constraints;
+use crate::error::constraint_name;
 use crate::event::{self, Event, Triple, state};
 use crate::piece::Piece;
 use crate::simulation::{Callbacks, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
+use crate::stages::Point;
 use crate::stepper::{InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper, Tolerance};
 use crate::{Coordinates, Error, Machine, State, System, Vector, Warning};
 
@@ -31,8 +34,15 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     check_parameters(machine)?;
     let system = machine.prepare();
     let tolerance = settings.tolerance(&system)?;
-    let (q, v) = (system.to_vector(&start.q), system.to_vector(&start.v));
+    let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
     check_start(&system, start.t, &q, &v)?;
+    let (start, of_start) = match system.constraints().len() {
+        0 => (start, Vec::new()),
+        _ => {
+            let found = bring_start(&system, start.t, &mut q, &mut v)?;
+            (state(&system, (start.t, q.clone(), v.clone())), found)
+        }
+    };
     for watch in &mut callbacks.watches {
         watch.begin(&start)?;
     }
@@ -109,9 +119,11 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             steps: work.steps,
             rejected: work.rejected,
             evaluations: work.evaluations,
+            constraint_residual: stepper.constraint_residual(),
             seconds: clock.elapsed().as_secs_f64(),
         },
-        warnings: warnings(&settings, &stepper),
+        warnings: warnings(&settings, &stepper, of_start),
+        constraints: stepper.constraints().clone(),
         start,
         end,
         steps,
@@ -215,14 +227,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                 continue;
             };
             let piece = made(piece, stepper, model.system)?;
-            let margin = |theta| model.margin(index, event::state_at(stepper, piece, theta));
+            let at = |theta| event::state_at(model.system, stepper, piece, theta);
+            let margin = |theta| at(theta).map(|state| model.margin(index, state));
             // It held at the beginning of the step; a glance may see it end where it does not.
-            if theta < 1.0 && margin(theta) > 0.0 {
+            if theta < 1.0 && margin(theta)? > 0.0 {
                 continue;
             }
             let roundoff = event::theta_roundoff(stepper);
-            let theta = event::root([0.0, theta], roundoff, |theta| Ok(margin(theta)))?;
-            return Ok(Some((event::state_at(stepper, piece, theta).0, text)));
+            let theta = event::root([0.0, theta], roundoff, margin)?;
+            return Ok(Some((at(theta)?.0, text)));
         }
         Ok(None)
     }
@@ -284,7 +297,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             let (q, v) = if t == now {
                 (self.stepper.q().clone(), self.stepper.v().clone())
             } else {
-                made(piece, &mut self.stepper, self.model.system)?.state(t)
+                let system = self.model.system;
+                let (mut q, mut v) = made(piece, &mut self.stepper, system)?.state(t);
+                self.stepper
+                    .bring(t, &mut q, &mut v)
+                    .map_err(|error| Error::of_step(error, system))?;
+                (q, v)
             };
             self.record
                 .samples
@@ -413,8 +431,81 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 };
             }
         }
-        Error::of_step(error, self.system)
+        contradiction(error, self.system, q, v)
     }
+}
+
+/// Brings the start of a run onto the constraints. What the user should know of that: how far each
+/// number was moved, and which constraints are redundant.
+fn bring_start<S: System>(
+    system: &S,
+    t: f64,
+    q: &mut S::Vector,
+    v: &mut S::Vector,
+) -> Result<Vec<Warning>, Error> {
+    let given = [q.clone(), v.clone()];
+    let mut known = Constraints::new(system, q, v);
+    let mut start = Point::new(t, q.clone(), v.clone());
+    known
+        .begin(system, &mut start.place())
+        .map_err(|error| contradiction(error, system, q, v))?;
+    (*q, *v) = (start.q, start.v);
+
+    let mut found = Vec::new();
+    for (constraint, with) in dependences(&known, system, t, q) {
+        found.push(Warning::RedundantConstraint { constraint, with });
+    }
+    for (level, now) in [&*q, &*v].into_iter().enumerate() {
+        for (j, coordinate) in system.coordinates().enumerate() {
+            let (from, to) = (given[level].as_slice()[j], now.as_slice()[j]);
+            if (to - from).abs() <= ROUNDING_OF_START * known.sizes(j)[level] {
+                continue;
+            }
+            let name = match level {
+                0 => coordinate.name.into(),
+                _ => std::format!("der({})", coordinate.name),
+            };
+            found.push(Warning::StartMoved { name, from, to });
+        }
+    }
+    Ok(found)
+}
+
+/// Moves of the start that are less than this, relative to the size of a number, are no news: about
+/// what a formula for a start value loses to rounding.
+const ROUNDING_OF_START: f64 = 1e-12;
+
+/// The constraints that were not chosen at a state, by name, with those that they depend on.
+fn dependences<S: System>(
+    known: &Constraints<S::Vector>,
+    system: &S,
+    t: f64,
+    q: &S::Vector,
+) -> Vec<(String, Vec<String>)> {
+    let names = |index: &usize| constraint_name(system, *index);
+    let dependences = known.dependences(system, t, q).unwrap_or_default();
+    let named = |(row, on): (usize, Vec<usize>)| (names(&row), on.iter().map(names).collect());
+    dependences.into_iter().map(named).collect()
+}
+
+/// The error of a step; if constraints contradict each other, with those that do.
+fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
+    let mut error_of_run = Error::of_step(error, system);
+    if let Error::InconsistentConstraints {
+        constraint,
+        with,
+        t,
+        ..
+    } = &mut error_of_run
+    {
+        let mut known = Constraints::new(system, q, v);
+        if known.choose_again(system, *t, q).is_ok() {
+            let on = dependences(&known, system, *t, q);
+            let own = on.into_iter().find(|(name, _)| name == constraint);
+            *with = own.map_or_else(Vec::new, |(_, on)| on);
+        }
+    }
+    error_of_run
 }
 
 impl Settings {
@@ -538,8 +629,8 @@ fn balance<S: System, L: InputLaw<S>, A: Alongside<S>>(
 fn warnings<S: System, L: InputLaw<S>, A: Alongside<S>>(
     settings: &Settings,
     stepper: &Stepper<'_, S, L, A>,
+    mut warnings: Vec<Warning>,
 ) -> Vec<Warning> {
-    let mut warnings = Vec::new();
     // A relative tolerance of 0 asks for an absolute error only.
     if settings.relative > 0.0 && settings.relative < LEAST_RELATIVE_TOLERANCE {
         let (asked, used) = (settings.relative, LEAST_RELATIVE_TOLERANCE);

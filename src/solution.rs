@@ -5,10 +5,11 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::compensated::Sum;
+use crate::constraints::Constraints;
 use crate::event::{Event, state};
 use crate::methods::{MAX_STAGES, Method};
 use crate::piece::{Ends, Piece};
-use crate::stepper::{DefaultInputs, InputLaw, StepError};
+use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, bring};
 use crate::{
     Alongside, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, State,
     Stepper, System, Vector, Warning,
@@ -34,6 +35,7 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) statistics: Statistics,
     pub(crate) warnings: Vec<Warning>,
     pub(crate) ending: Ending,
+    pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
 }
 
 /// How a run ended.
@@ -58,6 +60,9 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the accelerations.
     pub evaluations: usize,
+    /// The greatest that was left of the constraints after any step, relative to the size of their
+    /// terms: see [`Stepper::constraint_residual`].
+    pub constraint_residual: f64,
     /// Time on the clock, in s.
     pub seconds: f64,
 }
@@ -77,6 +82,9 @@ pub struct Observation<M: Machine> {
     pub inputs: Inputs<M>,
     /// Outputs.
     pub outputs: Outputs<M>,
+    /// Multipliers of the constraints, in their order: those of least norm where constraints depend
+    /// on each other.
+    pub multipliers: Vec<f64>,
     /// Kinetic energy, in J.
     pub kinetic_energy: f64,
     /// Potential energy, in J.
@@ -140,8 +148,12 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         let u = self
             .accelerations(t, &q, &v, &mut a)
             .map_err(|e| Error::of_step(e, &self.system))?;
+        let multipliers = self
+            .multipliers(t, &q, &v, &u)
+            .map_err(|e| Error::of_step(e, &self.system))?;
         Ok(Observation {
             t,
+            multipliers,
             q: state.q.clone(),
             v: state.v.clone(),
             a: self.system.to_coordinates(&a),
@@ -187,10 +199,50 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         a: &mut VectorOf<M>,
     ) -> Result<Inputs<M>, StepError> {
         let u = self.inputs(t, q, v);
-        self.system
-            .accelerations(t, q, v, &u, a)
-            .map_err(|singular| StepError::Singular { singular, t })?;
+        let Self {
+            system,
+            constraints,
+            ..
+        } = self;
+        match constraints {
+            Some(known) if known.redundant => {
+                let mut known = known.clone();
+                known.choose_as_many(system, t, q)?;
+                known.accelerations(system, t, q, v, &u, a)?;
+            }
+            _ => accelerations(system, constraints, (t, q, v, &u), a)?,
+        }
         Ok(u)
+    }
+
+    fn multipliers(
+        &self,
+        t: f64,
+        q: &VectorOf<M>,
+        v: &VectorOf<M>,
+        u: &Inputs<M>,
+    ) -> Result<Vec<f64>, StepError> {
+        let mut multipliers = std::vec![0.0; self.system.constraints().len()];
+        match &self.constraints {
+            None => {}
+            Some(known) if known.redundant => {
+                let mut known = known.clone();
+                known.choose_as_many(&self.system, t, q)?;
+                known.multipliers(&self.system, t, q, v, u, &mut multipliers)?;
+            }
+            Some(_) => self
+                .system
+                .multipliers(t, q, v, u, &mut multipliers)
+                .map_err(|singular| StepError::Singular { singular, t })?,
+        }
+        Ok(multipliers)
+    }
+
+    /// A state within the run, on the constraints.
+    fn bring(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
+        bring(&self.system, &self.constraints, t, &mut q, &mut v)
+            .map_err(|error| Error::of_step(error, &self.system))?;
+        Ok((q, v))
     }
 }
 
@@ -290,6 +342,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             return Ok(end.clone());
         }
         let (q, v) = self.piece(t)?.1.state(t);
+        let (q, v) = self.run.bring(t, (q, v))?;
         Ok(state(system, (t, q, v)))
     }
 
@@ -312,7 +365,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
 
         let (index, piece) = self.piece(t)?;
         let before = &run.energies[*index];
-        let (q, v) = piece.state(t);
+        let (q, v) = run.bring(t, piece.state(t))?;
         let u = run.inputs(t, &q, &v);
         let mut energies = Energies {
             t,
@@ -323,7 +376,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         let half = 0.5 * (t - before.t);
         for (node, weight) in GAUSS {
             let t = before.t + half * (1.0 + node);
-            let (q, v) = piece.state(t);
+            let (q, v) = run.bring(t, piece.state(t))?;
             let mut a = q.zeros_like();
             let u = run
                 .accelerations(t, &q, &v, &mut a)
@@ -365,6 +418,9 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
+
+/// Coordinates and rates.
+type Pair<M> = (VectorOf<M>, VectorOf<M>);
 
 /// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where
 /// the motion within a step has degree 7.

@@ -6,6 +6,7 @@
 
 use crate::Vector;
 use crate::compensated::two_sum;
+use crate::constraints::Place;
 use crate::methods::{MAX_STAGES, Row};
 
 /// A state, with what rounding took from it.
@@ -28,6 +29,15 @@ impl<V: Vector> Point<V> {
             v_low: v.zeros_like(),
             q,
             v,
+        }
+    }
+
+    /// The state as one that may be moved.
+    pub fn place(&mut self) -> Place<'_, V> {
+        Place {
+            t: self.t,
+            q: [&mut self.q, &mut self.q_low],
+            v: [&mut self.v, &mut self.v_low],
         }
     }
 

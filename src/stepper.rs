@@ -3,6 +3,7 @@
 
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
+use crate::constraints::Constraints;
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;
@@ -94,6 +95,20 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// Constraints contradict each other, or have no solution near the state.
+    Inconsistent {
+        /// The one that is violated the most.
+        constraint: usize,
+        /// What is left of it, relative to the size of its terms.
+        residual: f64,
+        /// Time, in s.
+        t: f64,
+    },
+    /// [`System::lend`] lends no room for the work on constraints.
+    NoRoom {
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time, and its error is still too great.
     StepTooSmall {
         /// The coordinate with the greatest error.
@@ -155,6 +170,8 @@ struct Model<'s, S: System, L> {
     system: &'s S,
     law: L,
     inputs: S::Inputs,
+    /// None if the machine has no constraints.
+    constraints: Option<Constraints<S::Vector>>,
 }
 
 /// Signs of stiffness, as in DOP853 (section IV.2 of the second volume).
@@ -166,9 +183,11 @@ struct Stiffness {
 }
 
 impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
-    /// Makes ready to go from time `t`, with `q` and `v`, to time `end`, later or earlier.
+    /// Makes ready to go from time `t`, with `q` and `v`, to time `end`, later or earlier. A machine
+    /// with constraints starts at the state on them that is nearest, in the metric of its inertia.
     ///
-    /// Fails where the accelerations at the start have no value.
+    /// Fails where the accelerations at the start have no value, or no state near is on the
+    /// constraints.
     pub fn new(
         system: &'s S,
         law: L,
@@ -179,7 +198,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         end: f64,
     ) -> Result<Self, StepError> {
         let zeros = q.zeros_like();
-        let start = Point::new(t, q, v);
+        let mut start = Point::new(t, q, v);
+        let mut constraints = None;
+        if system.constraints().len() != 0 {
+            let known = constraints.insert(Constraints::new(system, &start.q, &start.v));
+            known.begin(system, &mut start.place())?;
+        }
         let mut stepper = Self {
             method,
             tolerance: Tolerance {
@@ -190,6 +214,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
                 inputs: system.default_inputs(),
                 system,
                 law,
+                constraints,
             },
             alongside,
             end,
@@ -214,6 +239,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             ..
         } = &mut stepper;
         model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
+        if let Some(constraints) = &model.constraints
+            && constraints.redundant
+        {
+            constraints.check_accelerations(system, now.t, &now.q, &now.v, &k[0])?;
+        }
         model.take_rates(alongside, 0, (now.t, &now.q, &now.v, &k[0]));
         Ok(stepper)
     }
@@ -312,6 +342,22 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     /// The inputs as they were at the last evaluation: after a step, those of now.
     pub fn inputs(&self) -> &S::Inputs {
         &self.model.inputs
+    }
+
+    /// The greatest that was left of the constraints after any step, relative to the size of their
+    /// terms; 0 for a machine without constraints.
+    ///
+    /// On positions, `gₖ` relative to `Σⱼ |∂gₖ/∂qⱼ| |qⱼ|`; on rates, relative to `Σⱼ |Gₖⱼ| |vⱼ| +
+    /// |∂gₖ/∂t|`; with the greatest `|qⱼ|` and `|vⱼ|` so far, an angle being at least 1 rad.
+    pub fn constraint_residual(&self) -> f64 {
+        let constraints = self.model.constraints.as_ref();
+        constraints.map_or(0.0, |constraints| constraints.greatest_residual)
+    }
+
+    /// What is known of the constraints.
+    #[cfg(feature = "std")]
+    pub(crate) fn constraints(&self) -> &Option<Constraints<S::Vector>> {
+        &self.model.constraints
     }
 
     /// The work done so far.
@@ -426,7 +472,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     /// The continuous extension of the last step: the motion between its ends.
     ///
     /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the
-    /// others.
+    /// others. The polynomials are on constraints at the ends of the step, and between them as
+    /// exactly as the method is; [`bring`](Self::bring) does the rest.
     pub fn piece(&mut self) -> Result<Piece<S::Vector>, StepError> {
         Piece::new(
             self.method,
@@ -442,6 +489,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             &mut self.k,
             |t, q, v, a| self.model.accelerations(t, q, v, a, &mut self.work),
         )
+    }
+
+    /// Brings a state within the last step onto the constraints of the machine, by the least move in
+    /// the metric of its inertia.
+    pub fn bring(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
+        bring(self.model.system, &self.model.constraints, t, q, v)
     }
 
     /// Makes now the beginning of a step.
@@ -484,10 +537,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         } else {
             two_sum(before.t, before.t_low + h)
         };
+        let mut moved = false;
         if scheme.error_needs_end {
+            moved = model.bring(now)?;
             model.end(now, alongside, stages, k, work)?;
         }
-        let error = self.error(h);
+        let mut error = self.error(h);
+        if moved {
+            error = error.max(self.error_of_move());
+        }
         let Self {
             method,
             model,
@@ -509,7 +567,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             };
         }
         if error <= 1.0 && !method.scheme.error_needs_end {
+            moved = model.bring(now)?;
             model.end(now, alongside, stages, k, work)?;
+            if moved {
+                error = error.max(self.error_of_move());
+            }
         }
         Ok(error)
     }
@@ -518,6 +580,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     fn accept(&mut self, h: f64) {
         let stages = self.method.tableau.stages;
         self.newest = stages;
+        self.model.accept(&self.now);
         self.alongside.advance(h, self.method.tableau.a[stages]);
         self.work.steps += 1;
         if let Some(stability) = self.method.tableau.stability {
@@ -553,6 +616,24 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let numbers = 2 * self.now.q.as_slice().len();
         // Without a coarser estimate, this is the mean of `fine`.
         sqrt(fine * (fine / denominator) / numbers as f64)
+    }
+
+    /// How far the step just tried was moved onto the constraints, in the norm of its
+    /// [`error`](Self::error): what it was off by across them.
+    fn error_of_move(&self) -> f64 {
+        let Some(constraints) = &self.model.constraints else {
+            return 0.0;
+        };
+        let Tolerance { relative, absolute } = &self.tolerance;
+        let mut sum = 0.0;
+        for (moved, y) in constraints.moved.iter().zip([&self.now.q, &self.now.v]) {
+            let by = moved.as_slice().iter().zip(y.as_slice());
+            for ((moved, y), absolute) in by.zip(absolute.as_slice()) {
+                let error = moved / (absolute + relative * y.abs());
+                sum += error * error;
+            }
+        }
+        sqrt(sum / (2 * self.now.q.as_slice().len()) as f64)
     }
 
     /// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
@@ -701,9 +782,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     ) -> Result<(), StepError> {
         work.evaluations += 1;
         self.law.set(self.system, t, q, v, &mut self.inputs);
-        self.system
-            .accelerations(t, q, v, &self.inputs, a)
-            .map_err(|singular| StepError::Singular { singular, t })?;
+        accelerations(self.system, &self.constraints, (t, q, v, &self.inputs), a)?;
         // The sum of what is not finite is not finite, and one test is cheaper than many.
         let sum: f64 = a.as_slice().iter().sum();
         if sum.is_finite() {
@@ -728,6 +807,33 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         self.accelerations(now.t, &now.q, &now.v, &mut k[stages], work)?;
         self.take_rates(alongside, stages, (now.t, &now.q, &now.v, &k[stages]));
         Ok(())
+    }
+
+    /// Brings the end of a step onto the constraints; says whether that moved it.
+    #[inline(always)]
+    fn bring(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
+        if self.system.constraints().len() == 0 {
+            return Ok(false);
+        }
+        match &mut self.constraints {
+            Some(constraints) => constraints.bring(self.system, &mut now.place()),
+            None => Ok(false),
+        }
+    }
+
+    /// Takes note of the end of a step.
+    #[inline(always)]
+    fn accept(&mut self, now: &Point<S::Vector>) {
+        if self.system.constraints().len() == 0 {
+            return;
+        }
+        if let Some(constraints) = &mut self.constraints {
+            constraints.accept(&now.q, &now.v);
+            if constraints.redundant {
+                // Where that fails, the rows of before will do, or the next step will say why not.
+                let _ = constraints.choose_again(self.system, now.t, &now.q);
+            }
+        }
     }
 
     #[inline(always)]
@@ -756,6 +862,42 @@ impl Stiffness {
                 self.signs = 0;
             }
         }
+    }
+}
+
+/// Accelerations; where constraints depend on each other, those that obey the chosen ones.
+#[inline(always)]
+pub(crate) fn accelerations<S: System>(
+    system: &S,
+    constraints: &Option<Constraints<S::Vector>>,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    a: &mut S::Vector,
+) -> Result<(), StepError> {
+    if system.constraints().len() != 0
+        && let Some(constraints) = constraints
+        && constraints.redundant
+    {
+        return constraints.accelerations(system, t, q, v, u, a);
+    }
+    system
+        .accelerations(t, q, v, u, a)
+        .map_err(|singular| StepError::Singular { singular, t })
+}
+
+/// Brings a state within a run onto the constraints.
+#[inline(always)]
+pub(crate) fn bring<S: System>(
+    system: &S,
+    constraints: &Option<Constraints<S::Vector>>,
+    t: f64,
+    q: &mut S::Vector,
+    v: &mut S::Vector,
+) -> Result<(), StepError> {
+    match constraints {
+        Some(constraints) if system.constraints().len() != 0 => {
+            constraints.bring_between(system, t, q, v)
+        }
+        _ => Ok(()),
     }
 }
 

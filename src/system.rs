@@ -131,7 +131,8 @@ pub trait System {
     fn dissipation(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs) -> f64;
 
     /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time),
-    /// applied forces and inputs. Along every motion `d(T + V)/dt = work_rate − dissipation_rate`.
+    /// applied forces, inputs, and constraints that move (`−λ·∂g/∂t`, of whatever multipliers hold
+    /// these accelerations). Along every motion `d(T + V)/dt = work_rate − dissipation_rate`.
     fn work_rate(
         &self,
         t: f64,
@@ -181,6 +182,69 @@ pub trait System {
         v: &Self::Vector,
         u: &Self::Inputs,
     ) -> impl ExactSizeIterator<Item = Assumption<'_>>;
+
+    /// The bilateral constraints, in the order of the rows below. None by default, and a machine
+    /// without any has nothing to say in the methods that follow.
+    ///
+    /// The accelerations of a machine with constraints obey them: `M a = f + Gᵀ λ`, `G a = γ`.
+    #[inline(always)]
+    fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
+        core::iter::empty()
+    }
+
+    /// What is left of the constraints at a state, a number for each: `positions[k] = gₖ(q, t)`, 0
+    /// for one of velocities alone, and `rates[k] = Gₖ v + ∂gₖ/∂t`. All are 0 where the state
+    /// obeys them.
+    #[inline(always)]
+    fn residuals(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _positions: &mut [f64],
+        _rates: &mut [f64],
+    ) {
+    }
+
+    /// The constraint matrix `G(q, t) = ∂(rates)/∂v`, row after row.
+    #[inline(always)]
+    fn constraint_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// `γ(q, v, t)` of `G a = γ`: what the accelerations must be for the rates of the constraints to
+    /// stay.
+    #[inline(always)]
+    fn constraint_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+
+    /// Lagrange's multipliers `λ` of `M a = f + Gᵀ λ`, by elimination as the accelerations are found.
+    /// An error where constraints depend on each other.
+    #[inline(always)]
+    fn multipliers(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+        _multipliers: &mut [f64],
+    ) -> Result<(), Singular> {
+        Ok(())
+    }
+
+    /// Lends `length` numbers to `work`, whatever they are: the room in which a state is brought
+    /// onto the constraints, `None` if there is none.
+    ///
+    /// By default it is allocated for each call, and without `std` there is none. A machine that
+    /// knows its size lends an array: [`constraint_room`](crate::constraint_room) says how long.
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        #[cfg(feature = "std")]
+        {
+            work(Some(&mut std::vec![0.0; length]))
+        }
+        #[cfg(not(feature = "std"))]
+        {
+            let _ = length;
+            work(None)
+        }
+    }
 }
 
 /// Equations of motion that know how their accelerations change with the state: what linearization
@@ -349,37 +413,87 @@ impl Assumption<'_> {
     }
 }
 
-/// The mass matrix cannot be inverted: some motion of the machine meets no inertia.
+/// A bilateral constraint on positions, `g(q, t) = 0`, or on rates alone, `G(q, t) v + … = 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Constraint<'a> {
+    /// The name in the description.
+    pub name: &'a str,
+    /// The SI unit of `g`; of the rate, if the constraint is not holonomic.
+    pub unit: &'a str,
+    /// The SI unit of its multiplier: a force for a length, a torque for an angle.
+    pub multiplier_unit: &'a str,
+    /// Whether it is one on positions.
+    pub holonomic: bool,
+}
+
+/// The equations of motion cannot be solved for the accelerations.
 ///
-/// Met at poses where coordinates lose their meaning (the angle of polar coordinates at radius 0),
-/// and in machines with a coordinate that moves no mass.
+/// Stopped at a coordinate, some motion of the machine meets no inertia: so at poses where
+/// coordinates lose their meaning (the angle of polar coordinates at radius 0), and in machines with
+/// a coordinate that moves no mass. Stopped at a constraint, that one depends on those before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
-    /// Index of the coordinate at which the elimination stopped.
-    pub coordinate: usize,
+    /// Where elimination stopped.
+    pub at: Pivot,
     /// What elimination left of its diagonal element, relative to that element; 0 when nothing is
     /// left or the element itself is 0.
     pub ratio: f64,
+}
+
+/// A row of the equations of motion `M a = f + Gᵀ λ`, `G a = γ`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pivot {
+    /// That of the coordinate with this index.
+    Coordinate(usize),
+    /// That of the constraint with this index.
+    Constraint(usize),
 }
 
 impl Singular {
     /// What elimination stopped at: the pivot that was left of a diagonal element.
     #[cold]
     pub fn new(coordinate: usize, pivot: f64, diagonal: f64) -> Self {
+        Self::at(Pivot::Coordinate(coordinate), pivot, diagonal)
+    }
+
+    /// The same, where elimination stopped at a constraint.
+    #[cold]
+    pub fn constraint(constraint: usize, pivot: f64, diagonal: f64) -> Self {
+        Self::at(Pivot::Constraint(constraint), pivot, diagonal)
+    }
+
+    /// Name of the coordinate or constraint at which elimination stopped.
+    pub fn name<'s, S: System>(&self, system: &'s S) -> &'s str {
+        let name = match self.at {
+            Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
+            Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
+        };
+        name.unwrap_or("?")
+    }
+
+    fn at(at: Pivot, pivot: f64, diagonal: f64) -> Self {
         // Nothing is left of nothing.
         let ratio = if pivot == 0.0 { 0.0 } else { pivot / diagonal };
-        Self { coordinate, ratio }
+        Self { at, ratio }
     }
 }
 
 impl Display for Singular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "the mass matrix cannot be inverted at coordinate number {} (what is left of its inertia: {:e})",
-            self.coordinate + 1,
-            self.ratio
-        )
+        match self.at {
+            Pivot::Coordinate(index) => write!(
+                f,
+                "the mass matrix cannot be inverted at coordinate number {} (what is left of its inertia: {:e})",
+                index + 1,
+                self.ratio
+            ),
+            Pivot::Constraint(index) => write!(
+                f,
+                "constraint number {} depends on others ({:e} of it is left)",
+                index + 1,
+                self.ratio
+            ),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod by_hand;
 
+use by_hand::constrained::{Constrained, circle, parallelogram};
 use by_hand::double_pendulum::DoublePendulum;
 use by_hand::toy::oscillator;
 use lagrangian::{
@@ -103,4 +104,39 @@ fn what_is_kept_of_a_run_grows_by_doubling() {
         assert!(run.statistics().steps > 1000);
     });
     assert!(count < 64, "{count}");
+}
+
+#[test]
+fn constraints_are_kept_without_allocating() {
+    fn count<const N: usize, const M: usize, const NN: usize>(
+        machine: Constrained<N, M, NN>,
+    ) -> u64 {
+        allocations(|| {
+            let tolerance = Tolerance {
+                relative: 1e-8,
+                absolute: [1e-8; N],
+            };
+            let (q, v) = machine.start;
+            let mut stepper = Stepper::new(
+                &machine,
+                DefaultInputs,
+                NoBalance,
+                &METHODS[0],
+                tolerance,
+                (0.0, q, v),
+                5.0,
+            )
+            .unwrap();
+            while !stepper.is_done() {
+                stepper.step().unwrap();
+                let (mut q, mut v) = stepper.piece().unwrap().state_at(0.5);
+                let t = 0.5 * (stepper.t_before() + stepper.t());
+                stepper.bring(t, &mut q, &mut v).unwrap();
+            }
+            assert!(stepper.work().steps > 20);
+        })
+    }
+    assert_eq!(count(circle::<1>()), 0);
+    assert_eq!(count(circle::<3>()), 0);
+    assert_eq!(count(parallelogram(1.0)), 0);
 }

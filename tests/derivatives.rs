@@ -5,7 +5,7 @@
 mod support;
 
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
-use lagrangian::{Linearize, Machine, System};
+use lagrangian::{Linearize, Machine, Pivot, System};
 use support::library;
 
 lagrangian::machine! {
@@ -202,7 +202,7 @@ fn dual_numbers_refuse_what_accelerations_refuse() {
     let (mut a, mut by_q, mut by_v) = (vec![0.0; 2], vec![0.0; 4], vec![0.0; 4]);
     let alone = system.accelerations(0.0, &q, &v, &u, &mut a);
     let refused = system.linearize(0.0, &q, &v, &u, &mut a, &mut by_q, &mut by_v);
-    assert_eq!(refused.map_err(|e| e.coordinate), Err(1));
+    assert_eq!(refused.map_err(|e| e.at), Err(Pivot::Coordinate(1)));
     assert_eq!(refused, alone);
 }
 

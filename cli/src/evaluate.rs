@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, UnknownName};
-use lagrangian::{Machine, State, System};
+use lagrangian::{Machine, Pivot, State, System};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -55,6 +55,9 @@ struct Numbered {
     accelerations: Vec<f64>,
     /// By the name of the constraint; machines without constraints have none.
     multipliers: Map<String, Value>,
+    /// Generalized reactions of the constraints on each coordinate, Gᵀ λ.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    reactions: Vec<f64>,
     kinetic_energy: f64,
     potential_energy: f64,
     dissipation: f64,
@@ -186,10 +189,10 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     system
         .accelerations(t, q, v, &u, &mut a)
         .map_err(|singular| {
-            let name = system
-                .coordinates()
-                .nth(singular.coordinate)
-                .map_or("?", |coordinate| coordinate.name);
+            let name = singular.name(system);
+            if let Pivot::Constraint(_) = singular.at {
+                return format!("the constraint `{name}` depends on others here");
+            }
             match singular.ratio.is_finite() {
                 true => format!(
                     "the mass matrix is singular in `{name}` here: {:e} of its inertia is left",
@@ -198,6 +201,19 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
                 false => format!("the mass matrix is singular in `{name}` here: it has no inertia"),
             }
         })?;
+    let mut multipliers = vec![0.0; system.constraints().len()];
+    // Where they have no value, the accelerations have none.
+    let _ = system.multipliers(t, q, v, &u, &mut multipliers);
+    let mut rows = vec![0.0; multipliers.len() * n];
+    system.constraint_matrix(t, q, &mut rows);
+    let reaction = |i: usize| {
+        let column = rows.iter().skip(i).step_by(n).zip(&multipliers);
+        column.map(|(g, multiplier)| g * multiplier).sum()
+    };
+    let reactions = match multipliers.is_empty() {
+        true => Vec::new(),
+        false => (0..n).map(reaction).collect(),
+    };
     system.mass_matrix(t, q, &mut matrix);
     system.bias(t, q, v, &mut bias);
     system.applied(t, q, v, &u, &mut applied);
@@ -215,7 +231,12 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
         applied,
         forces,
         accelerations: a,
-        multipliers: Map::new(),
+        multipliers: system
+            .constraints()
+            .zip(multipliers)
+            .map(|(constraint, value)| (constraint.name.to_owned(), value.into()))
+            .collect(),
+        reactions,
         kinetic_energy: system.kinetic_energy(t, q, v),
         potential_energy: system.potential_energy(t, q, &u),
         dissipation: system.dissipation(t, q, v, &u),

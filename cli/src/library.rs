@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use lagrangian_spec::emit;
-use lagrangian_spec::program::{Program, Slot};
+use lagrangian_spec::program::{LONGEST_SCHEDULED, Program, Slot};
 use serde_json::json;
 
 use crate::call;
@@ -99,7 +99,9 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
     let options = emit::rust::Options {
         shortest_rolled: match is_straight {
             true => usize::MAX,
-            false => emit::rust::SHORTEST_ROLLED,
+            // What is in the order of time repeats little but its reads, and a loop of these would keep all from being
+            // checked at once, at the end.
+            false => LONGEST_SCHEDULED + 1,
         },
         runtime: "crate".into(),
         // Nothing is described to a debugger here, and whole functions compile faster than pieces, which pass hundreds of
@@ -118,6 +120,8 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
         "use crate::{Scalar, libm};",
         1,
     );
+    // In C, numbers side by side are aligned as numbers.
+    let lanes_of_c = LANES.replacen("#[repr(C, align(16))]", "#[repr(C)]", 1);
     let mut source = String::from(
         "#![allow(dead_code, unused_imports, unused_macros)]\n\
          #![allow(clippy::all)]\n",
@@ -129,7 +133,7 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
         ),
         ("kernel", KERNEL.to_owned()),
         ("real", real),
-        ("lanes", LANES.to_owned()),
+        ("lanes", lanes_of_c),
         ("register", REGISTER.to_owned()),
         ("sincos", SINCOS.to_owned()),
         ("vector", VECTOR.to_owned()),

@@ -196,7 +196,7 @@ fn failure(system: &InterpretedSystem, lost: &Lost) -> Failure {
     Failure::Run(match lost {
         Lost::Singular(singular) => format!(
             "the mass matrix is singular in `{}` on the way to an equilibrium; --start sets another place to look from",
-            name(singular.coordinate)
+            singular.name(system)
         ),
         Lost::NotFinite(index) => format!(
             "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; --start sets another \

@@ -33,7 +33,13 @@ const COLOURS: [RGBColor; 8] = [
 ];
 
 /// What is drawn, from top to bottom.
-const KINDS: [Kind; 4] = [Kind::Coordinate, Kind::Output, Kind::Energy, Kind::Residual];
+const KINDS: [Kind; 5] = [
+    Kind::Coordinate,
+    Kind::Output,
+    Kind::Multiplier,
+    Kind::Energy,
+    Kind::Residual,
+];
 
 /// The drawing as SVG text, titled with the machine's name.
 ///

@@ -13,6 +13,8 @@ pub enum Kind {
     Residual,
     /// A quantity that the spec asks to observe.
     Output,
+    /// The multiplier of a constraint.
+    Multiplier,
 }
 
 /// One quantity along the run.
@@ -66,7 +68,7 @@ impl Recording {
         }
     }
 
-    /// What is drawn together: coordinates, rates and outputs by unit, energies, the residual; of the kinds asked for,
+    /// What is drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the kinds asked for,
     /// each where there is something in it.
     pub fn panels(&self, kinds: &[Kind]) -> Vec<Panel<'_>> {
         let mut panels: Vec<Panel> = Vec::new();
@@ -117,6 +119,7 @@ impl Panel<'_> {
             Kind::Coordinate => "coordinates",
             Kind::Rate => "rates",
             Kind::Output => "outputs",
+            Kind::Multiplier => "multipliers",
             Kind::Energy => "energy",
             Kind::Residual => "energy balance",
         };

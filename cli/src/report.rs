@@ -81,6 +81,7 @@ impl Report<'_, '_> {
             Kind::Coordinate,
             Kind::Rate,
             Kind::Output,
+            Kind::Multiplier,
             Kind::Energy,
             Kind::Residual,
         ];

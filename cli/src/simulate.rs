@@ -214,25 +214,34 @@ fn record(run: &Run) -> Recording {
     for (quantity, _) in system.output_values(&outputs) {
         column(quantity.name.into(), quantity.unit.into(), Kind::Output);
     }
+    for constraint in system.constraints() {
+        let name = format!("multiplier({})", constraint.name);
+        column(name, constraint.multiplier_unit.into(), Kind::Multiplier);
+    }
     for name in ["kinetic energy", "potential energy", "total energy"] {
         column(name.into(), "J".into(), Kind::Energy);
     }
     column("energy residual".into(), "J".into(), Kind::Residual);
 
-    let unknown = vec![f64::NAN; outputs.values.len()];
+    let unknown = |count: usize| vec![f64::NAN; count];
+    let constraints = system.constraints().len();
     for state in states {
         // Where a run ends early there may be no accelerations, and then nothing that is made from them.
-        let (outputs, energies) = match run.observe_state(state) {
+        let (outputs, multipliers, energies) = match run.observe_state(state) {
             Ok(seen) => {
                 let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
                 let energies = [kinetic, potential, kinetic + potential];
-                (seen.outputs.values, energies)
+                (seen.outputs.values, seen.multipliers, energies)
             }
-            Err(_) => (unknown.clone(), [f64::NAN; 3]),
+            Err(_) => {
+                let outputs = unknown(outputs.values.len());
+                (outputs, unknown(constraints), [f64::NAN; 3])
+            }
         };
         let moving = state.q.values.iter().chain(&state.v.values).copied();
         let residual = residual_at(run.energies(), state.t);
-        let row = moving.chain(outputs).chain(energies).chain([residual]);
+        let observed = outputs.into_iter().chain(multipliers);
+        let row = moving.chain(observed).chain(energies).chain([residual]);
         for (column, value) in columns.iter_mut().zip(row) {
             column.values.push(value);
         }
@@ -293,7 +302,7 @@ fn document(run: &Run, error: Option<&Error>) -> Value {
         "evaluations": statistics.evaluations,
         "seconds": statistics.seconds,
         "energy_residual": run.energy_balance().map(|balance| balance.residual()),
-        "constraint_residual": 0.0,
+        "constraint_residual": statistics.constraint_residual,
         "events": events,
         "warnings": warnings,
     });
@@ -354,6 +363,12 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run) {
             "    left over {:.3e}, {:.1e} of what was turned over",
             balance.residual(),
             balance.relative()
+        ));
+    }
+    if run.system().constraints().len() > 0 {
+        output::line(format_args!(
+            "  constraints: left over {:.1e} of their terms",
+            statistics.constraint_residual
         ));
     }
     for event in run.events() {

@@ -206,6 +206,30 @@ fn evaluate_answers_every_point_and_keeps_their_order() {
 }
 
 #[test]
+fn evaluate_gives_multipliers_by_name_and_reactions_by_coordinate() {
+    let spec = Scratch::new(
+        "hung.machine",
+        "machine Hung in plane {
+            parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m = -l }
+            bodies { bob { mass: m, at: (x, y) } }
+            gravity (0, -g);
+            constraints { rod: (x^2 + y^2 - l^2)/(2*l) = 0 }
+        }",
+    );
+    let output = lagrangian(&["evaluate", spec.path(), "--rate", "x=3"]);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+    let result = &json(&output)[0];
+    // The rod holds the weight and turns the velocity round; its gradient at the lowest point is
+    // (0, -1).
+    let pull = 2.0 * (9.81 + 3.0 * 3.0 / 0.5);
+    assert!((number(&result["multipliers"]["rod"]) + pull).abs() < 1e-13 * pull);
+    assert!((number(&result["reactions"][1]) - pull).abs() < 1e-13 * pull);
+    assert_eq!(number(&result["reactions"][0]), 0.0);
+    assert!((number(&result["accelerations"][1]) - 18.0).abs() < 1e-13 * 18.0);
+}
+
+#[test]
 fn a_singular_state_is_an_error_of_its_point_only() {
     let points = r#"[{"q": {"s1": 0}}, {}]"#;
     let output = with_input(

@@ -9,12 +9,16 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-/// Reads parameters and inputs, then a state; prints the accelerations alone, and as one of four and of eight states, whose
-/// neighbours are undefined.
+/// Reads parameters and inputs, then a state, an angle among its coordinates, and one that makes it singular where it is 0, if
+/// there is one; prints the accelerations alone, and as one of four and of eight states, whose neighbours are undefined. Then
+/// every lane of states that differ is held against the state alone: all being well, and one being singular, far away, or
+/// undefined, or all before parameters are set.
 const PROGRAM: &str = r#"
 #include "libmachine.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static void several(int lanes, int lane, const double *y, double t, const double *p) {
     double all[2 * COORDINATES * 8], times[8], a[COORDINATES * 8];
@@ -26,8 +30,37 @@ static void several(int lanes, int lane, const double *y, double t, const double
     for (int i = 0; i < COORDINATES; ++i) printf("%.17g\n", a[lanes * i + lane]);
 }
 
+enum Case { WELL, SINGULAR, FAR, UNDEFINED, CASES };
+
+/* The same bits, or both undefined. */
+static int same(double a, double b) { return isnan(a) ? isnan(b) : !memcmp(&a, &b, sizeof a); }
+
+static void each_as_alone(int lanes, int odd, enum Case what, int place, const double *y, double t, const double *p) {
+    double all[2 * COORDINATES * 8], times[8], a[COORDINATES * 8], states[8][2 * COORDINATES], alone[COORDINATES];
+    for (int lane = 0; lane < lanes; ++lane) {
+        times[lane] = t + 0.1 * lane;
+        for (int i = 0; i < 2 * COORDINATES; ++i) states[lane][i] = y[i] * (1 + 0.01 * lane);
+        if (lane == odd && what != WELL) states[lane][place] = what == SINGULAR ? 0 : what == FAR ? -1e300 : NAN;
+        for (int i = 0; i < 2 * COORDINATES; ++i) all[lanes * i + lane] = states[lane][i];
+    }
+    (lanes == 4 ? eval4 : eval8)(all, times, p, a);
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int is_odd = lane == odd && what != WELL;
+        eval(states[lane], times[lane], p, alone);
+        for (int i = 0; i < COORDINATES; ++i) {
+            const double got = a[lanes * i + lane];
+            const int must_be = !is_odd || what == FAR ? isfinite(got) : what == UNDEFINED || isnan(got);
+            if (same(got, alone[i]) && must_be) continue;
+            fprintf(stderr, "case %d in lane %d of %d: lane %d, component %d is %.17g, alone %.17g\n", what, odd, lanes,
+                    lane, i, got, alone[i]);
+            exit(6);
+        }
+    }
+}
+
 int main(void) {
-    double p[PARAMETERS + INPUTS + 1], y[2 * COORDINATES], t, a[COORDINATES];
+    double p[PARAMETERS + INPUTS + 1], y[2 * COORDINATES], t, a[COORDINATES], all[8 * COORDINATES];
+    int places[CASES] = {0};
     if (coordinates() != COORDINATES || parameters() != PARAMETERS || inputs() != INPUTS) return 2;
     if (parameter_name(PARAMETERS) || parameter_name(-1) || !isnan(input_default(INPUTS))) return 3;
     for (int i = 0; i < PARAMETERS + INPUTS; ++i)
@@ -35,13 +68,23 @@ int main(void) {
     for (int i = 0; i < 2 * COORDINATES; ++i)
         if (scanf("%lf", &y[i]) != 1) return 4;
     if (scanf("%lf", &t) != 1) return 4;
+    if (scanf("%d %d", &places[FAR], &places[SINGULAR]) != 2) return 4;
+    places[UNDEFINED] = places[FAR];
     eval(y, t, p, a);
-    if (!isnan(a[0])) return 5; /* nothing is set up */
+    for (int i = 0; i < COORDINATES; ++i)
+        if (!isnan(a[i])) return 5; /* nothing is set up */
+    double none[2 * COORDINATES * 8] = {0};
+    eval8(none, none, p, all);
+    for (int i = 0; i < COORDINATES * 8; ++i)
+        if (!isnan(all[i])) return 5;
     eval_setup(p);
     eval(y, t, p, a);
     for (int i = 0; i < COORDINATES; ++i) printf("%.17g\n", a[i]);
     several(4, 2, y, t, p);
     several(8, 5, y, t, p);
+    for (int what = WELL; what < CASES; ++what)
+        for (int lanes = 4; lanes <= 8 && places[what] >= 0; lanes *= 2)
+            for (int odd = 0; odd < lanes; ++odd) each_as_alone(lanes, odd, what, places[what], y, t, p);
     return 0;
 }
 "#;
@@ -86,7 +129,9 @@ fn answer(mut command: Command, text: &str) -> String {
 }
 
 /// Calls the library of a machine, its parameters a little off their defaults, and holds it against the interpreter.
-fn check(name: &str, constants: &[&str]) {
+///
+/// `angle` is the number of a coordinate whose sine is taken, `distance` of one whose vanishing makes the mass matrix singular.
+fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) {
     let folder = Folder::new(name);
     let spec = machine(name);
     let spec = spec.to_str().expect("a path in UTF-8");
@@ -168,6 +213,8 @@ fn check(name: &str, constants: &[&str]) {
         .chain(&y)
         .chain([&t])
         .map(|x| format!("{x:e}"))
+        .chain([angle.to_string()])
+        .chain([distance.map_or("-1".to_owned(), |place| place.to_string())])
         .collect();
     let program = Command::new(folder.0.join("program"));
     let printed = answer(
@@ -203,18 +250,18 @@ fn check(name: &str, constants: &[&str]) {
 
 #[test]
 fn a_driven_machine_is_what_the_interpreter_says() {
-    check("crusher9", &[]);
+    check("crusher9", &[], 4, Some(3));
 }
 
 /// So long that the repeated links are loops.
 #[test]
 fn a_chain_of_128_links_has_the_bits_of_the_straight_program() {
-    check("chain", &["--const", "N=128"]);
+    check("chain", &["--const", "N=128"], 0, None);
 }
 
 #[test]
 fn motors_of_an_arm_are_read_behind_its_parameters() {
-    check("six_joint_arm", &[]);
+    check("six_joint_arm", &[], 1, None);
 }
 
 #[test]

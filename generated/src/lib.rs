@@ -5,24 +5,44 @@
 //! Beside each module, in `programs/`, stands the plain text of its arithmetic, for review.
 #![no_std]
 
+/// The machine of [`AndrewsSqueezer`].
+pub mod andrews_squeezer;
 /// The machine of [`AsymmetricTop`].
 pub mod asymmetric_top;
+/// The machine of [`BallInBowl`].
+pub mod ball_in_bowl;
+/// The machine of [`CakedCrusher`].
+pub mod caked_crusher;
 /// The machine of [`CartPole`].
 pub mod cart_pole;
 /// The machine of [`Chain`].
 pub mod chain;
 /// The machine of [`ChainRelative`].
 pub mod chain_relative;
+/// The machine of [`ChaplyginSleigh`].
+pub mod chaplygin_sleigh;
+/// The machine of [`ClosedPendulum`].
+pub mod closed_pendulum;
 /// The machine of [`Crusher9`].
 pub mod crusher9;
+/// The machine of [`CrushingCrusher`].
+pub mod crushing_crusher;
 /// The machine of [`CushionedCrusher`].
 pub mod cushioned_crusher;
 /// The machine of [`DoublePendulum`].
 pub mod double_pendulum;
 /// The machine of [`ElasticPendulum`].
 pub mod elastic_pendulum;
+/// The machine of [`FlyballGovernor`].
+pub mod flyball_governor;
+/// The machine of [`FourBar`].
+pub mod four_bar;
+/// The machine of [`FourBars`].
+pub mod four_bars;
 /// The machine of [`FrozenCrusher`].
 pub mod frozen_crusher;
+/// The machine of [`GrainCrusher`].
+pub mod grain_crusher;
 /// The machine of [`GyroscopeInGimbals`].
 pub mod gyroscope_in_gimbals;
 /// The machine of [`HeavyTop`].
@@ -33,10 +53,20 @@ pub mod kapitza_pendulum;
 pub mod motor_crusher;
 /// The machine of [`PaperCrusher`].
 pub mod paper_crusher;
+/// The machine of [`ParticlePendulum`].
+pub mod particle_pendulum;
+/// The machine of [`Rattleback`].
+pub mod rattleback;
+/// The machine of [`RollingCoin`].
+pub mod rolling_coin;
+/// The machine of [`RollingCylinder`].
+pub mod rolling_cylinder;
 /// The machine of [`SimplePendulum`].
 pub mod simple_pendulum;
 /// The machine of [`SixJointArm`].
 pub mod six_joint_arm;
+/// The machine of [`SliderCrank`].
+pub mod slider_crank;
 /// The machine of [`SmallAngleCrusher`].
 pub mod small_angle_crusher;
 /// The machine of [`SphericalPendulum`].
@@ -52,22 +82,37 @@ pub mod two_joint_arm;
 /// The machine of [`VibratingCrusher`].
 pub mod vibrating_crusher;
 
+pub use andrews_squeezer::AndrewsSqueezer;
 pub use asymmetric_top::AsymmetricTop;
+pub use ball_in_bowl::BallInBowl;
+pub use caked_crusher::CakedCrusher;
 pub use cart_pole::CartPole;
 pub use chain::Chain;
 pub use chain_relative::ChainRelative;
+pub use chaplygin_sleigh::ChaplyginSleigh;
+pub use closed_pendulum::ClosedPendulum;
 pub use crusher9::Crusher9;
+pub use crushing_crusher::CrushingCrusher;
 pub use cushioned_crusher::CushionedCrusher;
 pub use double_pendulum::DoublePendulum;
 pub use elastic_pendulum::ElasticPendulum;
+pub use flyball_governor::FlyballGovernor;
+pub use four_bar::FourBar;
+pub use four_bars::FourBars;
 pub use frozen_crusher::FrozenCrusher;
+pub use grain_crusher::GrainCrusher;
 pub use gyroscope_in_gimbals::GyroscopeInGimbals;
 pub use heavy_top::HeavyTop;
 pub use kapitza_pendulum::KapitzaPendulum;
 pub use motor_crusher::MotorCrusher;
 pub use paper_crusher::PaperCrusher;
+pub use particle_pendulum::ParticlePendulum;
+pub use rattleback::Rattleback;
+pub use rolling_coin::RollingCoin;
+pub use rolling_cylinder::RollingCylinder;
 pub use simple_pendulum::SimplePendulum;
 pub use six_joint_arm::SixJointArm;
+pub use slider_crank::SliderCrank;
 pub use small_angle_crusher::SmallAngleCrusher;
 pub use spherical_pendulum::SphericalPendulum;
 pub use spring_mass_train::SpringMassTrain;

@@ -5,7 +5,7 @@
 use std::fmt::Debug;
 
 use lagrangian::scalar::{DoubleDouble, Interval, Kernel, Scalar};
-use lagrangian::{Machine, Number, System};
+use lagrangian::{Machine, Number, Pivot, System};
 use lagrangian_machines as machines;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
@@ -61,9 +61,11 @@ fn bits(values: &[f64]) -> Vec<String> {
         .collect()
 }
 
-/// The accelerations by the interpreter, in whatever arithmetic is picked for `f64` here.
+/// Accelerations or multipliers by the interpreter, in whatever arithmetic is picked for `f64` here.
 struct Interpreted<'a> {
     interpreter: &'a mut Interpreter<f64>,
+    role: Role,
+    len: usize,
     arguments: Arguments<'a, f64>,
 }
 
@@ -71,9 +73,9 @@ impl Kernel<f64> for Interpreted<'_> {
     type Output = Result<Vec<f64>, Singular>;
 
     fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
-        let mut results = vec![0.0; self.arguments.q.len()];
+        let mut results = vec![0.0; self.len];
         self.interpreter
-            .call_in::<N>(Role::Accelerations, self.arguments, &mut results)?;
+            .call_in::<N>(self.role, self.arguments, &mut results)?;
         Ok(results)
     }
 }
@@ -140,6 +142,8 @@ fn agrees_in_f64<M: Machine + Default>(
             system.accelerations(t, &q, &v, &u, &mut out),
             f64::run(Interpreted {
                 interpreter: &mut Interpreter::new(&program, &parameters),
+                role: Role::Accelerations,
+                len: n,
                 arguments,
             }),
         ) {
@@ -150,12 +154,11 @@ fn agrees_in_f64<M: Machine + Default>(
                 place("accelerations")
             ),
             (Err(emitted), Err(expected)) => {
-                assert_eq!(
-                    emitted.coordinate,
-                    expected.coordinate,
-                    "{}",
-                    place("singular")
-                );
+                let row = match emitted.at {
+                    Pivot::Coordinate(coordinate) => coordinate,
+                    Pivot::Constraint(constraint) => n + constraint,
+                };
+                assert_eq!(row, expected.coordinate, "{}", place("singular"));
                 assert_eq!(
                     emitted.ratio.to_bits(),
                     expected.ratio.to_bits(),
@@ -197,6 +200,48 @@ fn agrees_in_f64<M: Machine + Default>(
         }
         for (i, assumption) in system.assumptions(t, &q, &v, &u).enumerate() {
             check(Role::Assumption(i), assumption.margin);
+        }
+
+        let m = program.constraints.len();
+        assert_eq!(system.constraints().len(), m);
+        for (constraint, expected) in system.constraints().zip(&program.constraints) {
+            assert_eq!(constraint.name, expected.name);
+            assert_eq!(constraint.unit, expected.unit);
+            assert_eq!(constraint.multiplier_unit, expected.multiplier_unit);
+            assert_eq!(constraint.holonomic, expected.holonomic);
+        }
+        if m > 0 {
+            let mut check_list = |role: Role, found: &[f64]| {
+                let expected = interpret(role, found.len()).expect("nothing is inverted");
+                assert_eq!(bits(found), bits(&expected), "{}", place(&role.name()));
+            };
+            let (mut positions, mut rates) = (vec![0.0; m], vec![0.0; m]);
+            system.residuals(t, &q, &v, &mut positions, &mut rates);
+            check_list(Role::ConstraintPositions, &positions);
+            check_list(Role::ConstraintRates, &rates);
+            let mut rows = vec![0.0; m * n];
+            system.constraint_matrix(t, &q, &mut rows);
+            check_list(Role::ConstraintMatrix, &rows);
+            let mut drift = vec![0.0; m];
+            system.constraint_drift(t, &q, &v, &mut drift);
+            check_list(Role::ConstraintDrift, &drift);
+            let mut multipliers = vec![0.0; m];
+            let emitted = system.multipliers(t, &q, &v, &u, &mut multipliers);
+            let interpreted = f64::run(Interpreted {
+                interpreter: &mut Interpreter::new(&program, &parameters),
+                role: Role::Multipliers,
+                len: m,
+                arguments,
+            });
+            assert_eq!(emitted.is_ok(), interpreted.is_ok());
+            if let Ok(expected) = interpreted {
+                assert_eq!(
+                    bits(&multipliers),
+                    bits(&expected),
+                    "{}",
+                    place("multipliers")
+                );
+            }
         }
 
         let mut matrix = <M::System as System>::Matrix::zeros(n * n);
@@ -419,4 +464,24 @@ fn the_two_joint_arm_is_the_program_to_the_last_bit() {
         tau2: u[1],
     };
     agrees_in_f64::<machines::TwoJointArm>("two_joint_arm", inputs);
+}
+
+#[test]
+fn the_mechanisms_are_the_programs_to_the_last_bit() {
+    agrees_in_f64::<machines::SliderCrank>("slider_crank", |_| Default::default());
+    agrees_in_f64::<machines::FourBar>("four_bar", |_| Default::default());
+    agrees_in_f64::<machines::FourBars>("four_bars", |_| Default::default());
+    agrees_in_f64::<machines::ClosedPendulum>("closed_pendulum", |_| Default::default());
+    agrees_in_f64::<machines::AndrewsSqueezer>("andrews_squeezer", |_| Default::default());
+    agrees_in_f64::<machines::ParticlePendulum>("particle_pendulum", |_| Default::default());
+    let inputs = |u: &[f64]| machines::flyball_governor::Inputs { drive: u[0] };
+    agrees_in_f64::<machines::FlyballGovernor>("flyball_governor", inputs);
+    agrees_in_f64::<machines::ChaplyginSleigh>("chaplygin_sleigh", |_| Default::default());
+    agrees_in_f64::<machines::RollingCoin>("rolling_coin", |_| Default::default());
+    agrees_in_f64::<machines::RollingCylinder>("rolling_cylinder", |_| Default::default());
+    agrees_in_f64::<machines::BallInBowl>("ball_in_bowl", |_| Default::default());
+    agrees_in_f64::<machines::Rattleback>("rattleback", |_| Default::default());
+    agrees_in_f64::<machines::CrushingCrusher>("crushing_crusher", |_| Default::default());
+    agrees_in_f64::<machines::CakedCrusher>("caked_crusher", |_| Default::default());
+    agrees_in_f64::<machines::GrainCrusher>("grain_crusher", |_| Default::default());
 }

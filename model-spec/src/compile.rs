@@ -29,7 +29,10 @@ impl<'d> Compiled<'d> {
         let expanded = equations.expanded();
         let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::best);
         let choice = program.choice(Role::Accelerations);
-        let is_expanded = choice.is_some_and(|c| c.chosen().form.basis == Basis::Expanded);
+        let is_expanded = choice.is_some_and(|c| {
+            let form = c.chosen().form;
+            form.basis == Basis::Expanded && !form.reduced
+        });
         let equations = match expanded {
             Some(expanded) if is_expanded => expanded,
             _ => equations,

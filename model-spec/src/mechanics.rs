@@ -15,6 +15,8 @@
 //! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
 
 mod approximation;
+pub(crate) mod circles;
+mod constraints;
 mod derivatives;
 mod energy;
 pub(crate) mod experiment;
@@ -25,13 +27,17 @@ mod lagrange;
 mod lumps;
 mod power;
 mod projected;
+mod reduction;
 mod refusal;
 mod symmetric;
 
-use lagrangian_symbolic::{Expr, Node, Symbol, normal};
+use lagrangian_symbolic::{Expr, Node, Symbol, normal, substitute};
 
+pub use circles::centre;
+pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;
-pub use lagrange::Oracle;
+pub use lagrange::{Oracle, OracleConstraint};
+pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
 pub use refusal::MOST_COORDINATES;
 pub use symmetric::Symmetric;
 
@@ -68,11 +74,17 @@ pub struct Equations<'d> {
     pub forces: Vec<Expr<'d>>,
     /// The same equations of motion before projection, where no coordinate is approximated.
     pub unprojected: Option<Unprojected<'d>>,
-    /// What is left of the forces where accelerations are given, `f − M a`, eq. (E25); empty where
-    /// no derivative is asked for.
+    /// The bilateral constraints, which the accelerations obey and `M`, `h`, `Q` and `f` know nothing
+    /// of.
+    pub constraints: Vec<ConstraintEquation<'d>>,
+    /// The same machine without the coordinates that constraints settle, if they settle any.
+    pub reduction: Option<Box<Reduction<'d>>>,
+    /// What is left of the forces where accelerations are given, `f − M a`, eq. (E25); with
+    /// constraints `f − M a + Gᵀ λ`, and behind it `γ − G a`. Empty where no derivative is asked
+    /// for.
     pub unbalanced: Vec<Expr<'d>>,
     /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` by it at given
-    /// accelerations, one for each coordinate.
+    /// accelerations, one for each coordinate, and behind these one for each constraint.
     pub slopes: Vec<Vec<Expr<'d>>>,
     /// Power of forces, torques, inputs and prescribed motion, eq. (E19). Accelerations may occur.
     pub work_rate: Expr<'d>,
@@ -133,6 +145,7 @@ impl<'d> Equations<'d> {
     /// The equations of a machine; nothing, and a message for each reason, if it has none.
     pub fn derive(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         if refusal::refuse_unsupported(model, report)
+            || refusal::refuse_unturned(model, report)
             || refusal::refuse_many_coordinates(model, report)
         {
             return None;
@@ -148,11 +161,17 @@ impl<'d> Equations<'d> {
             return None;
         };
         equations.drop_what_cancels(model);
+        equations.add_power_of_constraints(model);
+        if !model.derivatives.is_empty() {
+            equations.unbalanced =
+                derivatives::constrained(model, &equations.unbalanced, &equations.constraints);
+        }
         let Some(slopes) = derivatives::slopes(model, &equations.unbalanced) else {
             refusal::refuse_large(model, report);
             return None;
         };
         equations.slopes = slopes;
+        equations.reduction = reduction::reduction(model, &equations.constraints);
         let refused = refusal::refuse_undefined(model, &equations, report)
             || refusal::refuse_massless(model, &equations.mass_matrix, report);
         (!refused).then_some(equations)
@@ -172,6 +191,7 @@ impl<'d> Equations<'d> {
         let mut expanded = self.clone();
         // How accelerations follow along the machine is the same: the other program has it already.
         expanded.unprojected = None;
+        expanded.reduction = None;
         // The bias first: it is what grows beyond the limit.
         let matrix = expanded.mass_matrix.lower_mut();
         for entry in expanded.bias.iter_mut().chain(matrix) {
@@ -206,9 +226,27 @@ impl<'d> Equations<'d> {
         let mut forms = vec![self.slopes.clone()];
         if self.bias.len() <= EXPANDED_COORDINATES {
             let unbalanced = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+            let unbalanced = derivatives::constrained(model, &unbalanced, &self.constraints);
             forms.extend(derivatives::slopes(model, &unbalanced));
         }
         forms
+    }
+
+    /// Adds the power of constraints that move by themselves, `v·Gᵀλ = v·(M a − f)`; the others do no
+    /// work.
+    fn add_power_of_constraints(&mut self, model: &Model<'d>) {
+        let dag = model.dag;
+        let x = Variables::of(model);
+        let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
+        let rates: Vec<_> = self.constraints.iter().map(|c| c.rate).collect();
+        let moves = substitute(dag, &rates, &at_rest);
+        if moves.iter().all(|rate| rate.is_zero()) {
+            return;
+        }
+        let forces = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+        let rows = model.coordinates.iter().zip(forces);
+        let power = rows.map(|(coordinate, left)| -(coordinate.v * left));
+        self.work_rate = dag.sum(std::iter::once(self.work_rate).chain(power));
     }
 
     /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and
@@ -280,6 +318,8 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         bias: projection.project(&projection.bias_loads(1, false), all.clone()),
         applied: projection.project(&applied, all.clone()),
         unprojected: Some(projection.unprojected(&weightless, &forces)),
+        constraints: constraints::constraints(model),
+        reduction: None,
         forces: projection.project(&forces, all),
         unbalanced: match model.derivatives.is_empty() {
             true => Vec::new(),
@@ -349,6 +389,8 @@ fn approximate<'d>(
         bias,
         applied,
         unprojected: None,
+        constraints: constraints::constraints(model),
+        reduction: None,
         unbalanced,
         slopes: Vec::new(),
         work_rate: power::work_rate_of_energies(

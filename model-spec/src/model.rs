@@ -484,6 +484,8 @@ pub struct Constraint<'d> {
     pub name: Name,
     /// Left side less right side; with velocities it is nonholonomic.
     pub expression: Expr<'d>,
+    /// The unit of both sides.
+    pub unit: Unit,
     /// Its name in the spec.
     pub span: Span,
 }
@@ -529,23 +531,32 @@ pub struct Circle<'d> {
     pub span: Span,
 }
 
-/// Two circles, by their indices, one inside or outside the other.
+/// A circle and what it touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Touching {
-    /// The circle.
+    /// The index of the circle.
     pub circle: usize,
-    /// The other circle.
-    pub other: usize,
-    /// Whether the first is inside the second.
-    pub inside: bool,
+    /// What it touches.
+    pub surface: Surface,
 }
 
-/// Two circles that touch and roll on each other.
+/// What a circle touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Surface {
+    /// Another circle, by its index, in which it is.
+    Inside(usize),
+    /// Another circle, by its index, out of which it is.
+    Outside(usize),
+    /// The first axis of a frame, on the side of the second.
+    Along(PoseId),
+}
+
+/// A circle that touches something and rolls on it.
 #[derive(Clone)]
 pub struct Rolling {
     /// Its name.
     pub name: Name,
-    /// Which circles.
+    /// Which circle, and on what.
     pub circles: Touching,
     /// Its name in the spec.
     pub span: Span,

@@ -63,6 +63,7 @@ pub use mutate::{Mutant, mutants};
 pub use prove::{Disagreement, POINTS, prove, prove_quantities};
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
+pub use schedule::LONGEST_SCHEDULED;
 pub(crate) use schedule::with_operands;
 
 /// A machine as straight-line arithmetic.
@@ -82,6 +83,8 @@ pub struct Program {
     pub outputs: Vec<Slot>,
     /// Facts that a run checks; [`Role::Assumption`] counts them.
     pub assumptions: Vec<Fact>,
+    /// The bilateral constraints; the functions about them are there if these are.
+    pub constraints: Vec<Constraint>,
     /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
     /// not there.
     pub derivatives: Vec<Variable>,
@@ -140,6 +143,19 @@ pub struct Fact {
     pub strict: bool,
 }
 
+/// A bilateral constraint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Constraint {
+    /// Its name; the two of circles that roll are `wheel.gap` and `wheel.slip`.
+    pub name: String,
+    /// The unit of what is to be zero; of its rate, where that is all there is.
+    pub unit: String,
+    /// The unit of its multiplier.
+    pub multiplier_unit: String,
+    /// Whether it constrains positions, not velocities alone.
+    pub holonomic: bool,
+}
+
 /// What a function computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Role {
@@ -155,8 +171,18 @@ pub enum Role {
     Applied,
     /// The forces f = Q − h.
     Forces,
-    /// The accelerations M⁻¹ f.
+    /// What is left of the constraints of positions, g(q, t); 0 for the others.
+    ConstraintPositions,
+    /// What is left of the constraints at the level of velocities, φ(q, v, t).
+    ConstraintRates,
+    /// The matrix G = ∂φ/∂v of the constraints, row after row.
+    ConstraintMatrix,
+    /// γ(q, v, t): the accelerations obey G a = γ.
+    ConstraintDrift,
+    /// The accelerations: M a = f, and where there are constraints M a = f + Gᵀ λ.
     Accelerations,
+    /// Lagrange's multipliers λ of the constraints.
+    Multipliers,
     /// The accelerations, and their derivatives by [`Program::derivatives`]: a matrix whose first
     /// column are the accelerations, and every other their derivatives by one variable.
     Derivatives,
@@ -192,7 +218,12 @@ impl Role {
             Role::Bias => "bias".into(),
             Role::Applied => "applied".into(),
             Role::Forces => "forces".into(),
+            Role::ConstraintPositions => "constraint_positions".into(),
+            Role::ConstraintRates => "constraint_rates".into(),
+            Role::ConstraintMatrix => "constraint_matrix".into(),
+            Role::ConstraintDrift => "constraint_drift".into(),
             Role::Accelerations => "accelerations".into(),
+            Role::Multipliers => "multipliers".into(),
             Role::Derivatives => "derivatives".into(),
             Role::AtTime => "at_time".into(),
             Role::AtPosition => "at_position".into(),
@@ -212,7 +243,11 @@ impl Role {
     pub fn inverts(self) -> bool {
         matches!(
             self,
-            Role::Accelerations | Role::Derivatives | Role::AtPosition | Role::AccelerationsAt
+            Role::Accelerations
+                | Role::Multipliers
+                | Role::Derivatives
+                | Role::AtPosition
+                | Role::AccelerationsAt
         )
     }
 
@@ -375,8 +410,9 @@ pub enum Source {
     AtPosition(u32),
 }
 
-/// A pivot of the mass matrix that must not vanish: the results are meaningless unless `pivot >
-/// tolerance·scale`.
+/// A pivot that must not vanish: the results are meaningless unless `pivot > tolerance·scale`.
+///
+/// It is one of the mass matrix, or of G M⁻¹ Gᵀ where there are constraints.
 ///
 /// Written so that a pivot that is no number fails too.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -388,14 +424,15 @@ pub struct Guard {
     pub scale: Value,
     /// The share of the entry that may be rounding error.
     pub tolerance: f64,
-    /// The index i of the coordinate.
+    /// The index i of the coordinate; behind all coordinates that of a constraint.
     pub coordinate: usize,
 }
 
 /// The machine has no accelerations here: its mass matrix is singular to working precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular {
-    /// The index of the coordinate whose effective inertia vanishes.
+    /// The index of the coordinate whose effective inertia vanishes; behind all coordinates that of
+    /// a constraint which says nothing that those before it do not say.
     pub coordinate: usize,
     /// What is left of its inertia, as a share of what it was: pivot over diagonal entry; not
     /// finite where either is not.

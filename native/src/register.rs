@@ -119,6 +119,10 @@ impl<V: Vector> Scalar for Register<V> {
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
         V::sin_cos_all(angles)
     }
+    #[inline(always)]
+    fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
+        V::sin_cos_all_near(angles)
+    }
 
     each!(
         tan(),

@@ -6,18 +6,20 @@
 //! those of the scalar library.
 //!
 //! **Reduction** (W. J. Cody and W. Waite, *Software Manual for the Elementary Functions*, 1980;
-//! here with fused operations). k is the integer nearest to 2|x|/π, at most 63 662 < 2¹⁶, and |x| −
-//! kπ/2 = r + l, |r| ≤ π/4·(1 + 2⁻³⁶). π/2 is in three parts, P₁ of 53 bits, P₂ of 36 and P₃ of 53:
+//! here with fused operations). k is the integer nearest to 2x/π, |k| ≤ 63 662 < 2¹⁶, and x − kπ/2 =
+//! r − l, |r| ≤ π/4·(1 + 2⁻³⁶). π/2 is in three parts, P₁ of 53 bits, P₂ of 36 and P₃ of 53. What
+//! follows is said of x ≥ 0; −x takes the same steps with every sign the other way, down to a zero,
+//! as rounding knows no direction:
 //!
-//! * |x| − kP₁ is exact. For k ≥ 1, |x| ≥ π/4 and P₁ are multiples of 2⁻⁵³, so is the difference,
-//!   and it is below 1.
-//! * kP₂ is exact in 52 bits, and a multiple of 2⁻⁸⁹ below 2⁻³⁷·⁹. r is |x| − kP₁ − kP₂, rounded;
-//!   what rounding took from it is found exactly: if |x| − kP₁ is above 2kP₂, it differs from r by
-//!   a factor of at most 2, so their difference is exact (Sterbenz); otherwise r, a multiple of
-//!   2⁻⁸⁹ below 2⁻³⁶, was not rounded at all.
-//! * l is that, less kP₃, rounded: |l| ≤ ulp(r)/2 + 2⁻⁷⁵. Its error and that of P₁ + P₂ + P₃,
-//!   2⁻¹⁴⁵, times k, are below 2⁻¹²⁶, while no number of 53 bits up to 10⁵ comes closer to a
-//!   multiple of π/2 than 2⁻⁶¹ (a test looks at every multiple).
+//! * x − kP₁ is exact. For k ≥ 1, x ≥ π/4 and P₁ are multiples of 2⁻⁵³, so is the difference, and it
+//!   is below 1.
+//! * kP₂ is exact in 52 bits, and a multiple of 2⁻⁸⁹ below 2⁻³⁷·⁹. r is x − kP₁ − kP₂, rounded; what
+//!   rounding took from it is found exactly: if x − kP₁ is above 2kP₂, it differs from r by a factor
+//!   of at most 2, so their difference is exact (Sterbenz); otherwise r, a multiple of 2⁻⁸⁹ below
+//!   2⁻³⁶, was not rounded at all.
+//! * l is that and kP₃, rounded: |l| ≤ ulp(r)/2 + 2⁻⁷⁵. Its error and that of P₁ + P₂ + P₃, 2⁻¹⁴⁵,
+//!   times k, are below 2⁻¹²⁶, while no number of 53 bits up to 10⁵ comes closer to a multiple of
+//!   π/2 than 2⁻⁶¹ (a test looks at every multiple).
 //!
 //! **Polynomials** in z = r²: sin r = r + r·z·S(z), cos r = 1 − z/2 + z²·C(z), both of degree 5.
 //! They are minimax for the relative errors of sin r and cos r, by the algorithm of Remez in 300
@@ -26,10 +28,10 @@
 //! G. Estrin did (*Organization of computer systems*, 1960): three operations wait for one another,
 //! not five.
 //!
-//! **Low part**: sin(r + l) = sin r + l(1 − z/2) and cos(r + l) = cos r − l·r, up to 2⁻⁶⁰ and
+//! **Low part**: sin(r − l) = sin r − l(1 − z/2) and cos(r − l) = cos r + l·r, up to 2⁻⁶⁰ and
 //! 2⁻⁵⁷·⁶.
 //!
-//! **Rounding**, u = 2⁻⁵³. In sin = r + c the correction c is at most 0.111 of the sine and has an
+//! **Rounding**, u = 2⁻⁵³. In sin = r − c the correction c is at most 0.111 of the sine and has an
 //! error of 5.3u (z, r·z and c itself 1 each, S 2.3): 0.59u of the sine, which at √½, where that is
 //! most, is 0.42 ulp. The polynomial adds 0.02, l 0.01, the sum half an ulp: 0.95. In the cosine, 1
 //! − z/2 is w + e, a number and what rounding took from it, and z is not rounded before; z²C(z) ≤
@@ -43,7 +45,7 @@ use crate::vector::Vector;
 pub const MOST: f64 = 100_000.0;
 
 /// 1.5·2⁵²: in numbers of this size the last place is 1, so adding it rounds to an integer, whose
-/// lowest bits are those of the sum.
+/// lowest bits are those of the sum; those of k < 0 as of a two's complement.
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// P₁, P₂ and P₃.
@@ -69,18 +71,21 @@ pub(crate) const COS: [f64; 6] = [
     -1.1358749239913932e-11,
 ];
 
-/// Sine and cosine.
+/// Which angles the polynomials are good for.
 #[inline(always)]
-pub fn sin_cos<V: Vector>(x: V) -> (V, V) {
-    let sign = V::splat(-0.0);
-    let size = x.abs();
+pub fn is_near<V: Vector>(x: V) -> V::Mask {
+    x.abs().at_most(V::splat(MOST))
+}
 
-    let shifted = size.mul_add(V::splat(FRAC_2_PI), V::splat(ROUNDER));
+/// Sine and cosine of those angles that are [near](is_near); of the others, anything.
+#[inline(always)]
+pub fn sin_cos_near<V: Vector>(x: V) -> (V, V) {
+    let shifted = x.mul_add(V::splat(FRAC_2_PI), V::splat(ROUNDER));
     let k = shifted.sub(V::splat(ROUNDER));
     let [p1, p2, p3] = QUARTER.map(V::splat);
-    let first = k.neg_mul_add(p1, size);
+    let first = k.neg_mul_add(p1, x);
     let r = k.neg_mul_add(p2, first);
-    let l = k.neg_mul_add(p3, k.neg_mul_add(p2, first.sub(r)));
+    let l = k.mul_add(p3, k.mul_add(p2, r.sub(first)));
 
     let one = V::ONE;
     let half_r = r.mul(V::splat(0.5));
@@ -88,21 +93,18 @@ pub fn sin_cos<V: Vector>(x: V) -> (V, V) {
     let z2 = z.mul(z);
     let w = r.neg_mul_add(half_r, one);
     let e = r.neg_mul_add(half_r, one.sub(w));
-    let sin = r.add(r.mul(z).mul_add(polynomial(SIN, z, z2), l.mul(w)));
-    let cos = w.add(e.add(z2.mul_sub(polynomial(COS, z, z2), l.mul(r))));
+    // Signs are such that −0 has the sine −0: l is +0 there.
+    let sin = r.sub(r.mul(z).neg_mul_add(polynomial(SIN, z, z2), l.mul(w)));
+    let cos = w.add(e.add(z2.mul_add(polynomial(COS, z, z2), l.mul(r))));
 
     // Quarters 0 to 3: (sin, cos), (cos, −sin), (−sin, −cos), (−cos, sin). The lowest bits of k, as
     // signs:
-    let (second, lowest) = (shifted.shift_left::<62>(), shifted.shift_left::<63>());
+    let second = shifted.shift_left::<62>().and(V::splat(-0.0));
+    let lowest = shifted.shift_left::<63>();
     let odd = shifted.is_odd();
-    let sine = V::select(odd, cos, sin).xor(second.xor(x).and(sign));
-    let cosine = V::select(odd, sin, cos).xor(second.xor(lowest).and(sign));
-
-    if V::all(size.at_most(V::splat(MOST))) {
-        (sine, cosine)
-    } else {
-        V::sin_cos_beyond(x, sine, cosine)
-    }
+    let sine = V::select(odd, cos, sin).xor(second);
+    let cosine = V::select(odd, sin, cos).xor(second.xor(lowest));
+    (sine, cosine)
 }
 
 /// c₀ + c₁z + … + c₅z⁵.

@@ -4,8 +4,11 @@
 use core::fmt::Debug;
 
 use crate::register::Register;
-use crate::sincos::{MOST, sin_cos};
+use crate::sincos::{MOST, is_near, sin_cos_near};
 use crate::{Lanes, Piece, Scalar};
+
+/// Sines and cosines of several angles.
+pub type Circular<V, const K: usize> = [(Register<V>, Register<V>); K];
 
 /// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
 ///
@@ -68,6 +71,8 @@ pub trait Vector: Copy {
     fn at_most(self, other: Self) -> Self::Mask;
     /// Where the mask is true, `yes`, elsewhere `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Whether both masks are true.
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Whether the mask is true everywhere.
     fn all(mask: Self::Mask) -> bool;
 
@@ -81,17 +86,34 @@ pub trait Vector: Copy {
 
     /// Sines and cosines of several angles.
     #[inline(always)]
-    fn sin_cos_all<const K: usize>(
-        angles: [Register<Self>; K],
-    ) -> [(Register<Self>, Register<Self>); K] {
+    fn sin_cos_all<const K: usize>(angles: [Register<Self>; K]) -> Circular<Self, K> {
+        // One question for all of them: between questions a compiler moves nothing.
+        let (mut all, are_near) = Self::sin_cos_all_near(angles);
+        if !are_near {
+            for (pair, angle) in all.iter_mut().zip(angles) {
+                let (sin, cos) = Self::sin_cos_beyond(angle.0, pair.0.0, pair.1.0);
+                *pair = (Register(sin), Register(cos));
+            }
+        }
+        all
+    }
+    /// The same, unless an angle is above [`MOST`](crate::sincos::MOST) or undefined, and whether
+    /// none is.
+    #[inline(always)]
+    fn sin_cos_all_near<const K: usize>(angles: [Register<Self>; K]) -> (Circular<Self, K>, bool) {
         // A loop, as `map` would not be inlined, and what is not inlined has no instructions but
         // the oldest.
         let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
+        let Some(first) = angles.first() else {
+            return (all, true);
+        };
+        let mut are_near = is_near(first.0);
         for (pair, angle) in all.iter_mut().zip(angles) {
-            let (sin, cos) = sin_cos(angle.0);
+            let (sin, cos) = sin_cos_near(angle.0);
             *pair = (Register(sin), Register(cos));
+            are_near = Self::both(are_near, is_near(angle.0));
         }
-        all
+        (all, Self::all(are_near))
     }
 
     /// The first number.
@@ -224,6 +246,10 @@ impl Vector for f64 {
         if mask { yes } else { no }
     }
     #[inline(always)]
+    fn both(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline(always)]
     fn all(mask: bool) -> bool {
         mask
     }
@@ -329,6 +355,10 @@ impl<const N: usize> Vector for [f64; N] {
     #[inline(always)]
     fn select(mask: [bool; N], yes: Self, no: Self) -> Self {
         each(|i| if mask[i] { yes[i] } else { no[i] })
+    }
+    #[inline(always)]
+    fn both(a: [bool; N], b: [bool; N]) -> [bool; N] {
+        each(|i| a[i] & b[i])
     }
     #[inline(always)]
     fn all(mask: [bool; N]) -> bool {

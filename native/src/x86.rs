@@ -8,8 +8,9 @@ use core::arch::x86_64::*;
 use core::marker::PhantomData;
 
 use crate::register::Register;
-use crate::vector::{Vector, sin_cos_beyond_each};
-use crate::{Kernel, Lanes, Piece, sincos};
+use crate::sincos::{is_near, sin_cos_near};
+use crate::vector::{Circular, Vector, sin_cos_beyond_each};
+use crate::{Kernel, Lanes, Piece};
 
 /// A type of this module, and whether the processor has it.
 pub trait Native: Vector {
@@ -86,6 +87,7 @@ macro_rules! register {
         is_odd |$odd:ident| $is_odd:expr;
         compare $compare:ident;
         select |$which:ident, $yes:ident, $no:ident| $select:expr;
+        both $both:ident;
         all |$every:ident| $all:expr;
     ) => {
         $(#[$doc])*
@@ -135,6 +137,7 @@ macro_rules! register {
                 let ($yes, $no) = ($yes.0, $no.0);
                 $name($select)
             });
+            register!(@ both(a: $mask, b: $mask) -> $mask { $both(a, b) });
             register!(@ all($every: $mask) -> bool { $all });
             register!(@ first(self) -> f64 { $first(self.0) });
             register!(@ call<P: Piece>(piece: P) -> P::Output { $with(piece) });
@@ -200,6 +203,7 @@ register! {
     is_odd |x| _mm_castsi128_pd(_mm_slli_epi64::<63>(_mm_castpd_si128(x)));
     compare _mm_cmp_pd;
     select |mask, yes, no| _mm_blendv_pd(no, yes, mask);
+    both _mm_and_pd;
     all |mask| _mm_movemask_pd(mask) == 0b11;
 }
 
@@ -215,6 +219,7 @@ register! {
     is_odd |x| _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(x)));
     compare _mm256_cmp_pd;
     select |mask, yes, no| _mm256_blendv_pd(no, yes, mask);
+    both _mm256_and_pd;
     all |mask| _mm256_movemask_pd(mask) == 0b1111;
 }
 
@@ -231,6 +236,7 @@ register! {
     is_odd |x| _mm256_castsi256_pd(_mm256_slli_epi64::<63>(_mm256_castpd_si256(x)));
     compare _mm256_cmp_pd;
     select |mask, yes, no| _mm256_blendv_pd(no, yes, mask);
+    both _mm256_and_pd;
     all |mask| _mm256_movemask_pd(mask) == 0b1111;
 }
 
@@ -244,6 +250,7 @@ register! {
     is_odd |x| _mm512_movepi64_mask(_mm512_slli_epi64::<63>(_mm512_castpd_si512(x)));
     compare _mm512_cmp_pd_mask;
     select |mask, yes, no| _mm512_mask_blend_pd(mask, no, yes);
+    both _kand_mask8;
     all |mask| _kortestc_mask8_u8(mask, mask) == 1;
 }
 
@@ -328,6 +335,10 @@ impl Vector for TwiceFour {
             Four::select(mask.0, yes.0, no.0),
             Four::select(mask.1, yes.1, no.1),
         )
+    }
+    #[inline(always)]
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        (Four::both(a.0, b.0), Four::both(a.1, b.1))
     }
     #[inline(always)]
     fn all(mask: Self::Mask) -> bool {
@@ -433,6 +444,10 @@ impl Vector for One {
         if mask { yes } else { no }
     }
     #[inline(always)]
+    fn both(a: bool, b: bool) -> bool {
+        a & b
+    }
+    #[inline(always)]
     fn all(mask: bool) -> bool {
         mask
     }
@@ -450,9 +465,7 @@ impl Vector for One {
         (One(sin), One(cos))
     }
     #[inline(always)]
-    fn sin_cos_all<const K: usize>(
-        angles: [Register<One>; K],
-    ) -> [(Register<One>, Register<One>); K] {
+    fn sin_cos_all<const K: usize>(angles: [Register<One>; K]) -> Circular<One, K> {
         let mut all = [(Register(One::ZERO), Register(One::ONE)); K];
         // Straight code as far as most states reach, so that angles stay in registers; a loop over
         // the rest.
@@ -471,6 +484,11 @@ impl Vector for One {
         }
         all
     }
+    /// Of one number, an angle that is far costs nothing but its own sine.
+    #[inline(always)]
+    fn sin_cos_all_near<const K: usize>(angles: [Register<One>; K]) -> (Circular<One, K>, bool) {
+        (Self::sin_cos_all(angles), true)
+    }
     #[inline(always)]
     fn first(self) -> f64 {
         self.0
@@ -481,11 +499,22 @@ impl Vector for One {
     }
 }
 
+/// Sine and cosine of all numbers of a register.
+#[inline(always)]
+fn sin_cos<V: Vector>(x: V) -> (V, V) {
+    let (sin, cos) = sin_cos_near(x);
+    if V::all(is_near(x)) {
+        (sin, cos)
+    } else {
+        V::sin_cos_beyond(x, sin, cos)
+    }
+}
+
 /// Sines and cosines of up to four of the angles, from a given one on.
 #[inline(always)]
 fn four_sines<const K: usize>(
     angles: &[Register<One>; K],
-    all: &mut [(Register<One>, Register<One>); K],
+    all: &mut Circular<One, K>,
     start: usize,
 ) {
     // What is missing to a full register is 0.
@@ -497,10 +526,10 @@ fn four_sines<const K: usize>(
         angle(start + 3),
     ];
     let (sin, cos) = if K - start > 2 {
-        let (sin, cos) = sincos::sin_cos(Four::load(Lanes(x)));
+        let (sin, cos) = sin_cos(Four::load(Lanes(x)));
         (sin.store().0, cos.store().0)
     } else {
-        let (sin, cos) = sincos::sin_cos(Two::load(Lanes([x[0], x[1]])));
+        let (sin, cos) = sin_cos(Two::load(Lanes([x[0], x[1]])));
         let (Lanes([s0, s1]), Lanes([c0, c1])) = (sin.store(), cos.store());
         ([s0, s1, 0.0, 0.0], [c0, c1, 1.0, 1.0])
     };

@@ -102,6 +102,13 @@ pub trait Scalar:
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
         angles.map(Self::sin_cos)
     }
+    /// The same, and true; or anything and false, where one of several angles that lie side by side is too large for what
+    /// the others take. For who starts again, number by number, when something is wrong: to him it is one more question at
+    /// the end, and no way apart in the middle.
+    #[inline(always)]
+    fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
+        (Self::sin_cos_all(angles), true)
+    }
     /// Sine.
     #[inline(always)]
     fn sin(self) -> Self {

@@ -275,8 +275,43 @@ impl Rational {
         }
     }
 
-    /// The value as a number of type `S`, through exact operations of `S` wherever `S` has them.
+    /// What an `f64` is; nothing where it is not finite.
+    pub fn exactly(x: f64) -> Option<Rational> {
+        if !x.is_finite() {
+            return None;
+        }
+        let bits = x.abs().to_bits();
+        let exponent = (bits >> 52) as i32;
+        let fraction = (bits & ((1 << 52) - 1)) as i64;
+        let (mantissa, power) = if exponent == 0 {
+            (fraction, -1074)
+        } else {
+            (fraction | 1 << 52, exponent - 1075)
+        };
+        let magnitude = Rational::from(mantissa).checked_mul(&Rational::from(2).pow(power)?)?;
+        Some(if x < 0.0 { -magnitude } else { magnitude })
+    }
+
+    /// The value as a number of type `S`, through exact operations of `S` wherever `S` has them; as
+    /// an `f64` it is the nearest one.
     pub fn evaluate<S: Scalar>(&self) -> S {
+        match &self.0 {
+            Repr::Small(numerator, denominator) => S::from_ratio(*numerator, denominator.get()),
+            Repr::Big(_) => {
+                // The nearest `f64` and what that lacks, as emitted code has it.
+                let nearest = self.to_f64();
+                match Rational::exactly(nearest) {
+                    Some(exact) if !exact.is_zero() => {
+                        S::from_f64(nearest) + (self - &exact).in_digits::<S>()
+                    }
+                    _ => self.in_digits(),
+                }
+            }
+        }
+    }
+
+    /// The value by its digits, which may round at each.
+    fn in_digits<S: Scalar>(&self) -> S {
         match &self.0 {
             Repr::Small(numerator, denominator) => S::from_ratio(*numerator, denominator.get()),
             Repr::Big(big) => {
@@ -674,5 +709,23 @@ mod tests {
         let sum = &x.recip().expect("not 0") + &Rational::ONE;
         assert_eq!(sum.evaluate::<f64>(), 1.0);
         assert_eq!((&x * &y.recip().expect("not 0")).evaluate::<f64>(), 3.0);
+    }
+
+    #[test]
+    fn long_decimals_are_rounded_once() {
+        for text in [
+            "0.06171389001427644963589",
+            "0.4873649795438425502256",
+            "3.14159265358979323846264338327950288",
+            "0.1000000000000000055511151231257827",
+        ] {
+            let exact = Rational::parse_decimal(text).expect("a decimal number");
+            let expected: f64 = text.parse().expect("a decimal number");
+            assert_eq!(exact.evaluate::<f64>(), expected, "{text}");
+            assert_eq!((-exact).evaluate::<f64>(), -expected, "-{text}");
+        }
+        let tenth = Rational::exactly(0.1).expect("finite");
+        assert_eq!(tenth.to_f64(), 0.1);
+        assert_eq!(Rational::exactly(f64::INFINITY), None);
     }
 }

@@ -183,10 +183,7 @@ impl System for DoublePendulumSystem {
         let determinant = self.m11 * self.m22 - m12 * m12;
         // Twice the roundoff of the difference.
         if determinant.abs() <= f64::EPSILON * (self.m11 * self.m22).abs() {
-            return Err(Singular {
-                coordinate: 1,
-                ratio: determinant / (self.m11 * self.m22),
-            });
+            return Err(Singular::new(1, determinant, self.m11 * self.m22));
         }
         *a = [
             (f1 * self.m22 - m12 * f2) / determinant,

@@ -3,5 +3,6 @@
 #![allow(dead_code, reason = "each test uses some of them")]
 
 pub mod as_list;
+pub mod constrained;
 pub mod double_pendulum;
 pub mod toy;

@@ -111,10 +111,7 @@ impl<const N: usize> System for Toy<N> {
         a: &mut [f64; N],
     ) -> Result<(), Singular> {
         if (self.inertia)(q) == 0.0 {
-            return Err(Singular {
-                coordinate: N - 1,
-                ratio: 0.0,
-            });
+            return Err(Singular::new(N - 1, 0.0, 1.0));
         }
         *a = (self.accelerations)(t, q, v, *u, self.p);
         Ok(())

@@ -9,7 +9,7 @@ use lagrangian_spec::program::{Candidate, Program};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
-/// The file names of all machines.
+/// The file names of all machines without constraints.
 pub const MACHINES: [&str; 23] = [
     "asymmetric_top",
     "cart_pole",
@@ -36,7 +36,26 @@ pub const MACHINES: [&str; 23] = [
     "vibrating_crusher",
 ];
 
-/// Does something with every machine, as compiled into `lagrangian-machines`: `$do!(CartPole,
+/// The file names of those that have constraints.
+pub const CONSTRAINED: [&str; 15] = [
+    "andrews_squeezer",
+    "ball_in_bowl",
+    "caked_crusher",
+    "chaplygin_sleigh",
+    "closed_pendulum",
+    "crushing_crusher",
+    "flyball_governor",
+    "four_bar",
+    "four_bars",
+    "grain_crusher",
+    "particle_pendulum",
+    "rattleback",
+    "rolling_coin",
+    "rolling_cylinder",
+    "slider_crank",
+];
+
+/// Does something with every machine without constraints, as compiled into `lagrangian-machines`: `$do!(CartPole,
 /// "cart_pole")`.
 #[macro_export]
 macro_rules! for_each_machine {

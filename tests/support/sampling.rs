@@ -42,7 +42,7 @@ impl<M: Machine> Random<M> {
     }
 
     pub fn sample(&mut self) -> Sample {
-        loop {
+        for _ in 0..100_000 {
             let random = &mut self.random;
             let places = self.start.iter().zip(&self.is_angle);
             let q: Vec<f64> = places
@@ -70,6 +70,7 @@ impl<M: Machine> Random<M> {
                 return Sample { t, q, v };
             }
         }
+        panic!("no state near the start at which all holds that the spec assumes");
     }
 }
 

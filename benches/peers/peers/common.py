@@ -29,6 +29,10 @@ class Clock:
 
 def command(words, limit=COMPILE_LIMIT, cwd=None, what="compiling"):
     """Runs a command; its CPU seconds, children included, come back."""
+    # Nobody may take more than whoever calls was given (`run --limit`).
+    given = resource.getrlimit(resource.RLIMIT_CPU)[1]
+    if given != resource.RLIM_INFINITY:
+        limit = max(1, min(limit, given - 1))
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
 
     def limited():
@@ -40,7 +44,7 @@ def command(words, limit=COMPILE_LIMIT, cwd=None, what="compiling"):
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     spent = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     if done.returncode != 0:
-        if spent > limit - 5:
+        if spent > 0.9 * limit:
             raise TooLong(f"{what}: more than {limit} s")
         raise RuntimeError(done.stdout.decode(errors="replace")[-3000:])
     return spent

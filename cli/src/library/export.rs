@@ -81,7 +81,8 @@ const N: usize = COORDINATES.len();
 const P: usize = PARAMETERS.len();
 const U: usize = INPUTS.len();
 
-/// What `eval_setup` leaves for the evaluations.
+/// What `eval_setup` leaves for the evaluations; no register of it lies across two lines of a cache.
+#[repr(align(64))]
 struct Slot<T>(UnsafeCell<Option<T>>);
 
 // SAFETY: the header asks that `eval_setup` is not called while another function of the library runs.
@@ -125,14 +126,17 @@ unsafe fn given(p: *const f64) -> [f64; U] {
 }
 
 /// # Safety
-/// `y` and `qdd` point to as many numbers as the header says; `p` to parameters and inputs, or nowhere.
+/// `y` and `qdd` point to as many numbers as the header says, apart from each other; `p` to parameters and inputs, or
+/// nowhere.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn eval(y: *const f64, t: f64, p: *const f64, qdd: *mut f64) {
     // SAFETY: what the caller promises; nobody writes the slot meanwhile.
     unsafe {
-        let (q, v) = (&*y.cast::<[f64; N]>(), &*y.add(N).cast::<[f64; N]>());
-        let a = (*ONE.0.get()).as_ref().and_then(|prepared| machine::evaluate(prepared, t, q, v, &given(p)));
-        *qdd.cast::<[f64; N]>() = a.unwrap_or([f64::NAN; N]);
+        let ([q, v], a) = (&*y.cast::<[[f64; N]; 2]>(), &mut *qdd.cast::<[f64; N]>());
+        let prepared = (*ONE.0.get()).as_ref();
+        if !prepared.is_some_and(|prepared| machine::evaluate(prepared, t, q, v, &given(p), a)) {
+            *a = [f64::NAN; N];
+        }
     }
 }
 
@@ -156,45 +160,39 @@ macro_rules! several {
                 /// As of `eval`; `t` points to a time for each state.
                 #[unsafe(no_mangle)]
                 pub unsafe extern "C" fn $name(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
-                    // SAFETY: as of `eval`; numbers of C are aligned as numbers, not as lanes.
+                    // SAFETY: as of `eval`; lanes are aligned as numbers.
                     unsafe {
-                        let [q, v] = y.cast::<[[Lanes<$lanes>; N]; 2]>().read_unaligned();
-                        let t = t.cast::<Lanes<$lanes>>().read_unaligned();
-                        let a = (*SLOT.0.get())
-                            .as_ref()
-                            .and_then(|prepared| machine::evaluate(prepared, t, &q, &v, &given(p).map(Lanes::splat)));
-                        let qdd = qdd.cast::<[Lanes<$lanes>; N]>();
-                        match a {
-                            Some(a) => qdd.write_unaligned(a),
-                            None => qdd.write_unaligned(one_by_one(y, t, p)),
+                        let [q, v] = &*y.cast::<[[Lanes<$lanes>; N]; 2]>();
+                        let a = &mut *qdd.cast::<[Lanes<$lanes>; N]>();
+                        let at = *t.cast::<Lanes<$lanes>>();
+                        let prepared = (*SLOT.0.get()).as_ref();
+                        let evaluate = |prepared| machine::evaluate(prepared, at, q, v, &given(p).map(Lanes::splat), a);
+                        if !prepared.is_some_and(evaluate) {
+                            one_by_one(y, t, p, qdd);
                         }
                     }
                 }
 
-                /// Where one of the states has no accelerations, the others have.
+                /// Where one of the states has no accelerations, or an angle that is too large for lanes, the others are
+                /// what they are alone.
                 ///
                 /// # Safety
-                /// As of the function above: `y` and `p` are read again, so that nothing of them need be kept in memory for
-                /// this.
+                /// As of the function above: all is read again, so that nothing need be kept for this.
                 #[cold]
                 #[inline(never)]
-                unsafe fn one_by_one(y: *const f64, t: Lanes<$lanes>, p: *const f64) -> [Lanes<$lanes>; N] {
-                    // SAFETY: what the caller promises.
-                    let ([q, v], u) = unsafe {
-                        (y.cast::<[[Lanes<$lanes>; N]; 2]>().read_unaligned(), given(p))
-                    };
-                    let mut all = [Lanes::splat(f64::NAN); N];
+                unsafe fn one_by_one(y: *const f64, t: *const f64, p: *const f64, qdd: *mut f64) {
                     for lane in 0..$lanes {
-                        let [q, v] = [q, v].map(|rows| rows.map(|row| row[lane]));
                         // SAFETY: what the caller promises.
-                        let prepared = unsafe { (*ONE.0.get()).as_ref() };
-                        if let Some(a) = prepared.and_then(|prepared| machine::evaluate(prepared, t[lane], &q, &v, &u)) {
-                            for (row, number) in all.iter_mut().zip(a) {
-                                row[lane] = number;
+                        unsafe {
+                            let row = |i: usize| *y.add($lanes * i + lane);
+                            let state: [f64; 2 * N] = core::array::from_fn(row);
+                            let mut a = [0.0; N];
+                            eval(state.as_ptr(), *t.add(lane), p, a.as_mut_ptr());
+                            for (i, number) in a.into_iter().enumerate() {
+                                *qdd.add($lanes * i + lane) = number;
                             }
                         }
                     }
-                    all
                 }
             }
         )*

@@ -4,7 +4,8 @@ void eval_setup(const double *p);
 
 /* The accelerations `qdd` at `y`, which holds the coordinates and behind them their rates, and time `t`, in s. Of `p` the
  * inputs are read, behind the parameters; where it is null, they have their defaults. Where the mass matrix is singular, and
- * before `eval_setup`, every acceleration is NaN. Any number of threads may evaluate at once. */
+ * before `eval_setup`, every acceleration is NaN. `qdd` lies apart from all that is read. Any number of threads may evaluate at
+ * once. */
 void eval(const double *y, double t, const double *p, double *qdd);
 
 LANES

@@ -12,6 +12,7 @@
 //! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
 //! vectors are places in the list of values that the page computes.
 
+use lagrangian_spec::mechanics::centre;
 use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
@@ -228,30 +229,14 @@ impl Points {
         });
         let turned = turned.collect();
         let circles = model.circles.iter().map(|circle| {
-            let (origin, axes) = match circle.on {
-                Place::Frame(pose) => {
-                    let pose = &model.poses[pose.index()];
-                    (pose.origin.clone(), pose.axes.clone())
-                }
+            let axes = match circle.on {
+                Place::Frame(pose) => model.poses[pose.index()].axes.clone(),
                 Place::Body(body) => {
-                    let body = &model.bodies[body];
                     let ground = || model.poses[PoseId::GROUND.index()].axes.clone();
-                    (
-                        body.at.clone(),
-                        body_axes(model, body).unwrap_or_else(ground),
-                    )
+                    body_axes(model, &model.bodies[body]).unwrap_or_else(ground)
                 }
             };
-            let center: Vec<Expr<'d>> = (0..dimension)
-                .map(|k| {
-                    let along = circle
-                        .center
-                        .iter()
-                        .zip(&axes)
-                        .map(|(c, axis)| *c * axis[k]);
-                    model.dag.sum([origin[k]].into_iter().chain(along))
-                })
-                .collect();
+            let center = centre(model, circle);
             [
                 places.of(&center),
                 places.of(&[circle.radius]),

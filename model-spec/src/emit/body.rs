@@ -141,6 +141,14 @@ impl Expression {
         }
     }
 
+    /// A sum.
+    pub fn sum(text: impl Into<String>) -> Expression {
+        Expression {
+            binding: Binding::Sum,
+            ..Expression::call(text)
+        }
+    }
+
     /// In parentheses where it would fall apart beside something that binds as tightly as `least`.
     pub fn at_least(&self, least: Binding) -> String {
         if self.binding >= least {

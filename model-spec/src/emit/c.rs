@@ -322,6 +322,7 @@ impl<'a> Emitter<'a> {
             function.role,
             Role::Start
                 | Role::Accelerations
+                | Role::Multipliers
                 | Role::Derivatives
                 | Role::AtTime
                 | Role::AtPosition
@@ -443,6 +444,11 @@ impl<'a> Emitter<'a> {
             }
             Role::Assumption(i) => {
                 format!("By how much {} holds.", self.program.assumptions[i].text)
+            }
+            Role::Accelerations if !self.program.constraints.is_empty() => {
+                "Accelerations, the solution of M a = f + G^T lambda, G a = gamma. Returns 0, or 1 + the number of the \
+                 coordinate whose pivot vanishes; constraints are counted behind all coordinates."
+                    .to_owned()
             }
             Role::Start if self.program.start.results.len() > self.program.dimension() => {
                 "Where the coordinates start, and behind them their rates.".to_owned()
@@ -734,6 +740,17 @@ fn docs(role: Role) -> &'static str {
         }
         Role::AccelerationsAt => {
             "Accelerations, of what the stage before has left in `at`. Returns what the accelerations return."
+        }
+        Role::ConstraintPositions => {
+            "What is left of the constraints of positions, g; 0 for the others."
+        }
+        Role::ConstraintRates => {
+            "What is left of the constraints at the level of velocities, G v + dg/dt."
+        }
+        Role::ConstraintMatrix => "The matrix G of the constraints, row after row.",
+        Role::ConstraintDrift => "gamma of G a = gamma.",
+        Role::Multipliers => {
+            "Lagrange's multipliers lambda of M a = f + G^T lambda. Returns what the accelerations return."
         }
         Role::KineticEnergy => "Kinetic energy T, in J.",
         Role::PotentialEnergy => "Potential energy V, in J.",

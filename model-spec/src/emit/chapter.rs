@@ -5,6 +5,7 @@
 //! to find them.
 
 mod conserved;
+mod constraints;
 mod energies;
 mod kinematics;
 mod machine;
@@ -50,6 +51,7 @@ pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         ("Kinematics", chapter.kinematics()),
         ("Energies and forces", chapter.energies()),
         ("Equations of motion", chapter.motion()),
+        ("Constraints", chapter.constraints()),
         ("Mass matrix", chapter.mass_matrix()),
         (
             "What is conserved, and what is not there",

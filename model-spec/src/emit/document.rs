@@ -117,7 +117,7 @@ impl Row {
         let mut lines = math.lines(room(indent), room(indent + 2));
         let margin = LINE + TOLERANCE - INDENT * (indent + 2) as f32;
         if lines.iter().any(|line| line.width() > margin) {
-            lines = vec![left_out(math)];
+            lines = vec![left_out(math, margin)];
         }
         let lines = lines.into_iter();
         let row = |(index, math)| Row {
@@ -133,19 +133,30 @@ impl Row {
     }
 }
 
-/// A formula without what stands on its right side, or without all but its sign.
-fn left_out(math: &Math) -> Math {
+/// A formula without what stands on its right side, or without its left side where that is too wide
+/// by itself, or without all but its sign.
+fn left_out(math: &Math, room: f32) -> Math {
     let marks = math.marks();
+    let row = |marks: &[Mark]| Math::row(marks.iter().cloned().map(Math::mark));
+    let note = || Math::text("(too wide for a page, not shown)");
+    let sign = match marks.first() {
+        Some(Mark::Sign(Sign::Plus | Sign::Minus)) => Math::mark(Mark::Sign(Sign::Plus)),
+        _ => Math::default(),
+    };
     let equals = marks
         .iter()
         .position(|mark| *mark == Mark::Sign(Sign::Equals));
-    let begin = match (equals, marks.first()) {
-        (Some(equals), _) => &marks[..=equals],
-        (None, Some(Mark::Sign(Sign::Plus | Sign::Minus))) => &[Mark::Sign(Sign::Plus)],
-        (None, _) => &[],
+    let Some(equals) = equals else {
+        return Math::row([sign, note()]);
     };
-    let begin = begin.iter().cloned().map(Math::mark);
-    Math::row(begin.chain([Math::text("(too wide for a page, not shown)")]))
+    let without_right = Math::row([row(&marks[..=equals]), note()]);
+    let without_left = Math::row([sign.clone(), note(), row(&marks[equals..])]);
+    let shortened = [without_right, without_left];
+    let fits = |formula: &Math| formula.width() <= room;
+    shortened
+        .into_iter()
+        .find(fits)
+        .unwrap_or_else(|| Math::row([sign, note()]))
 }
 
 impl Block {

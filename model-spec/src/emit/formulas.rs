@@ -17,7 +17,7 @@ const LONGEST_COMMENT: u64 = 2500;
 
 /// For each function the lines that say what it computes, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are
 /// left out, and what is long is `…`.
-pub fn formulas(model: &Model<'_>, equations: &Equations<'_>) -> BTreeMap<Role, Vec<String>> {
+pub fn formulas<'d>(model: &Model<'d>, equations: &Equations<'d>) -> BTreeMap<Role, Vec<String>> {
     let names: Vec<String> = model
         .coordinates
         .iter()
@@ -44,6 +44,31 @@ pub fn formulas(model: &Model<'_>, equations: &Equations<'_>) -> BTreeMap<Role, 
         (
             Role::DissipationRate,
             scalar("P", equations.dissipation_rate),
+        ),
+    ]);
+    let constraints = &equations.constraints;
+    let of = |letter: &str, value: &dyn Fn(usize) -> Option<Expr<'d>>| {
+        let named = constraints.iter().enumerate();
+        let named = named.filter_map(|(k, c)| Some((format!("{letter}[{}]", c.name), value(k)?)));
+        lines(named)
+    };
+    let rows = constraints.iter().flat_map(|c| {
+        let entries = names.iter().zip(&c.row);
+        entries.map(|(name, &entry)| (format!("G[{}, {name}]", c.name), entry))
+    });
+    all.extend([
+        (
+            Role::ConstraintPositions,
+            of("g", &|k| constraints[k].position),
+        ),
+        (
+            Role::ConstraintRates,
+            of("phi", &|k| Some(constraints[k].rate)),
+        ),
+        (Role::ConstraintMatrix, lines(rows)),
+        (
+            Role::ConstraintDrift,
+            of("gamma", &|k| Some(constraints[k].drift)),
         ),
     ]);
     for (i, (output, &value)) in model.outputs.iter().zip(&equations.outputs).enumerate() {

@@ -59,11 +59,18 @@ impl Layout {
     /// Lines that begin at column `indent`, the first of them behind `before`, the last followed by `after`.
     fn write(&self, out: &mut String, indent: usize, before: &str, after: &str) {
         let pad = " ".repeat(indent);
-        if let Some(flat) = self.flat()
-            && indent + width(before) + width(&flat) + width(after) <= WIDTH
-        {
-            out.push_str(&format!("{pad}{before}{flat}{after}\n"));
-            return;
+        if let Some(flat) = self.flat() {
+            if indent + width(before) + width(&flat) + width(after) <= WIDTH {
+                out.push_str(&format!("{pad}{before}{flat}{after}\n"));
+                return;
+            }
+            // What is assigned goes to the next line rather than over several.
+            if let Some(name) = before.strip_suffix("= ")
+                && indent + 4 + width(&flat) + width(after) <= WIDTH
+            {
+                out.push_str(&format!("{pad}{name}=\n{pad}    {flat}{after}\n"));
+                return;
+            }
         }
         match self {
             // An atom too long for its line: rustfmt lets it stand behind a line break.

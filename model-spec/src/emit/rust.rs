@@ -3,6 +3,7 @@
 //! The module needs `core` and the runtime only. Its arithmetic is in plain functions, generic over the number and taking
 //! the arguments that they use; `Machine` and `System` are implemented on top of them for `f64`.
 
+mod constraints;
 mod derivatives;
 mod docs;
 mod functions;
@@ -118,6 +119,8 @@ struct Emitter<'a> {
     prepared_families: Vec<Field>,
     /// The loops of functions that have any.
     plans: BTreeMap<Role, Plan>,
+    /// Whether the function that is being written leaves large angles to whoever calls it.
+    asks_once: bool,
 }
 
 /// Lints that a formula may break, with the reason; whoever audits the code should see that no other is silenced.
@@ -171,6 +174,7 @@ impl<'a> Emitter<'a> {
             prepared,
             prepared_families,
             plans,
+            asks_once: false,
             types: Types::new(&program.name),
             parameters,
             coordinates: Group::new(&program.coordinates),
@@ -200,6 +204,7 @@ impl<'a> Emitter<'a> {
             self.all_outputs();
         }
         self.tables();
+        self.table_of_constraints();
         self.impl_machine();
         self.impl_system();
         self.impl_linearize();

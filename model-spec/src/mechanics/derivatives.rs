@@ -7,15 +7,37 @@
 //! M ∂a/∂x = ∂r/∂x        (E26), on the right with a held at its value
 //! ```
 //!
-//! so no acceleration is ever differentiated: each column takes one forward sweep over `r`, which
+//! With constraints the multipliers are unknowns too, and `r` goes on with `γ − G a`. So no
+//! acceleration is ever differentiated: each column takes one forward sweep over `r`, which
 //! is linear in the number of links, and one more right-hand side for the elimination that the
 //! accelerations themselves take.
 
 use lagrangian_symbolic::{Expr, Symbol, Tangent};
 
+use super::constraints::ConstraintEquation;
 use super::refusal;
 use super::symmetric::Symmetric;
 use crate::model::{Model, Variable};
+
+/// What is left of the equations of a machine with constraints: `f − M a + Gᵀ λ`, and behind it
+/// `γ − G a`.
+pub(super) fn constrained<'d>(
+    model: &Model<'d>,
+    unbalanced: &[Expr<'d>],
+    constraints: &[ConstraintEquation<'d>],
+) -> Vec<Expr<'d>> {
+    let dag = model.dag;
+    let held = unbalanced.iter().enumerate().map(|(i, &left)| {
+        let reactions = constraints.iter().map(|c| c.row[i] * c.multiplier);
+        dag.sum([left].into_iter().chain(reactions))
+    });
+    let kept = constraints.iter().map(|c| {
+        let along = model.coordinates.iter().zip(&c.row);
+        let along = along.map(|(coordinate, &g)| -(g * coordinate.a));
+        dag.sum([c.drift].into_iter().chain(along))
+    });
+    held.chain(kept).collect()
+}
 
 /// `f − M a`, eq. (E25), where there is no projection to take it from.
 pub(super) fn unbalanced<'d>(

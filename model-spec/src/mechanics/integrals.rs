@@ -3,7 +3,7 @@
 //! Each is decided in the prime field, see [`super::experiment`]: what is said here has been tried. What cannot be decided is
 //! not said.
 
-use lagrangian_symbolic::Expr;
+use lagrangian_symbolic::{Expr, substitute};
 
 use super::kinematics::Variables;
 use super::{Equations, experiment, lagrange};
@@ -31,7 +31,8 @@ pub struct Cyclic<'d> {
     pub coordinate: usize,
     /// Its momentum `∂T/∂v`.
     pub momentum: Expr<'d>,
-    /// The generalized force on it, which is all that changes the momentum: 0 where it is conserved.
+    /// The generalized force on it, reactions of constraints included, which is all that changes the
+    /// momentum: 0 where it is conserved.
     pub force: Expr<'d>,
 }
 
@@ -75,7 +76,9 @@ fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     let momenta = lagrange::gradient(dag, equations.kinetic_energy, &x.v);
     let ignorable = (0..x.q.len()).filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
     let cyclic = |coordinate: usize| {
-        let force = equations.applied[coordinate];
+        let reactions = equations.constraints.iter();
+        let reactions = reactions.map(|c| c.row[coordinate] * c.multiplier);
+        let force = dag.sum([equations.applied[coordinate]].into_iter().chain(reactions));
         Cyclic {
             coordinate,
             momentum: momenta[coordinate],
@@ -92,6 +95,13 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
     let x = Variables::of(model);
     if is_zero(equations.work_rate) && is_zero(equations.dissipation_rate) {
         return Energy::Conserved;
+    }
+    // A constraint that moves by itself does work, which no potential knows.
+    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
+    let rates: Vec<_> = equations.constraints.iter().map(|c| c.rate).collect();
+    let still = substitute(dag, &rates, &at_rest);
+    if !still.into_iter().all(is_zero) {
+        return Energy::Balance;
     }
     let (kinetic, potential) = (equations.kinetic_energy, equations.potential_energy);
     let momenta = lagrange::gradient(dag, kinetic, &x.v);

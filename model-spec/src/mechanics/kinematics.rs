@@ -9,6 +9,7 @@ pub(super) struct Variables<'d> {
     pub t: Symbol,
     pub q: Vec<Symbol>,
     pub v: Vec<Symbol>,
+    pub a: Vec<Symbol>,
     /// `v` and `a`.
     expressions: Vec<[Expr<'d>; 2]>,
 }
@@ -21,6 +22,7 @@ impl<'d> Variables<'d> {
             t: symbol(model.time),
             q: list.iter().map(|c| symbol(c.q)).collect(),
             v: list.iter().map(|c| symbol(c.v)).collect(),
+            a: list.iter().map(|c| symbol(c.a)).collect(),
             expressions: list.iter().map(|c| [c.v, c.a]).collect(),
         }
     }

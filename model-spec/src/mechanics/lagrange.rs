@@ -11,6 +11,7 @@
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
 use super::approximation::Approximations;
+use super::constraints::{self, ConstraintEquation};
 use super::energy;
 use super::kinematics::{self, Variables};
 use super::refusal;
@@ -31,8 +32,22 @@ pub struct Oracle<'d> {
     pub bias: Vec<Expr<'d>>,
     /// `Q`, eq. (E6).
     pub applied: Vec<Expr<'d>>,
+    /// The bilateral constraints.
+    pub constraints: Vec<OracleConstraint<'d>>,
     /// `d/dt ∂T/∂v − ∂T/∂q − Q` with the accelerations in it, eq. (E7): zero along every motion.
     pub residual: Vec<Expr<'d>>,
+}
+
+/// A constraint, every derivative by the rule of the chain and one variable at a time.
+pub struct OracleConstraint<'d> {
+    /// `g`; zero where velocities alone are constrained.
+    pub position: Expr<'d>,
+    /// `φ = Σ vᵢ ∂g/∂qᵢ + ∂g/∂t`, or as it is said.
+    pub rate: Expr<'d>,
+    /// `∂φ/∂vᵢ`.
+    pub row: Vec<Expr<'d>>,
+    /// `Σ vᵢ ∂φ/∂qᵢ + Σ aᵢ ∂φ/∂vᵢ + ∂φ/∂t`: zero along every motion.
+    pub residual: Expr<'d>,
 }
 
 impl<'d> Oracle<'d> {
@@ -57,7 +72,28 @@ impl<'d> Oracle<'d> {
             momentum_rate.of(momenta[i]) - kinetic_energy.diff(x.q[i])
         };
         let coasting = &mut x.coasting(model);
+        let along = |e: Expr<'d>| {
+            let explicit = std::iter::once(e.diff(x.t));
+            let moving = model.coordinates.iter().zip(&x.q);
+            model
+                .dag
+                .sum(explicit.chain(moving.map(|(c, &q)| e.diff(q) * c.v)))
+        };
+        let constraint = |equation: ConstraintEquation<'d>| {
+            let rate = equation.position.map_or(equation.rate, along);
+            let row: Vec<Expr<'d>> = x.v.iter().map(|&v| rate.diff(v)).collect();
+            let accelerating = model.coordinates.iter().zip(&row);
+            let accelerating = accelerating.map(|(c, &slope)| slope * c.a);
+            OracleConstraint {
+                position: equation.position.unwrap_or(dag.zero()),
+                residual: dag.sum(accelerating.chain([along(rate)])),
+                row,
+                rate,
+            }
+        };
+        let constraints = constraints::constraints(model);
         Oracle {
+            constraints: constraints.into_iter().map(constraint).collect(),
             mass_matrix: mass_matrix(&momenta, &x.v),
             bias: (0..x.q.len()).map(|i| inertia(coasting, i)).collect(),
             residual: (0..x.q.len())

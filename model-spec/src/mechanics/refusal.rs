@@ -5,7 +5,7 @@ use lagrangian_symbolic::Expr;
 use super::Equations;
 use super::symmetric::Symmetric;
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::model::Model;
+use crate::model::{Model, Place, Rotation, Surface, Touching};
 use crate::syntax::SectionKind;
 
 /// Refuses what is understood but not derived yet: one message for each section. True if anything
@@ -13,9 +13,7 @@ use crate::syntax::SectionKind;
 /// draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
     let sections = [
-        (SectionKind::Constraints, model.constraints.is_empty()),
         (SectionKind::Sliding, model.sliding.is_empty()),
-        (SectionKind::Rolling, model.rolling.is_empty()),
         (SectionKind::Contacts, model.contacts.is_empty()),
     ];
     let mut refused = false;
@@ -29,6 +27,36 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
             );
             report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
             refused = true;
+        }
+    }
+    refused
+}
+
+/// Refuses what rolls without a word on how it turns. True if anything is refused.
+pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut refused = false;
+    for rolling in &model.rolling {
+        let Touching { circle, surface } = rolling.circles;
+        let other = match surface {
+            Surface::Inside(other) | Surface::Outside(other) => Some(other),
+            Surface::Along(_) => None,
+        };
+        for circle in [Some(circle), other].into_iter().flatten() {
+            let circle = &model.circles[circle];
+            let Place::Body(body) = circle.on else {
+                continue;
+            };
+            let body = &model.bodies[body];
+            if matches!(body.rotation, Rotation::Unspecified) {
+                let message = format!("nothing says how the body `{}` turns", body.name);
+                let help = format!(
+                    "the circle `{}` is on it: give it an `angle` or a `frame`",
+                    circle.name
+                );
+                report
+                    .push(Diagnostic::new(Code::MissingRotation, rolling.span, message).help(help));
+                refused = true;
+            }
         }
     }
     refused

@@ -259,7 +259,7 @@ impl<'d> Front<'d> {
             terms: 0,
         };
         front.find_linear(&front.roots(model, machine));
-        let replaced = bars::replaced(machine, &front.arms());
+        let replaced = bars::replaced(machine, &front.arms(), &model.assumptions);
         let machine = replaced.as_ref().unwrap_or(machine);
         let roots = front.roots(model, machine);
         if replaced.is_some() {

@@ -13,9 +13,11 @@
 //! joint has one mass. Of the ten operations that a centre of mass between the joints costs a link of
 //! a chain, none is left.
 //!
-//! For a bar between two joints and a body between them the terms are of the size of what they stand
-//! for: `λ (1 − λ) ≤ ¼`. They are larger than that by `1/λ` where the body is close to `H`, has next to
-//! no inertia of its own, and next to nothing hangs on `T`; as many digits are lost in its turning.
+//! This is done where `λ` is known to be between 0 and 1: a number, as for the middle of a uniform bar,
+//! or `c/l` where the spec assumes `c > 0` and `c <= l`. Then the terms are of the size of what they
+//! stand for. Of any two parameters nobody knows how large their quotient becomes: for a short bar with
+//! a far centre of mass the masses are large and of opposite signs, and as many digits of the turning
+//! are lost; without any length it is a machine still, that a quotient would deny.
 //!
 //! The same substitution in space is that of [`lumps`](crate::mechanics), from where the idea is:
 //! W. Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop
@@ -23,9 +25,10 @@
 
 use std::collections::BTreeMap;
 
-use lagrangian_symbolic::{Expr, Id, Stage};
+use lagrangian_symbolic::{Expr, Id, Node, Rational, Stage};
 
 use crate::mechanics::Unprojected;
+use crate::model::Assumption;
 
 /// A component of the velocity of a point on a bar: `u = u_H + c ω`.
 #[derive(Clone, Copy, Debug)]
@@ -43,11 +46,10 @@ pub(super) struct Arm<'d> {
 /// Replaces bodies by masses at the joints of their bars.
 ///
 /// `arms` are the nodes that are components of points on bars. `None` if there is nothing to replace.
-/// A bar without length that carries something has no such masses: they are infinite, and the pivot of
-/// its turning is no number, which is the error of a singular machine.
 pub(super) fn replaced<'d>(
     machine: &Unprojected<'d>,
     arms: &BTreeMap<Id, Arm<'d>>,
+    assumptions: &[Assumption<'d>],
 ) -> Option<Unprojected<'d>> {
     if !machine.drifts {
         return None;
@@ -61,7 +63,7 @@ pub(super) fn replaced<'d>(
         rest = others;
         let on_bar = others
             .first()
-            .and_then(|&second| bar(first, second, arms, &carried));
+            .and_then(|&second| bar([first, second], arms, &carried, assumptions));
         let Some(bar) = on_bar else {
             replaced.inertia.push(first);
             continue;
@@ -136,11 +138,12 @@ fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
 
 /// The bar that a point is on, if there is another point in the same direction from its joint.
 fn bar<'d>(
-    [x, x_again, weight]: [Expr<'d>; 3],
-    [y, y_again, weight_of_y]: [Expr<'d>; 3],
+    inertia: [[Expr<'d>; 3]; 2],
     arms: &BTreeMap<Id, Arm<'d>>,
     carried: &BTreeMap<(Id, Id), Vec<Id>>,
+    assumptions: &[Assumption<'d>],
 ) -> Option<Bar<'d>> {
+    let [[x, x_again, weight], [y, y_again, weight_of_y]] = inertia;
     let is_point = x == x_again && y == y_again && weight == weight_of_y;
     if !is_point || weight.stage() > Stage::PARAMETER {
         return None;
@@ -157,7 +160,7 @@ fn bar<'d>(
     };
     for tip_x in others(at_x).filter(|id| !body.contains(id)) {
         let share = at_x.across / arms[&tip_x].across;
-        if !fixed(share) {
+        if !is_share(share, assumptions) {
             continue;
         }
         let is_tip = |id: &Id| at_y.across == share * arms[id].across;
@@ -177,4 +180,23 @@ fn bar<'d>(
         }
     }
     None
+}
+
+/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l` are
+/// assumed.
+fn is_share(share: Expr<'_>, assumptions: &[Assumption<'_>]) -> bool {
+    if let Node::Constant(share) = share.node() {
+        return (Rational::ZERO..=Rational::ONE).contains(&share);
+    }
+    if share.stage() > Stage::PARAMETER {
+        return false;
+    }
+    let symbols = share.symbols();
+    let positive = assumptions
+        .iter()
+        .filter(|fact| fact.strict && fact.excess.symbols().is_subset(&symbols));
+    positive.map(|fact| fact.excess).any(|part| {
+        let rest = part / share - part;
+        assumptions.iter().any(|fact| fact.excess == rest)
+    })
 }

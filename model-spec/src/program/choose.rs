@@ -45,6 +45,8 @@ pub struct Form {
     pub role: Role,
     /// What it is made from.
     pub basis: Basis,
+    /// Whether coordinates that constraints settle are put in before anything is derived.
+    pub reduced: bool,
     /// Whether factors are taken out of sums before common pairs are shared.
     pub factored: bool,
 }
@@ -146,6 +148,9 @@ impl fmt::Display for Form {
             (_, Basis::Derived) => "as derived",
             (_, Basis::Expanded) => "multiplied out",
         })?;
+        if self.reduced {
+            f.write_str(", without the coordinates that constraints settle")?;
+        }
         if self.factored {
             f.write_str(", factored")?;
         }
@@ -186,6 +191,7 @@ mod tests {
             form: Form {
                 role: Role::Accelerations,
                 basis: Basis::Derived,
+                reduced: false,
                 factored: false,
             },
             counts: Counts::default(),

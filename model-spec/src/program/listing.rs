@@ -76,8 +76,23 @@ impl Program {
             _ => i.to_string(),
         };
         let name = self.title(role);
+        let constraint = |k: usize| match self.constraints.get(k) {
+            Some(constraint) => constraint.name.clone(),
+            None => k.to_string(),
+        };
         match (role, shape) {
             (Role::Prepare, _) => format!("prepared[{index}]"),
+            (Role::ConstraintMatrix, _) => {
+                let (k, i) = (index / self.dimension(), index % self.dimension());
+                format!("{name}[{}, {}]", constraint(k), self.coordinates[i].name)
+            }
+            (
+                Role::ConstraintPositions
+                | Role::ConstraintRates
+                | Role::ConstraintDrift
+                | Role::Multipliers,
+                _,
+            ) => format!("{name}[{}]", constraint(index)),
             (Role::AtTime | Role::AtPosition, _) => format!("{name}[{index}]"),
             (_, Shape::Scalar) => name,
             (_, Shape::Vector(_)) => format!("{name}[{}]", coordinate(index)),
@@ -213,18 +228,17 @@ impl<'a> Listing<'a> {
             }
         }
         for guard in guards {
-            let coordinate = self
-                .program
-                .coordinates
-                .get(guard.coordinate)
-                .map(|slot| slot.name.to_string());
+            let program = self.program;
+            let what = match guard.coordinate.checked_sub(program.dimension()) {
+                None => format!("inertia of {}", program.coordinates[guard.coordinate].name),
+                Some(k) => format!("constraint {}", program.constraints[k].name),
+            };
             let _ = writeln!(
                 text,
-                "  require {} > {:e} * {}  // inertia of {}",
+                "  require {} > {:e} * {}  // {what}",
                 self.name(guard.pivot),
                 guard.tolerance,
                 self.name(guard.scale),
-                coordinate.unwrap_or_default(),
             );
         }
         text

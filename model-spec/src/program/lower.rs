@@ -13,10 +13,10 @@ use super::graph::{Graph, Id, Scaled};
 use super::net::Net;
 use super::rounding::{Rounding, States};
 use super::schedule::{Code, schedule};
-use super::solve::{self, Elimination, Pivot, Solution};
-use super::{Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
-use crate::mechanics::{Equations, Unprojected};
-use crate::model::{Model, Name, Stages};
+use super::solve::{self, Elimination, Pivot, Solution, System};
+use super::{Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
+use crate::mechanics::{ConstraintEquation, Equations, Reduction, Unprojected};
+use crate::model::{Model, Name, Stages, stage};
 use crate::unit::Unit;
 
 /// A named result: what a function is to compute.
@@ -52,14 +52,44 @@ impl Program {
             (Basis::Expanded, Some(expanded)) => expanded.slopes_in_forms(model),
             _ => equations.slopes_in_forms(model),
         };
+        let reduced = equations.reduction.as_ref().map(|reduction| {
+            let (model, equations) = (&reduction.machine.0, &reduction.equations);
+            let expanded = equations.expanded();
+            let expanded = expanded.map(|expanded| matrix_and_forces(model, &expanded));
+            (
+                &**reduction,
+                quantities(model, equations),
+                expanded.unwrap_or_default(),
+            )
+        });
+        let multipliers = equations.constraints.iter().map(|c| c.multiplier);
+        let multipliers: Vec<Expr<'d>> = multipliers.collect();
         let source = Origin {
             quantities: &quantities(model, equations),
             expanded: &expanded
                 .map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
-            unprojected: equations.unprojected.as_ref(),
+            // What runs along a machine that closes would not close.
+            unprojected: match equations.constraints.is_empty() {
+                true => equations.unprojected.as_ref(),
+                false => None,
+            },
             slopes: &slopes,
+            multipliers: &multipliers,
+            reduced: reduced
+                .as_ref()
+                .map(|(reduction, quantities, expanded)| Set {
+                    model: &reduction.machine.0,
+                    quantities,
+                    expanded,
+                    unprojected: match reduction.constraints.is_empty() {
+                        true => reduction.equations.unprojected.as_ref(),
+                        false => None,
+                    },
+                    reduction: Some(reduction),
+                }),
         };
-        Program::build(model, source, choose)
+        let constraints = equations.constraints.iter().map(constraint).collect();
+        Program::build(model, source, constraints, choose)
     }
 
     /// The program that computes the quantities.
@@ -71,13 +101,16 @@ impl Program {
             expanded: &[],
             unprojected: None,
             slopes: &|_| Vec::new(),
+            multipliers: &[],
+            reduced: None,
         };
-        Program::build(model, source, &best)
+        Program::build(model, source, Vec::new(), &best)
     }
 
     fn build<'d>(
         model: &Model<'d>,
         source: Origin<'_, 'd>,
+        constraints: Vec<Constraint>,
         choose: &dyn Fn(&[Candidate]) -> usize,
     ) -> Program {
         let mut quantities = source.quantities.to_vec();
@@ -139,6 +172,7 @@ impl Program {
             shape: Shape::Vector(starts.len()),
             results: lowering.values(&starts),
             pivots: Vec::new(),
+            rows: 0,
         };
         let start = start.only(&mut lowering.graph).function;
         let mut choices = Vec::new();
@@ -153,7 +187,15 @@ impl Program {
             let drafts = of_quantity(&mut lowering, quantity, source.expanded);
             take(drafts, &lowering.graph);
         }
-        let ways = accelerations(&mut lowering, source);
+        let mut ways = accelerations(&mut lowering, source.whole(model));
+        if let Some(reduced) = source.reduced {
+            let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
+            let offsets = offsets.filter_map(|d| d.offset.map(|[name, meaning]| (name, meaning)));
+            lowering.name(&offsets.collect::<Vec<_>>());
+            lowering.lower(&all_values(reduced.quantities));
+            lowering.lower(&all_values(reduced.expanded));
+            ways.extend(accelerations(&mut lowering, reduced));
+        }
         take(ways, &lowering.graph);
         let (staged, staged_choice) = match drafts.last() {
             Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
@@ -171,13 +213,24 @@ impl Program {
             }
             _ => None,
         };
+        let multipliers = match drafts.last() {
+            Some(last) if last.form.role == Role::Accelerations && !constraints.is_empty() => {
+                multipliers(&mut lowering, source, last)
+            }
+            _ => Vec::new(),
+        };
+        let (multipliers, multipliers_choice) =
+            taken(multipliers, &lowering.graph, &states, choose);
+        drafts.extend(multipliers);
+        choices.extend(multipliers_choice);
         let has_derivatives = derivatives.is_some();
         drafts.extend(derivatives);
         drafts.extend(staged);
         choices.extend(staged_choice);
         drafts.sort_by_key(|draft| draft.function.role);
         choices.sort_by_key(Choice::role);
-        let (prepare, prepared, functions) = prepare(&mut lowering.graph, drafts, model);
+        let (prepare, prepared, functions) =
+            prepare(&mut lowering.graph, drafts, model, constraints.len());
         let program = Program {
             name: model.name.clone(),
             docs: model.docs.clone(),
@@ -186,6 +239,7 @@ impl Program {
             inputs,
             outputs,
             assumptions: facts(model),
+            constraints,
             derivatives: match has_derivatives {
                 true => model.derivatives.clone(),
                 false => Vec::new(),
@@ -217,6 +271,34 @@ struct Origin<'a, 'd> {
     /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
     /// they were derived or multiplied out.
     slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
+    /// The symbols of the multipliers in them.
+    multipliers: &'a [Expr<'d>],
+    /// The same machine without the coordinates that constraints settle.
+    reduced: Option<Set<'a, 'd>>,
+}
+
+/// A set of equations that accelerations can be taken from.
+#[derive(Clone, Copy)]
+struct Set<'a, 'd> {
+    model: &'a Model<'d>,
+    quantities: &'a [Quantity<'d>],
+    expanded: &'a [Quantity<'d>],
+    unprojected: Option<&'a Unprojected<'d>>,
+    /// How its coordinates are among those of the machine, where these are more.
+    reduction: Option<&'a Reduction<'d>>,
+}
+
+impl<'a, 'd> Origin<'a, 'd> {
+    /// All coordinates.
+    fn whole(self, model: &'a Model<'d>) -> Set<'a, 'd> {
+        Set {
+            model,
+            quantities: self.quantities,
+            expanded: self.expanded,
+            unprojected: self.unprojected,
+            reduction: None,
+        }
+    }
 }
 
 /// What there is to compute of a machine, in the order of [`Role`]; accelerations follow from it.
@@ -241,12 +323,47 @@ pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quant
         scalar(Role::WorkRate, equations.work_rate),
         scalar(Role::DissipationRate, equations.dissipation_rate),
     ]);
+    quantities.extend(of_constraints(model, equations));
     let outputs = equations.outputs.iter().enumerate();
     quantities.extend(outputs.map(|(index, value)| scalar(Role::Output(index), *value)));
     let assumptions = model.assumptions.iter().enumerate();
     quantities
         .extend(assumptions.map(|(index, fact)| scalar(Role::Assumption(index), fact.excess)));
     quantities
+}
+
+/// What there is to compute of constraints.
+fn of_constraints<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
+    let all = &equations.constraints;
+    if all.is_empty() {
+        return Vec::new();
+    }
+    let vector = |role, values: Vec<Expr<'d>>| Quantity {
+        role,
+        shape: Shape::Vector(values.len()),
+        values,
+    };
+    let zero = model.dag.zero();
+    let positions = all.iter().map(|c| c.position.unwrap_or(zero)).collect();
+    let rates = all.iter().map(|c| c.rate).collect();
+    let matrix = all.iter().flat_map(|c| c.row.iter().copied()).collect();
+    let drift = all.iter().map(|c| c.drift).collect();
+    vec![
+        vector(Role::ConstraintPositions, positions),
+        vector(Role::ConstraintRates, rates),
+        vector(Role::ConstraintMatrix, matrix),
+        vector(Role::ConstraintDrift, drift),
+    ]
+}
+
+/// What a program says of a constraint.
+fn constraint(equation: &ConstraintEquation<'_>) -> Constraint {
+    Constraint {
+        name: equation.name.clone(),
+        unit: equation.unit.to_string(),
+        multiplier_unit: equation.multiplier_unit().to_string(),
+        holonomic: equation.position.is_some(),
+    }
 }
 
 /// Takes the mass matrix by [`articulated::mass_matrix`] where that is shorter.
@@ -369,13 +486,26 @@ impl<'m, 'd> Lowering<'m, 'd> {
         }
     }
 
-    /// M and f, if both are there.
-    fn system(&self, quantities: &[Quantity<'d>]) -> Option<(Vec<Scaled>, Vec<Scaled>)> {
-        let values = |role| {
+    /// M and f, if both are there; of the constraints behind them those that they come with.
+    fn system(&self, quantities: &[Quantity<'d>], constraints: &[Quantity<'d>]) -> Option<System> {
+        let values = |quantities: &[Quantity<'d>], role| {
             let quantity = quantities.iter().find(|quantity| quantity.role == role)?;
             Some(self.values(&quantity.values))
         };
-        Some((values(Role::MassMatrix)?, values(Role::Forces)?))
+        let mut matrix = values(quantities, Role::MassMatrix)?;
+        let mut forces = values(quantities, Role::Forces)?;
+        let coordinates = forces.len();
+        let rows = values(constraints, Role::ConstraintMatrix).unwrap_or_default();
+        for (k, row) in rows.chunks(coordinates.max(1)).enumerate() {
+            matrix.extend(row);
+            matrix.extend(vec![Scaled::ZERO; k + 1]);
+        }
+        forces.extend(values(constraints, Role::ConstraintDrift).unwrap_or_default());
+        Some(System {
+            matrix,
+            forces,
+            coordinates,
+        })
     }
 
     fn values(&self, expressions: &[Expr<'d>]) -> Vec<Scaled> {
@@ -392,6 +522,8 @@ struct Planned {
     shape: Shape,
     results: Vec<Scaled>,
     pivots: Vec<Pivot>,
+    /// How many rows the system has that the pivots are of.
+    rows: usize,
 }
 
 /// A function of which it is not yet decided whether it is taken.
@@ -457,7 +589,6 @@ impl Planned {
             prepared,
         } = schedule(&net);
         let (results, guarded) = roots.split_at(self.results.len());
-        let n = self.shape.order();
         let guards = self
             .pivots
             .iter()
@@ -465,7 +596,7 @@ impl Planned {
             .map(|(p, values)| Guard {
                 pivot: values[0],
                 scale: values[1],
-                tolerance: solve::pivot_tolerance(n),
+                tolerance: solve::pivot_tolerance(self.rows),
                 coordinate: p.coordinate,
             })
             .collect();
@@ -473,6 +604,7 @@ impl Planned {
             form: Form {
                 role: self.role,
                 basis,
+                reduced: false,
                 factored,
             },
             function: Function {
@@ -552,6 +684,7 @@ fn of_quantity<'d>(
         shape: quantity.shape,
         results: lowering.values(values),
         pivots: Vec::new(),
+        rows: 0,
     };
     let derived = planned(&quantity.values, lowering);
     let other = expanded
@@ -567,36 +700,132 @@ fn of_quantity<'d>(
 }
 
 /// The accelerations from the mass matrix, and along the machine.
-fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
-    let Some((matrix, forces)) = lowering.system(source.quantities) else {
+fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Vec<Draft> {
+    let Some(derived) = lowering.system(source.quantities, source.quantities) else {
         return Vec::new();
     };
-    let mut systems = vec![(Basis::Derived, matrix, forces)];
+    let mut systems = vec![(Basis::Derived, derived)];
     let expanded = lowering
-        .system(source.expanded)
-        .filter(|(m, f)| *m != systems[0].1 || *f != systems[0].2);
-    systems.extend(expanded.map(|(matrix, forces)| (Basis::Expanded, matrix, forces)));
+        .system(source.expanded, source.quantities)
+        .filter(|expanded| *expanded != systems[0].1);
+    systems.extend(expanded.map(|system| (Basis::Expanded, system)));
     let mut drafts = Vec::new();
     for basis in [Basis::Along, Basis::Ahead] {
         if let Some(machine) = source.unprojected {
-            drafts.extend(along_the_machine(lowering, &systems[0].1, machine, basis));
+            let matrix = &systems[0].1.matrix;
+            drafts.extend(along_the_machine(lowering, source, matrix, machine, basis));
         }
     }
     let shortest = drafts
         .iter()
         .map(|draft| draft.function.counts().ops())
         .min();
-    for (basis, matrix, forces) in systems {
-        let elimination = Elimination::of(&matrix, forces.len());
+    for (basis, system) in systems {
+        let elimination = Elimination::of(&system);
         // What is certainly longer is not even written down: it grows with the cube of the number
         // of coordinates.
         if shortest.is_some_and(|ops| elimination.multiplications > ops) {
             continue;
         }
-        let solution = solve::solve(&mut lowering.graph, &matrix, &forces, elimination);
-        drafts.extend(solved(&mut lowering.graph, solution, basis));
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
+        drafts.extend(solved(lowering, source, solution, basis));
     }
     drafts
+}
+
+/// A solution for the coordinates that are left, as one for all coordinates.
+fn embedded<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    reduction: &Reduction<'d>,
+    solution: Solution,
+) -> Solution {
+    let all = lowering.model.coordinates.len();
+    let left = &reduction.coordinates;
+    let mut accelerations = vec![Scaled::ZERO; all];
+    for (&i, &value) in left.iter().zip(&solution.accelerations) {
+        accelerations[i] = value;
+    }
+    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    let before = lowering.values.clone();
+    for (i, value) in accelerations.iter().enumerate() {
+        let symbol = lowering.model.coordinates[i].a;
+        lowering.values.insert(symbol.id(), *value);
+    }
+    let dag = lowering.model.dag;
+    let is_later = |id: &symbolic::Id| dag.expr(*id).stage() >= stage::ACCELERATION;
+    let is_symbol = |id: &symbolic::Id| dag.expr(*id).as_symbol().is_some();
+    lowering
+        .values
+        .retain(|id, _| !is_later(id) || is_symbol(id));
+    let following: Vec<Expr<'d>> = reduction
+        .dependents
+        .iter()
+        .map(|d| d.acceleration)
+        .collect();
+    lowering.lower(&following);
+    for (dependent, value) in reduction.dependents.iter().zip(lowering.values(&following)) {
+        accelerations[dependent.coordinate] = value;
+    }
+    lowering.values = before;
+
+    let row = |row: usize| match row.checked_sub(left.len()) {
+        None => left[row],
+        Some(constraint) => all + reduction.constraints[constraint],
+    };
+    let pivots = solution.pivots.into_iter().map(|pivot| Pivot {
+        coordinate: row(pivot.coordinate),
+        ..pivot
+    });
+    let mut pivots: Vec<Pivot> = pivots.collect();
+    // What was divided by; the determinant has its square.
+    for dependent in &reduction.dependents {
+        lowering.lower(&[dependent.coefficient]);
+        let coefficient = lowering.values(&[dependent.coefficient])[0];
+        let pivot = lowering.graph.product(&[(coefficient, 2)]);
+        let pivot = lowering.graph.whole(pivot);
+        pivots.push(Pivot {
+            coordinate: all + dependent.constraint,
+            pivot,
+            scale: pivot,
+        });
+    }
+    Solution {
+        accelerations,
+        multipliers: Vec::new(),
+        pivots,
+        columns: Vec::new(),
+    }
+}
+
+/// The multipliers of the constraints, from the equations in all coordinates.
+fn multipliers<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+    accelerations: &Draft,
+) -> Vec<Draft> {
+    let (basis, quantities) = match accelerations.form {
+        Form {
+            basis: Basis::Expanded,
+            reduced: false,
+            ..
+        } => (Basis::Expanded, source.expanded),
+        _ => (Basis::Derived, source.quantities),
+    };
+    let Some(system) = lowering.system(quantities, source.quantities) else {
+        return Vec::new();
+    };
+    let elimination = Elimination::of(&system);
+    let solution = solve::solve(&mut lowering.graph, &system, elimination);
+    let known = &accelerations.known_pivots;
+    let pivots = solution.pivots.into_iter();
+    let planned = Planned {
+        role: Role::Multipliers,
+        shape: Shape::Vector(solution.multipliers.len()),
+        results: solution.multipliers,
+        pivots: pivots.filter(|pivot| !known.contains(pivot)).collect(),
+        rows: system.forces.len(),
+    };
+    planned.drafts(&mut lowering.graph, basis)
 }
 
 /// The accelerations with their derivatives, if any are asked for: from the equations that the
@@ -611,10 +840,10 @@ fn derivatives<'d>(
         Basis::Derived | Basis::Along | Basis::Ahead => (source.quantities, source.unprojected),
     };
     let slopes = (source.slopes)(accelerations.form.basis);
-    let (matrix, forces) = lowering.system(quantities)?;
+    let system = lowering.system(quantities, source.quantities)?;
     let asked = derivatives::Asked {
-        matrix: &matrix,
-        forces: &forces,
+        system: &system,
+        multipliers: source.multipliers,
         unprojected,
         slopes: &slopes,
         known_pivots: &accelerations.known_pivots,
@@ -623,18 +852,29 @@ fn derivatives<'d>(
 }
 
 /// The programs of a solution; pivots that parameters alone decide are kept apart.
-fn solved(graph: &mut Graph, solution: Solution, basis: Basis) -> Vec<Draft> {
+fn solved<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Set<'_, 'd>,
+    solution: Solution,
+    basis: Basis,
+) -> Vec<Draft> {
+    let solution = match source.reduction {
+        Some(reduction) => embedded(lowering, reduction, solution),
+        None => solution,
+    };
     let known = |p: &Pivot| p.pivot.is_known() && p.scale.is_known();
     let (known_pivots, pivots): (Vec<Pivot>, Vec<Pivot>) =
         solution.pivots.into_iter().partition(known);
     let planned = Planned {
         role: Role::Accelerations,
+        rows: solution.accelerations.len() + solution.multipliers.len(),
         shape: Shape::Vector(solution.accelerations.len()),
         results: solution.accelerations,
         pivots,
     };
-    let mut drafts = planned.drafts(graph, basis);
+    let mut drafts = planned.drafts(&mut lowering.graph, basis);
     for draft in &mut drafts {
+        draft.form.reduced = source.reduction.is_some();
         draft.known_pivots.clone_from(&known_pivots);
     }
     drafts
@@ -643,6 +883,7 @@ fn solved(graph: &mut Graph, solution: Solution, basis: Basis) -> Vec<Draft> {
 /// The accelerations by [`articulated::solve`].
 fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
+    source: Set<'_, 'd>,
     matrix: &[Scaled],
     machine: &Unprojected<'d>,
     basis: Basis,
@@ -656,7 +897,7 @@ fn along_the_machine<'d>(
         pivots,
         names,
         ..
-    }) = articulated::solve(lowering.model, machine, order)
+    }) = articulated::solve(source.model, machine, order)
     else {
         return Vec::new();
     };
@@ -679,9 +920,10 @@ fn along_the_machine<'d>(
         let solution = Solution {
             pivots: pivots.collect(),
             accelerations: results.clone(),
+            multipliers: Vec::new(),
             columns: Vec::new(),
         };
-        solved(&mut lowering.graph, solution, basis)
+        solved(lowering, source, solution, basis)
     };
     let diagonal = |i: usize| matrix[Shape::index(i, i)];
     let full = with_scales(&|i, _| diagonal(i));
@@ -711,6 +953,7 @@ fn prepare(
     graph: &mut Graph,
     drafts: Vec<Draft>,
     model: &Model<'_>,
+    constraints: usize,
 ) -> (Function, Vec<String>, Vec<Function>) {
     let mut ids: Vec<Id> = drafts
         .iter()
@@ -724,6 +967,7 @@ fn prepare(
         .map(|(&id, index)| (id, index))
         .collect();
     let mut pivots = Vec::new();
+    let rows = model.coordinates.len() + constraints;
     let functions = drafts
         .into_iter()
         .map(|draft| {
@@ -763,11 +1007,9 @@ fn prepare(
             })
             .collect(),
         pivots,
+        rows,
     };
-    let mut prepare = planned.only(graph).function;
-    for guard in &mut prepare.guards {
-        guard.tolerance = solve::pivot_tolerance(model.coordinates.len());
-    }
+    let prepare = planned.only(graph).function;
     (prepare, formulas, functions)
 }
 

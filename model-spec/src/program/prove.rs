@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap;
 use super::{
     Arguments, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular, Source, Value,
 };
-use crate::mechanics::Oracle;
+use crate::mechanics::{Dependent, Oracle, dependents};
 use crate::model::{Model, Variable};
 
 /// The points at which everything must agree.
@@ -41,6 +41,13 @@ pub enum Disagreement {
     Motion {
         /// The index of the coordinate.
         coordinate: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// The accelerations do not obey this constraint.
+    Constraint {
+        /// The index of the constraint.
+        constraint: usize,
         /// The number of the point.
         point: u64,
     },
@@ -71,10 +78,16 @@ impl fmt::Display for Disagreement {
                     "the accelerations break equation {coordinate} at point {point}"
                 )
             }
+            Disagreement::Constraint { constraint, point } => {
+                write!(
+                    f,
+                    "the accelerations break constraint {constraint} at point {point}"
+                )
+            }
             Disagreement::Pivots { point } => {
                 write!(
                     f,
-                    "the guards do not hold the pivots of the mass matrix at point {point}"
+                    "the guards do not hold the pivots of the elimination at point {point}"
                 )
             }
             Disagreement::Singular(singular) => {
@@ -117,7 +130,7 @@ pub fn prove(
         .zip(&oracle.bias)
         .map(|(&applied, &bias)| applied - bias)
         .collect();
-    let quantities = [
+    let mut quantities = vec![
         Quantity {
             role: Role::MassMatrix,
             shape: Shape::Symmetric(n),
@@ -130,10 +143,32 @@ pub fn prove(
         scalar(Role::PotentialEnergy, oracle.potential_energy),
         scalar(Role::Dissipation, oracle.dissipation),
     ];
+    let constraints = &oracle.constraints;
+    if !constraints.is_empty() {
+        let each = |role, values: Vec<_>| Quantity {
+            role,
+            shape: Shape::Vector(values.len()),
+            values,
+        };
+        let rows = constraints.iter().flat_map(|c| c.row.clone()).collect();
+        quantities.extend([
+            each(
+                Role::ConstraintPositions,
+                constraints.iter().map(|c| c.position).collect(),
+            ),
+            each(
+                Role::ConstraintRates,
+                constraints.iter().map(|c| c.rate).collect(),
+            ),
+            each(Role::ConstraintMatrix, rows),
+        ]);
+    }
+    let dependents = dependents(model, &crate::mechanics::constraints(model));
     at_points(program, model, |point| {
         point.check_values(&quantities)?;
+        point.follow(&dependents);
         point.check_pivots()?;
-        point.check_motion(&oracle.residual)?;
+        point.check_motion(oracle)?;
         point.check_derivatives()?;
         point.check_stages()
     })
@@ -189,6 +224,8 @@ struct Point<'a, 'd> {
     interpreter: Interpreter<Residue>,
     /// The same with the values of guards for accelerations.
     guards: Interpreter<Residue>,
+    /// The coordinates that constraints settle.
+    settled: Vec<usize>,
     t: Residue,
     q: Vec<Residue>,
     v: Vec<Residue>,
@@ -212,11 +249,31 @@ impl<'a, 'd> Point<'a, 'd> {
             model,
             interpreter: Interpreter::new(program, &parameters),
             guards: Interpreter::new(&with_guarded_values(program), &parameters),
+            settled: Vec::new(),
             t: many(1)[0],
             q: many(n),
             v: many(n),
             u: many(model.inputs.len()),
             a: many(n),
+        }
+    }
+
+    /// Puts coordinates that constraints settle, and their rates, where they are settled: a program
+    /// may not look at them.
+    fn follow(&mut self, dependents: &[Dependent<'d>]) {
+        self.settled = dependents.iter().map(|d| d.coordinate).collect();
+        for dependent in dependents {
+            // What the start has decided may be anything.
+            let settled = match dependent.offset {
+                None => vec![dependent.rate, dependent.position],
+                Some(_) => vec![dependent.rate],
+            };
+            let values = self.evaluate_all(&settled, &self.a);
+            let i = dependent.coordinate;
+            self.v[i] = values[0];
+            if let Some(position) = values.get(1) {
+                self.q[i] = *position;
+            }
         }
     }
 
@@ -243,6 +300,16 @@ impl<'a, 'd> Point<'a, 'd> {
 
     /// The values of expressions, given the accelerations.
     fn evaluate(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Result<Vec<Residue>, Verdict> {
+        let results = self.evaluate_all(expressions, a);
+        if results.iter().all(|result| result.is_finite()) {
+            Ok(results)
+        } else {
+            Err(Verdict::Elsewhere)
+        }
+    }
+
+    /// The same, whether they have a value or not.
+    fn evaluate_all(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Vec<Residue> {
         let model = self.model;
         let mut values: FxHashMap<Symbol, Residue> = FxHashMap::default();
         let mut set = |symbol: Expr<'_>, value: Residue| {
@@ -263,12 +330,7 @@ impl<'a, 'd> Point<'a, 'd> {
             .iter()
             .zip(&self.u)
             .for_each(|(input, value)| set(input.symbol, *value));
-        let results = evaluate(model.dag, expressions, |symbol| values[&symbol]);
-        if results.iter().all(|result| result.is_finite()) {
-            Ok(results)
-        } else {
-            Err(Verdict::Elsewhere)
-        }
+        evaluate(model.dag, expressions, |symbol| values[&symbol])
     }
 
     fn check_values(&mut self, quantities: &[Quantity<'d>]) -> Result<(), Verdict> {
@@ -290,18 +352,52 @@ impl<'a, 'd> Point<'a, 'd> {
         Ok(())
     }
 
-    /// The accelerations, put into the equations of motion, leave nothing.
-    fn check_motion(&mut self, residual: &[Expr<'d>]) -> Result<(), Verdict> {
-        let accelerations = self.call(Role::Accelerations, residual.len())?;
-        let left = self.evaluate(residual, &accelerations)?;
-        match left.iter().position(|left| *left != Residue::ZERO) {
-            Some(coordinate) => Err(Disagreement::Motion {
-                coordinate,
-                point: self.number,
+    /// The accelerations and multipliers, put into the equations of motion and of the constraints,
+    /// leave nothing.
+    fn check_motion(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
+        let (n, point) = (oracle.residual.len(), self.number);
+        let accelerations = self.call(Role::Accelerations, n)?;
+        let mut left = self.evaluate(&oracle.residual, &accelerations)?;
+        if !oracle.constraints.is_empty() {
+            let multipliers = self.call(Role::Multipliers, oracle.constraints.len())?;
+            for (constraint, multiplier) in oracle.constraints.iter().zip(multipliers) {
+                let row = self.evaluate(&constraint.row, &accelerations)?;
+                for (left, g) in left.iter_mut().zip(row) {
+                    *left = *left - g * multiplier;
+                }
             }
-            .into()),
+            let residuals: Vec<Expr<'d>> = oracle.constraints.iter().map(|c| c.residual).collect();
+            let open = self.evaluate(&residuals, &accelerations)?;
+            if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
+                return Err(Disagreement::Constraint { constraint, point }.into());
+            }
+            let drift = self.call(Role::ConstraintDrift, residuals.len())?;
+            let coasting = self.evaluate(&residuals, &vec![Residue::ZERO; n])?;
+            let differs =
+                |(drift, coasting): (&Residue, &Residue)| *drift + *coasting != Residue::ZERO;
+            if let Some(index) = drift.iter().zip(&coasting).position(differs) {
+                let role = Role::ConstraintDrift;
+                return Err(Disagreement::Result { role, index, point }.into());
+            }
+        }
+        match left.iter().position(|left| *left != Residue::ZERO) {
+            Some(coordinate) => Err(Disagreement::Motion { coordinate, point }.into()),
             None => Ok(()),
         }
+    }
+
+    /// The lower triangle of the matrix that is eliminated: M, and behind it the rows of G.
+    fn lower(&mut self) -> Result<Vec<Residue>, Verdict> {
+        let (n, m) = (self.program.dimension(), self.program.constraints.len());
+        let mut lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
+        if m > 0 {
+            let rows = self.call(Role::ConstraintMatrix, n * m)?;
+            for (k, row) in rows.chunks(n).enumerate() {
+                lower.extend(row);
+                lower.extend(vec![Residue::ZERO; k + 1]);
+            }
+        }
+        Ok(lower)
     }
 
     /// The accelerations over dual numbers have the derivatives that the program says.
@@ -378,9 +474,10 @@ impl<'a, 'd> Point<'a, 'd> {
             return Ok(());
         };
         let expected = self.call(Role::Accelerations, n)?;
-        let lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
+        let lower = self.lower()?;
         // Pivots of parameters alone; those of the stages take the place of others.
-        let mut pivots: Vec<Option<[Residue; 2]>> = vec![None; n];
+        let rows = n + self.program.constraints.len();
+        let mut pivots: Vec<Option<[Residue; 2]>> = vec![None; rows];
         let probe = with_guarded_values(self.program);
         std::mem::swap(&mut self.interpreter, &mut self.guards);
         let values = self.in_stages(&probe, &mut pivots);
@@ -391,7 +488,7 @@ impl<'a, 'd> Point<'a, 'd> {
             return Err(Disagreement::Result { role, index, point }.into());
         }
         let pairs: Option<Vec<[Residue; 2]>> = pivots.into_iter().collect();
-        self.check_pairs(pairs.as_deref().unwrap_or_default(), &lower)
+        self.check_pairs(pairs.as_deref().unwrap_or_default(), &lower, true)
     }
 
     /// The accelerations in stages, and by coordinates the pivots on the way with their scales; by
@@ -429,38 +526,58 @@ impl<'a, 'd> Point<'a, 'd> {
     }
 
     /// The product of the pivots is the determinant of M, one for each coordinate, and each is held
-    /// against its Mᵢᵢ or itself.
+    /// against its Mᵢᵢ or itself; with constraints it is that of their matrix too, up to the signs of
+    /// theirs.
     fn check_pivots(&mut self) -> Result<(), Verdict> {
-        let n = self.program.dimension();
+        let n = self.program.dimension() + self.program.constraints.len();
         let wrong = Disagreement::Pivots { point: self.number };
-        let lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
+        let lower = self.lower()?;
         let coordinates = guarded_coordinates(self.program);
         let mut sorted = coordinates.clone();
         sorted.sort_unstable();
-        if sorted != (0..n).collect::<Vec<_>>() {
+        // A coordinate that a constraint settles may have none; then the constraint's is what it is
+        // divided by.
+        let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
+        let is_settled = |i: &usize| self.settled.contains(i);
+        if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
             return Err(wrong.into());
         }
         std::mem::swap(&mut self.interpreter, &mut self.guards);
-        let values = self.call(Role::Accelerations, 2 * n);
+        let values = self.call(Role::Accelerations, 2 * sorted.len());
         std::mem::swap(&mut self.interpreter, &mut self.guards);
         let values = values?;
-        let mut pairs = vec![[Residue::ZERO; 2]; n];
+        let mut pairs = vec![[Residue::ONE; 2]; n];
         for (&i, pair) in coordinates.iter().zip(values.chunks_exact(2)) {
             pairs[i] = [pair[0], pair[1]];
         }
-        self.check_pairs(&pairs, &lower)
+        self.check_pairs(&pairs, &lower, missing.is_empty())
     }
 
-    /// Pivots and their scales, by coordinates, are those of the matrix with that lower triangle.
-    fn check_pairs(&self, pairs: &[[Residue; 2]], lower: &[Residue]) -> Result<(), Verdict> {
-        let n = self.program.dimension();
-        let product = pairs
-            .iter()
-            .fold(Residue::ONE, |product, [pivot, _]| product * *pivot);
+    /// The product of pivots is the determinant of the matrix with that lower triangle, and where
+    /// they are those of M the scales are its diagonal.
+    fn check_pairs(
+        &self,
+        pairs: &[[Residue; 2]],
+        lower: &[Residue],
+        are_of_matrix: bool,
+    ) -> Result<(), Verdict> {
+        let coordinates = self.program.dimension();
+        let n = coordinates + self.program.constraints.len();
+        let product = (0..n)
+            .zip(pairs)
+            .fold(Residue::ONE, |product, (i, [pivot, _])| {
+                let sign = if i < coordinates {
+                    Residue::ONE
+                } else {
+                    -Residue::ONE
+                };
+                product * sign * *pivot
+            });
         let diagonal = |i: usize| lower[Shape::index(i, i)];
-        let mut by_coordinates = pairs.iter().enumerate();
-        let scales =
-            by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
+        let mut by_coordinates = pairs.iter().take(coordinates).enumerate();
+        // Where coordinates are put into others, these have another inertia.
+        let scales = !are_of_matrix
+            || by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
         let determinant = determinant(lower, n);
         if !determinant.is_finite() {
             return Err(Verdict::Elsewhere);

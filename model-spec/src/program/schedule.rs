@@ -437,7 +437,7 @@ fn by_time((code, roots): (Vec<Op>, Vec<Value>)) -> (Vec<Op>, Vec<Value>) {
         guards: Vec::new(),
     };
     let cost = function.cost();
-    if cost.path <= cost.throughput || function.code.len() > LONGEST {
+    if cost.path <= cost.throughput || function.code.len() > LONGEST_SCHEDULED {
         return (function.code, function.results);
     }
     let rows = Rows::of(&function);
@@ -464,7 +464,7 @@ struct Rows {
 
 /// The longest function in the order of time. Longer ones are cut into pieces or written as loops, for
 /// which what belongs together must stand together.
-const LONGEST: usize = 8000;
+pub const LONGEST_SCHEDULED: usize = 8000;
 
 /// Operations of arithmetic that are started in a cycle.
 const UNITS: u32 = 2;

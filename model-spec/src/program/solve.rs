@@ -10,6 +10,12 @@
 //! parameters decide are free, because they are done once. Zeros stay out of the code altogether;
 //! blocks that are not coupled fall apart by themselves.
 //!
+//! Bilateral constraints are further rows and columns, `M a − Gᵀ λ = f` and `G a = γ`, which is
+//! symmetric in `a` and `−λ`. The whole is not definite, so not every order will do; a constraint is
+//! eliminated once all its coordinates are, and then its pivot is `−G M⁻¹ Gᵀ` of what is
+//! eliminated already: of one sign wherever the constraints say different things. So a long chain
+//! that closes is eliminated from its ends, as a tree is.
+//!
 //! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
 //! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
 
@@ -33,6 +39,8 @@ pub(super) fn pivot_tolerance(n: usize) -> f64 {
 /// Accelerations, and the pivots that must not vanish, in the order of elimination.
 pub(super) struct Solution {
     pub(super) accelerations: Vec<Scaled>,
+    /// Of the constraints.
+    pub(super) multipliers: Vec<Scaled>,
     pub(super) pivots: Vec<Pivot>,
     /// What was done with each pivot.
     pub(super) columns: Vec<Column>,
@@ -45,15 +53,27 @@ pub(super) struct Pivot {
     pub(super) scale: Scaled,
 }
 
-/// Solves `M a = f`; `matrix` is the lower triangle of M row by row.
-pub(super) fn solve(
-    graph: &mut Graph,
-    matrix: &[Scaled],
-    forces: &[Scaled],
-    elimination: Elimination,
-) -> Solution {
-    let n = forces.len();
+/// What is solved: the lower triangle of M row by row and f; behind them the rows of G, each with
+/// zeros up to the diagonal, and γ.
+#[derive(Clone, PartialEq)]
+pub(super) struct System {
+    pub(super) matrix: Vec<Scaled>,
+    pub(super) forces: Vec<Scaled>,
+    /// How many rows are of coordinates.
+    pub(super) coordinates: usize,
+}
+
+/// Solves `M a = f + Gᵀ λ`, `G a = γ`.
+pub(super) fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> Solution {
+    let System {
+        matrix,
+        forces,
+        coordinates,
+    } = system;
+    let (n, is_constraint) = (forces.len(), |row: usize| row >= *coordinates);
     let mut left = Entries::new(matrix, n);
+    // The diagonal of G M⁻¹ Gᵀ.
+    let mut compliance: Vec<Vec<Scaled>> = vec![Vec::new(); n - coordinates];
     let mut pivots = Vec::with_capacity(n);
     let mut reduced: Vec<Vec<Scaled>> = forces.iter().map(|force| vec![*force]).collect();
     let mut columns: Vec<Column> = Vec::with_capacity(n);
@@ -61,10 +81,17 @@ pub(super) fn solve(
     for k in elimination.order {
         eliminated[k] = true;
         let pivot = left.total(graph, k, k);
-        pivots.push(Pivot {
-            coordinate: k,
-            pivot,
-            scale: matrix[Shape::index(k, k)],
+        pivots.push(match is_constraint(k) {
+            false => Pivot {
+                coordinate: k,
+                pivot,
+                scale: matrix[Shape::index(k, k)],
+            },
+            true => Pivot {
+                coordinate: k,
+                pivot: pivot.negated(),
+                scale: total(graph, &compliance[k - coordinates]),
+            },
         });
         // Column k of what is left of M: u, of which l = u/d.
         let mut column = Vec::new();
@@ -80,6 +107,9 @@ pub(super) fn solve(
             for &(j, u, _) in &column[..=position] {
                 let product = graph.product(&[(l, 1), (u, 1)]);
                 left.subtract(i, j, product);
+                if i == j && is_constraint(i) && !is_constraint(k) {
+                    compliance[i - coordinates].push(product);
+                }
             }
         }
         // fᵢ −= lᵢ fₖ.
@@ -105,8 +135,10 @@ pub(super) fn solve(
         );
         accelerations[*k] = total(graph, &terms);
     }
+    let multipliers = accelerations.split_off(*coordinates);
     Solution {
         accelerations,
+        multipliers: multipliers.into_iter().map(Scaled::negated).collect(),
         pivots,
         columns,
     }
@@ -239,14 +271,25 @@ pub(super) struct Elimination {
 }
 
 impl Elimination {
-    /// The order for a matrix of `n` rows, given by its lower triangle.
-    pub(super) fn of(matrix: &[Scaled], n: usize) -> Elimination {
-        let mut pattern = Pattern::new(&Entries::new(matrix, n));
+    /// The order for a system.
+    pub(super) fn of(system: &System) -> Elimination {
+        let n = system.forces.len();
+        let mut pattern = Pattern::new(&Entries::new(&system.matrix, n));
+        let whole = pattern.kinds.clone();
+        // A constraint waits for all its coordinates.
+        let is_ready = |k: usize, left: &[usize]| {
+            let waits_for = |&&i: &&usize| i < system.coordinates && whole[k][i] != Kind::Zero;
+            k < system.coordinates || left.iter().find(waits_for).is_none()
+        };
         let mut elimination = Elimination {
             order: Vec::with_capacity(n),
             multiplications: 0,
         };
-        while let Some((cost, k)) = pattern.left.iter().map(|&k| (pattern.cost(k), k)).min() {
+        let next = |pattern: &Pattern| {
+            let ready = pattern.left.iter().filter(|k| is_ready(**k, &pattern.left));
+            ready.map(|&k| (pattern.cost(k), k)).min()
+        };
+        while let Some((cost, k)) = next(&pattern) {
             elimination.order.push(k);
             elimination.multiplications += cost;
             pattern.eliminate(k);

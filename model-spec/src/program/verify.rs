@@ -73,9 +73,9 @@ impl Program {
         }
         match guards
             .iter()
-            .find(|guard| guard.coordinate >= self.dimension())
+            .find(|guard| guard.coordinate >= self.dimension() + self.constraints.len())
         {
-            Some(guard) => Err(format!("{guard:?} is of no coordinate")),
+            Some(guard) => Err(format!("{guard:?} is of no coordinate and no constraint")),
             None => Ok(()),
         }
     }

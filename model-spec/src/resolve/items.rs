@@ -9,11 +9,11 @@ use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
 use super::value::{Limit, MemberId, Scalar, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::mechanics::experiment;
+use crate::mechanics::circles;
 use crate::model::{
     Action, Approximation, ApproximationKind, Body, Circle, Constant, Constraint, Contact,
     ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Name, Output,
-    Parameter, Place, Rolling, Rotation, Sliding, Space, Term, Torque, Touching, stage,
+    Parameter, Place, Rolling, Rotation, Sliding, Space, Surface, Term, Torque, Touching, stage,
 };
 use crate::source::Span;
 use crate::syntax::{self, Expression, ExpressionKind, Quantity, Record, SectionKind};
@@ -121,7 +121,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 "a sliding contact is `name { body: …, on: …, direction: …, friction: … }`"
             }
             SectionKind::Circles => "a circle is `name { on: …, center: …, radius: … }`",
-            SectionKind::Rolling => "it is `name { circle: …, inside: … }` or with `outside`",
+            SectionKind::Rolling => {
+                "it is `name { circle: …, inside: … }` or with `outside` or `along`"
+            }
             _ => {
                 "a contact is `name { circle: …, inside: …, restitution: …, friction: … }`, \
                  with `outside`, or with `gap` and `slip` in their place"
@@ -581,19 +583,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// So the ends of a spring in polar coordinates are `r` apart, and points of one line `b − a`: no
     /// root is left, and no quotient by it in the force. The run checks what is assumed.
     fn stretch(&self, line: &[Expr<'d>], free: Expr<'d>) -> Expr<'d> {
-        let length = self.length(line);
-        let (square, symbols) = (length.square(), length.symbols());
-        let known = self.facts.iter().find(|(fact, of)| {
-            of.is_subset(&symbols) && experiment::equal(fact.square(), square) == Some(true)
-        });
-        match known.map(|&(fact, _)| (fact, self.dag.node(fact.id()))) {
+        let length = circles::distance(line, &self.facts);
+        match length.node() {
             // Added up as one sum, so that a free length in it cancels.
-            Some((_, Node::Sum(terms))) => {
+            Node::Sum(terms) => {
                 let term = |(id, factor): &(Id, Rational)| self.dag.expr(*id) * factor.clone();
                 self.dag.sum(terms.iter().map(term).chain([-free]))
             }
-            Some((fact, _)) => fact - free,
-            None => length - free,
+            _ => length - free,
         }
     }
 
@@ -918,7 +915,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return None;
         };
         let scope = self.scope(member, &limits::CONSTRAINT);
-        let expression = self.difference(&equation.left, &equation.right, scope)?;
+        let ([left, right], unit) = self.sides(&equation.left, &equation.right, scope)?;
+        let expression = left - right;
         let span = equation.left.span.to(equation.right.span);
         if expression.stage() < stage::POSITION {
             let message = "this constrains no coordinate";
@@ -933,6 +931,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(Constraint {
             name: self.name(member),
             expression,
+            unit,
             span: self.span(member),
         })
     }
@@ -944,6 +943,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         right: &'a Expression,
         scope: Scope<'a>,
     ) -> Option<Expr<'d>> {
+        let ([left, right], _) = self.sides(left, right, scope)?;
+        Some(left - right)
+    }
+
+    /// Both sides of a relation, and their unit; of bare numbers it is 1.
+    pub fn sides(
+        &mut self,
+        left: &'a Expression,
+        right: &'a Expression,
+        scope: Scope<'a>,
+    ) -> Option<([Expr<'d>; 2], Unit)> {
         let first = self.scalar(left, scope);
         let hint = first.and_then(|first| first.unit);
         let second = self.scalar(right, scope.hinting(hint));
@@ -951,7 +961,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if let Some(unit) = first.unit {
             self.demand(second.unit, unit, right.span, "both sides have one unit");
         }
-        Some(first.expr - second.expr)
+        let unit = first.unit.or(second.unit).unwrap_or(Unit::ONE);
+        Some(([first.expr, second.expr], unit))
     }
 
     /// Whether no derivative with respect to a velocity depends on a velocity.
@@ -1026,17 +1037,31 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
-    /// `circle` with `inside` or `outside`: which circles touch.
+    /// `circle` with `inside`, `outside` or `along`: what touches what.
     fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
         let circle = self.field(member, record, "circle");
         let inside = record.get("inside");
         if inside.is_some() {
             self.conflict(record, "outside", "inside");
+            self.conflict(record, "along", "inside");
+        } else if record.get("outside").is_some() {
+            self.conflict(record, "along", "outside");
         }
         let other = inside.or(record.get("outside"));
+        if let (None, Some(along)) = (other, record.get("along")) {
+            let circle = circle.and_then(|circle| self.circle_at(member, circle));
+            let scope = self.scope(member, &limits::POINT);
+            let pose = self.frame(along, scope);
+            return Some(Touching {
+                circle: self.ordinal(circle?)?,
+                surface: Surface::Along(pose?),
+            });
+        }
         if other.is_none() {
             let base = &self.declaration(member).name.base.text;
-            let message = format!("`{base}` needs the circle that it is `inside` or `outside`");
+            let message = format!(
+                "`{base}` needs the circle that it is `inside` or `outside`, or the frame `along` which it moves"
+            );
             self.missing_field(member, message);
         }
         let circle_member = circle.and_then(|circle| self.circle_at(member, circle));
@@ -1048,8 +1073,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         Some(Touching {
             circle: self.ordinal(circle_member)?,
-            other: self.ordinal(other_member)?,
-            inside: inside.is_some(),
+            surface: {
+                let other = self.ordinal(other_member)?;
+                match inside {
+                    Some(_) => Surface::Inside(other),
+                    None => Surface::Outside(other),
+                }
+            },
         })
     }
 
@@ -1083,7 +1113,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .iter()
             .any(|field| record.field(field).is_some());
         let geometry = if by_expressions {
-            for field in ["circle", "inside", "outside"] {
+            for field in ["circle", "inside", "outside", "along"] {
                 self.conflict(record, field, "gap");
             }
             self.gap_and_slip(member, record)

@@ -49,14 +49,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn assumption(&mut self, relation: &'a Relation, scope: Scope<'a>) -> Option<Assumption<'d>> {
-        let difference = self.difference(&relation.left, &relation.right, scope)?;
-        let (greater, strict) = match relation.operator.value {
-            Comparison::Greater => (true, true),
-            Comparison::GreaterOrEqual => (true, false),
-            Comparison::Less => (false, true),
-            Comparison::LessOrEqual => (false, false),
+        let ([left, right], _) = self.sides(&relation.left, &relation.right, scope)?;
+        let (excess, strict) = match relation.operator.value {
+            Comparison::Greater => (left - right, true),
+            Comparison::GreaterOrEqual => (left - right, false),
+            Comparison::Less => (right - left, true),
+            Comparison::LessOrEqual => (right - left, false),
         };
-        let excess = if greater { difference } else { -difference };
         if excess.stage() == stage::CONSTANT && self.needs.is_empty() {
             let number = nearest(excess);
             if number < 0.0 || (strict && number == 0.0) {

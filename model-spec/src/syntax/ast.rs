@@ -63,9 +63,9 @@ pub struct Spec {
     pub sliding: Vec<Item<Record>>,
     /// `name { on, center, radius }`
     pub circles: Vec<Item<Record>>,
-    /// `name { circle, inside or outside }`
+    /// `name { circle, inside or outside or along }`
     pub rolling: Vec<Item<Record>>,
-    /// `name { circle, inside or outside, restitution, friction }` or `name { gap, slip, … }`
+    /// `name { circle, inside or outside or along, restitution, friction }` or `name { gap, slip, … }`
     pub contacts: Vec<Item<Record>>,
 
     /// `name: left = right`
@@ -200,11 +200,12 @@ impl SectionKind {
             SectionKind::Torques => &["on", "torque"],
             SectionKind::Sliding => &["body", "on", "direction", "friction"],
             SectionKind::Circles => &["on", "center", "radius"],
-            SectionKind::Rolling => &["circle", "inside", "outside"],
+            SectionKind::Rolling => &["circle", "inside", "outside", "along"],
             SectionKind::Contacts => &[
                 "circle",
                 "inside",
                 "outside",
+                "along",
                 "gap",
                 "slip",
                 "restitution",

@@ -89,18 +89,15 @@ pub fn residues(
     let mut found = Vec::new();
     for seed in 0..4096 {
         let random = |symbol: Symbol| Residue::random(seed, symbol.index() as u64);
-        let accelerations = if moving {
-            accelerations(model, equations, random)
+        let known = if moving {
+            motion(model, equations, random)
         } else {
             Some(Vec::new())
         };
-        let Some(accelerations) = accelerations else {
+        let Some(known) = known else {
             continue;
         };
-        let value = |symbol: Symbol| {
-            let known = accelerations.iter().find(|(known, _)| *known == symbol);
-            known.map_or_else(|| random(symbol), |(_, value)| *value)
-        };
+        let value = |symbol: Symbol| among(&known, symbol).unwrap_or_else(|| random(symbol));
         let values = evaluate(model.dag, expressions, value);
         if values.iter().all(|value| value.is_finite()) {
             found.push(values);
@@ -112,22 +109,60 @@ pub fn residues(
     panic!("{}: no point at which everything has a value", model.name)
 }
 
-/// `a = M⁻¹ f` at a point.
-fn accelerations(
+/// What the equations say of symbols at a point.
+type Known = Vec<(Symbol, Residue)>;
+
+fn among(known: &Known, symbol: Symbol) -> Option<Residue> {
+    let found = known.iter().find(|(known, _)| *known == symbol);
+    found.map(|&(_, value)| value)
+}
+
+/// Velocities that the constraints admit, the accelerations there and the multipliers.
+fn motion(
     model: &Model<'_>,
     equations: &Equations<'_>,
+    random: impl Fn(Symbol) -> Residue,
+) -> Option<Known> {
+    let dag = model.dag;
+    let constraints = &equations.constraints;
+    let symbol = |e: Expr<'_>| e.as_symbol().expect("a symbol");
+    // By what it takes to stop them: M Δv = Gᵀ μ and G Δv = −φ.
+    let nothing = vec![dag.zero(); model.coordinates.len()];
+    let rates = constraints.iter().map(|c| c.rate);
+    let stopped = balanced(model, equations, nothing.into_iter().chain(rates), &random)?;
+    let velocities = model.coordinates.iter().map(|c| symbol(c.v)).zip(stopped);
+    let mut known: Known = velocities.map(|(v, by)| (v, random(v) + by)).collect();
+    let value = |symbol: Symbol| among(&known, symbol).unwrap_or_else(|| random(symbol));
+    // M a = f + Gᵀ λ and G a = γ.
+    let drifts = constraints.iter().map(|c| -c.drift);
+    let right = equations.forces.iter().copied().chain(drifts);
+    let solution = balanced(model, equations, right, value)?;
+    let symbols = model.coordinates.iter().map(|c| c.a);
+    let symbols = symbols.chain(constraints.iter().map(|c| c.multiplier));
+    let found: Known = symbols.map(symbol).zip(solution).collect();
+    known.extend(found);
+    Some(known)
+}
+
+/// Solves `M x − Gᵀ y` and `−G x` for x and y.
+fn balanced<'d>(
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+    right: impl Iterator<Item = Expr<'d>>,
     value: impl Fn(Symbol) -> Residue,
-) -> Option<Vec<(Symbol, Residue)>> {
-    let entries = evaluate(model.dag, equations.mass_matrix.lower(), &value);
+) -> Option<Vec<Residue>> {
+    let dag = model.dag;
+    let constraints = &equations.constraints;
+    let rows = constraints.iter().enumerate().flat_map(|(k, c)| {
+        let zeros = std::iter::repeat_n(dag.zero(), k + 1);
+        c.row.iter().map(|&g| -g).chain(zeros)
+    });
+    let entries = equations.mass_matrix.lower().iter().copied().chain(rows);
+    let entries = evaluate(dag, &entries.collect::<Vec<_>>(), &value);
     let mut entries = entries.into_iter();
-    let n = model.coordinates.len();
-    let matrix = Symmetric::from_lower(n, |_, _| entries.next().expect("one for each"));
-    let a = solve(&matrix, &evaluate(model.dag, &equations.forces, &value))?;
-    let symbols = model
-        .coordinates
-        .iter()
-        .map(|c| c.a.as_symbol().expect("a symbol"));
-    Some(symbols.zip(a).collect())
+    let size = model.coordinates.len() + constraints.len();
+    let matrix = Symmetric::from_lower(size, |_, _| entries.next().expect("one for each"));
+    solve(&matrix, &evaluate(dag, &right.collect::<Vec<_>>(), &value))
 }
 
 /// Gauß–Jordan elimination.

@@ -26,19 +26,19 @@ fn sections_that_are_not_derived_yet_are_named() {
             coordinates { x: m, y: m }
             frames { table = ground.shift(x, y) }
             bodies { ball { mass: m, inertia: m*r^2, frame: table } }
-            constraints { guide: y = x^2/r }
             circles {
                 rim { on: ball, center: (0, 0), radius: r },
                 bowl { on: ground, center: (0, 0), radius: 2*r },
             }
-            rolling { inside { circle: rim, inside: bowl } }
+            sliding { guide { body: ball, on: ground, direction: (1, 0), friction: 0.1 } }
+            contacts { inside { circle: rim, inside: bowl, restitution: 0.5, friction: 0.1 } }
         }",
     );
     // Circles alone are a drawing.
     assert_eq!(codes.len(), 2);
     assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
     assert!(
-        codes[0].1.contains("`constraints`") && codes[1].1.contains("`rolling`"),
+        codes[0].1.contains("`sliding`") && codes[1].1.contains("`contacts`"),
         "{codes:?}"
     );
 }

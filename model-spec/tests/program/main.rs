@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod candidates;
+mod constraints;
 mod derivatives;
 mod harness;
 mod lowering;

@@ -2,7 +2,7 @@ lagrangian::machine! {
     machine Bead in plane {
         coordinates { x: m, y: m }
         bodies { bead { mass: 1, at: (x, y) } }
-        constraints { wire: x^2 + y^2 = 1 }
+        sliding { table { body: bead, on: ground, direction: (1, 0), friction: 0.1 } }
     }
 }
 

@@ -83,7 +83,14 @@ impl<'d> Chapter<'_, 'd> {
         let mut words = words![q(), " is cyclic: neither ", t, " nor ", v, " depends on it"];
         words.extend(match cyclic.force.is_zero() {
             true => words![", and nothing else acts on it. Its momentum is conserved:"],
-            false => words![". Its momentum is changed by what is applied and damped alone:"],
+            false if self.compiled.equations.constraints.is_empty() => {
+                words![". Its momentum is changed by what is applied and damped alone:"]
+            }
+            false => {
+                words![
+                    ". Its momentum is changed by what is applied, damped and constrained alone:"
+                ]
+            }
         });
         let momentum = self.momentum(cyclic);
         let mut rows = Row::lines(&p().equals(momentum), 0, "");
@@ -94,7 +101,10 @@ impl<'d> Chapter<'_, 'd> {
                 .contributions
                 .iter()
                 .map(|part| part.forces[cyclic.coordinate]);
-            rows.extend(self.equality(rate, self.model.dag.sum(forces), ""));
+            let reactions = self.compiled.equations.constraints.iter();
+            let reactions = reactions.map(|c| c.row[cyclic.coordinate] * c.multiplier);
+            let all = self.model.dag.sum(forces.chain(reactions));
+            rows.extend(self.equality(rate, all, ""));
         }
         vec![Block::Paragraph(words), Block::Formula(rows)]
     }

@@ -240,6 +240,17 @@ impl<'a> Emitter<'a> {
             (Role::Accelerations | Role::AccelerationsAt, _) => {
                 each(&|name| format!("{name}_ddot"))
             }
+            (Role::ConstraintMatrix, shape) => {
+                let entries = (0..shape.len()).map(|k| (k / self.program.dimension(), k));
+                entries
+                    .map(|(i, k)| (i + 1, k % self.program.dimension() + 1))
+                    .map(|(i, j)| format!("g{i}_{j}"))
+                    .collect()
+            }
+            (Role::ConstraintPositions, _) => numbered("g", function.shape.len()),
+            (Role::ConstraintRates, _) => numbered("phi", function.shape.len()),
+            (Role::ConstraintDrift, _) => numbered("gamma", function.shape.len()),
+            (Role::Multipliers, _) => numbered("lambda", function.shape.len()),
             (Role::Bias, _) => each(&|name| format!("h_{name}")),
             (Role::Applied, _) => each(&|name| format!("q_{name}")),
             (Role::Forces, _) => each(&|name| format!("f_{name}")),
@@ -269,8 +280,12 @@ impl<'a> Emitter<'a> {
                     Some(choice) => format!(" {}", choice.chosen().form),
                     None => String::new(),
                 };
+                let equations = match self.program.constraints.is_empty() {
+                    true => "`M a = f`",
+                    false => "`M a = f + G^T lambda`, `G a = gamma`",
+                };
                 format!(
-                    "Accelerations `a`, the solution of `M a = f`{form}.\n\n\
+                    "Accelerations `a`, the solution of {equations}{form}.\n\n\
                      What is known to be zero is not computed; a pivot that vanishes is an error."
                 )
             }
@@ -282,6 +297,13 @@ impl<'a> Emitter<'a> {
                 A pivot that vanishes is an error."
                 .into(),
             Role::AccelerationsAt => "Accelerations `a` of what the stage before has left.".into(),
+            Role::ConstraintPositions => "What is left of the constraints of positions, `g`; 0 for the others.".into(),
+            Role::ConstraintRates => "What is left of the constraints at the level of velocities, `G v + dg/dt`.".into(),
+            Role::ConstraintMatrix => "The matrix `G` of the constraints, row after row.".into(),
+            Role::ConstraintDrift => "`gamma` of `G a = gamma`.".into(),
+            Role::Multipliers => "Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.\n\n\
+                A pivot that vanishes is an error."
+                .into(),
             Role::KineticEnergy => "Kinetic energy `T`, in J.".into(),
             Role::PotentialEnergy => "Potential energy `V`, in J.".into(),
             Role::Dissipation => "Dissipation function `D`, in W.".into(),
@@ -361,6 +383,8 @@ impl<'a> Emitter<'a> {
             "singular",
             "check",
             "sound",
+            "are_near",
+            "result",
             "vanishes",
             "None",
             "Some",
@@ -369,6 +393,9 @@ impl<'a> Emitter<'a> {
             "PARAMETERS",
             "COORDINATES",
             "INPUTS",
+            "CONSTRAINTS",
+            "constraint",
+            "fill",
             "OUTPUTS",
         ])
     }
@@ -407,6 +434,11 @@ impl<'a> Emitter<'a> {
         self.writer.expression("", &literal, "");
         self.writer.close("}");
     }
+}
+
+/// Names with numbers behind them, from 1.
+fn numbered(name: &str, len: usize) -> Vec<String> {
+    (1..=len).map(|i| format!("{name}{i}")).collect()
 }
 
 /// What either of two functions reads.

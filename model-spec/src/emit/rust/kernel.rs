@@ -25,28 +25,38 @@ impl Emitter<'_> {
             Role::AtTime => self.types.stage_calls[0].clone(),
             Role::AtPosition => self.types.stage_calls[1].clone(),
             Role::AccelerationsAt => self.types.stage_calls[2].clone(),
+            Role::Multipliers => self.types.multipliers_call.clone(),
             _ => self.types.accelerations.clone(),
         }
     }
 
     /// A function that is called often.
     pub(super) fn kernel(&mut self, function: &Function) {
-        let longest = self.options.longest_whole;
-        let plan = self
-            .plans
-            .get(&function.role)
-            .filter(|plan| plan.len() <= longest);
-        let plan = plan.cloned();
-        let cut = match plan {
-            Some(_) => None,
-            None => cut::cut(function, self.prepared.len(), longest),
-        };
+        let (plan, cut) = self.parts(function);
         self.choice(function);
         self.call_as_value(function);
         self.run(function, plan.as_ref(), cut.as_ref());
         if let Some(cut) = &cut {
             self.pieces(function.role, cut);
         }
+    }
+
+    /// How a function is written if not as one straight text: with loops, or in pieces.
+    fn parts(&self, function: &Function) -> (Option<Plan>, Option<Cut>) {
+        let longest = self.options.longest_whole;
+        let plan = self
+            .plans
+            .get(&function.role)
+            .filter(|plan| plan.len() <= longest);
+        match plan {
+            Some(plan) => (Some(plan.clone()), None),
+            None => (None, cut::cut(function, self.prepared.len(), longest)),
+        }
+    }
+
+    /// Whether a function is not written as one straight text.
+    pub(super) fn is_in_parts(&self, function: &Function) -> bool {
+        !matches!(self.parts(function), (None, None))
     }
 
     /// The function that everybody calls.
@@ -210,14 +220,9 @@ impl Emitter<'_> {
         if body.guards.is_empty() {
             return;
         }
-        let register = self.types.register.clone();
         let guards = || function.guards.iter().zip(&body.guards);
-        let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
-            let share = number(guard.tolerance);
-            format!("{pivot}.exceeds({register}::from_f64({share}) * {scale})")
-        };
-        let last = format!("{}.is_finite()", results[body.latest]);
-        let conditions: Vec<String> = guards().map(exceeds).chain([last]).collect();
+        let mut conditions = self.exceeding(function, body);
+        conditions.push(format!("{}.is_finite()", results[body.latest]));
         // As rustfmt has it, which generated code is held to: on one line of a method, on the next, or
         // on one line each.
         let value = format!("{};", conditions.join(" & "));
@@ -247,6 +252,17 @@ impl Emitter<'_> {
                 .line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
         }
         self.writer.close("}");
+    }
+
+    /// The conditions that pivots have to meet.
+    pub(super) fn exceeding(&self, function: &Function, body: &Unchecked) -> Vec<String> {
+        let register = &self.types.register;
+        let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
+            let share = number(guard.tolerance);
+            format!("{pivot}.exceeds({register}::from_f64({share}) * {scale})")
+        };
+        let guards = function.guards.iter().zip(&body.guards);
+        guards.map(exceeds).collect()
     }
 
     /// The results as they are kept outside of registers; their name comes back.
@@ -433,7 +449,7 @@ fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
 }
 
 /// `&'a [S; 2]` of `&[S; 2]`.
-fn with_lifetime(kind: &str) -> String {
+pub(super) fn with_lifetime(kind: &str) -> String {
     match kind.strip_prefix('&') {
         Some(kind) => format!("&'a {kind}"),
         None => kind.to_owned(),

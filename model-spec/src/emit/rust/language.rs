@@ -138,10 +138,11 @@ impl Language for Rust<'_> {
     fn sin_cos_all(&self, writer: &mut Writer, angles: &[Angle]) {
         let values = angles.iter().map(|angle| angle.angle.text.clone());
         writer.expression("let angles = ", &Layout::array(values), ";");
-        writer.line(format!(
-            "let circular = {}::sin_cos_all(angles);",
-            self.number()
-        ));
+        let number = self.number();
+        writer.line(match self.emitter.asks_once {
+            true => format!("let (circular, are_near) = {number}::sin_cos_all_near(angles);"),
+            false => format!("let circular = {number}::sin_cos_all(angles);"),
+        });
         let name = |name: &Option<String>| name.clone().unwrap_or_else(|| "_".into());
         for (i, angle) in angles.iter().enumerate() {
             let (sin, cos) = (name(&angle.sin), name(&angle.cos));
@@ -298,34 +299,20 @@ fn rational(scalar: &str, value: &Rational) -> Text {
         (Some(n), Some(d)) => format!("{scalar}::from_ratio({n}, {d})"),
         // Longer than 64 bits: the nearest `f64`, then the nearest to what that lacks, for those who see the difference.
         _ => {
-            let exact = dyadic(nearest);
+            let exact = Rational::exactly(nearest);
             let rest = exact.map_or(0.0, |exact| (value - &exact).to_f64());
             match rest == 0.0 {
                 true => format!("{scalar}::from_f64({})", number(nearest)),
                 false => {
-                    format!(
-                        "({scalar}::from_f64({}) + {scalar}::from_f64({}))",
+                    return Text::sum(format!(
+                        "{scalar}::from_f64({}) + {scalar}::from_f64({})",
                         number(nearest),
                         number(rest)
-                    )
+                    ));
                 }
             }
         }
     })
-}
-
-/// What an `f64` is exactly.
-fn dyadic(x: f64) -> Option<Rational> {
-    let bits = x.abs().to_bits();
-    let exponent = (bits >> 52) as i32;
-    let fraction = (bits & ((1 << 52) - 1)) as i64;
-    let (mantissa, power) = if exponent == 0 {
-        (fraction, -1074)
-    } else {
-        (fraction | 1 << 52, exponent - 1075)
-    };
-    let magnitude = Rational::from(mantissa).checked_mul(&Rational::from(2).pow(power)?)?;
-    Some(if x < 0.0 { -magnitude } else { magnitude })
 }
 
 /// An `f64` as a literal.

@@ -1,14 +1,14 @@
 //! What a library that is called from C holds of a machine: its parameters, what is prepared of them, and the
 //! accelerations, with the numbers in a row as C passes them.
 
-use std::fmt::Write as _;
-
 use super::Emitter;
+use super::kernel::with_lifetime;
 use super::language::number;
 use super::types::{Group, Types, literal};
+use crate::emit::body::Binding;
 use crate::emit::layout::Layout;
 use crate::emit::names::Field;
-use crate::program::{Role, Slot};
+use crate::program::{Function, Role, Slot, early_angles};
 
 impl Emitter<'_> {
     /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular` and `scalar::Kernel` only.
@@ -36,8 +36,7 @@ impl Emitter<'_> {
         let inputs = Group::new(&self.program.inputs);
         self.structure(&self.types.inputs.clone(), "The inputs.", &inputs, false);
         if let Some(function) = self.program.function(Role::Accelerations) {
-            self.function(function);
-            self.evaluate(&inputs);
+            self.evaluate(function, &inputs);
         }
         self.helpers_of_guards();
         self.writer.finish()
@@ -127,18 +126,24 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    /// `evaluate`: the accelerations, whatever they need of all that a library is given; none at singular poses.
-    fn evaluate(&mut self, inputs: &Group<'_>) {
-        let Some(function) = self.program.function(Role::Accelerations) else {
-            return;
-        };
+    /// `evaluate`: the accelerations, whatever they need of all that a library is given; false at singular poses.
+    fn evaluate(&mut self, function: &Function, inputs: &Group<'_>) {
+        let in_parts = self.is_in_parts(function);
+        if in_parts {
+            self.function(function);
+        }
         let runtime = self.options.runtime.clone();
         let Types {
             prepared, scalar, ..
         } = self.types.clone();
-        let (option, n) = (self.types.known("Option"), self.program.dimension());
+        let (bool, n) = (self.types.known("bool"), self.program.dimension());
         self.writer.gap();
-        self.docs("The accelerations; none where the mass matrix is singular.");
+        self.docs("Puts the accelerations where they go, and says whether they hold.");
+        self.docs("");
+        self.docs(
+            "They don't where the mass matrix is singular; nor may they where an angle of one of several lanes is so \
+             large that it has to be evaluated alone. What is in `result` then is of no use.",
+        );
         self.writer.line("#[inline(always)]");
         self.writer.signature(
             &format!("pub fn evaluate<{scalar}: {runtime}::Number>"),
@@ -148,8 +153,9 @@ impl Emitter<'_> {
                 format!("q: &[{scalar}; {n}]"),
                 format!("v: &[{scalar}; {n}]"),
                 format!("row: &[{scalar}; {}]", self.program.inputs.len()),
+                format!("result: &mut [{scalar}; {n}]"),
             ],
-            Some(&format!("{option}<[{scalar}; {n}]>")),
+            Some(&bool),
         );
         let needs = self.needs(function);
         if needs.inputs {
@@ -157,13 +163,94 @@ impl Emitter<'_> {
             let value = inputs.literal(&name, |slot| format!("row[{slot}]"));
             self.writer.expression("let u = ", &value, ";");
         }
-        let mut arguments = String::new();
-        for (i, (name, _)) in self.arguments(needs).iter().enumerate() {
-            let separator = if i == 0 { "" } else { ", " };
-            let reference = if *name == "u" { "&" } else { "" };
-            let _ = write!(arguments, "{separator}{reference}{name}"); // writing to a String cannot fail
+        let mut arguments = Vec::new();
+        for (name, _) in self.arguments(needs) {
+            arguments.push(match name {
+                "u" if in_parts => "&u",
+                "u" => "u: &u",
+                name => name,
+            });
         }
-        self.writer.line(format!("accelerations({arguments}).ok()"));
+        if in_parts {
+            self.writer
+                .open(format!("match accelerations({}) {{", arguments.join(", ")));
+            self.writer.open("Ok(accelerations) => {");
+            self.writer.line("*result = accelerations;");
+            self.writer.line("true");
+            self.writer.close("}");
+            self.writer.line("Err(_) => false,");
+            self.writer.close("}");
+            return self.writer.close("}");
+        }
+        arguments.push("result");
+        let fields = arguments.join(", ");
+        self.writer
+            .line(format!("{scalar}::run(InPlace {{ {fields} }})"));
+        self.writer.close("}");
+        self.in_place(function);
+    }
+
+    /// The code of the accelerations as a kernel that puts them where they go, in one piece.
+    ///
+    /// Nothing waits for a check: results are left whether they hold or not, then all is asked at once, the size of the
+    /// angles with the pivots. So to a compiler, and to a processor, this is straight code, and whoever calls has the way
+    /// that is taken when something is wrong, out of sight.
+    fn in_place(&mut self, function: &Function) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let (bool, copy) = (self.types.known("bool"), self.types.known("Copy"));
+        let n = self.program.dimension();
+        let arguments = self.arguments(self.needs(function));
+        self.writer.gap();
+        self.docs("The accelerations, and where they go.");
+        self.writer.open(format!("struct InPlace<'a, {scalar}> {{"));
+        for (argument, kind) in &arguments {
+            self.writer
+                .line(format!("{argument}: {},", with_lifetime(kind)));
+        }
+        self.writer
+            .line(format!("result: &'a mut [{scalar}; {n}],"));
+        self.writer.close("}");
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for InPlace<'_, {scalar}> {{"
+        ));
+        self.writer.line(format!("type Output = {bool};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
+            &["self".to_owned()],
+            Some(&bool),
+        );
+        let names = arguments.iter().map(|(name, _)| *name);
+        let names: Vec<&str> = names.chain(["result"]).collect();
+        self.writer
+            .line(format!("let Self {{ {} }} = self;", names.join(", ")));
+        self.writer.line(format!("let n = {register}::load;"));
+        let has_far = !early_angles(function).is_empty();
+        self.asks_once = true;
+        let wanted = self.result_names(function);
+        let body = self.unchecked(function, &wanted);
+        self.asks_once = false;
+        for (i, text) in body.results.iter().enumerate() {
+            let text = text.at_least(Binding::Atom);
+            self.writer.line(format!("result[{i}] = {text}.store();"));
+        }
+        let mut conditions = self.exceeding(function, &body);
+        if has_far {
+            conditions.insert(0, "are_near".into());
+        }
+        if self.may_be_singular_from_the_start(function) {
+            conditions.insert(0, "p.singular.is_none()".into());
+        }
+        self.writer.line(match conditions.is_empty() {
+            true => "true".into(),
+            false => conditions.join(" & "),
+        });
+        self.writer.close("}");
         self.writer.close("}");
     }
 }

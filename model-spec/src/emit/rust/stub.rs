@@ -89,6 +89,7 @@ fn standstill(spec: &Spec) -> Program {
         inputs: slots(&spec.inputs),
         outputs,
         assumptions: Vec::new(),
+        constraints: Vec::new(),
         derivatives: Vec::new(),
         stages,
         prepare: zeros(Role::Prepare, Shape::Vector(0)),

@@ -35,7 +35,7 @@ impl Emitter<'_> {
     }
 
     /// A method of a trait. Arguments that its body does not name are `_`.
-    fn method(
+    pub(super) fn method(
         &mut self,
         name: &str,
         arguments: &[&str],
@@ -80,12 +80,13 @@ impl Emitter<'_> {
             "coordinates" => format!("&{coordinates}"),
             "matrix" => format!("&mut [{f64}; {}]", n * n),
             "result" => format!("&mut [{f64}; {n}]"),
+            "positions" | "rates" | "rows" | "drift" | "lambda" => format!("&mut [{f64}]"),
             _ => format!("&[{f64}; {n}]"),
         }
     }
 
     /// The call of a function from a method of `System`, where it does anything.
-    fn call(&self, role: Role) -> Option<String> {
+    pub(super) fn call(&self, role: Role) -> Option<String> {
         let function = self.emitted(role)?;
         Some(self.call_with(&self.function_name(role), self.needs(function)))
     }
@@ -184,6 +185,7 @@ impl Emitter<'_> {
         self.scalars(&f64);
         self.inputs_and_outputs();
         self.assumptions();
+        self.constraints();
         self.writer.close("}");
     }
 
@@ -372,6 +374,7 @@ impl Emitter<'_> {
             self.writer.expression("", &literal, "");
             self.writer.close("}");
         }
+        self.helpers_of_constraints();
         self.helpers_of_guards();
     }
 
@@ -470,6 +473,16 @@ impl Emitter<'_> {
             ],
             Some(&format!("{runtime}::Singular")),
         );
+        let coordinates = self.program.dimension();
+        if !self.program.constraints.is_empty() {
+            self.writer.open(format!(
+                "if let Some(constraint) = coordinate.checked_sub({coordinates}) {{"
+            ));
+            self.writer.line(format!(
+                "return {runtime}::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());"
+            ));
+            self.writer.close("}");
+        }
         self.writer.line(format!(
             "{runtime}::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())"
         ));

@@ -17,6 +17,8 @@ pub(super) struct Types {
     pub(super) derivatives: String,
     /// A call of the accelerations, and what its pieces are.
     pub(super) accelerations: [String; 2],
+    /// A call of the multipliers, and what its pieces are.
+    pub(super) multipliers_call: [String; 2],
     /// A call of the derivatives, and what its pieces are.
     pub(super) derivatives_call: [String; 2],
     /// What a stage of the accelerations leaves to the next one.
@@ -43,6 +45,7 @@ impl Types {
             prepared: scope.take("Prepared"),
             derivatives: scope.take("Derivatives"),
             accelerations: ["Accelerations", "AccelerationsPiece"].map(|name| scope.take(name)),
+            multipliers_call: ["Multipliers", "MultipliersPiece"].map(|name| scope.take(name)),
             derivatives_call: ["DerivativesCall", "DerivativesPiece"].map(|name| scope.take(name)),
             at_time: scope.take("AtTime"),
             at_position: scope.take("AtPosition"),
@@ -69,6 +72,7 @@ impl Types {
             "Default" => "::core::default::Default".into(),
             "Copy" => "::core::marker::Copy".into(),
             "Fn" => "::core::ops::Fn".into(),
+            "FnOnce" => "::core::ops::FnOnce".into(),
             "ExactSizeIterator" => "::core::iter::ExactSizeIterator".into(),
             _ => format!("::core::primitive::{name}"),
         }

@@ -10,7 +10,7 @@ use lagrangian_symbolic::Expr;
 
 use super::super::articulated::{self, Order};
 use super::super::graph::{Graph, Scaled};
-use super::super::solve::{self, Elimination, Pivot};
+use super::super::solve::{self, Elimination, Pivot, System};
 use super::super::{Basis, Role, Shape};
 use super::{Draft, Lowering, Planned};
 use crate::mechanics::Unprojected;
@@ -26,6 +26,7 @@ struct Step {
 /// The accelerations, and how they were found.
 struct Solved {
     accelerations: Vec<Scaled>,
+    multipliers: Vec<Scaled>,
     steps: Vec<Step>,
     pivots: Vec<Pivot>,
     /// How many unknowns there are; the first are the accelerations.
@@ -34,10 +35,9 @@ struct Solved {
 
 /// What the function is made from.
 pub(super) struct Asked<'a, 'd> {
-    /// The lower triangle of M.
-    pub matrix: &'a [Scaled],
-    /// The forces f.
-    pub forces: &'a [Scaled],
+    pub system: &'a System,
+    /// The symbols of the multipliers.
+    pub multipliers: &'a [Expr<'d>],
     pub unprojected: Option<&'a Unprojected<'d>>,
     /// The right-hand sides, column by column, over the symbols of the accelerations too; in one form
     /// or several.
@@ -48,7 +48,7 @@ pub(super) struct Asked<'a, 'd> {
 
 /// The function of the accelerations and their derivatives, by the way that is cheapest to run.
 pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
-    let elimination = Elimination::of(asked.matrix, asked.forces.len());
+    let elimination = Elimination::of(asked.system);
     let along = asked
         .unprojected
         .and_then(|machine| along_the_machine(lowering, asked, machine));
@@ -93,10 +93,14 @@ impl Asked<'_, '_> {
 }
 
 fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination) -> Solved {
-    let solution = solve::solve(graph, asked.matrix, asked.forces, elimination);
+    let solution = solve::solve(graph, asked.system, elimination);
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
-        pivot: Some(pivot.pivot),
+        // Pivots of constraints are guarded as positive numbers.
+        pivot: Some(match pivot.coordinate < asked.system.coordinates {
+            true => pivot.pivot,
+            false => pivot.pivot.negated(),
+        }),
         parts: column
             .below
             .iter()
@@ -106,9 +110,10 @@ fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination)
     let steps = solution.pivots.iter().zip(&solution.columns);
     Solved {
         accelerations: solution.accelerations,
+        multipliers: solution.multipliers,
         steps: steps.map(step).collect(),
         pivots: solution.pivots,
-        unknowns: asked.forces.len(),
+        unknowns: asked.system.forces.len(),
     }
 }
 
@@ -120,7 +125,7 @@ fn along_the_machine<'d>(
     let solution = articulated::solve(lowering.model, machine, Order::Short)?;
     lowering.name(&solution.names);
     lowering.lower(&solution.accelerations);
-    let mut unknowns = asked.forces.len();
+    let mut unknowns = asked.system.forces.len();
     let mut numbers = solution.coordinates;
     let mut number = |id| {
         *numbers.entry(id).or_insert_with(|| {
@@ -143,7 +148,7 @@ fn along_the_machine<'d>(
     }
     // A pivot need only be positive where the entry of M that it was left over from is not at hand.
     let scale = |coordinate: usize, pivot: Scaled| {
-        let diagonal = asked.matrix[Shape::index(coordinate, coordinate)];
+        let diagonal = asked.system.matrix[Shape::index(coordinate, coordinate)];
         if diagonal.is_known() { diagonal } else { pivot }
     };
     let eliminated = steps.iter().filter_map(|step| step.pivot);
@@ -155,6 +160,7 @@ fn along_the_machine<'d>(
     });
     Some(Solved {
         accelerations: lowering.values(&solution.accelerations),
+        multipliers: Vec::new(),
         pivots: pivots.collect(),
         steps,
         unknowns,
@@ -168,8 +174,8 @@ fn function<'d>(
     solved: &Solved,
     slopes: &[Vec<Expr<'d>>],
 ) -> Draft {
-    let n = asked.forces.len();
-    let rights = right_hand_sides(lowering, slopes, &solved.accelerations);
+    let n = asked.system.coordinates;
+    let rights = right_hand_sides(lowering, slopes, asked, solved);
     let graph = &mut lowering.graph;
     let inverses: Vec<Scaled> = solved
         .steps
@@ -189,6 +195,7 @@ fn function<'d>(
     let rows = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
     let planned = Planned {
         role: Role::Derivatives,
+        rows: asked.system.forces.len(),
         shape: Shape::Matrix(n, columns.len()),
         results: rows.collect(),
         pivots: solved
@@ -202,16 +209,20 @@ fn function<'d>(
     planned.draft(net, Basis::Derived, false)
 }
 
-/// The right-hand sides with the values of the accelerations in them.
+/// The right-hand sides with the values of accelerations and multipliers in them.
 fn right_hand_sides<'d>(
     lowering: &mut Lowering<'_, 'd>,
     slopes: &[Vec<Expr<'d>>],
-    accelerations: &[Scaled],
+    asked: &Asked<'_, 'd>,
+    solved: &Solved,
 ) -> Vec<Vec<Scaled>> {
     // What was lowered before may hold the accelerations as arguments, as outputs do.
     let before = std::mem::take(&mut lowering.values);
-    for (coordinate, value) in lowering.model.coordinates.iter().zip(accelerations) {
+    for (coordinate, value) in lowering.model.coordinates.iter().zip(&solved.accelerations) {
         lowering.values.insert(coordinate.a.id(), *value);
+    }
+    for (symbol, value) in asked.multipliers.iter().zip(&solved.multipliers) {
+        lowering.values.insert(symbol.id(), *value);
     }
     let mut rights = Vec::with_capacity(slopes.len());
     for column in slopes {

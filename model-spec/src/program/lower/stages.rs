@@ -88,10 +88,10 @@ fn solutions<'d>(
 ) -> Vec<(Basis, Solution)> {
     let mut solutions = Vec::new();
     let mut systems = Vec::new();
-    let derived = lowering.system(source.quantities);
-    let expanded = lowering.system(source.expanded);
+    let derived = lowering.system(source.quantities, source.quantities);
+    let expanded = lowering.system(source.expanded, source.quantities);
     for (basis, system) in [(Basis::Derived, derived), (Basis::Expanded, expanded)] {
-        systems.extend(system.map(|(matrix, forces)| (basis, matrix, forces)));
+        systems.extend(system.map(|system| (basis, system)));
     }
     let along = match (source.unprojected, systems.first()) {
         (Some(machine), Some(_)) => {
@@ -105,7 +105,7 @@ fn solutions<'d>(
         let values: Vec<_> = along.pivots.iter().map(|(_, pivot)| *pivot).collect();
         lowering.lower(&along.accelerations);
         lowering.lower(&values);
-        let matrix = &systems[0].1;
+        let matrix = &systems[0].1.matrix;
         let pivots = along.pivots.iter().zip(lowering.values(&values));
         let pivots = pivots.map(|(&(coordinate, _), pivot)| {
             // Need only be positive where the entry of M that it was left over from is not at hand.
@@ -120,18 +120,19 @@ fn solutions<'d>(
         let solution = Solution {
             pivots: pivots.collect(),
             accelerations: lowering.values(&along.accelerations),
+            multipliers: Vec::new(),
             columns: Vec::new(),
         };
         solutions.push((Basis::Along, solution));
     }
-    for (basis, matrix, forces) in systems {
-        let elimination = Elimination::of(&matrix, forces.len());
+    for (basis, system) in systems {
+        let elimination = Elimination::of(&system);
         // What takes longer than the accelerations at once is not even written down: it grows with
         // the cube of the number of coordinates.
         if has_along && elimination.multiplications > at_once.function.counts().ops() {
             continue;
         }
-        let solution = solve::solve(&mut lowering.graph, &matrix, &forces, elimination);
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
         solutions.push((basis, solution));
     }
     solutions
@@ -148,6 +149,7 @@ fn way(
     let pivots = solution.pivots.iter().copied();
     let planned = Planned {
         role: Role::AccelerationsAt,
+        rows: solution.accelerations.len() + solution.multipliers.len(),
         shape: Shape::Vector(solution.accelerations.len()),
         results: solution.accelerations.clone(),
         pivots: pivots

@@ -1,0 +1,2055 @@
+// @generated from machines/andrews_squeezer.machine by `cargo xtask generate`; edits are lost.
+
+//! Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on a
+//! spring.
+//! G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar kinematic
+//! and
+//! dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters, numbers
+//! and
+//! the signs of the multipliers as in the Test set for initial value problem solvers.
+//!
+//! 7 coordinates, 42 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 37 | 16 | 3 | 0 | 0 | 56 |
+//! | `mass_matrix` | 20 | 20 | 0 | 3 | 0 | 46 |
+//! | `bias` | 33 | 14 | 0 | 3 | 0 | 53 |
+//! | `applied` | 15 | 12 | 1 | 1 | 1 | 31 |
+//! | `forces` | 56 | 32 | 1 | 4 | 1 | 98 |
+//! | `constraint_positions` | 14 | 21 | 0 | 7 | 0 | 49 |
+//! | `constraint_rates` | 21 | 18 | 0 | 7 | 0 | 53 |
+//! | `constraint_matrix` | 16 | 9 | 0 | 7 | 0 | 39 |
+//! | `constraint_drift` | 28 | 20 | 0 | 7 | 0 | 62 |
+//! | `accelerations` | 265 | 199 | 11 | 10 | 1 | 496 |
+//! | `multipliers` | 233 | 176 | 11 | 10 | 1 | 441 |
+//! | `kinetic_energy` | 51 | 22 | 0 | 4 | 0 | 81 |
+//! | `potential_energy` | 8 | 8 | 0 | 1 | 1 | 19 |
+//! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// Andrews' squeezing mechanism: seven bodies in three loops, driven by a constant torque, on a
+/// spring.
+/// G. C. Andrews and M. K. Ormrod, Advent: a simulation program for constrained planar kinematic
+/// and
+/// dynamic systems, 1986; W. Schiehlen (ed.), Multibody systems handbook, 1990; letters, numbers
+/// and
+/// the signs of the multipliers as in the Test set for initial value problem solvers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AndrewsSqueezer<S = f64> {
+    /// `m1`. Unit: kg. Default: 0.04325.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 0.00365.
+    pub m2: S,
+    /// `m3`. Unit: kg. Default: 0.02373.
+    pub m3: S,
+    /// `m4`. Unit: kg. Default: 0.00706.
+    pub m4: S,
+    /// `m5`. Unit: kg. Default: 0.0705.
+    pub m5: S,
+    /// `m6`. Unit: kg. Default: 0.00706.
+    pub m6: S,
+    /// `m7`. Unit: kg. Default: 0.05498.
+    pub m7: S,
+    /// `I1`. Unit: kg*m^2. Default: 0.000002194.
+    pub I1: S,
+    /// `I2`. Unit: kg*m^2. Default: 0.000000441.
+    pub I2: S,
+    /// `I3`. Unit: kg*m^2. Default: 0.000005255.
+    pub I3: S,
+    /// `I4`. Unit: kg*m^2. Default: 0.0000005667.
+    pub I4: S,
+    /// `I5`. Unit: kg*m^2. Default: 0.00001169.
+    pub I5: S,
+    /// `I6`. Unit: kg*m^2. Default: 0.0000005667.
+    pub I6: S,
+    /// `I7`. Unit: kg*m^2. Default: 0.00001912.
+    pub I7: S,
+    /// `xa`. Unit: m. Default: -0.06934.
+    pub xa: S,
+    /// `ya`. Unit: m. Default: -0.00227.
+    pub ya: S,
+    /// `xb`. Unit: m. Default: -0.03635.
+    pub xb: S,
+    /// `yb`. Unit: m. Default: 0.03273.
+    pub yb: S,
+    /// `xc`. Unit: m. Default: 0.014.
+    pub xc: S,
+    /// `yc`. Unit: m. Default: 0.072.
+    pub yc: S,
+    /// `d`. Unit: m. Default: 0.028.
+    pub d: S,
+    /// `da`. Unit: m. Default: 0.0115.
+    pub da: S,
+    /// `e`. Unit: m. Default: 0.02.
+    pub e: S,
+    /// `ea`. Unit: m. Default: 0.01421.
+    pub ea: S,
+    /// `zf`. Unit: m. Default: 0.02.
+    pub zf: S,
+    /// `fa`. Unit: m. Default: 0.01421.
+    pub fa: S,
+    /// `rr`. Unit: m. Default: 0.007.
+    pub rr: S,
+    /// `ra`. Unit: m. Default: 0.00092.
+    pub ra: S,
+    /// `ss`. Unit: m. Default: 0.035.
+    pub ss: S,
+    /// `sa`. Unit: m. Default: 0.01874.
+    pub sa: S,
+    /// `sb`. Unit: m. Default: 0.01043.
+    pub sb: S,
+    /// `sc`. Unit: m. Default: 0.018.
+    pub sc: S,
+    /// `sd`. Unit: m. Default: 0.02.
+    pub sd: S,
+    /// `zt`. Unit: m. Default: 0.04.
+    pub zt: S,
+    /// `ta`. Unit: m. Default: 0.02308.
+    pub ta: S,
+    /// `tb`. Unit: m. Default: 0.00916.
+    pub tb: S,
+    /// `u`. Unit: m. Default: 0.04.
+    pub u: S,
+    /// `ua`. Unit: m. Default: 0.01228.
+    pub ua: S,
+    /// `ub`. Unit: m. Default: 0.00449.
+    pub ub: S,
+    /// Stiffness and free length of the spring. Unit: N/m. Default: 4530.
+    pub c0: S,
+    /// `l0`. Unit: m. Default: 0.07785.
+    pub l0: S,
+    /// Torque on the crank. Unit: N*m. Default: 0.033.
+    pub mom: S,
+}
+
+impl Default for AndrewsSqueezer {
+    fn default() -> Self {
+        Self {
+            m1: 0.04325,
+            m2: 0.00365,
+            m3: 0.02373,
+            m4: 0.00706,
+            m5: 0.0705,
+            m6: 0.00706,
+            m7: 0.05498,
+            I1: 2.194e-6,
+            I2: 4.41e-7,
+            I3: 5.255e-6,
+            I4: 5.667e-7,
+            I5: 1.169e-5,
+            I6: 5.667e-7,
+            I7: 1.912e-5,
+            xa: -0.06934,
+            ya: -0.00227,
+            xb: -0.03635,
+            yb: 0.03273,
+            xc: 0.014,
+            yc: 0.072,
+            d: 0.028,
+            da: 0.0115,
+            e: 0.02,
+            ea: 0.01421,
+            zf: 0.02,
+            fa: 0.01421,
+            rr: 0.007,
+            ra: 0.00092,
+            ss: 0.035,
+            sa: 0.01874,
+            sb: 0.01043,
+            sc: 0.018,
+            sd: 0.02,
+            zt: 0.04,
+            ta: 0.02308,
+            tb: 0.00916,
+            u: 0.04,
+            ua: 0.01228,
+            ub: 0.00449,
+            c0: 4530.0,
+            l0: 0.07785,
+            mom: 0.033,
+        }
+    }
+}
+
+impl<S> AndrewsSqueezer<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> AndrewsSqueezer<R> {
+        AndrewsSqueezer {
+            m1: f(self.m1),
+            m2: f(self.m2),
+            m3: f(self.m3),
+            m4: f(self.m4),
+            m5: f(self.m5),
+            m6: f(self.m6),
+            m7: f(self.m7),
+            I1: f(self.I1),
+            I2: f(self.I2),
+            I3: f(self.I3),
+            I4: f(self.I4),
+            I5: f(self.I5),
+            I6: f(self.I6),
+            I7: f(self.I7),
+            xa: f(self.xa),
+            ya: f(self.ya),
+            xb: f(self.xb),
+            yb: f(self.yb),
+            xc: f(self.xc),
+            yc: f(self.yc),
+            d: f(self.d),
+            da: f(self.da),
+            e: f(self.e),
+            ea: f(self.ea),
+            zf: f(self.zf),
+            fa: f(self.fa),
+            rr: f(self.rr),
+            ra: f(self.ra),
+            ss: f(self.ss),
+            sa: f(self.sa),
+            sb: f(self.sb),
+            sc: f(self.sc),
+            sd: f(self.sd),
+            zt: f(self.zt),
+            ta: f(self.ta),
+            tb: f(self.tb),
+            u: f(self.u),
+            ua: f(self.ua),
+            ub: f(self.ub),
+            c0: f(self.c0),
+            l0: f(self.l0),
+            mom: f(self.mom),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.e - self.ea;
+        let k1 = self.zf - self.fa;
+        let k2 = self.ra * (self.ra * self.m1);
+        let k20 = self.m2 * self.da;
+        let k4 = self.da * k20;
+        let k23 = self.m4 * k0;
+        let k6 = k0 * k23;
+        let k7 = self.I4 + k6;
+        let k27 = self.m6 * k1;
+        let k8 = k1 * k27;
+        let k9 = self.I6 + k8;
+        let k10 = self.m3 * self.sa;
+        let k11 = self.m3 * self.sb;
+        let t0 = self.ta * self.ta;
+        let t1 = self.tb * self.tb;
+        let t2 = self.ub * self.ub;
+        let t3 = self.ua * self.ua;
+        let k31 = self.I3 + (self.sa * k10 + self.sb * k11);
+        let k3 = S::from_f64(0.5) * self.c0;
+        let k5 = self.I2 + k4;
+        let k12 = self.sc * self.c0;
+        let k13 = self.sd * self.c0;
+        let k14 = self.da * self.da;
+        let k15 = k0 * k0;
+        let k16 = k1 * k1;
+        let k17 = S::from_f64(0.5) * (self.I1 + k2);
+        let k18 = S::from_f64(0.5) * (self.I5 + self.m5 * (t0 + t1));
+        let k19 = S::from_f64(0.5) * (self.I7 + self.m7 * (t2 + t3));
+        let k21 = self.m2 * self.rr;
+        let k22 = self.zt * k23;
+        let k24 = self.m4 * self.zt;
+        let k25 = self.m5 * t1 + self.m5 * t0;
+        let k26 = self.u * k27;
+        let k28 = self.m6 * self.u;
+        let k29 = self.m7 * t3 + self.m7 * t2;
+        let k30 = self.rr * k20;
+        let k32 = -self.d;
+        let k33 = -self.zf;
+        let k34 = S::ONE / k31;
+        let k35 = S::ONE / k7;
+        let k36 = S::ONE / k9;
+        let singular = if vanishes(k31, k31, 1.1546319456101628e-14) {
+            Some(singular(2, k31, k31))
+        } else if vanishes(k7, k7, 1.1546319456101628e-14) {
+            Some(singular(3, k7, k7))
+        } else if vanishes(k9, k9, 1.1546319456101628e-14) {
+            Some(singular(5, k9, k9))
+        } else {
+            None
+        };
+        Prepared {
+            m2: self.m2,
+            m3: self.m3,
+            m4: self.m4,
+            m6: self.m6,
+            I1: self.I1,
+            I2: self.I2,
+            I3: self.I3,
+            I4: self.I4,
+            I5: self.I5,
+            I6: self.I6,
+            I7: self.I7,
+            xa: self.xa,
+            ya: self.ya,
+            xb: self.xb,
+            yb: self.yb,
+            xc: self.xc,
+            yc: self.yc,
+            d: self.d,
+            da: self.da,
+            e: self.e,
+            zf: self.zf,
+            rr: self.rr,
+            ss: self.ss,
+            sa: self.sa,
+            sb: self.sb,
+            sc: self.sc,
+            sd: self.sd,
+            zt: self.zt,
+            u: self.u,
+            l0: self.l0,
+            mom: self.mom,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            k20,
+            k21,
+            k22,
+            k23,
+            k24,
+            k25,
+            k26,
+            k27,
+            k28,
+            k29,
+            k30,
+            k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let beta = S::from_f64(-0.06171389001427645) + S::from_f64(-1.1434870511134074e-18);
+        let zero = S::ZERO;
+        let gamma = S::from_f64(0.45527981916307037) + S::from_f64(1.522689981395877e-17);
+        let Phi = S::from_f64(0.22266839016588588) + S::from_f64(2.4930154103630337e-18);
+        let delta = S::from_f64(0.48736497954384256) + S::from_f64(-7.815122678924794e-18);
+        let Omega = S::from_f64(-0.22266839016588588) + S::from_f64(-2.4930154103630337e-18);
+        let epsilon = S::from_f64(1.2305474445498212) + S::from_f64(-4.1863820199071897e-17);
+        let q = [beta, zero, gamma, Phi, delta, Omega, epsilon];
+        let v = [S::ZERO; 7];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`AndrewsSqueezer`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `beta`. Unit: rad.
+    pub beta: S,
+    /// `Theta`. Unit: rad.
+    pub Theta: S,
+    /// `gamma`. Unit: rad.
+    pub gamma: S,
+    /// `Phi`. Unit: rad.
+    pub Phi: S,
+    /// `delta`. Unit: rad.
+    pub delta: S,
+    /// `Omega`. Unit: rad.
+    pub Omega: S,
+    /// `epsilon`. Unit: rad.
+    pub epsilon: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 7] {
+        [
+            self.beta,
+            self.Theta,
+            self.gamma,
+            self.Phi,
+            self.delta,
+            self.Omega,
+            self.epsilon,
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 7]) -> Self {
+        Self {
+            beta: q[0],
+            Theta: q[1],
+            gamma: q[2],
+            Phi: q[3],
+            delta: q[4],
+            Omega: q[5],
+            epsilon: q[6],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            beta: f(self.beta),
+            Theta: f(self.Theta),
+            gamma: f(self.gamma),
+            Phi: f(self.Phi),
+            delta: f(self.delta),
+            Omega: f(self.Omega),
+            epsilon: f(self.epsilon),
+        }
+    }
+}
+
+/// What can be set while a [`AndrewsSqueezer`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`AndrewsSqueezer`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`AndrewsSqueezer`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m2`
+    m2: S,
+    /// `m3`
+    m3: S,
+    /// `m4`
+    m4: S,
+    /// `m6`
+    m6: S,
+    /// `I1`
+    I1: S,
+    /// `I2`
+    I2: S,
+    /// `I3`
+    I3: S,
+    /// `I4`
+    I4: S,
+    /// `I5`
+    I5: S,
+    /// `I6`
+    I6: S,
+    /// `I7`
+    I7: S,
+    /// `xa`
+    xa: S,
+    /// `ya`
+    ya: S,
+    /// `xb`
+    xb: S,
+    /// `yb`
+    yb: S,
+    /// `xc`
+    xc: S,
+    /// `yc`
+    yc: S,
+    /// `d`
+    d: S,
+    /// `da`
+    da: S,
+    /// `e`
+    e: S,
+    /// `zf`
+    zf: S,
+    /// `rr`
+    rr: S,
+    /// `ss`
+    ss: S,
+    /// `sa`
+    sa: S,
+    /// `sb`
+    sb: S,
+    /// `sc`
+    sc: S,
+    /// `sd`
+    sd: S,
+    /// `zt`
+    zt: S,
+    /// `u`
+    u: S,
+    /// `l0`
+    l0: S,
+    /// `mom`
+    mom: S,
+    /// `e - ea`
+    k0: S,
+    /// `zf - fa`
+    k1: S,
+    /// `m1*ra^2`
+    k2: S,
+    /// `0.5*c0`
+    k3: S,
+    /// `m2*da^2`
+    k4: S,
+    /// `I2 + m2*da^2`
+    k5: S,
+    /// `m4*(e - ea)^2`
+    k6: S,
+    /// `I4 + m4*(e - ea)^2`
+    k7: S,
+    /// `m6*(zf - fa)^2`
+    k8: S,
+    /// `I6 + m6*(zf - fa)^2`
+    k9: S,
+    /// `m3*sa`
+    k10: S,
+    /// `m3*sb`
+    k11: S,
+    /// `sc*c0`
+    k12: S,
+    /// `sd*c0`
+    k13: S,
+    /// `da^2`
+    k14: S,
+    /// `(e - ea)^2`
+    k15: S,
+    /// `(zf - fa)^2`
+    k16: S,
+    /// `0.5*(I1 + m1*ra^2)`
+    k17: S,
+    /// `0.5*(I5 + m5*(tb^2 + ta^2))`
+    k18: S,
+    /// `0.5*(I7 + m7*(ua^2 + ub^2))`
+    k19: S,
+    /// `m2*da`
+    k20: S,
+    /// `m2*rr`
+    k21: S,
+    /// `m4*zt*(e - ea)`
+    k22: S,
+    /// `m4*(e - ea)`
+    k23: S,
+    /// `m4*zt`
+    k24: S,
+    /// `m5*ta^2 + m5*tb^2`
+    k25: S,
+    /// `m6*u*(zf - fa)`
+    k26: S,
+    /// `m6*(zf - fa)`
+    k27: S,
+    /// `m6*u`
+    k28: S,
+    /// `m7*ub^2 + m7*ua^2`
+    k29: S,
+    /// `m2*da*rr`
+    k30: S,
+    /// `I3 + m3*sb^2 + m3*sa^2`
+    k31: S,
+    /// `-d`
+    k32: S,
+    /// `-zf`
+    k33: S,
+    /// `1/(I3 + m3*sb^2 + m3*sa^2)`
+    k34: S,
+    /// `1/(I4 + m4*(e - ea)^2)`
+    k35: S,
+    /// `1/(I6 + m6*(zf - fa)^2)`
+    k36: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[beta, beta] = m1*ra^2 - 2*m2*da*rr*cos(Theta) + m2*da^2 + m2*rr^2 + I1 + I2
+/// M[Theta, beta] = m2*da^2 - m2*da*rr*cos(Theta) + I2
+/// M[Theta, Theta] = m2*da^2 + I2
+/// M[gamma, gamma] = m3*sa^2 + m3*sb^2 + I3
+/// M[Phi, Phi] = (ea - e)^2*m4 + I4
+/// M[delta, Phi] = (e - ea)*m4*zt*sin(Phi) + (ea - e)^2*m4 + I4
+/// M[delta, delta] = 2*(e - ea)*m4*zt*sin(Phi) + m4*e^2 - 2*m4*e*ea + m4*ea^2 + m4*zt^2 + m5*ta^2
+///     + m5*tb^2 + I4 + I5
+/// M[Omega, Omega] = (zf - fa)^2*m6 + I6
+/// M[epsilon, Omega] = (zf - fa)^2*m6 - (zf - fa)*m6*u*sin(Omega) + I6
+/// M[epsilon, epsilon] = m6*zf^2 - 2*(zf - fa)*m6*u*sin(Omega) - 2*m6*zf*fa + m6*fa^2 + m6*u^2
+///     + m7*ua^2 + m7*ub^2 + I6 + I7
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [[S; 7]; 7] {
+    let Theta = q[1];
+    let Phi = q[3];
+    let Omega = q[5];
+    let (sin_Theta, cos_Theta) = Theta.sin_cos();
+    let (sin_Phi, cos_Phi) = Phi.sin_cos();
+    let (sin_Omega, cos_Omega) = Omega.sin_cos();
+    let t0 = p.rr - cos_Theta * p.da;
+    let t1 = sin_Phi * p.k0 + p.zt;
+    let t2 = p.u - sin_Omega * p.k1;
+    let m21 = sin_Theta * (sin_Theta * p.k4) + p.I2 - t0 * (cos_Theta * p.k20);
+    let t3 = t1 * (sin_Phi * p.k23) + (cos_Phi * (cos_Phi * p.k6) + p.I4) + p.I5;
+    let t4 = cos_Omega * (cos_Omega * p.k8) + p.I6 - t2 * (sin_Omega * p.k27) + p.I7;
+    let m11 = t0 * p.k21 + p.k2 + (m21 + p.I1);
+    let zero = S::ZERO;
+    let m54 = p.k7 + sin_Phi * p.k22;
+    let m55 = t1 * p.k24 + p.k25 + t3;
+    let m76 = p.k9 - sin_Omega * p.k26;
+    let m77 = t2 * p.k28 + p.k29 + t4;
+    [
+        [m11, m21, zero, zero, zero, zero, zero],
+        [m21, p.k5, zero, zero, zero, zero, zero],
+        [zero, zero, p.k31, zero, zero, zero, zero],
+        [zero, zero, zero, p.k7, m54, zero, zero],
+        [zero, zero, zero, m54, m55, zero, zero],
+        [zero, zero, zero, zero, zero, p.k9, m76],
+        [zero, zero, zero, zero, zero, m76, m77],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[beta] = 2*m2*da*rr*sin(Theta)*der(beta)*der(Theta) + m2*da*rr*sin(Theta)*der(Theta)^2
+/// h[Theta] = -m2*da*rr*sin(Theta)*der(beta)^2
+/// h[Phi] = -(e - ea)*m4*zt*cos(Phi)*der(delta)^2
+/// h[delta] = (e - ea)*m4*zt*cos(Phi)*der(Phi)^2 + 2*(e - ea)*m4*zt*cos(Phi)*der(Phi)*der(delta)
+/// h[Omega] = (zf - fa)*m6*u*cos(Omega)*der(epsilon)^2
+/// h[epsilon] = -(zf - fa)*m6*u*cos(Omega)*der(Omega)^2
+///     - 2*(zf - fa)*m6*u*cos(Omega)*der(Omega)*der(epsilon)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
+    let Theta = q[1];
+    let Phi = q[3];
+    let Omega = q[5];
+    let beta_dot = v[0];
+    let Theta_dot = v[1];
+    let Phi_dot = v[3];
+    let delta_dot = v[4];
+    let Omega_dot = v[5];
+    let epsilon_dot = v[6];
+    let (sin_Theta, cos_Theta) = Theta.sin_cos();
+    let (sin_Phi, cos_Phi) = Phi.sin_cos();
+    let (sin_Omega, cos_Omega) = Omega.sin_cos();
+    let t0 = delta_dot + Phi_dot;
+    let t1 = epsilon_dot + Omega_dot;
+    let t2 = Theta_dot + beta_dot;
+    let t3 = t0 * t0;
+    let t4 = t1 * t1;
+    let t5 = t2 * t2;
+    let t6 = t5 * cos_Theta;
+    let t7 = t3 * cos_Phi;
+    let t8 = t7 * (sin_Phi * p.k6);
+    let t9 = sin_Phi * (t3 * p.k0) + delta_dot * (delta_dot * p.zt);
+    let t10 = t9 * (cos_Phi * p.k23);
+    let t11 = t4 * cos_Omega;
+    let t12 = epsilon_dot * (epsilon_dot * p.u) - sin_Omega * (t4 * p.k1);
+    let t13 = (beta_dot * (beta_dot * p.rr) - t6 * p.da) * (sin_Theta * p.k20);
+    let t14 = t13 + t6 * (sin_Theta * p.k4);
+    let h_Omega = t11 * (sin_Omega * p.k8) + t12 * (cos_Omega * p.k27);
+    let h_beta = sin_Theta * (t5 * p.k30) - t14;
+    let h_Theta = -t14;
+    let zero = S::ZERO;
+    let h_Phi = t8 - t10;
+    let h_delta = t7 * p.k22 - (t10 - t8);
+    let h_epsilon = h_Omega - t11 * p.k26;
+    [h_beta, h_Theta, zero, h_Phi, h_delta, h_Omega, h_epsilon]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[beta] = mom
+/// Q[gamma] = …
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 7] {
+    let gamma = q[2];
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let t0 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
+    let t1 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
+    let t2 = (t1 * t1 + t0 * t0).sqrt();
+    let t3 = S::ONE / t2 * (p.l0 - t2);
+    let t4 = t3 * (cos_gamma * (t0 * p.k12 + t1 * p.k13));
+    let zero = S::ZERO;
+    let q_gamma = -(t3 * (sin_gamma * (t1 * p.k12 - t0 * p.k13)) + t4);
+    [p.mom, zero, q_gamma, zero, zero, zero, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let Omega = q[5];
+    let beta_dot = v[0];
+    let Theta_dot = v[1];
+    let gamma_dot = v[2];
+    let Phi_dot = v[3];
+    let delta_dot = v[4];
+    let Omega_dot = v[5];
+    let epsilon_dot = v[6];
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_Theta, cos_Theta) = Theta.sin_cos();
+    let (sin_Phi, cos_Phi) = Phi.sin_cos();
+    let (sin_Omega, cos_Omega) = Omega.sin_cos();
+    let t0 = gamma_dot * gamma_dot;
+    let t1 = Theta_dot + beta_dot;
+    let t2 = delta_dot + Phi_dot;
+    let t3 = epsilon_dot + Omega_dot;
+    let t4 = t1 * t1;
+    let t5 = t2 * t2;
+    let t6 = t3 * t3;
+    let t7 = t4 * cos_Theta;
+    let t8 = sin_Phi * t5;
+    let t9 = sin_Omega * t6;
+    let t10 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
+    let t11 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
+    let t12 = t0 * (sin_gamma * p.sa + cos_gamma * p.sb);
+    let t13 = t0 * (cos_gamma * p.sa - sin_gamma * p.sb);
+    let t14 = p.k20 * (beta_dot * (beta_dot * p.rr) - t7 * p.da) + t7 * p.k4;
+    let f_Theta = sin_Theta * t14;
+    let t15 = p.k23 * (t8 * p.k0 + delta_dot * (delta_dot * p.zt)) - t8 * p.k6;
+    let f_Phi = cos_Phi * t15;
+    let t16 = t9 * p.k8 + p.k27 * (epsilon_dot * (epsilon_dot * p.u) - t9 * p.k1);
+    let t17 = cos_Omega * t16;
+    let t18 = (t11 * t11 + t10 * t10).sqrt();
+    let t19 = S::ONE / t18 * (p.l0 - t18);
+    let t20 = t19 * (t10 * p.k12 + t11 * p.k13) + (t13 * p.k11 - p.k10 * t12);
+    let t21 = t19 * (t11 * p.k12 - t10 * p.k13) + (p.k10 * t13 + p.k11 * t12);
+    let f_beta = f_Theta + (p.mom - sin_Theta * (t4 * p.k30));
+    let f_gamma = -(sin_gamma * t21 + cos_gamma * t20);
+    let f_delta = f_Phi - cos_Phi * (t5 * p.k22);
+    let f_Omega = -t17;
+    let f_epsilon = cos_Omega * (t6 * p.k26) - t17;
+    [f_beta, f_Theta, f_gamma, f_Phi, f_delta, f_Omega, f_epsilon]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[x3] = d*cos(beta + Theta) - rr*cos(beta) + ss*sin(gamma) + xb
+/// g[y3] = d*sin(beta + Theta) - rr*sin(beta) - ss*cos(gamma) + yb
+/// g[x4] = d*cos(beta + Theta) - rr*cos(beta) + zt*cos(delta) + e*sin(Phi + delta) + xa
+/// g[y4] = d*sin(beta + Theta) - rr*sin(beta) + zt*sin(delta) - e*cos(Phi + delta) + ya
+/// g[x6] = d*cos(beta + Theta) - rr*cos(beta) + u*sin(epsilon) + zf*cos(Omega + epsilon) + xa
+/// g[y6] = d*sin(beta + Theta) - rr*sin(beta) - u*cos(epsilon) + zf*sin(Omega + epsilon) + ya
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 6] {
+    let beta = q[0];
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let delta = q[4];
+    let Omega = q[5];
+    let epsilon = q[6];
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t0 = Theta + beta;
+    let t1 = delta + Phi;
+    let (sin_delta, cos_delta) = delta.sin_cos();
+    let t2 = epsilon + Omega;
+    let (sin_epsilon, cos_epsilon) = epsilon.sin_cos();
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let t3 = p.rr * cos_beta - p.d * cos_t0;
+    let t4 = p.rr * sin_beta - p.d * sin_t0;
+    let g1 = p.ss * sin_gamma + p.xb - t3;
+    let g2 = p.yb - p.ss * cos_gamma - t4;
+    let g3 = p.e * sin_t1 + (p.xa + p.zt * cos_delta) - t3;
+    let g4 = p.ya + p.zt * sin_delta - p.e * cos_t1 - t4;
+    let g5 = p.zf * cos_t2 + (p.xa + p.u * sin_epsilon) - t3;
+    let g6 = p.zf * sin_t2 + (p.ya - p.u * cos_epsilon) - t4;
+    [g1, g2, g3, g4, g5, g6]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[x3] = rr*sin(beta)*der(beta) + ss*cos(gamma)*der(gamma)
+///     - d*sin(beta + Theta)*(der(beta) + der(Theta))
+/// phi[y3] = ss*sin(gamma)*der(gamma) - rr*cos(beta)*der(beta)
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta))
+/// phi[x4] = rr*sin(beta)*der(beta) - zt*sin(delta)*der(delta)
+///     - d*sin(beta + Theta)*(der(beta) + der(Theta)) + e*cos(Phi + delta)*(der(Phi) + der(delta))
+/// phi[y4] = zt*cos(delta)*der(delta) - rr*cos(beta)*der(beta)
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta)) + e*sin(Phi + delta)*(der(Phi) + der(delta))
+/// phi[x6] = rr*sin(beta)*der(beta) + u*cos(epsilon)*der(epsilon)
+///     - d*sin(beta + Theta)*(der(beta) + der(Theta))
+///     - zf*sin(Omega + epsilon)*(der(Omega) + der(epsilon))
+/// phi[y6] = u*sin(epsilon)*der(epsilon) - rr*cos(beta)*der(beta)
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta))
+///     + zf*cos(Omega + epsilon)*(der(Omega) + der(epsilon))
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+    v: &[S; 7],
+) -> [S; 6] {
+    let beta = q[0];
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let delta = q[4];
+    let Omega = q[5];
+    let epsilon = q[6];
+    let beta_dot = v[0];
+    let Theta_dot = v[1];
+    let gamma_dot = v[2];
+    let Phi_dot = v[3];
+    let delta_dot = v[4];
+    let Omega_dot = v[5];
+    let epsilon_dot = v[6];
+    let t0 = Theta + beta;
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t1 = delta + Phi;
+    let (sin_delta, cos_delta) = delta.sin_cos();
+    let t2 = epsilon + Omega;
+    let (sin_epsilon, cos_epsilon) = epsilon.sin_cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let t3 = beta_dot * p.rr;
+    let t4 = delta_dot * p.zt;
+    let t5 = epsilon_dot * p.u;
+    let t6 = gamma_dot * p.ss;
+    let t7 = (Theta_dot + beta_dot) * p.d;
+    let t8 = (delta_dot + Phi_dot) * p.e;
+    let t9 = (epsilon_dot + Omega_dot) * p.zf;
+    let t10 = t3 * sin_beta - t7 * sin_t0;
+    let t11 = t3 * cos_beta - t7 * cos_t0;
+    let phi1 = t10 + t6 * cos_gamma;
+    let phi2 = t6 * sin_gamma - t11;
+    let phi3 = t10 - (t4 * sin_delta - t8 * cos_t1);
+    let phi4 = t8 * sin_t1 + t4 * cos_delta - t11;
+    let phi5 = t10 + (t5 * cos_epsilon - t9 * sin_t2);
+    let phi6 = t9 * cos_t2 + t5 * sin_epsilon - t11;
+    [phi1, phi2, phi3, phi4, phi5, phi6]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[x3, beta] = rr*sin(beta) - d*sin(beta + Theta)
+/// G[x3, Theta] = -d*sin(beta + Theta)
+/// G[x3, gamma] = ss*cos(gamma)
+/// G[y3, beta] = d*cos(beta + Theta) - rr*cos(beta)
+/// G[y3, Theta] = d*cos(beta + Theta)
+/// G[y3, gamma] = ss*sin(gamma)
+/// G[x4, beta] = rr*sin(beta) - d*sin(beta + Theta)
+/// G[x4, Theta] = -d*sin(beta + Theta)
+/// G[x4, Phi] = e*cos(Phi + delta)
+/// G[x4, delta] = e*cos(Phi + delta) - zt*sin(delta)
+/// G[y4, beta] = d*cos(beta + Theta) - rr*cos(beta)
+/// G[y4, Theta] = d*cos(beta + Theta)
+/// G[y4, Phi] = e*sin(Phi + delta)
+/// G[y4, delta] = zt*cos(delta) + e*sin(Phi + delta)
+/// G[x6, beta] = rr*sin(beta) - d*sin(beta + Theta)
+/// G[x6, Theta] = -d*sin(beta + Theta)
+/// G[x6, Omega] = -zf*sin(Omega + epsilon)
+/// G[x6, epsilon] = u*cos(epsilon) - zf*sin(Omega + epsilon)
+/// G[y6, beta] = d*cos(beta + Theta) - rr*cos(beta)
+/// G[y6, Theta] = d*cos(beta + Theta)
+/// G[y6, Omega] = zf*cos(Omega + epsilon)
+/// G[y6, epsilon] = u*sin(epsilon) + zf*cos(Omega + epsilon)
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 42] {
+    let beta = q[0];
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let delta = q[4];
+    let Omega = q[5];
+    let epsilon = q[6];
+    let t0 = Theta + beta;
+    let t1 = delta + Phi;
+    let t2 = epsilon + Omega;
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let (sin_epsilon, cos_epsilon) = epsilon.sin_cos();
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let (sin_delta, cos_delta) = delta.sin_cos();
+    let g2_2 = cos_t0 * p.d;
+    let g3_4 = p.e * cos_t1;
+    let g4_4 = p.e * sin_t1;
+    let g6_6 = cos_t2 * p.zf;
+    let g1_1 = p.rr * sin_beta - sin_t0 * p.d;
+    let g1_2 = sin_t0 * p.k32;
+    let g2_1 = g2_2 - p.rr * cos_beta;
+    let g1_3 = p.ss * cos_gamma;
+    let zero = S::ZERO;
+    let g2_3 = p.ss * sin_gamma;
+    let g3_5 = g3_4 - p.zt * sin_delta;
+    let g4_5 = g4_4 + p.zt * cos_delta;
+    let g5_6 = sin_t2 * p.k33;
+    let g5_7 = p.u * cos_epsilon - sin_t2 * p.zf;
+    let g6_7 = g6_6 + p.u * sin_epsilon;
+    [
+        g1_1, g1_2, g1_3, zero, zero, zero, zero, g2_1, g2_2, g2_3, zero, zero, zero, zero, g1_1,
+        g1_2, zero, g3_4, g3_5, zero, zero, g2_1, g2_2, zero, g4_4, g4_5, zero, zero, g1_1, g1_2,
+        zero, zero, zero, g5_6, g5_7, g2_1, g2_2, zero, zero, zero, g6_6, g6_7,
+    ]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[x3] = ss*sin(gamma)*der(gamma)^2 - rr*cos(beta)*der(beta)^2
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta))^2
+/// gamma[y3] = d*sin(beta + Theta)*(der(beta) + der(Theta))^2 - rr*sin(beta)*der(beta)^2
+///     - ss*cos(gamma)*der(gamma)^2
+/// gamma[x4] = zt*cos(delta)*der(delta)^2 - rr*cos(beta)*der(beta)^2
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta))^2
+///     + e*sin(Phi + delta)*(der(Phi) + der(delta))^2
+/// gamma[y4] = zt*sin(delta)*der(delta)^2 - rr*sin(beta)*der(beta)^2
+///     + d*sin(beta + Theta)*(der(beta) + der(Theta))^2
+///     - e*cos(Phi + delta)*(der(Phi) + der(delta))^2
+/// gamma[x6] = u*sin(epsilon)*der(epsilon)^2 - rr*cos(beta)*der(beta)^2
+///     + d*cos(beta + Theta)*(der(beta) + der(Theta))^2
+///     + zf*cos(Omega + epsilon)*(der(Omega) + der(epsilon))^2
+/// gamma[y6] = d*sin(beta + Theta)*(der(beta) + der(Theta))^2 - rr*sin(beta)*der(beta)^2
+///     - u*cos(epsilon)*der(epsilon)^2 + zf*sin(Omega + epsilon)*(der(Omega) + der(epsilon))^2
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+    v: &[S; 7],
+) -> [S; 6] {
+    let beta = q[0];
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let delta = q[4];
+    let Omega = q[5];
+    let epsilon = q[6];
+    let beta_dot = v[0];
+    let Theta_dot = v[1];
+    let gamma_dot = v[2];
+    let Phi_dot = v[3];
+    let delta_dot = v[4];
+    let Omega_dot = v[5];
+    let epsilon_dot = v[6];
+    let t0 = Theta + beta;
+    let (sin_beta, cos_beta) = beta.sin_cos();
+    let t1 = epsilon + Omega;
+    let (sin_epsilon, cos_epsilon) = epsilon.sin_cos();
+    let t2 = delta + Phi;
+    let (sin_delta, cos_delta) = delta.sin_cos();
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let (sin_t1, cos_t1) = t1.sin_cos();
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_t2, cos_t2) = t2.sin_cos();
+    let t3 = Theta_dot + beta_dot;
+    let t4 = epsilon_dot + Omega_dot;
+    let t5 = delta_dot + Phi_dot;
+    let t6 = beta_dot * (beta_dot * p.rr);
+    let t7 = epsilon_dot * (epsilon_dot * p.u);
+    let t8 = delta_dot * (delta_dot * p.zt);
+    let t9 = gamma_dot * (gamma_dot * p.ss);
+    let t10 = t3 * (t3 * p.d);
+    let t11 = t4 * (t4 * p.zf);
+    let t12 = t5 * (t5 * p.e);
+    let t13 = t6 * sin_beta - t10 * sin_t0;
+    let t14 = t6 * cos_beta - t10 * cos_t0;
+    let gamma1 = t9 * sin_gamma - t14;
+    let gamma2 = -(t13 + t9 * cos_gamma);
+    let gamma3 = t12 * sin_t2 + t8 * cos_delta - t14;
+    let gamma4 = t8 * sin_delta - t12 * cos_t2 - t13;
+    let gamma5 = t11 * cos_t1 + t7 * sin_epsilon - t14;
+    let gamma6 = -(t13 + (t7 * cos_epsilon - t11 * sin_t1));
+    [gamma1, gamma2, gamma3, gamma4, gamma5, gamma6]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+    v: &[S; 7],
+) -> Result<[S; 7], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 7],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 7],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 7], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let beta = n(q[0]);
+        let Theta = n(q[1]);
+        let gamma = n(q[2]);
+        let Phi = n(q[3]);
+        let delta = n(q[4]);
+        let Omega = n(q[5]);
+        let epsilon = n(q[6]);
+        let beta_dot = n(v[0]);
+        let Theta_dot = n(v[1]);
+        let gamma_dot = n(v[2]);
+        let Phi_dot = n(v[3]);
+        let delta_dot = n(v[4]);
+        let Omega_dot = n(v[5]);
+        let epsilon_dot = n(v[6]);
+        let t0 = Theta + beta;
+        let t1 = Phi + delta;
+        let t2 = Omega + epsilon;
+        let angles = [Theta, beta, gamma, Phi, t0, delta, Omega, t1, epsilon, t2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_Theta, cos_Theta) = circular[0];
+        let (sin_beta, cos_beta) = circular[1];
+        let (sin_gamma, cos_gamma) = circular[2];
+        let (sin_Phi, cos_Phi) = circular[3];
+        let (sin_t0, cos_t0) = circular[4];
+        let (sin_delta, cos_delta) = circular[5];
+        let (sin_Omega, cos_Omega) = circular[6];
+        let (sin_t1, cos_t1) = circular[7];
+        let (sin_epsilon, cos_epsilon) = circular[8];
+        let (sin_t2, cos_t2) = circular[9];
+        let t3 = gamma_dot * gamma_dot;
+        let t4 = Theta_dot + beta_dot;
+        let t5 = delta_dot + Phi_dot;
+        let t6 = epsilon_dot + Omega_dot;
+        let t7 = t4 * t4;
+        let t8 = beta_dot * (n(p.rr) * beta_dot);
+        let t9 = t5 * t5;
+        let t10 = t6 * t6;
+        let t11 = delta_dot * (n(p.zt) * delta_dot);
+        let t12 = epsilon_dot * (n(p.u) * epsilon_dot);
+        let t13 = cos_Theta * n(p.da);
+        let t14 = sin_Theta * n(p.k4);
+        let t15 = cos_gamma * n(p.ss);
+        let t16 = sin_Phi * n(p.k0);
+        let t17 = cos_Phi * n(p.k6);
+        let t18 = n(p.rr) - t13;
+        let t19 = sin_t0 * n(p.d);
+        let t20 = cos_t0 * n(p.d);
+        let t21 = n(p.k34) * t15;
+        let t22 = sin_gamma * n(p.ss);
+        let t23 = t16 + n(p.zt);
+        let t24 = sin_Theta.mul_add(t14, n(p.I2));
+        let t25 = t18.neg_mul_add(cos_Theta * n(p.k20), t24);
+        let t26 = n(p.rr).mul_sub(sin_beta, t19);
+        let t27 = n(p.rr).mul_sub(cos_beta, t20);
+        let t28 = n(p.k34) * t22;
+        let t29 = cos_gamma.mul_add(n(p.sd), n(p.xb));
+        let t30 = n(p.k22).mul_add(sin_Phi, n(p.k7));
+        let t31 = cos_t1 * n(p.e);
+        let t32 = cos_Phi.mul_add(t17, n(p.I4));
+        let t33 = sin_Omega * n(p.k1);
+        let t34 = sin_gamma.mul_add(n(p.sd), n(p.yb));
+        let t35 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t29);
+        let t36 = t18.mul_add(n(p.k21), n(p.k2)) + (t25 + n(p.I1));
+        let t37 = cos_Omega * n(p.k8);
+        let t38 = n(p.k35) * t30;
+        let t39 = n(p.k35) * t31;
+        let t40 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t34);
+        let t41 = N::ONE / t36;
+        let t42 = sin_t1 * n(p.e);
+        let t43 = n(p.u) - t33;
+        let t44 = t23.mul_add(sin_Phi * n(p.k23), t32) + n(p.I5);
+        let t45 = t23.mul_add(n(p.k24), n(p.k25)) + t44;
+        let t46 = t30.mul_add(t39, n(p.zt).mul_sub(sin_delta, t31));
+        let t47 = n(p.k35) * t42;
+        let t48 = cos_gamma * t3;
+        let t49 = t30.neg_mul_add(t38, t45);
+        let t50 = t40.mul_add(t40, t35 * t35).sqrt();
+        let t51 = n(p.k26).neg_mul_add(sin_Omega, n(p.k9));
+        let t52 = cos_Omega.mul_add(t37, n(p.I6));
+        let t53 = sin_gamma * t3;
+        let t54 = t30.neg_mul_add(t47, n(p.zt).mul_add(cos_delta, t42));
+        let t55 = N::ONE / t49;
+        let t56 = n(p.k36) * t51;
+        let t57 = t25 * t41;
+        let t58 = t41 * t26;
+        let t59 = t41 * t27;
+        let t60 = t53.mul_add(n(p.sa), n(p.sb) * t48);
+        let t61 = t43.neg_mul_add(sin_Omega * n(p.k27), t52) + n(p.I7);
+        let t62 = t43.mul_add(n(p.k28), n(p.k29)) + t61;
+        let t63 = t48.mul_sub(n(p.sa), t53 * n(p.sb));
+        let t64 = t25.neg_mul_add(t57, n(p.k5));
+        let t65 = t25.mul_add(t58, t19);
+        let t66 = t25.mul_add(t59, t20);
+        let t67 = t51.neg_mul_add(t56, t62);
+        let t68 = N::ONE / t64;
+        let t69 = sin_t2 * n(p.zf);
+        let t70 = t55 * t46;
+        let t71 = t55 * t54;
+        let t72 = N::ONE / t67;
+        let t73 = t13.neg_mul_add(t7, t8);
+        let t74 = t73.mul_add(sin_Theta * n(p.k20), t14 * (cos_Theta * t7));
+        let t75 = t46.mul_add(t70, t31 * t39);
+        let t76 = t54.mul_add(t71, t42 * t47);
+        let t77 = n(p.k36) * t69;
+        let t78 = t74 + sin_Theta.neg_mul_add(t7 * n(p.k30), n(p.mom));
+        let t79 = t51.mul_add(t77, n(p.u).mul_sub(cos_epsilon, t69));
+        let t80 = t68 * t65;
+        let t81 = t68 * t66;
+        let t82 = t19.neg_mul_add(t7, sin_beta * t8);
+        let t83 = t20.neg_mul_add(t7, cos_beta * t8);
+        let t84 = t57.neg_mul_add(t78, t74);
+        let t85 = t72 * t79;
+        let t86 = t65.mul_add(t80, t26 * t58);
+        let t87 = t81.mul_add(t65, t59 * t26);
+        let t88 = t66.mul_add(t81, t27 * t59);
+        let t89 = t66.mul_add(t80, t27 * t58);
+        let t90 = N::ONE / t50 * (n(p.l0) - t50);
+        let t91 = t81.neg_mul_add(t84, t59 * t78);
+        let t92 = t80.neg_mul_add(t84, t58 * t78);
+        let t93 = t15.mul_add(t21, t86);
+        let t94 = t28.mul_sub(t15, t87);
+        let t95 = t22.mul_add(t28, t88);
+        let t96 = t40 * t90;
+        let t97 = t35 * t90;
+        let t98 = cos_t2 * n(p.zf);
+        let t99 = t79.mul_add(t85, t69 * t77);
+        let t100 = N::ONE / t93;
+        let t101 = t63.mul_sub(n(p.k11), n(p.k10) * t60);
+        let t102 = n(p.k10).mul_add(t63, n(p.k11) * t60);
+        let t103 = n(p.k36) * t98;
+        let t104 = t17 * (sin_Phi * t9);
+        let t105 = t16.mul_add(t9, t11).mul_sub(cos_Phi * n(p.k23), t104);
+        let t106 = t97.mul_add(n(p.k12), n(p.k13).mul_add(t96, t101));
+        let t107 = t33.neg_mul_add(t10, t12);
+        let t108 = t37 * (sin_Omega * t10);
+        let t109 = t107.mul_add(cos_Omega * n(p.k27), t108);
+        let t110 = t51.neg_mul_add(t103, n(p.u).mul_add(sin_epsilon, t98));
+        let t111 = t100 * t94;
+        let t112 = t86 * t100;
+        let t113 = t100 * t87;
+        let t114 = t97.neg_mul_add(n(p.k13), t96.mul_add(n(p.k12), t102));
+        let t115 = sin_gamma.mul_add(t114, cos_gamma * t106);
+        let t116 = t94.neg_mul_add(t111, t95);
+        let t117 = t94.mul_add(t112, t89);
+        let t118 = t94.mul_add(t113, t88);
+        let t119 = N::ONE / t116;
+        let t120 = t21.neg_mul_add(t115, t92 + n(p.ss).neg_mul_add(t53, t83));
+        let t121 = t72 * t110;
+        let t122 = cos_Phi.neg_mul_add(n(p.k22) * t9, t105);
+        let t123 = t38.neg_mul_add(t105, t122);
+        let t124 = t28.neg_mul_add(t115, n(p.ss).mul_add(t48, t82) - t91);
+        let t125 = t111.neg_mul_add(t120, t124);
+        let t126 = t82 - t31.neg_mul_add(t9, sin_delta * t11);
+        let t127 = cos_Omega.neg_mul_add(n(p.k26) * t10, t109);
+        let t128 = t56.neg_mul_add(t109, t127);
+        let t129 = t83 - t98.mul_add(t10, sin_epsilon * t12);
+        let t130 = t82 + t69.neg_mul_add(t10, cos_epsilon * t12);
+        let t131 = t39.mul_add(t105, t83 - t42.mul_add(t9, cos_delta * t11));
+        let t132 = t110.mul_add(t121, t98 * t103);
+        let t133 = t119 * t117;
+        let t134 = t119 * t118;
+        let t135 = t117.neg_mul_add(t133, t86.neg_mul_add(t112, t86));
+        let t136 = t134.neg_mul_add(t117, t86.neg_mul_add(t113, t87));
+        let t137 = t135 + t75;
+        let t138 = t71.neg_mul_add(t46, t47 * t31) - t136;
+        let t139 = t88 - t118.mul_add(t134, t87 * t113);
+        let t140 = t91 - t134.neg_mul_add(t125, t113 * t120);
+        let t141 = t92 - t133.neg_mul_add(t125, t112 * t120);
+        let t142 = N::ONE / t137;
+        let t143 = t141 + t70.neg_mul_add(t123, t131);
+        let t144 = t121.neg_mul_add(t128, t103.neg_mul_add(t109, t130));
+        let t145 = t142 * t138;
+        let t146 = t135 * t142;
+        let t147 = t142 * t136;
+        let t148 = t138.neg_mul_add(t145, t139 + t76);
+        let t149 = t118.neg_mul_add(t133, t87.neg_mul_add(t112, t89));
+        let t150 = t138.mul_add(t146, t149);
+        let t151 = t138.mul_add(t147, t139);
+        let t152 = t136 + t121.neg_mul_add(t79, t103 * t69);
+        let t153 = t71.mul_add(t123, t47.mul_add(t105, t126)) - t140;
+        let t154 = t145.neg_mul_add(t143, t153);
+        let t155 = t141 + t85.neg_mul_add(t128, t77.mul_add(t109, t129));
+        let t156 = N::ONE / t148;
+        let t157 = t156 * t150;
+        let t158 = t156 * t151;
+        let t159 = t150.neg_mul_add(t157, t135.neg_mul_add(t146, t99 + t135));
+        let t160 = t150.neg_mul_add(t158, t135.neg_mul_add(t147, t152));
+        let t161 = t157.mul_add(t154, t146.neg_mul_add(t143, t155));
+        let t162 = t136.neg_mul_add(t147, t132 + t139);
+        let t163 = N::ONE / t159;
+        let t164 = t163 * t160;
+        let t165 = t158.neg_mul_add(t154, t147.mul_add(t143, t144 - t140));
+        let t166 = t160.neg_mul_add(t164, t151.neg_mul_add(t158, t162));
+        let t167 = t164.mul_add(t161, t165) / t166;
+        let t168 = t164.mul_add(t167, t163 * t161);
+        let t169 = t157.mul_add(t168, t158.neg_mul_add(t167, t156 * t154));
+        let t170 = t85.mul_add(t168, t121.mul_add(t167, t72 * t128));
+        let t171 = t146.neg_mul_add(t168, t147.mul_add(t167, t142 * t143));
+        let t172 = t145.neg_mul_add(t169, t171);
+        let t173 = t133.mul_add(t168, t134.neg_mul_add(t167, t119 * t125));
+        let t174 = t58.neg_mul_add(t168, t59.mul_add(t167, t41 * t78));
+        let t175 = t112.neg_mul_add(t168, t113.mul_add(t167, t100 * t120));
+        let t176 = t80.mul_add(t168, t81.neg_mul_add(t167, t68 * t84));
+        let t177 = t77.mul_sub(t168, t103.mul_add(t167, n(p.k36) * t109));
+        let t178 = t133.mul_add(t172, t134.neg_mul_add(t169, t173));
+        let delta_ddot = t70.mul_add(t172, t71.neg_mul_add(t169, t55 * t123));
+        let t179 = t58.neg_mul_add(t172, t59.mul_add(t169, t174));
+        let t180 = t112.neg_mul_add(t172, t113.mul_add(t169, t175));
+        let t181 = t111.neg_mul_add(t178, t180);
+        let t182 = t80.mul_add(t172, t81.neg_mul_add(t169, t176));
+        let t183 = t39.mul_add(t172, t47.mul_sub(t169, n(p.k35) * t105));
+        let Theta_ddot = t80.mul_add(t181, t81.neg_mul_add(t178, t182));
+        let t184 = t58.neg_mul_add(t181, t59.mul_add(t178, t179));
+        let beta_ddot = t57.neg_mul_add(Theta_ddot, t184);
+        let gamma_ddot = -t21.mul_add(t181, t28.mul_add(t178, n(p.k34) * t115));
+        let Phi_ddot = -t38.mul_add(delta_ddot, t183);
+        let Omega_ddot = t56.mul_add(t170, t177);
+        let epsilon_ddot = -t170;
+        let t185 = t86 + t75;
+        let t186 = t88 + t76;
+        let t187 = t86 + t99;
+        let t188 = t132 + t88;
+        let sound = t49.exceeds(N::from_f64(1.1546319456101628e-14) * t45)
+            & t67.exceeds(N::from_f64(1.1546319456101628e-14) * t62)
+            & t36.exceeds(N::from_f64(1.1546319456101628e-14) * t36)
+            & t64.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k5))
+            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t93)
+            & t116.exceeds(N::from_f64(1.1546319456101628e-14) * t95)
+            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t185)
+            & t148.exceeds(N::from_f64(1.1546319456101628e-14) * t186)
+            & t159.exceeds(N::from_f64(1.1546319456101628e-14) * t187)
+            & t166.exceeds(N::from_f64(1.1546319456101628e-14) * t188)
+            & gamma_ddot.is_finite();
+        if !sound {
+            check(t49, t45, 1.1546319456101628e-14, 4)?;
+            check(t67, t62, 1.1546319456101628e-14, 6)?;
+            check(t36, t36, 1.1546319456101628e-14, 0)?;
+            check(t64, n(p.k5), 1.1546319456101628e-14, 1)?;
+            check(t93, t93, 1.1546319456101628e-14, 7)?;
+            check(t116, t95, 1.1546319456101628e-14, 8)?;
+            check(t137, t185, 1.1546319456101628e-14, 9)?;
+            check(t148, t186, 1.1546319456101628e-14, 10)?;
+            check(t159, t187, 1.1546319456101628e-14, 11)?;
+            check(t166, t188, 1.1546319456101628e-14, 12)?;
+        }
+        let accelerations = [
+            beta_ddot.store(),
+            Theta_ddot.store(),
+            gamma_ddot.store(),
+            Phi_ddot.store(),
+            delta_ddot.store(),
+            Omega_ddot.store(),
+            epsilon_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+    v: &[S; 7],
+) -> Result<[S; 6], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 7],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 7],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 6], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let beta = n(q[0]);
+        let Theta = n(q[1]);
+        let gamma = n(q[2]);
+        let Phi = n(q[3]);
+        let delta = n(q[4]);
+        let Omega = n(q[5]);
+        let epsilon = n(q[6]);
+        let beta_dot = n(v[0]);
+        let Theta_dot = n(v[1]);
+        let gamma_dot = n(v[2]);
+        let Phi_dot = n(v[3]);
+        let delta_dot = n(v[4]);
+        let Omega_dot = n(v[5]);
+        let epsilon_dot = n(v[6]);
+        let t0 = Theta + beta;
+        let t1 = Phi + delta;
+        let t2 = Omega + epsilon;
+        let angles = [Theta, beta, gamma, Phi, t0, delta, Omega, t1, epsilon, t2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_Theta, cos_Theta) = circular[0];
+        let (sin_beta, cos_beta) = circular[1];
+        let (sin_gamma, cos_gamma) = circular[2];
+        let (sin_Phi, cos_Phi) = circular[3];
+        let (sin_t0, cos_t0) = circular[4];
+        let (sin_delta, cos_delta) = circular[5];
+        let (sin_Omega, cos_Omega) = circular[6];
+        let (sin_t1, cos_t1) = circular[7];
+        let (sin_epsilon, cos_epsilon) = circular[8];
+        let (sin_t2, cos_t2) = circular[9];
+        let t3 = gamma_dot * gamma_dot;
+        let t4 = Theta_dot + beta_dot;
+        let t5 = delta_dot + Phi_dot;
+        let t6 = epsilon_dot + Omega_dot;
+        let t7 = t4 * t4;
+        let t8 = beta_dot * (n(p.rr) * beta_dot);
+        let t9 = t5 * t5;
+        let t10 = t6 * t6;
+        let t11 = delta_dot * (n(p.zt) * delta_dot);
+        let t12 = epsilon_dot * (n(p.u) * epsilon_dot);
+        let t13 = cos_Theta * n(p.da);
+        let t14 = sin_Theta * n(p.k4);
+        let t15 = cos_gamma * n(p.ss);
+        let t16 = sin_Phi * n(p.k0);
+        let t17 = cos_Phi * n(p.k6);
+        let t18 = n(p.rr) - t13;
+        let t19 = sin_t0 * n(p.d);
+        let t20 = cos_t0 * n(p.d);
+        let t21 = n(p.k34) * t15;
+        let t22 = sin_gamma * n(p.ss);
+        let t23 = t16 + n(p.zt);
+        let t24 = sin_Theta.mul_add(t14, n(p.I2));
+        let t25 = t18.neg_mul_add(cos_Theta * n(p.k20), t24);
+        let t26 = n(p.rr).mul_sub(sin_beta, t19);
+        let t27 = n(p.rr).mul_sub(cos_beta, t20);
+        let t28 = n(p.k34) * t22;
+        let t29 = cos_gamma.mul_add(n(p.sd), n(p.xb));
+        let t30 = n(p.k22).mul_add(sin_Phi, n(p.k7));
+        let t31 = cos_t1 * n(p.e);
+        let t32 = cos_Phi.mul_add(t17, n(p.I4));
+        let t33 = sin_Omega * n(p.k1);
+        let t34 = sin_gamma.mul_add(n(p.sd), n(p.yb));
+        let t35 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t29);
+        let t36 = t18.mul_add(n(p.k21), n(p.k2)) + (t25 + n(p.I1));
+        let t37 = cos_Omega * n(p.k8);
+        let t38 = n(p.k35) * t30;
+        let t39 = n(p.k35) * t31;
+        let t40 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t34);
+        let t41 = N::ONE / t36;
+        let t42 = sin_t1 * n(p.e);
+        let t43 = n(p.u) - t33;
+        let t44 = t23.mul_add(sin_Phi * n(p.k23), t32) + n(p.I5);
+        let t45 = t23.mul_add(n(p.k24), n(p.k25)) + t44;
+        let t46 = t30.mul_add(t39, n(p.zt).mul_sub(sin_delta, t31));
+        let t47 = n(p.k35) * t42;
+        let t48 = cos_gamma * t3;
+        let t49 = t30.neg_mul_add(t38, t45);
+        let t50 = t40.mul_add(t40, t35 * t35).sqrt();
+        let t51 = n(p.k26).neg_mul_add(sin_Omega, n(p.k9));
+        let t52 = cos_Omega.mul_add(t37, n(p.I6));
+        let t53 = sin_gamma * t3;
+        let t54 = t30.neg_mul_add(t47, n(p.zt).mul_add(cos_delta, t42));
+        let t55 = N::ONE / t49;
+        let t56 = n(p.k36) * t51;
+        let t57 = t25 * t41;
+        let t58 = t41 * t26;
+        let t59 = t41 * t27;
+        let t60 = t53.mul_add(n(p.sa), n(p.sb) * t48);
+        let t61 = t43.neg_mul_add(sin_Omega * n(p.k27), t52) + n(p.I7);
+        let t62 = t43.mul_add(n(p.k28), n(p.k29)) + t61;
+        let t63 = t48.mul_sub(n(p.sa), t53 * n(p.sb));
+        let t64 = t25.neg_mul_add(t57, n(p.k5));
+        let t65 = t25.mul_add(t58, t19);
+        let t66 = t25.mul_add(t59, t20);
+        let t67 = t51.neg_mul_add(t56, t62);
+        let t68 = N::ONE / t64;
+        let t69 = sin_t2 * n(p.zf);
+        let t70 = t55 * t46;
+        let t71 = t55 * t54;
+        let t72 = N::ONE / t67;
+        let t73 = t13.neg_mul_add(t7, t8);
+        let t74 = t73.mul_add(sin_Theta * n(p.k20), t14 * (cos_Theta * t7));
+        let t75 = t46.mul_add(t70, t31 * t39);
+        let t76 = t54.mul_add(t71, t42 * t47);
+        let t77 = n(p.k36) * t69;
+        let t78 = t74 + sin_Theta.neg_mul_add(t7 * n(p.k30), n(p.mom));
+        let t79 = t51.mul_add(t77, n(p.u).mul_sub(cos_epsilon, t69));
+        let t80 = t68 * t65;
+        let t81 = t68 * t66;
+        let t82 = t19.neg_mul_add(t7, sin_beta * t8);
+        let t83 = t20.neg_mul_add(t7, cos_beta * t8);
+        let t84 = t57.neg_mul_add(t78, t74);
+        let t85 = t72 * t79;
+        let t86 = t65.mul_add(t80, t26 * t58);
+        let t87 = t81.mul_add(t65, t59 * t26);
+        let t88 = t66.mul_add(t81, t27 * t59);
+        let t89 = t66.mul_add(t80, t27 * t58);
+        let t90 = N::ONE / t50 * (n(p.l0) - t50);
+        let t91 = t81.neg_mul_add(t84, t59 * t78);
+        let t92 = t80.neg_mul_add(t84, t58 * t78);
+        let t93 = t15.mul_add(t21, t86);
+        let t94 = t28.mul_sub(t15, t87);
+        let t95 = t22.mul_add(t28, t88);
+        let t96 = t40 * t90;
+        let t97 = t35 * t90;
+        let t98 = cos_t2 * n(p.zf);
+        let t99 = t79.mul_add(t85, t69 * t77);
+        let t100 = N::ONE / t93;
+        let t101 = t63.mul_sub(n(p.k11), n(p.k10) * t60);
+        let t102 = n(p.k10).mul_add(t63, n(p.k11) * t60);
+        let t103 = n(p.k36) * t98;
+        let t104 = t17 * (sin_Phi * t9);
+        let t105 = t16.mul_add(t9, t11).mul_sub(cos_Phi * n(p.k23), t104);
+        let t106 = t97.mul_add(n(p.k12), n(p.k13).mul_add(t96, t101));
+        let t107 = t33.neg_mul_add(t10, t12);
+        let t108 = t37 * (sin_Omega * t10);
+        let t109 = t107.mul_add(cos_Omega * n(p.k27), t108);
+        let t110 = t51.neg_mul_add(t103, n(p.u).mul_add(sin_epsilon, t98));
+        let t111 = t100 * t94;
+        let t112 = t86 * t100;
+        let t113 = t100 * t87;
+        let t114 = t97.neg_mul_add(n(p.k13), t96.mul_add(n(p.k12), t102));
+        let t115 = sin_gamma.mul_add(t114, cos_gamma * t106);
+        let t116 = t94.neg_mul_add(t111, t95);
+        let t117 = t94.mul_add(t112, t89);
+        let t118 = t94.mul_add(t113, t88);
+        let t119 = N::ONE / t116;
+        let t120 = t21.neg_mul_add(t115, t92 + n(p.ss).neg_mul_add(t53, t83));
+        let t121 = t72 * t110;
+        let t122 = cos_Phi.neg_mul_add(n(p.k22) * t9, t105);
+        let t123 = t38.neg_mul_add(t105, t122);
+        let t124 = t28.neg_mul_add(t115, n(p.ss).mul_add(t48, t82) - t91);
+        let t125 = t111.neg_mul_add(t120, t124);
+        let t126 = t82 - t31.neg_mul_add(t9, sin_delta * t11);
+        let t127 = cos_Omega.neg_mul_add(n(p.k26) * t10, t109);
+        let t128 = t56.neg_mul_add(t109, t127);
+        let t129 = t83 - t98.mul_add(t10, sin_epsilon * t12);
+        let t130 = t82 + t69.neg_mul_add(t10, cos_epsilon * t12);
+        let t131 = t39.mul_add(t105, t83 - t42.mul_add(t9, cos_delta * t11));
+        let t132 = t110.mul_add(t121, t98 * t103);
+        let t133 = t119 * t117;
+        let t134 = t119 * t118;
+        let t135 = t117.neg_mul_add(t133, t86.neg_mul_add(t112, t86));
+        let t136 = t134.neg_mul_add(t117, t86.neg_mul_add(t113, t87));
+        let t137 = t135 + t75;
+        let t138 = t71.neg_mul_add(t46, t47 * t31) - t136;
+        let t139 = t88 - t118.mul_add(t134, t87 * t113);
+        let t140 = t91 - t134.neg_mul_add(t125, t113 * t120);
+        let t141 = t92 - t133.neg_mul_add(t125, t112 * t120);
+        let t142 = N::ONE / t137;
+        let t143 = t141 + t70.neg_mul_add(t123, t131);
+        let t144 = t121.neg_mul_add(t128, t103.neg_mul_add(t109, t130));
+        let t145 = t142 * t138;
+        let t146 = t135 * t142;
+        let t147 = t142 * t136;
+        let t148 = t138.neg_mul_add(t145, t139 + t76);
+        let t149 = t118.neg_mul_add(t133, t87.neg_mul_add(t112, t89));
+        let t150 = t138.mul_add(t146, t149);
+        let t151 = t138.mul_add(t147, t139);
+        let t152 = t136 + t121.neg_mul_add(t79, t103 * t69);
+        let t153 = t71.mul_add(t123, t47.mul_add(t105, t126)) - t140;
+        let t154 = t145.neg_mul_add(t143, t153);
+        let t155 = t141 + t85.neg_mul_add(t128, t77.mul_add(t109, t129));
+        let t156 = N::ONE / t148;
+        let t157 = t156 * t150;
+        let t158 = t156 * t151;
+        let t159 = t150.neg_mul_add(t157, t135.neg_mul_add(t146, t99 + t135));
+        let t160 = t150.neg_mul_add(t158, t135.neg_mul_add(t147, t152));
+        let t161 = t157.mul_add(t154, t146.neg_mul_add(t143, t155));
+        let t162 = t136.neg_mul_add(t147, t132 + t139);
+        let t163 = N::ONE / t159;
+        let t164 = t163 * t160;
+        let t165 = t158.neg_mul_add(t154, t147.mul_add(t143, t144 - t140));
+        let t166 = t160.neg_mul_add(t164, t151.neg_mul_add(t158, t162));
+        let t167 = t164.mul_add(t161, t165) / t166;
+        let t168 = t164.mul_add(t167, t163 * t161);
+        let t169 = t157.mul_add(t168, t158.neg_mul_add(t167, t156 * t154));
+        let t170 = t146.neg_mul_add(t168, t147.mul_add(t167, t142 * t143));
+        let t171 = t145 * t169;
+        let t172 = t133.mul_add(t168, t134.neg_mul_add(t167, t119 * t125));
+        let t173 = t112.neg_mul_add(t168, t113.mul_add(t167, t100 * t120));
+        let t174 = t170 - t171;
+        let t175 = t133.mul_add(t174, t134.neg_mul_add(t169, t172));
+        let t176 = t112.neg_mul_add(t174, t113.mul_add(t169, t173));
+        let lambda1 = t111.mul_sub(t175, t176);
+        let lambda2 = -t175;
+        let lambda3 = t171 - t170;
+        let lambda4 = -t169;
+        let lambda5 = -t168;
+        let lambda6 = -t167;
+        let t177 = t86 + t75;
+        let t178 = t88 + t76;
+        let t179 = t86 + t99;
+        let t180 = t132 + t88;
+        let sound = t49.exceeds(N::from_f64(1.1546319456101628e-14) * t45)
+            & t67.exceeds(N::from_f64(1.1546319456101628e-14) * t62)
+            & t36.exceeds(N::from_f64(1.1546319456101628e-14) * t36)
+            & t64.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k5))
+            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t93)
+            & t116.exceeds(N::from_f64(1.1546319456101628e-14) * t95)
+            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t177)
+            & t148.exceeds(N::from_f64(1.1546319456101628e-14) * t178)
+            & t159.exceeds(N::from_f64(1.1546319456101628e-14) * t179)
+            & t166.exceeds(N::from_f64(1.1546319456101628e-14) * t180)
+            & lambda2.is_finite();
+        if !sound {
+            check(t49, t45, 1.1546319456101628e-14, 4)?;
+            check(t67, t62, 1.1546319456101628e-14, 6)?;
+            check(t36, t36, 1.1546319456101628e-14, 0)?;
+            check(t64, n(p.k5), 1.1546319456101628e-14, 1)?;
+            check(t93, t93, 1.1546319456101628e-14, 7)?;
+            check(t116, t95, 1.1546319456101628e-14, 8)?;
+            check(t137, t177, 1.1546319456101628e-14, 9)?;
+            check(t148, t178, 1.1546319456101628e-14, 10)?;
+            check(t159, t179, 1.1546319456101628e-14, 11)?;
+            check(t166, t180, 1.1546319456101628e-14, 12)?;
+        }
+        let multipliers = [
+            lambda1.store(),
+            lambda2.store(),
+            lambda3.store(),
+            lambda4.store(),
+            lambda5.store(),
+            lambda6.store(),
+        ];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = …
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> S {
+    let Theta = q[1];
+    let gamma = q[2];
+    let Phi = q[3];
+    let Omega = q[5];
+    let beta_dot = v[0];
+    let Theta_dot = v[1];
+    let gamma_dot = v[2];
+    let Phi_dot = v[3];
+    let delta_dot = v[4];
+    let Omega_dot = v[5];
+    let epsilon_dot = v[6];
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let (sin_Theta, cos_Theta) = Theta.sin_cos();
+    let (sin_Phi, cos_Phi) = Phi.sin_cos();
+    let (sin_Omega, cos_Omega) = Omega.sin_cos();
+    let t0 = Theta_dot + beta_dot;
+    let t1 = gamma_dot * p.sa;
+    let t2 = delta_dot + Phi_dot;
+    let t3 = gamma_dot * p.sb;
+    let t4 = epsilon_dot + Omega_dot;
+    let t5 = t0 * t0;
+    let t6 = t2 * t2;
+    let t7 = t4 * t4;
+    let t8 = delta_dot * (delta_dot * p.k18) + beta_dot * (beta_dot * p.k17);
+    let t9 = beta_dot * p.rr - cos_Theta * (t0 * p.da);
+    let t10 = sin_Phi * (t2 * p.k0) + delta_dot * p.zt;
+    let t11 = epsilon_dot * p.u - sin_Omega * (t4 * p.k1);
+    let t12 = t3 * sin_gamma - cos_gamma * t1;
+    let t13 = t3 * cos_gamma + sin_gamma * t1;
+    let t14 = (sin_Theta * (sin_Theta * (t5 * p.k14)) + t9 * t9) * p.m2 + t5 * p.I2;
+    let t15 = (t13 * t13 + t12 * t12) * p.m3 + gamma_dot * (gamma_dot * p.I3);
+    let t16 = (cos_Phi * (cos_Phi * (t6 * p.k15)) + t10 * t10) * p.m4 + t6 * p.I4;
+    let t17 = (cos_Omega * (cos_Omega * (t7 * p.k16)) + t11 * t11) * p.m6 + t7 * p.I6;
+    let t18 = S::from_f64(0.5) * t15 + (epsilon_dot * (epsilon_dot * p.k19) + t8);
+    let t19 = S::from_f64(0.5) * t16 + S::from_f64(0.5) * t14;
+    t19 + (S::from_f64(0.5) * t17 + t18)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = 1/2*c0*(sqrt((xc - (sd*cos(gamma) + sc*sin(gamma) + xb))^2 + (yc - (sd*sin(gamma) -
+///     sc*cos(gamma) + yb))^2) - l0)^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> S {
+    let gamma = q[2];
+    let (sin_gamma, cos_gamma) = gamma.sin_cos();
+    let t0 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
+    let t1 = p.yc - (sin_gamma * p.sd + p.yb - cos_gamma * p.sc);
+    let t2 = p.l0 - (t1 * t1 + t0 * t0).sqrt();
+    t2 * (t2 * p.k3)
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = mom*der(beta)
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 7]) -> S {
+    let beta_dot = v[0];
+    beta_dot * p.mom
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 42] = [
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("m3", "kg"),
+    ("m4", "kg"),
+    ("m5", "kg"),
+    ("m6", "kg"),
+    ("m7", "kg"),
+    ("I1", "kg*m^2"),
+    ("I2", "kg*m^2"),
+    ("I3", "kg*m^2"),
+    ("I4", "kg*m^2"),
+    ("I5", "kg*m^2"),
+    ("I6", "kg*m^2"),
+    ("I7", "kg*m^2"),
+    ("xa", "m"),
+    ("ya", "m"),
+    ("xb", "m"),
+    ("yb", "m"),
+    ("xc", "m"),
+    ("yc", "m"),
+    ("d", "m"),
+    ("da", "m"),
+    ("e", "m"),
+    ("ea", "m"),
+    ("zf", "m"),
+    ("fa", "m"),
+    ("rr", "m"),
+    ("ra", "m"),
+    ("ss", "m"),
+    ("sa", "m"),
+    ("sb", "m"),
+    ("sc", "m"),
+    ("sd", "m"),
+    ("zt", "m"),
+    ("ta", "m"),
+    ("tb", "m"),
+    ("u", "m"),
+    ("ua", "m"),
+    ("ub", "m"),
+    ("c0", "N/m"),
+    ("l0", "m"),
+    ("mom", "N*m"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 7] = [
+    ("beta", "rad"),
+    ("Theta", "rad"),
+    ("gamma", "rad"),
+    ("Phi", "rad"),
+    ("delta", "rad"),
+    ("Omega", "rad"),
+    ("epsilon", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 6] = [
+    ("x3", "m", "N", true),
+    ("y3", "m", "N", true),
+    ("x4", "m", "N", true),
+    ("y4", "m", "N", true),
+    ("x6", "m", "N", true),
+    ("y6", "m", "N", true),
+];
+
+impl ::lagrangian::Machine for AndrewsSqueezer {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "AndrewsSqueezer"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.m1, self.m2, self.m3, self.m4, self.m5, self.m6, self.m7, self.I1, self.I2,
+            self.I3, self.I4, self.I5, self.I6, self.I7, self.xa, self.ya, self.xb, self.yb,
+            self.xc, self.yc, self.d, self.da, self.e, self.ea, self.zf, self.fa, self.rr, self.ra,
+            self.ss, self.sa, self.sb, self.sc, self.sd, self.zt, self.ta, self.tb, self.u,
+            self.ua, self.ub, self.c0, self.l0, self.mom,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 7];
+    type Matrix = [f64; 49];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 7]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 7] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 7],
+        v: &[f64; 7],
+        _: &Inputs,
+        result: &mut [f64; 7],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 7], matrix: &mut [f64; 49]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 7], v: &[f64; 7], result: &mut [f64; 7]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 7], _: &[f64; 7], _: &Inputs, result: &mut [f64; 7]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 7], v: &[f64; 7], _: &Inputs, result: &mut [f64; 7]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 7], v: &[f64; 7]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 7], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 7], v: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
+        work_rate(self, v)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 7], _: &[f64; 7], _: &[f64; 7], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 7],
+        _: &[f64; 7],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 7],
+        v: &[f64; 7],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 7], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 7], v: &[f64; 7], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(self, q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 7],
+        v: &[f64; 7],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(7, 6)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 7];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m2: lanes(|p| p.m2),
+            m3: lanes(|p| p.m3),
+            m4: lanes(|p| p.m4),
+            m6: lanes(|p| p.m6),
+            I1: lanes(|p| p.I1),
+            I2: lanes(|p| p.I2),
+            I3: lanes(|p| p.I3),
+            I4: lanes(|p| p.I4),
+            I5: lanes(|p| p.I5),
+            I6: lanes(|p| p.I6),
+            I7: lanes(|p| p.I7),
+            xa: lanes(|p| p.xa),
+            ya: lanes(|p| p.ya),
+            xb: lanes(|p| p.xb),
+            yb: lanes(|p| p.yb),
+            xc: lanes(|p| p.xc),
+            yc: lanes(|p| p.yc),
+            d: lanes(|p| p.d),
+            da: lanes(|p| p.da),
+            e: lanes(|p| p.e),
+            zf: lanes(|p| p.zf),
+            rr: lanes(|p| p.rr),
+            ss: lanes(|p| p.ss),
+            sa: lanes(|p| p.sa),
+            sb: lanes(|p| p.sb),
+            sc: lanes(|p| p.sc),
+            sd: lanes(|p| p.sd),
+            zt: lanes(|p| p.zt),
+            u: lanes(|p| p.u),
+            l0: lanes(|p| p.l0),
+            mom: lanes(|p| p.mom),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
+            k23: lanes(|p| p.k23),
+            k24: lanes(|p| p.k24),
+            k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(7) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

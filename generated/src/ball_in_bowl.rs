@@ -1,0 +1,1219 @@
+// @generated from machines/ball_in_bowl.machine by `cargo xtask generate`; edits are lost.
+
+//! A ball that rolls without slip in a spherical bowl, which turns about its vertical axis. The
+//! ball
+//! is turned by three angles; that it touches is one constraint, that it does not slip two.
+//!
+//! 6 coordinates, 6 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 8 | 7 | 3 | 0 | 0 | 18 |
+//! | `mass_matrix` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `bias` | 7 | 0 | 0 | 1 | 0 | 8 |
+//! | `forces` | 7 | 0 | 0 | 1 | 0 | 8 |
+//! | `constraint_positions` | 5 | 3 | 0 | 0 | 0 | 8 |
+//! | `constraint_rates` | 31 | 17 | 0 | 2 | 0 | 52 |
+//! | `constraint_matrix` | 31 | 6 | 0 | 2 | 0 | 41 |
+//! | `constraint_drift` | 67 | 40 | 0 | 2 | 0 | 111 |
+//! | `accelerations` | 182 | 101 | 4 | 2 | 0 | 291 |
+//! | `multipliers` | 164 | 85 | 4 | 2 | 0 | 257 |
+//! | `kinetic_energy` | 15 | 8 | 0 | 1 | 0 | 25 |
+//! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
+//! | `work_rate` | 19 | 13 | 0 | 1 | 0 | 34 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A ball that rolls without slip in a spherical bowl, which turns about its vertical axis. The
+/// ball
+/// is turned by three angles; that it touches is one constraint, that it does not slip two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BallInBowl<S = f64> {
+    /// `m`. Unit: kg. Default: 0.3.
+    pub m: S,
+    /// `r`. Unit: m. Default: 0.05.
+    pub r: S,
+    /// Inertia of the ball about any axis; that of a uniform one. Unit: kg*m^2. Default: 0.0003.
+    pub J: S,
+    /// Radius of the bowl. Unit: m. Default: 0.55.
+    pub R: S,
+    /// Rate at which the bowl turns. Unit: rad/s. Default: 2.
+    pub Omega: S,
+    /// `g`. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for BallInBowl {
+    fn default() -> Self {
+        Self {
+            m: 0.3,
+            r: 0.05,
+            J: 0.0003,
+            R: 0.55,
+            Omega: 2.0,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> BallInBowl<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> BallInBowl<R> {
+        BallInBowl {
+            m: f(self.m),
+            r: f(self.r),
+            J: f(self.J),
+            R: f(self.R),
+            Omega: f(self.Omega),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> BallInBowl<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.r - self.R;
+        let k6 = self.m * self.g;
+        let k0 = S::ONE / t0;
+        let k1 = self.r * k0;
+        let k3 = k0 * k0;
+        let k5 = k0 * k1;
+        let k7 = k0 * k5;
+        let k2 = k0 * (self.R * self.Omega);
+        let k4 = t0 * S::from_f64(0.5);
+        let k8 = -self.J;
+        let k9 = -k6;
+        let k10 = -k0;
+        let k11 = -k5;
+        let k12 = -k3;
+        let k13 = -k7;
+        let k14 = S::ONE / self.m;
+        let k15 = S::ONE / self.J;
+        let singular = if vanishes(self.m, self.m, 7.993605777301127e-15) {
+            Some(singular(2, self.m, self.m))
+        } else if vanishes(self.J, self.J, 7.993605777301127e-15) {
+            Some(singular(4, self.J, self.J))
+        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
+            Some(singular(0, self.m, self.m))
+        } else if vanishes(self.m, self.m, 7.993605777301127e-15) {
+            Some(singular(1, self.m, self.m))
+        } else if vanishes(self.J, self.J, 7.993605777301127e-15) {
+            Some(singular(3, self.J, self.J))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            J: self.J,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let x = S::from_ratio(3, 10);
+        let zero = S::ZERO;
+        let z = S::from_ratio(-2, 5);
+        let y_rate = S::from_ratio(3, 5);
+        let q = [x, zero, z, zero, zero, zero];
+        let v = [zero, y_rate, zero, zero, zero, self.Omega];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`BallInBowl`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Centre of the ball, from that of the bowl. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `z`. Unit: m.
+    pub z: S,
+    /// Angles of the ball, about x, then y, then z of itself. Unit: rad.
+    pub a: S,
+    /// `b`. Unit: rad.
+    pub b: S,
+    /// `c`. Unit: rad.
+    pub c: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 6] {
+        [self.x, self.y, self.z, self.a, self.b, self.c]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 6]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            z: q[2],
+            a: q[3],
+            b: q[4],
+            c: q[5],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            z: f(self.z),
+            a: f(self.a),
+            b: f(self.b),
+            c: f(self.c),
+        }
+    }
+}
+
+/// What can be set while a [`BallInBowl`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`BallInBowl`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`BallInBowl`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `J`
+    J: S,
+    /// `g`
+    g: S,
+    /// `1/(r - R)`
+    k0: S,
+    /// `r/(r - R)`
+    k1: S,
+    /// `R*Omega/(r - R)`
+    k2: S,
+    /// `1/(r - R)^2`
+    k3: S,
+    /// `0.5*(r - R)`
+    k4: S,
+    /// `r/(r - R)^2`
+    k5: S,
+    /// `m*g`
+    k6: S,
+    /// `r/(r - R)^3`
+    k7: S,
+    /// `-J`
+    k8: S,
+    /// `-m*g`
+    k9: S,
+    /// `-1/(r - R)`
+    k10: S,
+    /// `-r/(r - R)^2`
+    k11: S,
+    /// `-1/(r - R)^2`
+    k12: S,
+    /// `-r/(r - R)^3`
+    k13: S,
+    /// `1/m`
+    k14: S,
+    /// `1/J`
+    k15: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// M[z, z] = m
+/// M[a, a] = J
+/// M[b, b] = J
+/// M[c, a] = J*sin(b)
+/// M[c, c] = J
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [[S; 6]; 6] {
+    let b = q[4];
+    let sin_b = b.sin();
+    let zero = S::ZERO;
+    let m64 = p.J * sin_b;
+    [
+        [p.m, zero, zero, zero, zero, zero],
+        [zero, p.m, zero, zero, zero, zero],
+        [zero, zero, p.m, zero, zero, zero],
+        [zero, zero, zero, p.J, zero, m64],
+        [zero, zero, zero, zero, p.J, zero],
+        [zero, zero, zero, m64, zero, p.J],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[a] = J*cos(b)*der(b)*der(c)
+/// h[b] = -J*cos(b)*der(a)*der(c)
+/// h[c] = J*cos(b)*der(a)*der(b)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> [S; 6] {
+    let b = q[4];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let cos_b = b.cos();
+    let t0 = cos_b * p.J * b_dot;
+    let zero = S::ZERO;
+    let h_a = t0 * c_dot;
+    let h_b = cos_b * (c_dot * (a_dot * p.k8));
+    let h_c = t0 * a_dot;
+    [zero, zero, zero, h_a, h_b, h_c]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[z] = -m*g
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 6] {
+    let zero = S::ZERO;
+    [zero, zero, p.k9, zero, zero, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> [S; 6] {
+    let b = q[4];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let cos_b = b.cos();
+    let t0 = p.k8 * cos_b * b_dot;
+    let zero = S::ZERO;
+    let f_a = t0 * c_dot;
+    let f_b = cos_b * (c_dot * (a_dot * p.J));
+    let f_c = t0 * a_dot;
+    [zero, zero, p.k9, f_a, f_b, f_c]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[touching] = 1/2*r - 1/2*x^2/(r - R) - 1/2*y^2/(r - R) - 1/2*z^2/(r - R) - 1/2*R
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [S; 3] {
+    let x = q[0];
+    let y = q[1];
+    let z = q[2];
+    let g1 = p.k4 * (S::ONE - (z * z + (y * y + x * x)) * p.k3);
+    let zero = S::ZERO;
+    [g1, zero, zero]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[touching] = -x*der(x)/(r - R) - y*der(y)/(r - R) - z*der(z)/(r - R)
+/// phi[around] = (x*(der(y) + r*(x*(sin(a)*der(b) + cos(a)*cos(b)*der(c))/(R - r) - z*(der(a) +
+///     sin(b)*der(c))/(R - r)) - R*Omega*x/(R - r)) - y*(der(x) + r*(z*(cos(a)*der(b) -
+///     sin(a)*cos(b)*der(c))/(R - r) - y*(sin(a)*der(b) + cos(a)*cos(b)*der(c))/(R - r)) +
+///     R*Omega*y/(R - r)))/(R - r)
+/// phi[down] = (z*(x*(der(x) + r*(z*(cos(a)*der(b) - sin(a)*cos(b)*der(c))/(R - r) -
+///     y*(sin(a)*der(b) + cos(a)*cos(b)*der(c))/(R - r)) + R*Omega*y/(R - r)) + y*(der(y) +
+///     r*(x*(sin(a)*der(b) + cos(a)*cos(b)*der(c))/(R - r) - z*(der(a) + sin(b)*der(c))/(R - r)) -
+///     R*Omega*x/(R - r))) - (x^2 + y^2)*(der(z) + r*(y*(der(a) + sin(b)*der(c))/(R - r) -
+///     x*(cos(a)*der(b) - sin(a)*cos(b)*der(c))/(R - r))))/(R - r)^2
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+) -> [S; 3] {
+    let x = q[0];
+    let y = q[1];
+    let z = q[2];
+    let a_ = q[3];
+    let b = q[4];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let z_dot = v[2];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let (sin_a_, cos_a_) = a_.sin_cos();
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = cos_b * c_dot;
+    let t1 = sin_b * c_dot + a_dot;
+    let t2 = t0 * cos_a_ + sin_a_ * b_dot;
+    let t3 = cos_a_ * b_dot - t0 * sin_a_;
+    let t4 = y_dot + x * p.k2 - p.k1 * (x * t2 - z * t1);
+    let t5 = x_dot - y * p.k2 - p.k1 * (z * t3 - y * t2);
+    let t6 = (y * y + x * x) * (z_dot - p.k1 * (y * t1 - x * t3));
+    let phi1 = p.k10 * (z * z_dot + (y * y_dot + x * x_dot));
+    let phi2 = p.k10 * (x * t4 - y * t5);
+    let phi3 = (z * (y * t4 + x * t5) - t6) * p.k3;
+    [phi1, phi2, phi3]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[touching, x] = x/(R - r)
+/// G[touching, y] = y/(R - r)
+/// G[touching, z] = z/(R - r)
+/// G[around, x] = y/(r - R)
+/// G[around, y] = x/(R - r)
+/// G[around, a] = -r*x*z/(r - R)^2
+/// G[around, b] = r*x^2*sin(a)/(r - R)^2 + r*y^2*sin(a)/(r - R)^2 - r*y*z*cos(a)/(r - R)^2
+/// G[around, c] = r*y*z*sin(a)*cos(b)/(r - R)^2 - r*x*z*sin(b)/(r - R)^2
+///     + cos(a)*cos(b)*(r*x^2/(R - r)^2 + r*y^2/(R - r)^2)
+/// G[down, x] = x*z/(r - R)^2
+/// G[down, y] = y*z/(r - R)^2
+/// G[down, z] = -(x^2 + y^2)/(R - r)^2
+/// G[down, a] = r*y*z^2/(r - R)^3 - r*y*(x^2 + y^2)/(R - r)^3
+/// G[down, b] = cos(a)*(r*x*z^2/(R - r)^3 + r*x*(x^2 + y^2)/(R - r)^3)
+/// G[down, c] = sin(b)*(-r*y*z^2/(R - r)^3 - r*y*(x^2 + y^2)/(R - r)^3)
+///     - sin(a)*cos(b)*(r*x*z^2/(R - r)^3 + r*x*(x^2 + y^2)/(R - r)^3)
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [S; 18] {
+    let x = q[0];
+    let y = q[1];
+    let z = q[2];
+    let a_ = q[3];
+    let b = q[4];
+    let (sin_a_, cos_a_) = a_.sin_cos();
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = y * z;
+    let t1 = x * z;
+    let g1_1 = p.k10 * x;
+    let t2 = y * y + x * x;
+    let t3 = t2 + z * z;
+    let t4 = y * t3;
+    let t5 = x * t3;
+    let t6 = sin_a_ * cos_b;
+    let g1_2 = p.k10 * y;
+    let g1_3 = p.k10 * z;
+    let zero = S::ZERO;
+    let g2_1 = y * p.k0;
+    let g2_4 = t1 * p.k11;
+    let g2_5 = p.k5 * (sin_a_ * t2 - t0 * cos_a_);
+    let g2_6 = p.k5 * (z * (y * t6 - x * sin_b) + cos_b * (cos_a_ * t2));
+    let g3_1 = t1 * p.k3;
+    let g3_2 = t0 * p.k3;
+    let g3_3 = t2 * p.k12;
+    let g3_4 = t4 * p.k7;
+    let g3_5 = cos_a_ * (t5 * p.k13);
+    let g3_6 = p.k7 * (sin_b * t4 + t6 * t5);
+    [
+        g1_1, g1_2, g1_3, zero, zero, zero, g2_1, g1_1, zero, g2_4, g2_5, g2_6, g3_1, g3_2, g3_3,
+        g3_4, g3_5, g3_6,
+    ]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[touching] = der(x)^2/(r - R) + der(y)^2/(r - R) + der(z)^2/(r - R)
+/// gamma[around] = …
+/// gamma[down] = …
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+) -> [S; 3] {
+    let x = q[0];
+    let y = q[1];
+    let z = q[2];
+    let a_ = q[3];
+    let b = q[4];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let z_dot = v[2];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let (sin_a_, cos_a_) = a_.sin_cos();
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = cos_a_ * b_dot;
+    let t1 = sin_a_ * b_dot;
+    let t2 = cos_b * c_dot;
+    let t3 = sin_b * c_dot;
+    let t4 = t2 * a_dot;
+    let t5 = t0 - sin_a_ * t2;
+    let t6 = cos_a_ * t2 + t1;
+    let t7 = t3 + a_dot;
+    let t8 = b_dot * t2;
+    let t9 = cos_a_ * t4 - t3 * t1 + a_dot * t1;
+    let t10 = t0 * a_dot - (t3 * t0 + sin_a_ * t4);
+    let t11 = x_dot - y * p.k2 - p.k1 * (z * t5 - y * t6);
+    let t12 = y_dot + p.k2 * x - p.k1 * (t6 * x - z * t7);
+    let t13 = p.k1 * (z_dot * t5 - t9 * z - (t10 * y + y_dot * t6)) + y_dot * p.k2;
+    let t14 = x_dot * p.k2 - p.k1 * (t10 * x + x_dot * t6 - (z * t8 + z_dot * t7));
+    let t15 = (y_dot * y + x_dot * x) * S::from_f64(2.0);
+    let t16 = (y * t8 + y_dot * t7 - (x_dot * t5 - t9 * x)) * (p.k1 * (y * y + x * x));
+    let t17 = z * (y * t14 + y_dot * t12 + (x_dot * t11 - t13 * x));
+    let t18 = t16 - (z_dot - p.k1 * (y * t7 - t5 * x)) * t15;
+    let gamma1 = p.k0 * (z_dot * z_dot + (y_dot * y_dot + x_dot * x_dot));
+    let gamma2 = p.k0 * (x * t14 + x_dot * t12 - (y_dot * t11 - y * t13));
+    let gamma3 = p.k12 * (t18 + (t17 + z_dot * (y * t12 + t11 * x)));
+    [gamma1, gamma2, gamma3]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
+/// multiplied out.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+) -> Result<[S; 6], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 6],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 6],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 6], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let z = n(q[2]);
+        let a_ = n(q[3]);
+        let b = n(q[4]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let z_dot = n(v[2]);
+        let a_dot = n(v[3]);
+        let b_dot = n(v[4]);
+        let c_dot = n(v[5]);
+        let angles = [b, a_];
+        let circular = N::sin_cos_all(angles);
+        let (sin_b, cos_b) = circular[0];
+        let (sin_a_, cos_a_) = circular[1];
+        let t0 = x * n(p.k0);
+        let t1 = y * n(p.k0);
+        let t2 = z * x;
+        let t3 = z * n(p.k0);
+        let t4 = z * y;
+        let t5 = b_dot * a_dot;
+        let t6 = n(p.k14) * t0;
+        let t7 = y.mul_add(y, x * x);
+        let t8 = n(p.k14) * t1;
+        let t9 = t2 * n(p.k5);
+        let t10 = n(p.k14) * t3;
+        let t11 = n(p.k3) * t2;
+        let t12 = t4 * n(p.k3);
+        let t13 = n(p.k3) * t7;
+        let t14 = n(p.k15) * t9;
+        let t15 = n(p.k14) * t11;
+        let t16 = n(p.k14) * t12;
+        let t17 = y.mul_add(t7, z * t4);
+        let t18 = t1.mul_add(t8, t0 * t6);
+        let t19 = n(p.k14) * t13;
+        let t20 = x.mul_add(t7, z * t2);
+        let t21 = n(p.k7) * t17;
+        let t22 = t3.mul_add(t10, t18);
+        let t23 = t8.mul_sub(t0, t1 * t6);
+        let t24 = n(p.k15) * t21;
+        let t25 = N::ONE / t22;
+        let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
+        let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
+        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.k6));
+        let t29 = t25 * t23;
+        let t30 = t25 * t26;
+        let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
+        let t32 = sin_b * n(p.J);
+        let t33 = cos_b * c_dot;
+        let t34 = sin_b * c_dot;
+        let t35 = sin_a_ * cos_b;
+        let t36 = n(p.k15) * t32;
+        let t37 = t33 * a_dot;
+        let t38 = b_dot * t34;
+        let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
+        let t40 = t32.neg_mul_add(t36, n(p.J));
+        let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
+        let t42 = a_dot + t34;
+        let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
+        let t44 = N::ONE / t40;
+        let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
+        let t46 = n(p.k5).mul_add(t45, t32 * t14);
+        let t47 = t33 * b_dot;
+        let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
+        let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
+        let t50 = n(p.k15) * t43;
+        let t51 = y.neg_mul_add(n(p.k2), x_dot);
+        let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
+        let t53 = cos_a_ * (t20 * n(p.k7));
+        let t54 = t44 * t46;
+        let t55 = z.neg_mul_add(t49, z_dot * t39);
+        let t56 = x.mul_add(n(p.k2), y_dot);
+        let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
+        let t58 = t55 - y.mul_add(t48, y_dot * t41);
+        let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
+        let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
+        let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
+        let t62 = t53 * n(p.k15);
+        let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+        let t64 = n(p.J) * t47;
+        let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
+        let t66 = n(p.J) * t37;
+        let t67 = t23.neg_mul_add(t29, t65);
+        let t68 = t44 * t63;
+        let t69 = x.neg_mul_add(t49, x_dot * t39);
+        let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
+        let t71 = N::ONE / t67;
+        let t72 = x.neg_mul_add(t59, x_dot * t52);
+        let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
+        let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
+        let t75 = y.mul_add(t47, y_dot * t42) - t69;
+        let t76 = y.mul_add(t61, y_dot * t57) + t72;
+        let t77 = t62.mul_sub(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
+        let t79 = t68.neg_mul_add(t46, t78);
+        let t80 = y.neg_mul_add(t59, y_dot * t52);
+        let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
+        let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
+        let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
+        let t84 = t83 + t63.mul_add(t68, t21 * t24);
+        let t85 = x.mul_add(t61, x_dot * t57) - t80;
+        let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
+        let t87 = t71 * t79;
+        let t88 = t68.mul_add(t73, t24.mul_add(t64, t77));
+        let t89 = t75.mul_sub(t7 * n(p.k1), t74) + t82;
+        let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
+        let t91 = t87.mul_add(t86, n(p.k3).neg_mul_add(t89, t88)) / t90;
+        let t92 = t87.mul_add(t91, t71 * t86);
+        let t93 = t68.neg_mul_add(t91, t44 * t73);
+        let t94 = t29.mul_add(t92, t30.neg_mul_add(t91, t25 * t28));
+        let t95 = t54 * t92;
+        let t96 = t14.neg_mul_add(t92, t24.mul_sub(t91, n(p.k15) * t64));
+        let x_ddot = t6.neg_mul_add(t94, t8.mul_add(t92, t15 * t91));
+        let y_ddot = -t8.mul_add(t94, t6.mul_sub(t92, t16 * t91));
+        let z_ddot = -t10.mul_add(t94, t19.mul_add(t91, n(p.g)));
+        let a_ddot = t36.mul_add(t93 - t95, t96);
+        let b_ddot = t50.mul_add(t92, t62.neg_mul_add(t91, n(p.k15) * t66));
+        let c_ddot = t95 - t93;
+        let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
+            & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
+            & t67.exceeds(N::from_f64(7.993605777301127e-15) * t65)
+            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t84)
+            & a_ddot.is_finite();
+        if !sound {
+            check(t22, t22, 7.993605777301127e-15, 6)?;
+            check(t40, n(p.J), 7.993605777301127e-15, 5)?;
+            check(t67, t65, 7.993605777301127e-15, 7)?;
+            check(t90, t84, 7.993605777301127e-15, 8)?;
+        }
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            z_ddot.store(),
+            a_ddot.store(),
+            b_ddot.store(),
+            c_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+) -> Result<[S; 3], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 6],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 6],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let z = n(q[2]);
+        let a_ = n(q[3]);
+        let b = n(q[4]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let z_dot = n(v[2]);
+        let a_dot = n(v[3]);
+        let b_dot = n(v[4]);
+        let c_dot = n(v[5]);
+        let angles = [b, a_];
+        let circular = N::sin_cos_all(angles);
+        let (sin_b, cos_b) = circular[0];
+        let (sin_a_, cos_a_) = circular[1];
+        let t0 = x * n(p.k0);
+        let t1 = y * n(p.k0);
+        let t2 = z * x;
+        let t3 = z * n(p.k0);
+        let t4 = z * y;
+        let t5 = b_dot * a_dot;
+        let t6 = n(p.k14) * t0;
+        let t7 = y.mul_add(y, x * x);
+        let t8 = n(p.k14) * t1;
+        let t9 = t2 * n(p.k5);
+        let t10 = n(p.k14) * t3;
+        let t11 = n(p.k3) * t2;
+        let t12 = t4 * n(p.k3);
+        let t13 = n(p.k3) * t7;
+        let t14 = n(p.k15) * t9;
+        let t15 = n(p.k14) * t11;
+        let t16 = n(p.k14) * t12;
+        let t17 = y.mul_add(t7, z * t4);
+        let t18 = t1.mul_add(t8, t0 * t6);
+        let t19 = n(p.k14) * t13;
+        let t20 = x.mul_add(t7, z * t2);
+        let t21 = n(p.k7) * t17;
+        let t22 = t3.mul_add(t10, t18);
+        let t23 = t8.mul_sub(t0, t1 * t6);
+        let t24 = n(p.k15) * t21;
+        let t25 = N::ONE / t22;
+        let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
+        let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
+        let t28 = n(p.k0).mul_sub(t27, t10 * n(p.k6));
+        let t29 = t25 * t23;
+        let t30 = t25 * t26;
+        let t31 = t24.mul_add(t9, t16.mul_sub(t0, t15 * t1));
+        let t32 = sin_b * n(p.J);
+        let t33 = cos_b * c_dot;
+        let t34 = sin_b * c_dot;
+        let t35 = sin_a_ * cos_b;
+        let t36 = n(p.k15) * t32;
+        let t37 = t33 * a_dot;
+        let t38 = b_dot * t34;
+        let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
+        let t40 = t32.neg_mul_add(t36, n(p.J));
+        let t41 = cos_a_.mul_add(t33, sin_a_ * b_dot);
+        let t42 = a_dot + t34;
+        let t43 = n(p.k5) * t7.mul_sub(sin_a_, t4 * cos_a_);
+        let t44 = N::ONE / t40;
+        let t45 = t4.mul_add(t35, cos_b.mul_sub(t7 * cos_a_, t2 * sin_b));
+        let t46 = n(p.k5).mul_add(t45, t32 * t14);
+        let t47 = t33 * b_dot;
+        let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
+        let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
+        let t50 = n(p.k15) * t43;
+        let t51 = y.neg_mul_add(n(p.k2), x_dot);
+        let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
+        let t53 = cos_a_ * (t20 * n(p.k7));
+        let t54 = t44 * t46;
+        let t55 = z.neg_mul_add(t49, z_dot * t39);
+        let t56 = x.mul_add(n(p.k2), y_dot);
+        let t57 = n(p.k1).neg_mul_add(x.mul_sub(t41, z * t42), t56);
+        let t58 = t55 - y.mul_add(t48, y_dot * t41);
+        let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
+        let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
+        let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
+        let t62 = t53 * n(p.k15);
+        let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
+        let t64 = n(p.J) * t47;
+        let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
+        let t66 = n(p.J) * t37;
+        let t67 = t23.neg_mul_add(t29, t65);
+        let t68 = t44 * t63;
+        let t69 = x.neg_mul_add(t49, x_dot * t39);
+        let t70 = n(p.k1).neg_mul_add(y.mul_sub(t42, x * t39), z_dot);
+        let t71 = N::ONE / t67;
+        let t72 = x.neg_mul_add(t59, x_dot * t52);
+        let t73 = t36.neg_mul_add(t64, cos_b * (n(p.J) * t5));
+        let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
+        let t75 = y.mul_add(t47, y_dot * t42) - t69;
+        let t76 = y.mul_add(t61, y_dot * t57) + t72;
+        let t77 = t62.mul_sub(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
+        let t79 = t68.neg_mul_add(t46, t78);
+        let t80 = y.neg_mul_add(t59, y_dot * t52);
+        let t81 = t50.neg_mul_add(t66, t14.neg_mul_add(t64, t29 * t28));
+        let t82 = z.mul_add(t76, z_dot * y.mul_add(t57, x * t52));
+        let t83 = t12.mul_add(t16, t11 * t15) + t53.mul_add(t62, t13 * t19);
+        let t84 = t83 + t63.mul_add(t68, t21 * t24);
+        let t85 = x.mul_add(t61, x_dot * t57) - t80;
+        let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
+        let t87 = t71 * t79;
+        let t88 = t68.mul_add(t73, t24.mul_add(t64, t77));
+        let t89 = t75.mul_sub(t7 * n(p.k1), t74) + t82;
+        let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
+        let lambda3 = t87.mul_add(t86, n(p.k3).neg_mul_add(t89, t88)) / t90;
+        let lambda2 = t87.mul_add(lambda3, t71 * t86);
+        let lambda1 = t29.mul_add(lambda2, t30.neg_mul_add(lambda3, t25 * t28));
+        let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
+            & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
+            & t67.exceeds(N::from_f64(7.993605777301127e-15) * t65)
+            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t84)
+            & lambda1.is_finite();
+        if !sound {
+            check(t22, t22, 7.993605777301127e-15, 6)?;
+            check(t40, n(p.J), 7.993605777301127e-15, 5)?;
+            check(t67, t65, 7.993605777301127e-15, 7)?;
+            check(t90, t84, 7.993605777301127e-15, 8)?;
+        }
+        let multipliers = [lambda1.store(), lambda2.store(), lambda3.store()];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*der(x)^2 + 1/2*m*der(y)^2 + 1/2*m*der(z)^2 + 1/2*J*der(a)^2 + J*sin(b)*der(a)*der(c)
+///     + 1/2*J*der(b)^2 + 1/2*J*der(c)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> S {
+    let b = q[4];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let z_dot = v[2];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = cos_b * a_dot;
+    let t1 = sin_b * a_dot + c_dot;
+    let t2 = cos_b * x_dot - sin_b * z_dot;
+    let t3 = cos_b * z_dot + sin_b * x_dot;
+    let t4 = (t1 * t1 + (b_dot * b_dot + t0 * t0)) * p.J;
+    ((t3 * t3 + (t2 * t2 + y_dot * y_dot)) * p.m + t4) * S::from_f64(0.5)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = m*g*z
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
+    let z = q[2];
+    p.k6 * z
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = m*der(x)*der(der(x)) + m*der(y)*der(der(y)) + m*der(z)*der(der(z)) + J*der(a)*der(der(a))
+///     + J*der(b)*der(der(b)) + J*sin(b)*der(a)*der(der(c))
+///     - der(c)*(-J*sin(b)*der(der(a)) - J*der(der(c)) - J*cos(b)*der(a)*der(b)) + m*g*der(z)
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+    a: &[S; 6],
+) -> S {
+    let b = q[4];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let z_dot = v[2];
+    let a_dot = v[3];
+    let b_dot = v[4];
+    let c_dot = v[5];
+    let x_ddot = a[0];
+    let y_ddot = a[1];
+    let z_ddot = a[2];
+    let a_ddot = a[3];
+    let b_ddot = a[4];
+    let c_ddot = a[5];
+    let (sin_b, cos_b) = b.sin_cos();
+    let t0 = b_dot * a_dot;
+    let t1 = cos_b * (sin_b * t0 - b_dot * (sin_b * a_dot - c_dot));
+    let t2 = c_dot * (sin_b * a_ddot + (cos_b * t0 + c_ddot));
+    let t3 = t2 + b_dot * (b_ddot - cos_b * (c_dot * a_dot));
+    let t4 = p.m * (y_ddot * y_dot + x_ddot * x_dot) + (p.m * z_ddot + p.k6) * z_dot;
+    (a_dot * (t1 + (a_ddot + sin_b * c_ddot)) + t3) * p.J + t4
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 6] = [
+    ("m", "kg"),
+    ("r", "m"),
+    ("J", "kg*m^2"),
+    ("R", "m"),
+    ("Omega", "rad/s"),
+    ("g", "m/s^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 6] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("z", "m"),
+    ("a", "rad"),
+    ("b", "rad"),
+    ("c", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 3] = [
+    ("touching", "m", "N", true),
+    ("around", "m/s", "N", false),
+    ("down", "m/s", "N", false),
+];
+
+impl ::lagrangian::Machine for BallInBowl {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "BallInBowl"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.r, self.J, self.R, self.Omega, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 6];
+    type Matrix = [f64; 36];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 6]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 6] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 6],
+        v: &[f64; 6],
+        _: &Inputs,
+        result: &mut [f64; 6],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 6], v: &[f64; 6], result: &mut [f64; 6]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
+        *result = applied(self);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 6], v: &[f64; 6], _: &Inputs, result: &mut [f64; 6]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 6], v: &[f64; 6]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 6], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, q: &[f64; 6], v: &[f64; 6], a: &[f64; 6], _: &Inputs) -> f64 {
+        work_rate(self, q, v, a)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 6], _: &[f64; 6], _: &[f64; 6], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 6],
+        _: &[f64; 6],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 6],
+        v: &[f64; 6],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 6], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 6], v: &[f64; 6], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(self, q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 6],
+        v: &[f64; 6],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(6, 3)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 6];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m: lanes(|p| p.m),
+            J: lanes(|p| p.J),
+            g: lanes(|p| p.g),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(6) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,1880 @@
+// @generated from machines/caked_crusher.machine by `cargo xtask generate`; edits are lost.
+
+//! The crush process with the crushed material caked on the pestle, delta thick, instead of lying
+//! in
+//! the mortar.
+//!
+//! 9 coordinates, 25 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 49 | 20 | 7 | 0 | 0 | 76 |
+//! | `start` | 4 | 6 | 2 | 0 | 0 | 12 |
+//! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
+//! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
+//! | `applied` | 14 | 20 | 0 | 0 | 0 | 34 |
+//! | `forces` | 67 | 44 | 0 | 4 | 0 | 119 |
+//! | `constraint_positions` | 0 | 2 | 0 | 0 | 0 | 2 |
+//! | `constraint_rates` | 6 | 6 | 0 | 0 | 0 | 12 |
+//! | `constraint_drift` | 2 | 2 | 0 | 0 | 0 | 4 |
+//! | `accelerations` | 117 | 81 | 3 | 4 | 0 | 209 |
+//! | `multipliers` | 248 | 165 | 8 | 4 | 0 | 429 |
+//! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
+//! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
+//! | `work_rate` | 18 | 11 | 0 | 2 | 0 | 33 |
+//! | `dissipation_rate` | 8 | 7 | 0 | 0 | 0 | 15 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// The crush process with the crushed material caked on the pestle, delta thick, instead of lying
+/// in
+/// the mortar.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CakedCrusher<S = f64> {
+    /// Mass of the platform. Unit: kg. Default: 600.
+    pub m: S,
+    /// Mass of the debalance. Unit: kg. Default: 40.
+    pub m0: S,
+    /// `m1`. Unit: kg. Default: 180.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 120.
+    pub m2: S,
+    /// `J`. Unit: kg*m^2. Default: 60.
+    pub J: S,
+    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    pub J0: S,
+    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    pub J1: S,
+    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    pub J2: S,
+    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    pub e: S,
+    /// `x0`. Unit: m. Default: 0.05.
+    pub x0: S,
+    /// `y0`. Unit: m. Default: 0.03.
+    pub y0: S,
+    /// `omega`. Unit: rad/s. Default: 50*pi.
+    pub omega: S,
+    /// `cx`. Unit: N/m. Default: 300000.
+    pub cx: S,
+    /// `cy`. Unit: N/m. Default: 300000.
+    pub cy: S,
+    /// `bx`. Unit: N*s/m. Default: 1500.
+    pub bx: S,
+    /// `by`. Unit: N*s/m. Default: 1500.
+    pub by: S,
+    /// `xc`. Unit: m. Default: 0.4.
+    pub xc: S,
+    /// `yc`. Unit: m. Default: 0.3.
+    pub yc: S,
+    /// Radius of the platform's cylinder. Unit: m. Default: 0.27.
+    pub R: S,
+    /// Radii of the mortar, outside and inside. Unit: m. Default: 0.25.
+    pub r1: S,
+    /// `rho`. Unit: m. Default: 0.2.
+    pub rho: S,
+    /// Radius of the pestle. Unit: m. Default: 0.16.
+    pub r2: S,
+    /// Thickness of the bed. Unit: m. Default: 0.01.
+    pub delta: S,
+    /// Rates at which mortar and pestle go about when the run starts. Unit: rad/s. Default: 40.
+    pub whirl1: S,
+    /// `whirl2`. Unit: rad/s. Default: 25.
+    pub whirl2: S,
+}
+
+impl Default for CakedCrusher {
+    fn default() -> Self {
+        Self {
+            m: 600.0,
+            m0: 40.0,
+            m1: 180.0,
+            m2: 120.0,
+            J: 60.0,
+            J0: 0.2,
+            J1: 9.225,
+            J2: 1.536,
+            e: 0.1,
+            x0: 0.05,
+            y0: 0.03,
+            omega: 157.07963267948966,
+            cx: 300000.0,
+            cy: 300000.0,
+            bx: 1500.0,
+            by: 1500.0,
+            xc: 0.4,
+            yc: 0.3,
+            R: 0.27,
+            r1: 0.25,
+            rho: 0.2,
+            r2: 0.16,
+            delta: 0.01,
+            whirl1: 40.0,
+            whirl2: 25.0,
+        }
+    }
+}
+
+impl<S> CakedCrusher<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> CakedCrusher<R> {
+        CakedCrusher {
+            m: f(self.m),
+            m0: f(self.m0),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            J: f(self.J),
+            J0: f(self.J0),
+            J1: f(self.J1),
+            J2: f(self.J2),
+            e: f(self.e),
+            x0: f(self.x0),
+            y0: f(self.y0),
+            omega: f(self.omega),
+            cx: f(self.cx),
+            cy: f(self.cy),
+            bx: f(self.bx),
+            by: f(self.by),
+            xc: f(self.xc),
+            yc: f(self.yc),
+            R: f(self.R),
+            r1: f(self.r1),
+            rho: f(self.rho),
+            r2: f(self.r2),
+            delta: f(self.delta),
+            whirl1: f(self.whirl1),
+            whirl2: f(self.whirl2),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> CakedCrusher<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k0 = self.delta + self.r2;
+        let k1 = self.omega * self.e;
+        let k8 = self.m1 + self.m2;
+        let k9 = self.m0 * self.y0;
+        let k10 = self.m0 * self.x0;
+        let k11 = k8 + (self.m + self.m0);
+        let k12 = self.R - self.r1;
+        let k13 = self.rho - k0;
+        let k15 = self.J + (self.y0 * k9 + self.x0 * k10);
+        let t0 = S::ONE / self.J1;
+        let t1 = self.rho * t0;
+        let k21 = S::ONE / k15;
+        let k22 = self.R * k21;
+        let pivot_10 = self.r1 * self.r1;
+        let pivot_12 = k0 * k0;
+        let t2 = S::ONE / self.r1;
+        let k26 = self.R * t2;
+        let k27 = k12 * t2;
+        let t3 = S::ONE / k0;
+        let t4 = self.rho * t2 * t3;
+        let k28 = self.R * t4;
+        let k29 = k12 * t4;
+        let k30 = k13 * t3;
+        let k32 = self.m2 * k13;
+        let k33 = k8 * k12;
+        let t5 = self.J2 * t4;
+        let t6 = self.R * t5;
+        let t7 = k12 * t5;
+        let t8 = self.J1 * k26;
+        let k2 = self.omega * (self.omega * self.J0);
+        let k3 = self.cx * S::from_f64(0.5);
+        let k4 = self.cy * S::from_f64(0.5);
+        let k5 = self.bx * S::from_f64(0.5);
+        let k6 = self.by * S::from_f64(0.5);
+        let k7 = self.omega * k1;
+        let k14 = self.m0 * k1;
+        let k16 = -k8;
+        let k17 = -self.m2;
+        let k18 = -self.R;
+        let k19 = -self.rho;
+        let k20 = self.r1 * t1;
+        let k23 = S::ONE / k8;
+        let k24 = self.R * k22 + t0 * pivot_10;
+        let k25 = self.rho * t1 + pivot_12 / self.J2;
+        let k31 = self.m1 * k12;
+        let k34 = k30 * t6;
+        let k35 = k27 * t8 + k28 * t7;
+        let k36 = k30 * t7;
+        let k37 = k12 * k32;
+        let k38 = k29 * t7 + (k12 * k33 + k27 * (self.J1 * k27));
+        let k39 = k13 * k32 + k30 * (self.J2 * k30);
+        let k40 = k28 * t6 + (k15 + k26 * t8);
+        let k41 = S::ONE / k11;
+        let one = S::ONE;
+        let singular = if vanishes(k11, k11, 1.1546319456101628e-14) {
+            Some(singular(0, k11, k11))
+        } else if vanishes(k11, k11, 1.1546319456101628e-14) {
+            Some(singular(1, k11, k11))
+        } else if vanishes(one, one, 1.1546319456101628e-14) {
+            Some(singular(9, one, one))
+        } else if vanishes(pivot_10, pivot_10, 1.1546319456101628e-14) {
+            Some(singular(10, pivot_10, pivot_10))
+        } else if vanishes(one, one, 1.1546319456101628e-14) {
+            Some(singular(11, one, one))
+        } else if vanishes(pivot_12, pivot_12, 1.1546319456101628e-14) {
+            Some(singular(12, pivot_12, pivot_12))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            m0: self.m0,
+            m1: self.m1,
+            m2: self.m2,
+            J: self.J,
+            J1: self.J1,
+            J2: self.J2,
+            x0: self.x0,
+            y0: self.y0,
+            omega: self.omega,
+            cx: self.cx,
+            cy: self.cy,
+            bx: self.bx,
+            by: self.by,
+            xc: self.xc,
+            yc: self.yc,
+            R: self.R,
+            r1: self.r1,
+            rho: self.rho,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            k20,
+            k21,
+            k22,
+            k23,
+            k24,
+            k25,
+            k26,
+            k27,
+            k28,
+            k29,
+            k30,
+            k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
+            k37,
+            k38,
+            k39,
+            k40,
+            k41,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let s1 = self.R - self.r1;
+        let t0 = self.delta + self.r2;
+        let s2 = self.rho - t0;
+        let t1 = s1 * self.whirl1 * (S::ONE / self.r1);
+        let zero = S::ZERO;
+        let phi1 = S::from_ratio(3, 10);
+        let theta1_rate = -t1;
+        let theta2_rate = -((self.rho * t1 + s2 * self.whirl2) / t0);
+        let q = [
+            zero,
+            zero,
+            zero,
+            s1,
+            phi1,
+            zero,
+            s2,
+            S::from_f64(-0.5),
+            zero,
+        ];
+        let v = [
+            zero,
+            zero,
+            zero,
+            zero,
+            self.whirl1,
+            theta1_rate,
+            zero,
+            self.whirl2,
+            theta2_rate,
+        ];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`CakedCrusher`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `x`. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `theta`. Unit: rad.
+    pub theta: S,
+    /// `s1`. Unit: m.
+    pub s1: S,
+    /// `phi1`. Unit: rad.
+    pub phi1: S,
+    /// `theta1`. Unit: rad.
+    pub theta1: S,
+    /// `s2`. Unit: m.
+    pub s2: S,
+    /// `phi2`. Unit: rad.
+    pub phi2: S,
+    /// `theta2`. Unit: rad.
+    pub theta2: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 9] {
+        [
+            self.x,
+            self.y,
+            self.theta,
+            self.s1,
+            self.phi1,
+            self.theta1,
+            self.s2,
+            self.phi2,
+            self.theta2,
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 9]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            theta: q[2],
+            s1: q[3],
+            phi1: q[4],
+            theta1: q[5],
+            s2: q[6],
+            phi2: q[7],
+            theta2: q[8],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            theta: f(self.theta),
+            s1: f(self.s1),
+            phi1: f(self.phi1),
+            theta1: f(self.theta1),
+            s2: f(self.s2),
+            phi2: f(self.phi2),
+            theta2: f(self.theta2),
+        }
+    }
+}
+
+/// What can be set while a [`CakedCrusher`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`CakedCrusher`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`CakedCrusher`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `m0`
+    m0: S,
+    /// `m1`
+    m1: S,
+    /// `m2`
+    m2: S,
+    /// `J`
+    J: S,
+    /// `J1`
+    J1: S,
+    /// `J2`
+    J2: S,
+    /// `x0`
+    x0: S,
+    /// `y0`
+    y0: S,
+    /// `omega`
+    omega: S,
+    /// `cx`
+    cx: S,
+    /// `cy`
+    cy: S,
+    /// `bx`
+    bx: S,
+    /// `by`
+    by: S,
+    /// `xc`
+    xc: S,
+    /// `yc`
+    yc: S,
+    /// `R`
+    R: S,
+    /// `r1`
+    r1: S,
+    /// `rho`
+    rho: S,
+    /// `r2 + delta`
+    k0: S,
+    /// `e*omega`
+    k1: S,
+    /// `J0*omega^2`
+    k2: S,
+    /// `0.5*cx`
+    k3: S,
+    /// `0.5*cy`
+    k4: S,
+    /// `0.5*bx`
+    k5: S,
+    /// `0.5*by`
+    k6: S,
+    /// `e*omega^2`
+    k7: S,
+    /// `m1 + m2`
+    k8: S,
+    /// `m0*y0`
+    k9: S,
+    /// `m0*x0`
+    k10: S,
+    /// `m + m0 + m1 + m2`
+    k11: S,
+    /// `R - r1`
+    k12: S,
+    /// `rho - r2 - delta`
+    k13: S,
+    /// `m0*e*omega`
+    k14: S,
+    /// `J + m0*x0^2 + m0*y0^2`
+    k15: S,
+    /// `-(m1 + m2)`
+    k16: S,
+    /// `-m2`
+    k17: S,
+    /// `-R`
+    k18: S,
+    /// `-rho`
+    k19: S,
+    /// `r1*rho/J1`
+    k20: S,
+    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    k21: S,
+    /// `R/(J + m0*x0^2 + m0*y0^2)`
+    k22: S,
+    /// `1/(m1 + m2)`
+    k23: S,
+    /// `r1^2/J1 + R^2/(J + m0*x0^2 + m0*y0^2)`
+    k24: S,
+    /// `(r2 + delta)^2/J2 + rho^2/J1`
+    k25: S,
+    /// `R/r1`
+    k26: S,
+    /// `(R - r1)/r1`
+    k27: S,
+    /// `R*rho/r1/(r2 + delta)`
+    k28: S,
+    /// `rho*(R - r1)/r1/(r2 + delta)`
+    k29: S,
+    /// `(rho - r2 - delta)/(r2 + delta)`
+    k30: S,
+    /// `m1*(R - r1)`
+    k31: S,
+    /// `m2*(rho - r2 - delta)`
+    k32: S,
+    /// `(m1 + m2)*(R - r1)`
+    k33: S,
+    /// `J2*R*rho*(rho - r2 - delta)/r1/(r2 + delta)^2`
+    k34: S,
+    /// `J2*R*rho^2*(R - r1)/r1^2/(r2 + delta)^2 + J1*R*(R - r1)/r1^2`
+    k35: S,
+    /// `J2*rho*(R - r1)*(rho - r2 - delta)/r1/(r2 + delta)^2`
+    k36: S,
+    /// `m2*(R - r1)*(rho - r2 - delta)`
+    k37: S,
+    /// `J2*rho^2*(R - r1)^2/r1^2/(r2 + delta)^2 + J1*(R - r1)^2/r1^2 + (m1 + m2)*(R - r1)^2`
+    k38: S,
+    /// `J2*(rho - r2 - delta)^2/(r2 + delta)^2 + m2*(rho - r2 - delta)^2`
+    k39: S,
+    /// `J + m0*x0^2 + m0*y0^2 + J2*R^2*rho^2/r1^2/(r2 + delta)^2 + J1*R^2/r1^2`
+    k40: S,
+    /// `1/(m + m0 + m1 + m2)`
+    k41: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m + m0 + m1 + m2
+/// M[y, y] = m + m0 + m1 + m2
+/// M[theta, x] = -m0*y0*cos(theta) - m0*x0*sin(theta)
+/// M[theta, y] = m0*x0*cos(theta) - m0*y0*sin(theta)
+/// M[theta, theta] = m0*x0^2 + m0*y0^2 + J
+/// M[s1, x] = (m1 + m2)*cos(phi1)
+/// M[s1, y] = (m1 + m2)*sin(phi1)
+/// M[s1, s1] = m1 + m2
+/// M[phi1, x] = -(m1 + m2)*s1*sin(phi1)
+/// M[phi1, y] = (m1 + m2)*s1*cos(phi1)
+/// M[phi1, phi1] = (m1 + m2)*s1^2
+/// M[theta1, theta1] = J1
+/// M[s2, x] = m2*cos(phi2)
+/// M[s2, y] = m2*sin(phi2)
+/// M[s2, s1] = m2*cos(phi2 - phi1)
+/// M[s2, phi1] = m2*s1*sin(phi2 - phi1)
+/// M[s2, s2] = m2
+/// M[phi2, x] = -m2*s2*sin(phi2)
+/// M[phi2, y] = m2*s2*cos(phi2)
+/// M[phi2, s1] = -m2*s2*sin(phi2 - phi1)
+/// M[phi2, phi1] = m2*s1*s2*cos(phi2 - phi1)
+/// M[phi2, phi2] = m2*s2^2
+/// M[theta2, theta2] = J2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t0 = s1 * p.m2;
+    let t1 = p.k8 * s1;
+    let t2 = p.m2 * s2;
+    let t3 = sin_phi1 * cos_phi2;
+    let t4 = cos_phi1 * sin_phi2;
+    let t5 = cos_phi1 * cos_phi2 + sin_phi1 * sin_phi2;
+    let zero = S::ZERO;
+    let m31 = -(p.k10 * sin_theta + cos_theta * p.k9);
+    let m32 = p.k10 * cos_theta - sin_theta * p.k9;
+    let m41 = p.k8 * cos_phi1;
+    let m42 = p.k8 * sin_phi1;
+    let m51 = sin_phi1 * (s1 * p.k16);
+    let m52 = cos_phi1 * t1;
+    let m55 = s1 * t1;
+    let m71 = cos_phi2 * p.m2;
+    let m72 = sin_phi2 * p.m2;
+    let m74 = p.m2 * t5;
+    let m75 = (t4 - t3) * t0;
+    let m81 = sin_phi2 * (s2 * p.k17);
+    let m82 = cos_phi2 * t2;
+    let m84 = t2 * (t3 - t4);
+    let m85 = t5 * (t0 * s2);
+    let m88 = s2 * t2;
+    [
+        [p.k11, zero, m31, m41, m51, zero, m71, m81, zero],
+        [zero, p.k11, m32, m42, m52, zero, m72, m82, zero],
+        [m31, m32, p.k15, zero, zero, zero, zero, zero, zero],
+        [m41, m42, zero, p.k8, zero, zero, m74, m84, zero],
+        [m51, m52, zero, zero, m55, zero, m75, m85, zero],
+        [zero, zero, zero, zero, zero, p.J1, zero, zero, zero],
+        [m71, m72, zero, m74, m75, zero, p.m2, zero, zero],
+        [m81, m82, zero, m84, m85, zero, zero, m88, zero],
+        [zero, zero, zero, zero, zero, zero, zero, zero, p.J2],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[x] = m0*y0*sin(theta)*der(theta)^2 - m0*x0*cos(theta)*der(theta)^2
+///     - 2*(m1 + m2)*sin(phi1)*der(s1)*der(phi1) - (m1 + m2)*s1*cos(phi1)*der(phi1)^2
+///     - 2*m2*sin(phi2)*der(s2)*der(phi2) - m2*s2*cos(phi2)*der(phi2)^2 - m0*e*omega^2*cos(omega*t)
+/// h[y] = 2*(m1 + m2)*cos(phi1)*der(s1)*der(phi1) - m0*y0*cos(theta)*der(theta)^2
+///     - m0*x0*sin(theta)*der(theta)^2 - (m1 + m2)*s1*sin(phi1)*der(phi1)^2
+///     + 2*m2*cos(phi2)*der(s2)*der(phi2) - m2*s2*sin(phi2)*der(phi2)^2 - m0*e*omega^2*sin(omega*t)
+/// h[theta] = m0*e*y0*omega^2*cos(omega*t - theta) - m0*e*x0*omega^2*sin(omega*t - theta)
+/// h[s1] = -(m1 + m2)*s1*der(phi1)^2 - 2*m2*sin(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s2*cos(phi2 - phi1)*der(phi2)^2
+/// h[phi1] = 2*(m1 + m2)*s1*der(s1)*der(phi1) + 2*m2*s1*cos(phi2 - phi1)*der(s2)*der(phi2)
+///     - m2*s1*s2*sin(phi2 - phi1)*der(phi2)^2
+/// h[s2] = 2*m2*sin(phi2 - phi1)*der(s1)*der(phi1) - m2*s1*cos(phi2 - phi1)*der(phi1)^2
+///     - m2*s2*der(phi2)^2
+/// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
+///     + 2*m2*s2*der(s2)*der(phi2)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let t0 = p.omega * t;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t1 = theta_dot * theta_dot;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t2 = p.omega.product_error(t);
+    let t3 = phi2_dot * phi2_dot;
+    let t4 = t1 * p.y0;
+    let t5 = t1 * p.x0;
+    let t6 = phi1_dot * phi1_dot;
+    let t7 = phi2_dot * (s2_dot * S::from_f64(2.0));
+    let t8 = phi1_dot * (S::from_f64(2.0) * s1_dot);
+    let t9 = sin_phi2 * s2;
+    let t10 = sin_phi1 * s1;
+    let t11 = cos_phi2 * s2;
+    let t12 = cos_phi1 * s1;
+    let t13 = t6 * t10 - t8 * cos_phi1;
+    let t14 = t8 * sin_phi1 + t6 * t12;
+    let t15 = p.k7 * (sin_t0 + t2 * cos_t0) + (sin_theta * t5 + t4 * cos_theta);
+    let t16 = t3 * t9 - t7 * cos_phi2 + t13;
+    let t17 = p.k7 * (cos_t0 - t2 * sin_t0) + (cos_theta * t5 - t4 * sin_theta);
+    let t18 = t7 * sin_phi2 + t3 * t11 + t14;
+    let t19 = p.m2 * t16 + p.m1 * t13;
+    let t20 = t18 * p.m2 + t14 * p.m1;
+    let t21 = cos_theta * (t17 * p.k9 - t15 * p.k10);
+    let h_x = -(t17 * p.m0 + t20);
+    let h_y = -(p.m0 * t15 + t19);
+    let h_theta = sin_theta * (t15 * p.k9 + t17 * p.k10) + t21;
+    let h_s1 = -(cos_phi1 * t20 + sin_phi1 * t19);
+    let h_phi1 = t20 * t10 - t12 * t19;
+    let zero = S::ZERO;
+    let h_s2 = p.k17 * (cos_phi2 * t18 + sin_phi2 * t16);
+    let h_phi2 = p.k17 * (t11 * t16 - t18 * t9);
+    [h_x, h_y, h_theta, h_s1, h_phi1, zero, h_s2, h_phi2, zero]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[x] = -2*bx*der(x) - 2*cx*x
+/// Q[y] = -2*by*der(y) - 2*cy*y
+/// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta * p.xc;
+    let t1 = p.yc * theta;
+    let t2 = theta_dot * p.xc;
+    let t3 = theta_dot * p.yc;
+    let t4 = p.by * (y_dot - t2) + p.cy * (y - t0);
+    let t5 = p.by * (t2 + y_dot) + p.cy * (t0 + y);
+    let t6 = p.bx * (x_dot - t3) + p.cx * (x - t1);
+    let t7 = p.bx * (t3 + x_dot) + p.cx * (t1 + x);
+    let q_x = -(t6 + t7);
+    let q_y = -(t4 + t5);
+    let q_theta = -(p.yc * (t7 - t6) + p.xc * (t5 - t4));
+    let zero = S::ZERO;
+    [q_x, q_y, q_theta, zero, zero, zero, zero, zero, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let t0 = p.omega * t;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let t1 = theta_dot * theta_dot;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t2 = theta * p.xc;
+    let t3 = p.yc * theta;
+    let t4 = theta_dot * p.xc;
+    let t5 = t1 * p.y0;
+    let t6 = theta_dot * p.yc;
+    let t7 = p.omega.product_error(t);
+    let t8 = t1 * p.x0;
+    let t9 = phi2_dot * (s2_dot * S::from_f64(2.0));
+    let t10 = phi1_dot * (S::from_f64(2.0) * s1_dot);
+    let t11 = phi2_dot * phi2_dot;
+    let t12 = p.by * (y_dot - t4) + p.cy * (y - t2);
+    let t13 = p.by * (t4 + y_dot) + p.cy * (t2 + y);
+    let t14 = phi1_dot * phi1_dot;
+    let t15 = p.bx * (x_dot - t6) + p.cx * (x - t3);
+    let t16 = p.bx * (t6 + x_dot) + p.cx * (t3 + x);
+    let t17 = cos_phi2 * s2;
+    let t18 = cos_phi1 * s1;
+    let t19 = sin_phi2 * s2;
+    let t20 = sin_phi1 * s1;
+    let t21 = p.k7 * (sin_t0 + t7 * cos_t0) + (sin_theta * t8 + t5 * cos_theta);
+    let t22 = t10 * sin_phi1 + t14 * t18;
+    let t23 = p.k7 * (cos_t0 - t7 * sin_t0) + (cos_theta * t8 - t5 * sin_theta);
+    let t24 = t14 * t20 - t10 * cos_phi1;
+    let t25 = t9 * sin_phi2 + t11 * t17 + t22;
+    let t26 = t11 * t19 - t9 * cos_phi2 + t24;
+    let t27 = t25 * p.m2 + t22 * p.m1;
+    let t28 = p.m2 * t26 + p.m1 * t24;
+    let t29 = p.yc * (t16 - t15) + p.xc * (t13 - t12);
+    let t30 = cos_theta * (t23 * p.k9 - t21 * p.k10) + t29;
+    let f_x = t23 * p.m0 + (t27 - (t15 + t16));
+    let f_y = p.m0 * t21 + (t28 - (t12 + t13));
+    let f_theta = -(sin_theta * (t21 * p.k9 + t23 * p.k10) + t30);
+    let f_s1 = cos_phi1 * t27 + sin_phi1 * t28;
+    let f_phi1 = t18 * t28 - t27 * t20;
+    let zero = S::ZERO;
+    let f_s2 = p.m2 * (cos_phi2 * t25 + sin_phi2 * t26);
+    let f_phi2 = p.m2 * (t17 * t26 - t25 * t19);
+    [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[mortar_in_cylinder.gap] = R - s1 - r1
+/// g[pestle_in_mortar.gap] = rho - s2 - r2 - delta
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 4] {
+    let s1 = q[3];
+    let s2 = q[6];
+    let g1 = p.k12 - s1;
+    let zero = S::ZERO;
+    let g3 = p.k13 - s2;
+    [g1, zero, g3, zero]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[mortar_in_cylinder.gap] = -der(s1)
+/// phi[mortar_in_cylinder.slip] = s1*der(phi1) - R*der(theta) + r1*der(theta1)
+/// phi[pestle_in_mortar.gap] = -der(s2)
+/// phi[pestle_in_mortar.slip] = s2*der(phi2) - rho*der(theta1) + (r2 + delta)*der(theta2)
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 4] {
+    let s1 = q[3];
+    let s2 = q[6];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let theta1_dot = v[5];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let theta2_dot = v[8];
+    let phi1 = -s1_dot;
+    let phi2 = theta1_dot * p.r1 + phi1_dot * s1 - p.R * theta_dot;
+    let phi3 = -s2_dot;
+    let phi4 = p.k0 * theta2_dot + phi2_dot * s2 - theta1_dot * p.rho;
+    [phi1, phi2, phi3, phi4]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[mortar_in_cylinder.gap, s1] = -1
+/// G[mortar_in_cylinder.slip, theta] = -R
+/// G[mortar_in_cylinder.slip, phi1] = s1
+/// G[mortar_in_cylinder.slip, theta1] = r1
+/// G[pestle_in_mortar.gap, s2] = -1
+/// G[pestle_in_mortar.slip, theta1] = -rho
+/// G[pestle_in_mortar.slip, phi2] = s2
+/// G[pestle_in_mortar.slip, theta2] = r2 + delta
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 36] {
+    let s1 = q[3];
+    let s2 = q[6];
+    let zero = S::ZERO;
+    [
+        zero,
+        zero,
+        zero,
+        S::from_f64(-1.0),
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        p.k18,
+        zero,
+        s1,
+        p.r1,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        S::from_f64(-1.0),
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        zero,
+        p.k19,
+        zero,
+        s2,
+        p.k0,
+    ]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[mortar_in_cylinder.slip] = -der(s1)*der(phi1)
+/// gamma[pestle_in_mortar.slip] = -der(s2)*der(phi2)
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 9]) -> [S; 4] {
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let zero = S::ZERO;
+    let gamma2 = -(phi1_dot * s1_dot);
+    let gamma4 = -(phi2_dot * s2_dot);
+    [zero, gamma2, zero, gamma4]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
+/// without the coordinates that constraints settle, factored.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> Result<[S; 9], ::lagrangian::Singular> {
+    S::run(Accelerations { p, t, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub t: S,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 9],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let phi1 = n(q[4]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let phi1_dot = n(v[4]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [theta, phi1, phi2, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_phi1, cos_phi1) = circular[1];
+        let (sin_phi2, cos_phi2) = circular[2];
+        let (sin_t0, cos_t0) = circular[3];
+        let t1 = n(p.yc) * theta;
+        let t2 = theta * n(p.xc);
+        let t3 = theta_dot * n(p.yc);
+        let t4 = theta_dot * n(p.xc);
+        let t5 = phi2_dot * (phi2_dot * n(p.k13));
+        let t6 = phi1_dot * phi1_dot;
+        let t7 = n(p.omega).product_error(n(t));
+        let t8 = theta_dot * theta_dot;
+        let t9 = n(p.bx).mul_add(t3 + x_dot, n(p.cx) * (t1 + x));
+        let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
+        let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
+        let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
+        let t13 = sin_phi1 * n(p.k33);
+        let t14 = cos_phi1 * n(p.k33);
+        let t15 = t6 * cos_phi1;
+        let t16 = sin_theta.mul_add(n(p.k10), cos_theta * n(p.k9));
+        let t17 = cos_theta.mul_sub(n(p.k10), sin_theta * n(p.k9));
+        let t18 = n(p.k41) * t13;
+        let t19 = n(p.k41) * t14;
+        let t20 = n(p.k41) * t16;
+        let t21 = n(p.k41) * t17;
+        let t22 = t6 * sin_phi1;
+        let t23 = t15.mul_add(n(p.k12), t5 * cos_phi2);
+        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k35)));
+        let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
+        let t26 = n(p.k7).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
+        let t27 = n(p.k12).mul_add(t22, t5 * sin_phi2);
+        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k31));
+        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k40)));
+        let t30 = sin_phi2 * n(p.k32);
+        let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
+        let t32 = n(p.k7).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
+        let t33 = cos_phi2 * n(p.k32);
+        let t34 = n(p.m2).mul_add(t27, n(p.k31) * t22);
+        let t35 = N::ONE / t29;
+        let t36 = n(p.k41) * t30;
+        let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
+        let t38 = n(p.k41) * t33;
+        let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
+        let t40 = t32.mul_sub(n(p.k9), n(p.k10) * t26);
+        let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
+        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k34)));
+        let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
+        let t44 = n(p.k9).mul_add(t26, t32 * n(p.k10));
+        let t45 = t35 * t24;
+        let t46 = t35 * t42;
+        let t47 = n(p.k32) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+        let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
+        let t49 = t43.mul_add(n(p.k37), n(p.k36));
+        let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
+        let t51 = t50 + t21.mul_sub(t41, t37 * t20);
+        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k38)));
+        let t53 = t24.neg_mul_add(t45, t52);
+        let t54 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
+        let t55 = N::ONE / t53;
+        let t56 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
+        let t57 = t19.neg_mul_add(t41, n(p.k12).mul_add(t48, t37 * t18));
+        let t58 = t45.neg_mul_add(t51, t57);
+        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k39)));
+        let t60 = t55 * t54;
+        let t61 = t54.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
+        let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t56)) / t61;
+        let phi1_ddot = t60.neg_mul_add(phi2_ddot, t55 * t58);
+        let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
+        let t63 = t45 * phi1_ddot;
+        let t64 = t36.mul_add(phi2_ddot, n(p.k41) * t37);
+        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k41) * t41);
+        let t66 = t62 - t63;
+        let t67 = phi1_ddot.mul_add(n(p.k29), phi2_ddot * n(p.k30));
+        let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
+        let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
+        let theta_ddot = t63 - t62;
+        let zero = N::ZERO;
+        let theta1_ddot = -t66.mul_add(n(p.k26), phi1_ddot * n(p.k27));
+        let theta2_ddot = -t66.mul_add(n(p.k28), t67);
+        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k40))
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k38))
+            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k39))
+            & theta2_ddot.is_finite();
+        if !sound {
+            check(t29, n(p.k40), 7.993605777301127e-15, 2)?;
+            check(t53, n(p.k38), 7.993605777301127e-15, 4)?;
+            check(t61, n(p.k39), 7.993605777301127e-15, 7)?;
+        }
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            theta_ddot.store(),
+            zero.store(),
+            phi1_ddot.store(),
+            theta1_ddot.store(),
+            zero.store(),
+            phi2_ddot.store(),
+            theta2_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> Result<[S; 4], ::lagrangian::Singular> {
+    S::run(Multipliers { p, t, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub t: S,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 9],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 9],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 4], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, t, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let x = n(q[0]);
+        let y = n(q[1]);
+        let theta = n(q[2]);
+        let s1 = n(q[3]);
+        let phi1 = n(q[4]);
+        let s2 = n(q[6]);
+        let phi2 = n(q[7]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let theta_dot = n(v[2]);
+        let s1_dot = n(v[3]);
+        let phi1_dot = n(v[4]);
+        let s2_dot = n(v[6]);
+        let phi2_dot = n(v[7]);
+        let t0 = n(p.omega) * n(t);
+        let angles = [theta, phi1, phi2, t0];
+        let circular = N::sin_cos_all(angles);
+        let (sin_theta, cos_theta) = circular[0];
+        let (sin_phi1, cos_phi1) = circular[1];
+        let (sin_phi2, cos_phi2) = circular[2];
+        let (sin_t0, cos_t0) = circular[3];
+        let t1 = s1 * n(p.k8);
+        let t2 = s1 * n(p.m2);
+        let t3 = s2 * n(p.m2);
+        let t4 = phi1_dot * s1;
+        let t5 = N::from_f64(2.0) * s1_dot;
+        let t6 = theta * n(p.yc);
+        let t7 = theta * n(p.xc);
+        let t8 = s1 * t1;
+        let t9 = s2 * t3;
+        let t10 = phi2_dot * s2;
+        let t11 = N::from_f64(2.0) * s2_dot;
+        let t12 = n(p.yc) * theta_dot;
+        let t13 = theta_dot * n(p.xc);
+        let t14 = n(p.omega).product_error(n(t));
+        let t15 = theta_dot * theta_dot;
+        let t16 = n(p.bx).mul_add(t12 + x_dot, n(p.cx) * (t6 + x));
+        let t17 = n(p.bx).mul_add(x_dot - t12, n(p.cx) * (x - t6));
+        let t18 = n(p.by).mul_add(t13 + y_dot, n(p.cy) * (t7 + y));
+        let t19 = n(p.by).mul_add(y_dot - t13, n(p.cy) * (y - t7));
+        let t20 = cos_phi1 * n(p.k8);
+        let t21 = sin_phi1 * n(p.k8);
+        let t22 = sin_phi1 * t1;
+        let t23 = n(p.k10).mul_add(sin_theta, cos_theta * n(p.k9));
+        let t24 = n(p.k23) * t20;
+        let t25 = n(p.k10).mul_sub(cos_theta, sin_theta * n(p.k9));
+        let t26 = n(p.k23) * t21;
+        let t27 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
+        let t28 = cos_phi2 * sin_phi1;
+        let t29 = sin_phi2 * cos_phi1;
+        let t30 = n(p.k21) * t23;
+        let t31 = n(p.k8) * t24;
+        let t32 = n(p.k21) * t25;
+        let t33 = n(p.k8) * t26;
+        let t34 = n(p.m2) * t27;
+        let t35 = n(p.k23) * t34;
+        let t36 = (t28 - t29) * t3;
+        let t37 = t24.mul_add(t31 - t20, t23.neg_mul_add(t30, n(p.k11)));
+        let t38 = t33.mul_add(t24, t23.mul_sub(t32, t26 * t20));
+        let t39 = n(p.k8) * t35;
+        let t40 = N::ONE / t37;
+        let t41 = n(p.k23) * t36;
+        let t42 = t23 * n(p.k22);
+        let t43 = t39.mul_add(t24, t35.neg_mul_add(t20, cos_phi2 * n(p.m2)));
+        let t44 = n(p.k8) * t41;
+        let t45 = t44.neg_mul_add(t24, t41.mul_add(t20, sin_phi2 * t3));
+        let t46 = t40 * t38;
+        let t47 = t40 * t22;
+        let t48 = t40 * t43;
+        let t49 = t40 * t45;
+        let t50 = t40 * t42;
+        let t51 = phi1_dot * sin_phi1.mul_sub(t4, t5 * cos_phi1);
+        let t52 = t26.mul_add(t33 - t21, t25.neg_mul_add(t32, n(p.k11)));
+        let t53 = t38.neg_mul_add(t46, t52);
+        let t54 = t38.mul_add(t47, cos_phi1 * t1);
+        let t55 = t39.mul_add(t26, t35.neg_mul_add(t21, sin_phi2 * n(p.m2)));
+        let t56 = t38.neg_mul_add(t48, t55);
+        let t57 = t44.mul_add(t26, t41.neg_mul_add(t21, cos_phi2 * t3));
+        let t58 = t38.mul_add(t49, t57);
+        let t59 = N::ONE / t53;
+        let t60 = t38.mul_add(t50, t25 * n(p.k22));
+        let t61 = phi1_dot * t5.mul_add(sin_phi1, cos_phi1 * t4);
+        let t62 = sin_phi2.mul_sub(t10, t11 * cos_phi2);
+        let t63 = phi2_dot.mul_add(t62, t51);
+        let t64 = t11.mul_add(sin_phi2, cos_phi2 * t10);
+        let t65 = phi2_dot.mul_add(t64, t61);
+        let t66 = t15 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
+        let t67 = n(p.k7).mul_add(t14.mul_add(cos_t0, sin_t0), t66);
+        let t68 = n(p.m2).mul_add(t63, n(p.m1) * t51);
+        let t69 = t65.mul_add(n(p.m2), t61 * n(p.m1));
+        let t70 = t15 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
+        let t71 = n(p.k7).mul_add(t14.neg_mul_add(sin_t0, cos_t0), t70);
+        let t72 = t59 * t54;
+        let t73 = t59 * t56;
+        let t74 = t59 * t58;
+        let t75 = t59 * t60;
+        let t76 = t54.neg_mul_add(t72, t22.neg_mul_add(t47, t8));
+        let t77 = t54.neg_mul_add(t73, t22.mul_add(t48, (t29 - t28) * t2));
+        let t78 = t43.neg_mul_add(t48, t35.mul_add(t39 - t34, n(p.m2)));
+        let t79 = t22.neg_mul_add(t49, t27 * (s2 * t2));
+        let t80 = t54.neg_mul_add(t74, t79);
+        let t81 = t43.neg_mul_add(t49, t44.neg_mul_add(t35, t41 * t34));
+        let t82 = t45.neg_mul_add(t49, t41.mul_add(t44 - t36, t9));
+        let t83 = t54.neg_mul_add(t75, t22.neg_mul_add(t50, s1));
+        let t84 = N::ONE / t76;
+        let t85 = cos_phi1.mul_add(t69, sin_phi1 * t68);
+        let t86 = n(p.yc).mul_add(t16 - t17, n(p.xc) * (t18 - t19));
+        let t87 = n(p.k9).mul_sub(t71, n(p.k10) * t67);
+        let t88 = t67.mul_add(n(p.m0), t68 - (t19 + t18));
+        let t89 = n(p.k23) * t85;
+        let t90 = t71.mul_add(n(p.m0), t69 - (t17 + t16));
+        let t91 = n(p.k9).mul_add(t67, n(p.k10) * t71);
+        let t92 = sin_theta.mul_add(t91, cos_theta.mul_add(t87, t86));
+        let t93 = n(p.m2) * cos_phi2.mul_add(t65, sin_phi2 * t63);
+        let t94 = t3 * cos_phi2.mul_sub(t63, sin_phi2 * t65);
+        let t95 = t84 * t77;
+        let t96 = t84 * t80;
+        let t97 = t84 * t83;
+        let t98 = t89.mul_add(t33, t85.neg_mul_add(t26, t88));
+        let t99 = t89.mul_add(t31, t85.neg_mul_add(t24, t90));
+        let t100 = t30.neg_mul_add(t92, t99);
+        let t101 = t77.neg_mul_add(t95, t56.neg_mul_add(t73, t78));
+        let t102 = t77.mul_add(t96, t56.mul_add(t74, t81));
+        let t103 = t77.neg_mul_add(t97, t56.neg_mul_add(t75, t43 * t50));
+        let t104 = t46.neg_mul_add(t100, t32.mul_add(t92, t98));
+        let t105 = N::ONE / t101;
+        let t106 = t89.mul_add(t39, t85.neg_mul_add(t35, t93));
+        let t107 = s1 * cos_phi1.mul_sub(t68, sin_phi1 * t69);
+        let t108 = t89.mul_add(t44, t85.neg_mul_add(t41, t94));
+        let t109 = n(p.k22).mul_add(t92, phi1_dot * s1_dot);
+        let t110 = t72.neg_mul_add(t104, t47.mul_add(t100, t107));
+        let t111 = t73.neg_mul_add(t104, t48.neg_mul_add(t100, t106));
+        let t112 = t95.neg_mul_add(t110, t111);
+        let t113 = t74.neg_mul_add(t104, t49.mul_add(t100, t108));
+        let t114 = t75.mul_add(t104, t50.neg_mul_add(t100, t109));
+        let t115 = N::ONE / t105;
+        let t116 = t105 * t102;
+        let t117 = t105 * t103;
+        let t118 = t105 * t112;
+        let t119 = t80.neg_mul_add(t96, t58.neg_mul_add(t74, t82));
+        let t120 = t80.mul_add(t97, t58.mul_add(t75, t45 * t50));
+        let t121 = t103.mul_add(t117, t83 * t97);
+        let t122 = t115 * t116;
+        let t123 = t115 * t117;
+        let t124 = t116.mul_add(t122, t102.neg_mul_add(t116, t119));
+        let t125 = t116.mul_add(t123, t102.neg_mul_add(t117, t120));
+        let t126 = t116.mul_add(t112, t96.neg_mul_add(t110, t113));
+        let t127 = t122.neg_mul_add(t118, t126);
+        let t128 = t117.mul_add(t112, t97.mul_add(t110, t114));
+        let t129 = N::ONE / t124;
+        let t130 = t129 * t125;
+        let t131 = s2 * t129;
+        let t132 = t131.mul_add(t125, n(p.k20));
+        let t133 = t130.neg_mul_add(t127, t123.neg_mul_add(t118, t128));
+        let t134 = s2.mul_add(t131, n(p.k25));
+        let t135 = t121 + t60.mul_add(t75, t42 * t50);
+        let t136 = t135 + t125.mul_add(t130, n(p.k24));
+        let t137 = t117.neg_mul_add(t123, t136);
+        let t138 = N::ONE / t137;
+        let t139 = t138 * t132;
+        let t140 = t132.neg_mul_add(t139, t134);
+        let t141 = t139.mul_add(t133, t131.mul_add(t127, phi2_dot * s2_dot));
+        let t142 = t141 / t140;
+        let t143 = t139.mul_add(t142, t138 * t133);
+        let t144 = t130.mul_add(t143, t131.neg_mul_add(t142, t129 * t127));
+        let lambda3 = t122.mul_add(t144, t123.neg_mul_add(t143, t115 * t118));
+        let t145 = t116.mul_add(t144, t117.neg_mul_add(t143, t118));
+        let t146 = t105.neg_mul_add(lambda3, t145);
+        let t147 = t96.neg_mul_add(t144, t97.neg_mul_add(t143, t84 * t110));
+        let t148 = t95.neg_mul_add(t146, t147);
+        let t149 = t49.mul_add(t144, t50.mul_add(t143, t40 * t100));
+        let t150 = t74.neg_mul_add(t144, t75.neg_mul_add(t143, t59 * t104));
+        let t151 = t72.neg_mul_add(t148, t73.neg_mul_add(t146, t150));
+        let t152 = t47.mul_add(t148, t48.neg_mul_add(t146, t149));
+        let t153 = t39.mul_add(t146, t44.mul_sub(t144, t89 * n(p.k8)));
+        let t154 = t46.neg_mul_add(t151, t152);
+        let lambda1 = -t31.mul_add(t154, t33.mul_add(t151, t153));
+        let lambda2 = -t143;
+        let lambda4 = -t142;
+        let sound = n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
+            & n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
+            & n(p.k15).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k15))
+            & n(p.k8).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k8))
+            & n(p.k23).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k23))
+            & t37.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
+            & t53.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
+            & t76.exceeds(N::from_f64(1.1546319456101628e-14) * t8)
+            & t101.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
+            & t105.exceeds(N::from_f64(1.1546319456101628e-14) * t105)
+            & t124.exceeds(N::from_f64(1.1546319456101628e-14) * t9)
+            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t136)
+            & t140.exceeds(N::from_f64(1.1546319456101628e-14) * t134)
+            & lambda1.is_finite();
+        if !sound {
+            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
+            check(n(p.J1), n(p.J1), 1.1546319456101628e-14, 5)?;
+            check(n(p.k15), n(p.k15), 1.1546319456101628e-14, 2)?;
+            check(n(p.k8), n(p.k8), 1.1546319456101628e-14, 3)?;
+            check(n(p.k23), n(p.k23), 1.1546319456101628e-14, 9)?;
+            check(t37, n(p.k11), 1.1546319456101628e-14, 0)?;
+            check(t53, n(p.k11), 1.1546319456101628e-14, 1)?;
+            check(t76, t8, 1.1546319456101628e-14, 4)?;
+            check(t101, n(p.m2), 1.1546319456101628e-14, 6)?;
+            check(t105, t105, 1.1546319456101628e-14, 11)?;
+            check(t124, t9, 1.1546319456101628e-14, 7)?;
+            check(t137, t136, 1.1546319456101628e-14, 10)?;
+            check(t140, t134, 1.1546319456101628e-14, 12)?;
+        }
+        let multipliers = [
+            lambda1.store(),
+            lambda2.store(),
+            lambda3.store(),
+            lambda4.store(),
+        ];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*m*der(x)^2 + 1/2*m*der(y)^2 + 1/2*J*der(theta)^2 + 1/2*J1*der(theta1)^2
+///     + 1/2*J2*der(theta2)^2 + 1/2*m0*(((der(x) - y0*cos(theta)*der(theta) -
+///     x0*sin(theta)*der(theta)) - e*omega*sin(omega*t))^2 + ((der(y) + x0*cos(theta)*der(theta) -
+///     y0*sin(theta)*der(theta)) + e*omega*cos(omega*t))^2) + 1/2*m1*((der(x) + (cos(phi1)*der(s1)
+///     - s1*sin(phi1)*der(phi1)))^2 + (der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1)))^2) +
+///     1/2*m2*(((der(x) + (cos(phi1)*der(s1) - s1*sin(phi1)*der(phi1))) + (cos(phi2)*der(s2) -
+///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
+///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2) + 1/2*J0*omega^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+    let theta = q[2];
+    let s1 = q[3];
+    let phi1 = q[4];
+    let s2 = q[6];
+    let phi2 = q[7];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let s1_dot = v[3];
+    let phi1_dot = v[4];
+    let theta1_dot = v[5];
+    let s2_dot = v[6];
+    let phi2_dot = v[7];
+    let theta2_dot = v[8];
+    let (sin_phi1, cos_phi1) = phi1.sin_cos();
+    let (sin_phi2, cos_phi2) = phi2.sin_cos();
+    let t0 = p.omega * t;
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t1 = phi1_dot * s1;
+    let t2 = phi2_dot * s2;
+    let t3 = theta_dot * p.x0;
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t4 = p.omega.product_error(t);
+    let t5 = theta_dot * p.y0;
+    let t6 = x_dot + (cos_phi1 * s1_dot - t1 * sin_phi1);
+    let t7 = y_dot + (t1 * cos_phi1 + sin_phi1 * s1_dot);
+    let t8 = x_dot - t3 * sin_theta - cos_theta * t5 - p.k1 * (sin_t0 + t4 * cos_t0);
+    let t9 = y_dot + t3 * cos_theta - sin_theta * t5;
+    let t10 = p.k1 * (cos_t0 - t4 * sin_t0) + t9;
+    let t11 = cos_phi2 * s2_dot - t2 * sin_phi2 + t6;
+    let t12 = t2 * cos_phi2 + sin_phi2 * s2_dot + t7;
+    let t13 = (y_dot * y_dot + x_dot * x_dot) * p.m + theta_dot * (theta_dot * p.J);
+    let t14 = (t7 * t7 + t6 * t6) * p.m1 + theta1_dot * (theta1_dot * p.J1) + t13;
+    let t15 = (t12 * t12 + t11 * t11) * p.m2 + theta2_dot * (theta2_dot * p.J2) + t14;
+    ((t10 * t10 + t8 * t8) * p.m0 + p.k2 + t15) * S::from_f64(0.5)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+    let x = q[0];
+    let y = q[1];
+    let theta = q[2];
+    let t0 = theta * p.yc;
+    let t1 = theta * p.xc;
+    let t2 = x - t0;
+    let t3 = y - t1;
+    let t4 = t0 + x;
+    let t5 = t1 + y;
+    (t5 * t5 + t3 * t3) * p.k4 + (t4 * t4 + t2 * t2) * p.k3
+}
+
+/// Dissipation function `D`, in W.
+///
+/// ```text
+/// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = theta_dot * p.xc;
+    let t2 = x_dot - t0;
+    let t3 = y_dot - t1;
+    let t4 = t0 + x_dot;
+    let t5 = t1 + y_dot;
+    (t5 * t5 + t3 * t3) * p.k6 + (t4 * t4 + t2 * t2) * p.k5
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
+///     + m0*e*y0*omega*sin(omega*t - theta)*der(der(theta))
+///     + m0*e*x0*omega*cos(omega*t - theta)*der(der(theta))
+///     + m0*e*x0*omega*sin(omega*t - theta)*der(theta)^2
+///     - m0*e*y0*omega*cos(omega*t - theta)*der(theta)^2
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+    a: &[S; 9],
+) -> S {
+    let theta = q[2];
+    let theta_dot = v[2];
+    let x_ddot = a[0];
+    let y_ddot = a[1];
+    let theta_ddot = a[2];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = p.omega * t;
+    let t1 = theta_dot * theta_dot;
+    let t2 = p.omega.product_error(t);
+    let (sin_t0, cos_t0) = t0.sin_cos();
+    let t3 = sin_theta * theta_ddot + cos_theta * t1;
+    let t4 = sin_theta * t1 - cos_theta * theta_ddot;
+    let t5 = sin_t0 + t2 * cos_t0;
+    let t6 = cos_t0 - t2 * sin_t0;
+    let t7 = t6 * (t5 * p.k7 - (y_ddot - t3 * p.y0 - t4 * p.x0));
+    (t5 * (t6 * p.k7 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k14
+}
+
+/// Power that dampers take out, in W.
+///
+/// ```text
+/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// ```
+pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let theta_dot = v[2];
+    let t0 = theta_dot * p.yc;
+    let t1 = theta_dot * p.xc;
+    let t2 = x_dot - t0;
+    let t3 = y_dot - t1;
+    let t4 = t0 + x_dot;
+    let t5 = t1 + y_dot;
+    (t5 * t5 + t3 * t3) * p.by + (t4 * t4 + t2 * t2) * p.bx
+}
+
+/// By how much `s1 > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s1 = q[3];
+    s1
+}
+
+/// By how much `s2 > 0` holds.
+pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+    let s2 = q[6];
+    s2
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 25] = [
+    ("m", "kg"),
+    ("m0", "kg"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("J", "kg*m^2"),
+    ("J0", "kg*m^2"),
+    ("J1", "kg*m^2"),
+    ("J2", "kg*m^2"),
+    ("e", "m"),
+    ("x0", "m"),
+    ("y0", "m"),
+    ("omega", "rad/s"),
+    ("cx", "N/m"),
+    ("cy", "N/m"),
+    ("bx", "N*s/m"),
+    ("by", "N*s/m"),
+    ("xc", "m"),
+    ("yc", "m"),
+    ("R", "m"),
+    ("r1", "m"),
+    ("rho", "m"),
+    ("r2", "m"),
+    ("delta", "m"),
+    ("whirl1", "rad/s"),
+    ("whirl2", "rad/s"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 9] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("theta", "rad"),
+    ("s1", "m"),
+    ("phi1", "rad"),
+    ("theta1", "rad"),
+    ("s2", "m"),
+    ("phi2", "rad"),
+    ("theta2", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 4] = [
+    ("mortar_in_cylinder.gap", "m", "N", true),
+    ("mortar_in_cylinder.slip", "m/s", "N", false),
+    ("pestle_in_mortar.gap", "m", "N", true),
+    ("pestle_in_mortar.slip", "m/s", "N", false),
+];
+
+impl ::lagrangian::Machine for CakedCrusher {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "CakedCrusher"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.m,
+            self.m0,
+            self.m1,
+            self.m2,
+            self.J,
+            self.J0,
+            self.J1,
+            self.J2,
+            self.e,
+            self.x0,
+            self.y0,
+            self.omega,
+            self.cx,
+            self.cy,
+            self.bx,
+            self.by,
+            self.xc,
+            self.yc,
+            self.R,
+            self.r1,
+            self.rho,
+            self.r2,
+            self.delta,
+            self.whirl1,
+            self.whirl2,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 9];
+    type Matrix = [f64; 81];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 9]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 9] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 9],
+        v: &[f64; 9],
+        _: &Inputs,
+        result: &mut [f64; 9],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, t: f64, q: &[f64; 9], v: &[f64; 9], result: &mut [f64; 9]) {
+        *result = bias(self, t, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = applied(self, q, v);
+    }
+
+    fn forces(&self, t: f64, q: &[f64; 9], v: &[f64; 9], _: &Inputs, result: &mut [f64; 9]) {
+        *result = forces(self, t, q, v);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
+        kinetic_energy(self, t, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 9], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation(self, v)
+    }
+
+    fn work_rate(&self, t: f64, q: &[f64; 9], v: &[f64; 9], a: &[f64; 9], _: &Inputs) -> f64 {
+        work_rate(self, t, q, v, a)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 9], v: &[f64; 9], _: &Inputs) -> f64 {
+        dissipation_rate(self, v)
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 9], _: &[f64; 9], _: &[f64; 9], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 9],
+        _: &[f64; 9],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [
+            assumption("s1 > 0", true, assumption_0(q)),
+            assumption("s2 > 0", true, assumption_1(q)),
+        ];
+        facts.into_iter()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 9],
+        v: &[f64; 9],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 9], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, _: &[f64; 9], v: &[f64; 9], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(v));
+    }
+
+    fn multipliers(
+        &self,
+        t: f64,
+        q: &[f64; 9],
+        v: &[f64; 9],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, t, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(9, 4)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m: lanes(|p| p.m),
+            m0: lanes(|p| p.m0),
+            m1: lanes(|p| p.m1),
+            m2: lanes(|p| p.m2),
+            J: lanes(|p| p.J),
+            J1: lanes(|p| p.J1),
+            J2: lanes(|p| p.J2),
+            x0: lanes(|p| p.x0),
+            y0: lanes(|p| p.y0),
+            omega: lanes(|p| p.omega),
+            cx: lanes(|p| p.cx),
+            cy: lanes(|p| p.cy),
+            bx: lanes(|p| p.bx),
+            by: lanes(|p| p.by),
+            xc: lanes(|p| p.xc),
+            yc: lanes(|p| p.yc),
+            R: lanes(|p| p.R),
+            r1: lanes(|p| p.r1),
+            rho: lanes(|p| p.rho),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
+            k23: lanes(|p| p.k23),
+            k24: lanes(|p| p.k24),
+            k25: lanes(|p| p.k25),
+            k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
+            k37: lanes(|p| p.k37),
+            k38: lanes(|p| p.k38),
+            k39: lanes(|p| p.k39),
+            k40: lanes(|p| p.k40),
+            k41: lanes(|p| p.k41),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        t: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, t, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(9) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,929 @@
+// @generated from machines/flyball_governor.machine by `cargo xtask generate`; edits are lost.
+
+//! J. Watt's governor: two balls on arms that swing in the plane of a turning shaft, joined by
+//! links to
+//! a sleeve that slides on the shaft. It starts in steady rotation with the arms at 0.6 rad, if
+//! arms and
+//! links are of one length.
+//!
+//! 3 coordinates, 6 parameters, 1 input. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 15 | 4 | 3 | 0 | 0 | 22 |
+//! | `start` | 7 | 3 | 1 | 1 | 2 | 15 |
+//! | `mass_matrix` | 2 | 1 | 0 | 1 | 0 | 4 |
+//! | `bias` | 6 | 0 | 0 | 1 | 0 | 8 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 7 | 2 | 0 | 1 | 0 | 11 |
+//! | `constraint_positions` | 5 | 3 | 0 | 1 | 0 | 10 |
+//! | `constraint_rates` | 8 | 3 | 0 | 1 | 0 | 13 |
+//! | `constraint_matrix` | 5 | 2 | 0 | 1 | 0 | 9 |
+//! | `constraint_drift` | 13 | 5 | 0 | 1 | 0 | 20 |
+//! | `accelerations` | 36 | 15 | 2 | 1 | 0 | 55 |
+//! | `multipliers` | 28 | 12 | 1 | 1 | 0 | 43 |
+//! | `kinetic_energy` | 8 | 3 | 0 | 1 | 0 | 12 |
+//! | `potential_energy` | 2 | 2 | 0 | 1 | 0 | 5 |
+//! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// J. Watt's governor: two balls on arms that swing in the plane of a turning shaft, joined by
+/// links to
+/// a sleeve that slides on the shaft. It starts in steady rotation with the arms at 0.6 rad, if
+/// arms and
+/// links are of one length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlyballGovernor<S = f64> {
+    /// Lengths of an arm and of a link. Unit: m. Default: 0.2.
+    pub l: S,
+    /// `b`. Unit: m. Default: 0.2.
+    pub b: S,
+    /// Masses of a ball and of the sleeve. Unit: kg. Default: 0.5.
+    pub m: S,
+    /// `M`. Unit: kg. Default: 2.
+    pub M: S,
+    /// Inertia of the shaft, with what it drives, about its axis. Unit: kg*m^2. Default: 0.02.
+    pub J: S,
+    /// `g`. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for FlyballGovernor {
+    fn default() -> Self {
+        Self {
+            l: 0.2,
+            b: 0.2,
+            m: 0.5,
+            M: 2.0,
+            J: 0.02,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> FlyballGovernor<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> FlyballGovernor<R> {
+        FlyballGovernor {
+            l: f(self.l),
+            b: f(self.b),
+            m: f(self.m),
+            M: f(self.M),
+            J: f(self.J),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k1 = self.l * self.l;
+        let k2 = S::ONE / self.b;
+        let k3 = k2 * S::from_f64(0.5);
+        let k4 = k1 * self.m;
+        let k6 = self.l * self.m * (self.g * S::from_f64(2.0));
+        let k9 = k4 * S::from_f64(2.0);
+        let k0 = self.b * self.b;
+        let k5 = self.M * self.g;
+        let k7 = self.J * S::from_f64(0.5);
+        let k8 = self.M * S::from_f64(0.5);
+        let k10 = k4 * S::from_f64(4.0);
+        let k11 = k1 * S::from_f64(2.0);
+        let k12 = self.l * k2;
+        let k13 = k1 * k2;
+        let k14 = self.J + k9;
+        let k15 = -k9;
+        let k16 = -k6;
+        let k17 = -k3;
+        let k18 = S::from_f64(0.5) / k4;
+        let k19 = S::ONE / self.M;
+        let singular = if vanishes(k9, k9, 3.552713678800501e-15) {
+            Some(singular(1, k9, k9))
+        } else if vanishes(self.M, self.M, 3.552713678800501e-15) {
+            Some(singular(2, self.M, self.M))
+        } else {
+            None
+        };
+        Prepared {
+            l: self.l,
+            M: self.M,
+            J: self.J,
+            g: self.g,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let alpha = S::from_ratio(3, 5);
+        let (sin_alpha, cos_alpha) = alpha.sin_cos();
+        let t0 = sin_alpha * self.l;
+        let zero = S::ZERO;
+        let s = (self.b * self.b - t0 * t0).sqrt() + cos_alpha * self.l;
+        let phi_rate = ((self.m + self.M) * self.g / (cos_alpha * (self.l * self.m))).sqrt();
+        let q = [zero, alpha, s];
+        let v = [phi_rate, zero, zero];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`FlyballGovernor`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Angle of the shaft, and of the arms from it. Unit: rad.
+    pub phi: S,
+    /// `alpha`. Unit: rad.
+    pub alpha: S,
+    /// Depth of the sleeve below the hinge of the arms. Unit: m.
+    pub s: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 3] {
+        [self.phi, self.alpha, self.s]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 3]) -> Self {
+        Self {
+            phi: q[0],
+            alpha: q[1],
+            s: q[2],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            phi: f(self.phi),
+            alpha: f(self.alpha),
+            s: f(self.s),
+        }
+    }
+}
+
+/// What can be set while a [`FlyballGovernor`] runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs<S = f64> {
+    /// Torque on the shaft. Unit: N*m. Default: 0.
+    pub drive: S,
+}
+
+impl Default for Inputs {
+    fn default() -> Self {
+        Self { drive: 0.0 }
+    }
+}
+
+impl<S> Inputs<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
+        Inputs {
+            drive: f(self.drive),
+        }
+    }
+}
+
+/// What can be observed of a [`FlyballGovernor`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`FlyballGovernor`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `l`
+    l: S,
+    /// `M`
+    M: S,
+    /// `J`
+    J: S,
+    /// `g`
+    g: S,
+    /// `b^2`
+    k0: S,
+    /// `l^2`
+    k1: S,
+    /// `1/b`
+    k2: S,
+    /// `0.5/b`
+    k3: S,
+    /// `l^2*m`
+    k4: S,
+    /// `M*g`
+    k5: S,
+    /// `2*l*m*g`
+    k6: S,
+    /// `0.5*J`
+    k7: S,
+    /// `0.5*M`
+    k8: S,
+    /// `2*l^2*m`
+    k9: S,
+    /// `4*l^2*m`
+    k10: S,
+    /// `2*l^2`
+    k11: S,
+    /// `l/b`
+    k12: S,
+    /// `l^2/b`
+    k13: S,
+    /// `J + 2*l^2*m`
+    k14: S,
+    /// `-2*l^2*m`
+    k15: S,
+    /// `-2*l*m*g`
+    k16: S,
+    /// `-0.5/b`
+    k17: S,
+    /// `0.5/l^2/m`
+    k18: S,
+    /// `1/M`
+    k19: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[phi, phi] = 2*l^2*m*sin(alpha)^2 + J
+/// M[alpha, alpha] = 2*l^2*m
+/// M[s, s] = M
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+    let alpha = q[1];
+    let sin_alpha = alpha.sin();
+    let m11 = sin_alpha * (sin_alpha * p.k9) + p.J;
+    let zero = S::ZERO;
+    [[m11, zero, zero], [zero, p.k9, zero], [zero, zero, p.M]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[phi] = 4*l^2*m*sin(alpha)*cos(alpha)*der(phi)*der(alpha)
+/// h[alpha] = -2*l^2*m*sin(alpha)*cos(alpha)*der(phi)^2
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let alpha = q[1];
+    let phi_dot = v[0];
+    let alpha_dot = v[1];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = cos_alpha * (sin_alpha * phi_dot);
+    let h_phi = t0 * (p.k10 * alpha_dot);
+    let h_alpha = t0 * (phi_dot * p.k15);
+    let zero = S::ZERO;
+    [h_phi, h_alpha, zero]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[phi] = drive
+/// Q[alpha] = -2*l*m*g*sin(alpha)
+/// Q[s] = M*g
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], u: &Inputs<S>) -> [S; 3] {
+    let alpha = q[1];
+    let sin_alpha = alpha.sin();
+    let q_alpha = p.k16 * sin_alpha;
+    [u.drive, q_alpha, p.k5]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+    u: &Inputs<S>,
+) -> [S; 3] {
+    let alpha = q[1];
+    let phi_dot = v[0];
+    let alpha_dot = v[1];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = cos_alpha * (sin_alpha * phi_dot);
+    let f_phi = u.drive - t0 * (p.k10 * alpha_dot);
+    let f_alpha = t0 * (phi_dot * p.k9) - sin_alpha * p.k6;
+    [f_phi, f_alpha, p.k5]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[links] = 1/2*s^2/b - l*s*cos(alpha)/b + 1/2*l^2/b - 1/2*b
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 1] {
+    let alpha = q[1];
+    let s = q[2];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = s - cos_alpha * p.l;
+    let g1 = p.k17 * (p.k0 - sin_alpha * (sin_alpha * p.k1) - t0 * t0);
+    [g1]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[links] = l*s*sin(alpha)*der(alpha)/b + s*der(s)/b - l*cos(alpha)*der(s)/b
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> [S; 1] {
+    let alpha = q[1];
+    let s = q[2];
+    let alpha_dot = v[1];
+    let s_dot = v[2];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = sin_alpha * alpha_dot;
+    let t1 = (t0 * p.l + s_dot) * (S::from_f64(2.0) * (s - cos_alpha * p.l));
+    let phi1 = (t1 + t0 * (cos_alpha * p.k11)) * p.k3;
+    [phi1]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[links, alpha] = l*s*sin(alpha)/b
+/// G[links, s] = (s - l*cos(alpha))/b
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+    let alpha = q[1];
+    let s = q[2];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = s - cos_alpha * p.l;
+    let zero = S::ZERO;
+    let g1_2 = sin_alpha * (cos_alpha * p.k13 + t0 * p.k12);
+    let g1_3 = t0 * p.k2;
+    [zero, g1_2, g1_3]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[links] = -l*s*cos(alpha)*der(alpha)^2/b - 2*l*sin(alpha)*der(alpha)*der(s)/b - der(s)^2/b
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> [S; 1] {
+    let alpha = q[1];
+    let s = q[2];
+    let alpha_dot = v[1];
+    let s_dot = v[2];
+    let (sin_alpha, cos_alpha) = alpha.sin_cos();
+    let t0 = alpha_dot * alpha_dot;
+    let t1 = cos_alpha * p.l;
+    let t2 = sin_alpha * (alpha_dot * p.l) + s_dot;
+    let t3 = (cos_alpha * cos_alpha - sin_alpha * sin_alpha) * (t0 * p.k11);
+    let gamma1 = p.k17 * (((s - t1) * (t0 * t1) + t2 * t2) * S::from_f64(2.0) + t3);
+    [gamma1]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
+/// multiplied out.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+    u: &Inputs<S>,
+) -> Result<[S; 3], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v, u })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub u: &'a Inputs<S>,
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v, u } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let alpha = n(q[1]);
+        let s = n(q[2]);
+        let phi_dot = n(v[0]);
+        let alpha_dot = n(v[1]);
+        let s_dot = n(v[2]);
+        let (sin_alpha, cos_alpha) = alpha.sin_cos();
+        let t0 = sin_alpha * alpha_dot;
+        let t1 = cos_alpha.neg_mul_add(n(p.l), s);
+        let t2 = cos_alpha * alpha_dot;
+        let t3 = sin_alpha * cos_alpha;
+        let t4 = t0.mul_add(n(p.l), s_dot);
+        let t5 = t1 * n(p.k2);
+        let t6 = phi_dot * (n(p.k9) * phi_dot);
+        let t7 = t3.neg_mul_add(t6, sin_alpha * n(p.k6));
+        let t8 = cos_alpha * (phi_dot * n(p.k10));
+        let t9 = cos_alpha.neg_mul_add(n(p.k9) * cos_alpha, n(p.k14));
+        let t10 = t3.mul_add(n(p.k13), t1 * (sin_alpha * n(p.k12)));
+        let t11 = t5 * n(p.k19);
+        let t12 = n(p.k18) * t10;
+        let t13 = t1.mul_add(t2 * (alpha_dot * n(p.l)), t4 * t4);
+        let t14 = t2.mul_sub(t2, t0 * t0) * n(p.k11);
+        let t15 = t10.mul_add(t12, t5 * t11);
+        let t16 = t7.neg_mul_add(t12, t11 * n(p.k5));
+        let t17 = t13.mul_add(N::from_f64(2.0), t14).mul_add(n(p.k3), t16);
+        let t18 = t17 / t15;
+        let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t9;
+        let alpha_ddot = -t12.mul_add(t18, n(p.k18) * t7);
+        let s_ddot = t11.neg_mul_add(t18, n(p.g));
+        let sound = t9.exceeds(N::from_f64(3.552713678800501e-15) * t9)
+            & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
+            & alpha_ddot.is_finite();
+        if !sound {
+            check(t9, t9, 3.552713678800501e-15, 0)?;
+            check(t15, t15, 3.552713678800501e-15, 3)?;
+        }
+        let accelerations = [phi_ddot.store(), alpha_ddot.store(), s_ddot.store()];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Result<[S; 1], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 3],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let alpha = n(q[1]);
+        let s = n(q[2]);
+        let phi_dot = n(v[0]);
+        let alpha_dot = n(v[1]);
+        let s_dot = n(v[2]);
+        let (sin_alpha, cos_alpha) = alpha.sin_cos();
+        let t0 = alpha_dot * alpha_dot;
+        let t1 = cos_alpha * n(p.l);
+        let t2 = sin_alpha.mul_add(n(p.l) * alpha_dot, s_dot);
+        let t3 = cos_alpha * cos_alpha;
+        let t4 = phi_dot * (n(p.k9) * phi_dot);
+        let t5 = s - t1;
+        let t6 = n(p.k9).neg_mul_add(t3, n(p.k14));
+        let t7 = t5 * n(p.k2);
+        let t8 = t7 * n(p.k19);
+        let t9 = sin_alpha * t5.mul_add(n(p.k12), cos_alpha * n(p.k13));
+        let t10 = sin_alpha.neg_mul_add(sin_alpha, t3) * (t0 * n(p.k11));
+        let t11 = t5.mul_add(t1 * t0, t2 * t2);
+        let t12 = t9 * n(p.k18);
+        let t13 = t9.mul_add(t12, t7 * t8);
+        let t14 = t11.mul_add(N::from_f64(2.0), t10) * n(p.k3);
+        let t15 = sin_alpha * cos_alpha.neg_mul_add(t4, n(p.k6));
+        let lambda1 = -(t12.neg_mul_add(t15, t8.mul_add(n(p.k5), t14)) / t13);
+        let sound = t6.exceeds(N::from_f64(3.552713678800501e-15) * t6)
+            & t13.exceeds(N::from_f64(3.552713678800501e-15) * t13)
+            & lambda1.is_finite();
+        if !sound {
+            check(t6, t6, 3.552713678800501e-15, 0)?;
+            check(t13, t13, 3.552713678800501e-15, 3)?;
+        }
+        let multipliers = [lambda1.store()];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = l^2*m*sin(alpha)^2*der(phi)^2 + 1/2*J*der(phi)^2 + l^2*m*der(alpha)^2 + 1/2*M*der(s)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let alpha = q[1];
+    let phi_dot = v[0];
+    let alpha_dot = v[1];
+    let s_dot = v[2];
+    let sin_alpha = alpha.sin();
+    let t0 = phi_dot * phi_dot;
+    let t1 = (alpha_dot * alpha_dot + sin_alpha * (t0 * sin_alpha)) * p.k4;
+    t1 + (s_dot * (s_dot * p.k8) + t0 * p.k7)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -M*g*s - 2*l*m*g*cos(alpha)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+    let alpha = q[1];
+    let s = q[2];
+    let cos_alpha = alpha.cos();
+    -(p.k6 * cos_alpha + p.k5 * s)
+}
+
+/// Power that drives, forces and inputs put in, in W.
+///
+/// ```text
+/// P = der(phi)*drive
+/// ```
+pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 3], u: &Inputs<S>) -> S {
+    let phi_dot = v[0];
+    u.drive * phi_dot
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 6] = [
+    ("l", "m"),
+    ("b", "m"),
+    ("m", "kg"),
+    ("M", "kg"),
+    ("J", "kg*m^2"),
+    ("g", "m/s^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 3] = [("phi", "rad"), ("alpha", "rad"), ("s", "m")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 1] = [("drive", "N*m")];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 1] = [("links", "m", "N", true)];
+
+impl ::lagrangian::Machine for FlyballGovernor {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "FlyballGovernor"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.l, self.b, self.m, self.M, self.J, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 3];
+    type Matrix = [f64; 9];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        u: &Inputs,
+        result: &mut [f64; 3],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], u: &Inputs, result: &mut [f64; 3]) {
+        *result = applied(self, q, u);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], u: &Inputs, result: &mut [f64; 3]) {
+        *result = forces(self, q, v, u);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 3], v: &[f64; 3], _: &[f64; 3], u: &Inputs) -> f64 {
+        work_rate(v, u)
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        inputs: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [inputs.drive];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 3],
+        _: &[f64; 3],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 3], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(self, q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(3, 1)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            l: lanes(|p| p.l),
+            M: lanes(|p| p.M),
+            J: lanes(|p| p.J),
+            g: lanes(|p| p.g),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            k17: lanes(|p| p.k17),
+            k18: lanes(|p| p.k18),
+            k19: lanes(|p| p.k19),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        Inputs {
+            drive: lanes(|u| u.drive),
+        }
+    }
+
+    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+        Inputs {
+            drive: inputs.drive[lane],
+        }
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        u: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v, u },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(3) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

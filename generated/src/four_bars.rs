@@ -1,0 +1,1248 @@
+// @generated from machines/four_bars.machine by `cargo xtask generate`; edits are lost.
+
+//! N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N couplers.
+//! While
+//! the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints depend
+//! on
+//! each other, and every window could as well leave the parallelogram.
+//!
+//! 5 coordinates, 4 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 16 | 4 | 1 | 0 | 0 | 21 |
+//! | `start` | 1 | 1 | 1 | 0 | 0 | 3 |
+//! | `mass_matrix` | 6 | 2 | 0 | 4 | 0 | 16 |
+//! | `bias` | 16 | 2 | 0 | 4 | 0 | 26 |
+//! | `applied` | 5 | 0 | 0 | 5 | 0 | 10 |
+//! | `forces` | 25 | 8 | 0 | 5 | 0 | 42 |
+//! | `constraint_positions` | 4 | 10 | 0 | 5 | 0 | 24 |
+//! | `constraint_rates` | 14 | 8 | 0 | 5 | 0 | 32 |
+//! | `constraint_matrix` | 12 | 0 | 0 | 5 | 0 | 22 |
+//! | `constraint_drift` | 19 | 8 | 0 | 5 | 0 | 37 |
+//! | `accelerations` | 158 | 88 | 6 | 5 | 0 | 262 |
+//! | `multipliers` | 139 | 72 | 6 | 5 | 0 | 227 |
+//! | `kinetic_energy` | 27 | 12 | 0 | 4 | 0 | 47 |
+//! | `potential_energy` | 6 | 6 | 0 | 5 | 0 | 17 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// N four-bar linkages in a row, all bars equal: N + 1 cranks on ground, joined by N couplers.
+/// While
+/// the couplers stay level it is a pendulum. Where the cranks lie level too, the constraints depend
+/// on
+/// each other, and every window could as well leave the parallelogram.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FourBars<S = f64> {
+    /// Length and mass of a bar. Unit: m. Default: 1.
+    pub l: S,
+    /// `m`. Unit: kg. Default: 1.
+    pub m: S,
+    /// `g`. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+    /// Speed of the tops when the run starts. Unit: m/s. Default: 1.
+    pub v0: S,
+}
+
+impl Default for FourBars {
+    fn default() -> Self {
+        Self {
+            l: 1.0,
+            m: 1.0,
+            g: 9.81,
+            v0: 1.0,
+        }
+    }
+}
+
+impl<S> FourBars<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> FourBars<R> {
+        FourBars {
+            l: f(self.l),
+            m: f(self.m),
+            g: f(self.g),
+            v0: f(self.v0),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> FourBars<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.l * self.m;
+        let t1 = self.l * t0;
+        let t2 = t0 * self.g;
+        let t3 = S::ONE / (self.m * (self.l * self.l));
+        let k5 = S::from_f64(0.5) * t1;
+        let k3 = S::from_f64(0.5) * t2;
+        let k8 = t2 * S::from_f64(1.5);
+        let k6 = t1 * S::from_ratio(4, 3);
+        let k7 = t1 * S::from_ratio(1, 3);
+        let k0 = self.l * S::from_f64(0.5);
+        let k1 = t1 * S::from_ratio(1, 12);
+        let k2 = self.m * self.g;
+        let k4 = t1 * S::from_ratio(1, 6);
+        let k9 = -self.l;
+        let k10 = -k5;
+        let k11 = -k8;
+        let k12 = -k3;
+        let k13 = t3 * S::from_f64(3.0);
+        let k14 = t3 * S::from_f64(0.75);
+        let singular = if vanishes(k7, k7, 7.993605777301127e-15) {
+            Some(singular(2, k7, k7))
+        } else if vanishes(k6, k6, 7.993605777301127e-15) {
+            Some(singular(0, k6, k6))
+        } else if vanishes(k7, k7, 7.993605777301127e-15) {
+            Some(singular(4, k7, k7))
+        } else {
+            None
+        };
+        Prepared {
+            l: self.l,
+            m: self.m,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let crank_0 = S::pi() * S::from_f64(0.5);
+        let crank_0_rate = -(self.v0 / self.l);
+        let zero = S::ZERO;
+        let q = [crank_0, crank_0, crank_0, zero, zero];
+        let v = [crank_0_rate, crank_0_rate, crank_0_rate, zero, zero];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`FourBars`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `crank`. Unit: rad. Members: `crank[0]` to `crank[2]`.
+    pub crank: [S; 3],
+    /// `coupler`. Unit: rad. Members: `coupler[1]` to `coupler[2]`.
+    pub coupler: [S; 2],
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 5] {
+        [
+            self.crank[0],
+            self.crank[1],
+            self.crank[2],
+            self.coupler[0],
+            self.coupler[1],
+        ]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 5]) -> Self {
+        Self {
+            crank: [q[0], q[1], q[2]],
+            coupler: [q[3], q[4]],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            crank: self.crank.map(&f),
+            coupler: self.coupler.map(&f),
+        }
+    }
+}
+
+/// What can be set while a [`FourBars`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`FourBars`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`FourBars`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `l`
+    l: S,
+    /// `m`
+    m: S,
+    /// `0.5*l`
+    k0: S,
+    /// `(1/12)*l^2*m`
+    k1: S,
+    /// `m*g`
+    k2: S,
+    /// `0.5*l*m*g`
+    k3: S,
+    /// `(1/6)*l^2*m`
+    k4: S,
+    /// `0.5*l^2*m`
+    k5: S,
+    /// `(4/3)*l^2*m`
+    k6: S,
+    /// `(1/3)*l^2*m`
+    k7: S,
+    /// `1.5*l*m*g`
+    k8: S,
+    /// `-l`
+    k9: S,
+    /// `-0.5*l^2*m`
+    k10: S,
+    /// `-1.5*l*m*g`
+    k11: S,
+    /// `-0.5*l*m*g`
+    k12: S,
+    /// `3/l^2/m`
+    k13: S,
+    /// `0.75/l^2/m`
+    k14: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[crank[0], crank[0]] = 4/3*l^2*m
+/// M[crank[1], crank[1]] = 4/3*l^2*m
+/// M[crank[2], crank[2]] = 1/3*l^2*m
+/// M[coupler[1], crank[0]] = 1/2*l^2*m*cos(coupler[1] - crank[0])
+/// M[coupler[1], coupler[1]] = 1/3*l^2*m
+/// M[coupler[2], crank[1]] = 1/2*l^2*m*cos(coupler[2] - crank[1])
+/// M[coupler[2], coupler[2]] = 1/3*l^2*m
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let zero = S::ZERO;
+    let m41 = p.k5 * (sin_coupler_1 * sin_crank_0 + cos_coupler_1 * cos_crank_0);
+    let m52 = p.k5 * (sin_coupler_2 * sin_crank_1 + cos_coupler_2 * cos_crank_1);
+    [
+        [p.k6, zero, zero, m41, zero],
+        [zero, p.k6, zero, zero, m52],
+        [zero, zero, p.k7, zero, zero],
+        [m41, zero, zero, p.k7, zero],
+        [zero, m52, zero, zero, p.k7],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[crank[0]] = -1/2*l^2*m*sin(coupler[1] - crank[0])*der(coupler[1])^2
+/// h[crank[1]] = -1/2*l^2*m*sin(coupler[2] - crank[1])*der(coupler[2])^2
+/// h[coupler[1]] = 1/2*l^2*m*sin(coupler[1] - crank[0])*der(crank[0])^2
+/// h[coupler[2]] = 1/2*l^2*m*sin(coupler[2] - crank[1])*der(crank[1])^2
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let crank_0_dot = v[0];
+    let crank_1_dot = v[1];
+    let coupler_1_dot = v[3];
+    let coupler_2_dot = v[4];
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let t0 = sin_coupler_1 * cos_crank_0 - cos_coupler_1 * sin_crank_0;
+    let t1 = sin_coupler_2 * cos_crank_1 - cos_coupler_2 * sin_crank_1;
+    let h_crank_0 = t0 * (coupler_1_dot * (p.k10 * coupler_1_dot));
+    let h_crank_1 = t1 * (coupler_2_dot * (p.k10 * coupler_2_dot));
+    let zero = S::ZERO;
+    let h_coupler_1 = t0 * (crank_0_dot * (p.k5 * crank_0_dot));
+    let h_coupler_2 = t1 * (crank_1_dot * (p.k5 * crank_1_dot));
+    [h_crank_0, h_crank_1, zero, h_coupler_1, h_coupler_2]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[crank[0]] = -3/2*l*m*g*cos(crank[0])
+/// Q[crank[1]] = -3/2*l*m*g*cos(crank[1])
+/// Q[crank[2]] = -1/2*l*m*g*cos(crank[2])
+/// Q[coupler[1]] = -1/2*l*m*g*cos(coupler[1])
+/// Q[coupler[2]] = -1/2*l*m*g*cos(coupler[2])
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let cos_crank_0 = crank_0.cos();
+    let cos_crank_1 = crank_1.cos();
+    let cos_crank_2 = crank_2.cos();
+    let cos_coupler_1 = coupler_1.cos();
+    let cos_coupler_2 = coupler_2.cos();
+    let q_crank_0 = p.k11 * cos_crank_0;
+    let q_crank_1 = p.k11 * cos_crank_1;
+    let q_crank_2 = p.k12 * cos_crank_2;
+    let q_coupler_1 = p.k12 * cos_coupler_1;
+    let q_coupler_2 = p.k12 * cos_coupler_2;
+    [q_crank_0, q_crank_1, q_crank_2, q_coupler_1, q_coupler_2]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let crank_0_dot = v[0];
+    let crank_1_dot = v[1];
+    let coupler_1_dot = v[3];
+    let coupler_2_dot = v[4];
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let cos_crank_2 = crank_2.cos();
+    let t0 = coupler_1_dot * coupler_1_dot;
+    let t1 = coupler_2_dot * coupler_2_dot;
+    let t2 = crank_0_dot * crank_0_dot;
+    let t3 = crank_1_dot * crank_1_dot;
+    let t4 = sin_coupler_1 * (cos_crank_0 * p.k5);
+    let t5 = cos_coupler_1 * (sin_crank_0 * p.k5);
+    let t6 = sin_coupler_2 * (p.k5 * cos_crank_1);
+    let t7 = cos_coupler_2 * (p.k5 * sin_crank_1);
+    let f_crank_0 = t0 * t4 - (t0 * t5 + cos_crank_0 * p.k8);
+    let f_crank_1 = t1 * t6 - (t1 * t7 + p.k8 * cos_crank_1);
+    let f_crank_2 = p.k12 * cos_crank_2;
+    let f_coupler_1 = t5 * t2 - (t4 * t2 + cos_coupler_1 * p.k3);
+    let f_coupler_2 = t7 * t3 - (t6 * t3 + cos_coupler_2 * p.k3);
+    [f_crank_0, f_crank_1, f_crank_2, f_coupler_1, f_coupler_2]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[along[1]] = l*(cos(crank[0]) - cos(crank[1]) + cos(coupler[1]) - 1)
+/// g[along[2]] = l*(cos(crank[1]) - cos(crank[2]) + cos(coupler[2]) - 1)
+/// g[across[1]] = l*(sin(crank[0]) - sin(crank[1]) + sin(coupler[1]))
+/// g[across[2]] = l*(sin(crank[1]) - sin(crank[2]) + sin(coupler[2]))
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 4] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let g1 = p.k9 * (cos_crank_1 + S::ONE - (cos_coupler_1 + cos_crank_0));
+    let g2 = p.k9 * (S::ONE + cos_crank_2 - (cos_crank_1 + cos_coupler_2));
+    let g3 = p.l * (sin_coupler_1 + sin_crank_0 - sin_crank_1);
+    let g4 = p.l * (sin_crank_1 + sin_coupler_2 - sin_crank_2);
+    [g1, g2, g3, g4]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[along[1]] = l*(sin(crank[1])*der(crank[1]) - sin(crank[0])*der(crank[0]) -
+///     sin(coupler[1])*der(coupler[1]))
+/// phi[along[2]] = l*(sin(crank[2])*der(crank[2]) - sin(crank[1])*der(crank[1]) -
+///     sin(coupler[2])*der(coupler[2]))
+/// phi[across[1]] = l*(cos(crank[0])*der(crank[0]) - cos(crank[1])*der(crank[1]) +
+///     cos(coupler[1])*der(coupler[1]))
+/// phi[across[2]] = l*(cos(crank[1])*der(crank[1]) - cos(crank[2])*der(crank[2]) +
+///     cos(coupler[2])*der(coupler[2]))
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> [S; 4] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let crank_0_dot = v[0];
+    let crank_1_dot = v[1];
+    let crank_2_dot = v[2];
+    let coupler_1_dot = v[3];
+    let coupler_2_dot = v[4];
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
+    let t0 = crank_1_dot * sin_crank_1;
+    let t1 = crank_1_dot * cos_crank_1;
+    let phi1 = p.k9 * (coupler_1_dot * sin_coupler_1 + crank_0_dot * sin_crank_0 - t0);
+    let phi2 = p.k9 * (t0 + coupler_2_dot * sin_coupler_2 - crank_2_dot * sin_crank_2);
+    let phi3 = p.l * (coupler_1_dot * cos_coupler_1 + crank_0_dot * cos_crank_0 - t1);
+    let phi4 = p.l * (t1 + coupler_2_dot * cos_coupler_2 - crank_2_dot * cos_crank_2);
+    [phi1, phi2, phi3, phi4]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[along[1], crank[0]] = -l*sin(crank[0])
+/// G[along[1], crank[1]] = l*sin(crank[1])
+/// G[along[1], coupler[1]] = -l*sin(coupler[1])
+/// G[along[2], crank[1]] = -l*sin(crank[1])
+/// G[along[2], crank[2]] = l*sin(crank[2])
+/// G[along[2], coupler[2]] = -l*sin(coupler[2])
+/// G[across[1], crank[0]] = l*cos(crank[0])
+/// G[across[1], crank[1]] = -l*cos(crank[1])
+/// G[across[1], coupler[1]] = l*cos(coupler[1])
+/// G[across[2], crank[1]] = l*cos(crank[1])
+/// G[across[2], crank[2]] = -l*cos(crank[2])
+/// G[across[2], coupler[2]] = l*cos(coupler[2])
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 20] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let g1_1 = p.k9 * sin_crank_0;
+    let g1_2 = sin_crank_1 * p.l;
+    let zero = S::ZERO;
+    let g1_4 = p.k9 * sin_coupler_1;
+    let g2_2 = p.k9 * sin_crank_1;
+    let g2_3 = p.l * sin_crank_2;
+    let g2_5 = p.k9 * sin_coupler_2;
+    let g3_1 = cos_crank_0 * p.l;
+    let g3_2 = p.k9 * cos_crank_1;
+    let g3_4 = p.l * cos_coupler_1;
+    let g4_2 = cos_crank_1 * p.l;
+    let g4_3 = p.k9 * cos_crank_2;
+    let g4_5 = p.l * cos_coupler_2;
+    [
+        g1_1, g1_2, zero, g1_4, zero, zero, g2_2, g2_3, zero, g2_5, g3_1, g3_2, zero, g3_4, zero,
+        zero, g4_2, g4_3, zero, g4_5,
+    ]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[along[1]] = -l*(cos(crank[1])*der(crank[1])^2 - cos(crank[0])*der(crank[0])^2 -
+///     cos(coupler[1])*der(coupler[1])^2)
+/// gamma[along[2]] = -l*(cos(crank[2])*der(crank[2])^2 - cos(crank[1])*der(crank[1])^2 -
+///     cos(coupler[2])*der(coupler[2])^2)
+/// gamma[across[1]] = -l*(sin(crank[1])*der(crank[1])^2 - sin(crank[0])*der(crank[0])^2 -
+///     sin(coupler[1])*der(coupler[1])^2)
+/// gamma[across[2]] = -l*(sin(crank[2])*der(crank[2])^2 - sin(crank[1])*der(crank[1])^2 -
+///     sin(coupler[2])*der(coupler[2])^2)
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> [S; 4] {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let crank_0_dot = v[0];
+    let crank_1_dot = v[1];
+    let crank_2_dot = v[2];
+    let coupler_1_dot = v[3];
+    let coupler_2_dot = v[4];
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let (sin_crank_2, cos_crank_2) = crank_2.sin_cos();
+    let t0 = crank_0_dot * crank_0_dot;
+    let t1 = crank_1_dot * crank_1_dot;
+    let t2 = coupler_1_dot * coupler_1_dot;
+    let t3 = coupler_2_dot * coupler_2_dot;
+    let t4 = crank_2_dot * crank_2_dot;
+    let t5 = t1 * cos_crank_1;
+    let t6 = t1 * sin_crank_1;
+    let gamma1 = p.l * (t2 * cos_coupler_1 + t0 * cos_crank_0 - t5);
+    let gamma2 = p.l * (t5 + t3 * cos_coupler_2 - t4 * cos_crank_2);
+    let gamma3 = p.l * (t2 * sin_coupler_1 + t0 * sin_crank_0 - t6);
+    let gamma4 = p.l * (t6 + t3 * sin_coupler_2 - t4 * sin_crank_2);
+    [gamma1, gamma2, gamma3, gamma4]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
+/// multiplied out, factored.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> Result<[S; 5], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 5],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 5],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 5], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let crank_0 = n(q[0]);
+        let crank_1 = n(q[1]);
+        let crank_2 = n(q[2]);
+        let coupler_1 = n(q[3]);
+        let coupler_2 = n(q[4]);
+        let crank_0_dot = n(v[0]);
+        let crank_1_dot = n(v[1]);
+        let crank_2_dot = n(v[2]);
+        let coupler_1_dot = n(v[3]);
+        let coupler_2_dot = n(v[4]);
+        let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_coupler_1, cos_coupler_1) = circular[0];
+        let (sin_crank_0, cos_crank_0) = circular[1];
+        let (sin_coupler_2, cos_coupler_2) = circular[2];
+        let (sin_crank_1, cos_crank_1) = circular[3];
+        let (sin_crank_2, cos_crank_2) = circular[4];
+        let t0 = crank_0_dot * crank_0_dot;
+        let t1 = crank_1_dot * crank_1_dot;
+        let t2 = coupler_1_dot * coupler_1_dot;
+        let t3 = coupler_2_dot * coupler_2_dot;
+        let t4 = crank_2_dot * crank_2_dot;
+        let t5 = cos_crank_0 * n(p.l);
+        let t6 = n(p.l) * cos_crank_1;
+        let t7 = sin_crank_0 * n(p.l);
+        let t8 = n(p.l) * sin_crank_1;
+        let t9 = sin_coupler_2 * n(p.l);
+        let t10 = cos_coupler_1 * cos_crank_0;
+        let t11 = n(p.l) * sin_crank_2;
+        let t12 = cos_coupler_2 * cos_crank_1;
+        let t13 = n(p.k14) * t5;
+        let t14 = n(p.k14) * t7;
+        let t15 = n(p.k13) * t9;
+        let t16 = cos_coupler_2 * n(p.l);
+        let t17 = n(p.k5) * sin_coupler_1.mul_add(sin_crank_0, t10);
+        let t18 = n(p.k13) * t11;
+        let t19 = n(p.k5) * sin_coupler_2.mul_add(sin_crank_1, t12);
+        let t20 = n(p.k13) * t16;
+        let t21 = n(p.l) * cos_crank_2;
+        let t22 = n(p.k14) * t17;
+        let t23 = t17.mul_sub(t14, sin_coupler_1 * n(p.l));
+        let t24 = n(p.k13) * t19;
+        let t25 = t19.neg_mul_add(t15, t8);
+        let t26 = t17.neg_mul_add(t13, cos_coupler_1 * n(p.l));
+        let t27 = cos_coupler_1 * sin_crank_0;
+        let t28 = sin_coupler_1 * cos_crank_0;
+        let t29 = t17.neg_mul_add(t22, n(p.k7));
+        let t30 = t19.neg_mul_add(t24, n(p.k6));
+        let t31 = t20.neg_mul_add(t19, t6);
+        let t32 = n(p.k13) * t21;
+        let t33 = N::ONE / t29;
+        let t34 = N::ONE / t30;
+        let t35 = cos_crank_1 * t1;
+        let t36 = sin_crank_1 * t1;
+        let t37 = sin_coupler_2 * cos_crank_1;
+        let t38 = cos_coupler_2 * sin_crank_1;
+        let t39 = (t27 - t28).mul_add(t2 * n(p.k5), cos_crank_0 * n(p.k8));
+        let t40 = cos_crank_2 * n(p.k3);
+        let t41 = t2.mul_add(sin_coupler_1, sin_crank_0 * t0) - t36;
+        let t42 = t33 * t23;
+        let t43 = t33 * t26;
+        let t44 = t34 * t8;
+        let t45 = t34 * t25;
+        let t46 = t34 * t6;
+        let t47 = t34 * t31;
+        let t48 = cos_coupler_2.mul_add(t3, t35);
+        let t49 = t8 * t45;
+        let t50 = t25.mul_add(t45, t9.mul_add(t15, t11 * t18));
+        let t51 = t47 * t8;
+        let t52 = sin_coupler_2.mul_add(t3, t36);
+        let t53 = t8.mul_add(t44, t23.mul_add(t42, t7 * t14));
+        let t54 = t6.mul_add(t46, t26.mul_add(t43, t5 * t13));
+        let t55 = t43.neg_mul_add(t23, t46.mul_add(t8, t13 * t7));
+        let t56 = (t37 - t38).mul_add(n(p.k5) * t1, cos_coupler_2 * n(p.k3));
+        let t57 = (t28 - t27).mul_add(n(p.k5) * t0, cos_coupler_1 * n(p.k3));
+        let t58 = t39.neg_mul_add(t22, t57);
+        let t59 = N::ONE / t53;
+        let t60 = t2.mul_add(cos_coupler_1, cos_crank_0 * t0) - t35;
+        let t61 = cos_crank_2.neg_mul_add(t4, t48);
+        let t62 = sin_crank_2.neg_mul_add(t4, t52);
+        let t63 = (t38 - t37).mul_add(n(p.k5) * t3, n(p.k8) * cos_crank_1);
+        let t64 = t24.neg_mul_add(t56, t63);
+        let t65 = t42.mul_add(t58, n(p.l).mul_sub(t60, t39 * t14));
+        let t66 = t44.mul_add(t64, t65);
+        let t67 = t43.mul_add(t58, t39.mul_add(t13, n(p.l) * t41));
+        let t68 = t15.neg_mul_add(t56, n(p.l).mul_add(t61, t18 * t40));
+        let t69 = t20.mul_add(t56, n(p.l).mul_sub(t62, t32 * t40));
+        let t70 = t31.mul_add(t47, t16.mul_add(t20, t21 * t32));
+        let t71 = t59 * t49;
+        let t72 = t59 * t55;
+        let t73 = t59 * t51;
+        let t74 = t49.neg_mul_add(t71, t50);
+        let t75 = t49.neg_mul_add(t72, t46 * t25);
+        let t76 = t47.mul_add(t25, t20.mul_add(t9, t32 * t11));
+        let t77 = t49.neg_mul_add(t73, t76);
+        let t78 = t71.mul_add(t66, t45.neg_mul_add(t64, t68));
+        let t79 = N::ONE / t74;
+        let t80 = t79 * t75;
+        let t81 = t79 * t77;
+        let t82 = t75.neg_mul_add(t80, t55.neg_mul_add(t72, t54));
+        let t83 = t75.neg_mul_add(t81, t55.neg_mul_add(t73, t6 * t47));
+        let t84 = t72.mul_add(t66, t46.neg_mul_add(t64, t67));
+        let t85 = t80.neg_mul_add(t78, t84);
+        let t86 = t73.neg_mul_add(t66, t47.mul_add(t64, t69));
+        let t87 = N::ONE / t82;
+        let t88 = t87 * t83;
+        let t89 = t77.neg_mul_add(t81, t51.neg_mul_add(t73, t70));
+        let t90 = t83.neg_mul_add(t88, t89);
+        let t91 = t88.mul_add(t85, t81.mul_add(t78, t86)) / t90;
+        let t92 = t88.mul_add(t91, t87 * t85);
+        let t93 = t80.neg_mul_add(t92, t81.mul_add(t91, t79 * t78));
+        let t94 = t43.neg_mul_add(t92, t33 * t58);
+        let t95 = t72.mul_add(t92, t73.neg_mul_add(t91, t59 * t66));
+        let t96 = t71.mul_add(t93, t95);
+        let t97 = t46.mul_add(t92, t47.neg_mul_add(t91, t34 * t64));
+        let t98 = t45.mul_add(t93, t97);
+        let t99 = t42 * t96;
+        let t100 = t44 * t96;
+        let t101 = t14.neg_mul_add(t96, t13.mul_sub(t92, n(p.k14) * t39));
+        let t102 = t15.neg_mul_add(t93, t20.mul_sub(t91, n(p.k13) * t56));
+        let crank_0_ddot = t22.mul_add(t94 - t99, t101);
+        let crank_1_ddot = t100 - t98;
+        let crank_2_ddot = t18.mul_sub(t93, t32.mul_add(t91, n(p.k13) * t40));
+        let coupler_1_ddot = t99 - t94;
+        let coupler_2_ddot = t24.mul_add(t98 - t100, t102);
+        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
+            & t30.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k6))
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * t53)
+            & t74.exceeds(N::from_f64(7.993605777301127e-15) * t50)
+            & t82.exceeds(N::from_f64(7.993605777301127e-15) * t54)
+            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t70)
+            & coupler_2_ddot.is_finite();
+        if !sound {
+            check(t29, n(p.k7), 7.993605777301127e-15, 3)?;
+            check(t30, n(p.k6), 7.993605777301127e-15, 1)?;
+            check(t53, t53, 7.993605777301127e-15, 5)?;
+            check(t74, t50, 7.993605777301127e-15, 6)?;
+            check(t82, t54, 7.993605777301127e-15, 7)?;
+            check(t90, t70, 7.993605777301127e-15, 8)?;
+        }
+        let accelerations = [
+            crank_0_ddot.store(),
+            crank_1_ddot.store(),
+            crank_2_ddot.store(),
+            coupler_1_ddot.store(),
+            coupler_2_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> Result<[S; 4], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 5],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 5],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 4], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let crank_0 = n(q[0]);
+        let crank_1 = n(q[1]);
+        let crank_2 = n(q[2]);
+        let coupler_1 = n(q[3]);
+        let coupler_2 = n(q[4]);
+        let crank_0_dot = n(v[0]);
+        let crank_1_dot = n(v[1]);
+        let crank_2_dot = n(v[2]);
+        let coupler_1_dot = n(v[3]);
+        let coupler_2_dot = n(v[4]);
+        let angles = [coupler_1, crank_0, coupler_2, crank_1, crank_2];
+        let circular = N::sin_cos_all(angles);
+        let (sin_coupler_1, cos_coupler_1) = circular[0];
+        let (sin_crank_0, cos_crank_0) = circular[1];
+        let (sin_coupler_2, cos_coupler_2) = circular[2];
+        let (sin_crank_1, cos_crank_1) = circular[3];
+        let (sin_crank_2, cos_crank_2) = circular[4];
+        let t0 = crank_0_dot * crank_0_dot;
+        let t1 = crank_1_dot * crank_1_dot;
+        let t2 = coupler_1_dot * coupler_1_dot;
+        let t3 = coupler_2_dot * coupler_2_dot;
+        let t4 = crank_2_dot * crank_2_dot;
+        let t5 = n(p.l) * cos_crank_0;
+        let t6 = n(p.l) * cos_crank_1;
+        let t7 = n(p.l) * sin_crank_0;
+        let t8 = n(p.l) * sin_crank_1;
+        let t9 = sin_coupler_2 * n(p.l);
+        let t10 = cos_coupler_1 * cos_crank_0;
+        let t11 = n(p.l) * sin_crank_2;
+        let t12 = cos_coupler_2 * cos_crank_1;
+        let t13 = n(p.k14) * t5;
+        let t14 = n(p.k14) * t7;
+        let t15 = n(p.k13) * t9;
+        let t16 = cos_coupler_2 * n(p.l);
+        let t17 = n(p.k5) * sin_coupler_1.mul_add(sin_crank_0, t10);
+        let t18 = n(p.k13) * t11;
+        let t19 = n(p.k5) * sin_coupler_2.mul_add(sin_crank_1, t12);
+        let t20 = n(p.k13) * t16;
+        let t21 = n(p.l) * cos_crank_2;
+        let t22 = n(p.k14) * t17;
+        let t23 = t17.mul_sub(t14, n(p.l) * sin_coupler_1);
+        let t24 = n(p.k13) * t19;
+        let t25 = t19.neg_mul_add(t15, t8);
+        let t26 = t17.neg_mul_add(t13, n(p.l) * cos_coupler_1);
+        let t27 = cos_coupler_1 * sin_crank_0;
+        let t28 = sin_coupler_1 * cos_crank_0;
+        let t29 = t17.neg_mul_add(t22, n(p.k7));
+        let t30 = t19.neg_mul_add(t24, n(p.k6));
+        let t31 = t20.neg_mul_add(t19, t6);
+        let t32 = n(p.k13) * t21;
+        let t33 = N::ONE / t29;
+        let t34 = N::ONE / t30;
+        let t35 = cos_crank_1 * t1;
+        let t36 = sin_crank_1 * t1;
+        let t37 = sin_coupler_2 * cos_crank_1;
+        let t38 = cos_coupler_2 * sin_crank_1;
+        let t39 = (t27 - t28).mul_add(n(p.k5) * t2, cos_crank_0 * n(p.k8));
+        let t40 = cos_crank_2 * n(p.k3);
+        let t41 = sin_coupler_1.mul_add(t2, sin_crank_0 * t0) - t36;
+        let t42 = t33 * t23;
+        let t43 = t33 * t26;
+        let t44 = t34 * t8;
+        let t45 = t34 * t25;
+        let t46 = t34 * t6;
+        let t47 = t34 * t31;
+        let t48 = cos_coupler_2.mul_add(t3, t35);
+        let t49 = t8 * t45;
+        let t50 = t25.mul_add(t45, t9.mul_add(t15, t11 * t18));
+        let t51 = t47 * t8;
+        let t52 = sin_coupler_2.mul_add(t3, t36);
+        let t53 = t8.mul_add(t44, t23.mul_add(t42, t7 * t14));
+        let t54 = t6.mul_add(t46, t26.mul_add(t43, t5 * t13));
+        let t55 = t43.neg_mul_add(t23, t46.mul_add(t8, t13 * t7));
+        let t56 = (t37 - t38).mul_add(n(p.k5) * t1, cos_coupler_2 * n(p.k3));
+        let t57 = (t28 - t27).mul_add(n(p.k5) * t0, cos_coupler_1 * n(p.k3));
+        let t58 = t22.neg_mul_add(t39, t57);
+        let t59 = N::ONE / t53;
+        let t60 = cos_coupler_1.mul_add(t2, cos_crank_0 * t0) - t35;
+        let t61 = cos_crank_2.neg_mul_add(t4, t48);
+        let t62 = sin_crank_2.neg_mul_add(t4, t52);
+        let t63 = (t38 - t37).mul_add(n(p.k5) * t3, cos_crank_1 * n(p.k8));
+        let t64 = t24.neg_mul_add(t56, t63);
+        let t65 = t42.mul_add(t58, n(p.l).mul_sub(t60, t14 * t39));
+        let t66 = t44.mul_add(t64, t65);
+        let t67 = t43.mul_add(t58, t13.mul_add(t39, n(p.l) * t41));
+        let t68 = t15.neg_mul_add(t56, n(p.l).mul_add(t61, t18 * t40));
+        let t69 = t20.mul_add(t56, n(p.l).mul_sub(t62, t32 * t40));
+        let t70 = t31.mul_add(t47, t16.mul_add(t20, t21 * t32));
+        let t71 = t59 * t49;
+        let t72 = t59 * t55;
+        let t73 = t59 * t51;
+        let t74 = t49.neg_mul_add(t71, t50);
+        let t75 = t49.neg_mul_add(t72, t46 * t25);
+        let t76 = t47.mul_add(t25, t20.mul_add(t9, t32 * t11));
+        let t77 = t49.neg_mul_add(t73, t76);
+        let t78 = t71.mul_add(t66, t45.neg_mul_add(t64, t68));
+        let t79 = N::ONE / t74;
+        let t80 = t79 * t75;
+        let t81 = t79 * t77;
+        let t82 = t75.neg_mul_add(t80, t55.neg_mul_add(t72, t54));
+        let t83 = t75.neg_mul_add(t81, t55.neg_mul_add(t73, t6 * t47));
+        let t84 = t72.mul_add(t66, t46.neg_mul_add(t64, t67));
+        let t85 = t80.neg_mul_add(t78, t84);
+        let t86 = t73.neg_mul_add(t66, t47.mul_add(t64, t69));
+        let t87 = N::ONE / t82;
+        let t88 = t87 * t83;
+        let t89 = t77.neg_mul_add(t81, t51.neg_mul_add(t73, t70));
+        let t90 = t83.neg_mul_add(t88, t89);
+        let lambda4 = t88.mul_add(t85, t81.mul_add(t78, t86)) / t90;
+        let lambda3 = t88.mul_add(lambda4, t87 * t85);
+        let lambda2 = t80.neg_mul_add(lambda3, t81.mul_add(lambda4, t79 * t78));
+        let t91 = t72.mul_add(lambda3, t73.neg_mul_add(lambda4, t59 * t66));
+        let lambda1 = t71.mul_add(lambda2, t91);
+        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k7))
+            & t30.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k6))
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * t53)
+            & t74.exceeds(N::from_f64(7.993605777301127e-15) * t50)
+            & t82.exceeds(N::from_f64(7.993605777301127e-15) * t54)
+            & t90.exceeds(N::from_f64(7.993605777301127e-15) * t70)
+            & lambda1.is_finite();
+        if !sound {
+            check(t29, n(p.k7), 7.993605777301127e-15, 3)?;
+            check(t30, n(p.k6), 7.993605777301127e-15, 1)?;
+            check(t53, t53, 7.993605777301127e-15, 5)?;
+            check(t74, t50, 7.993605777301127e-15, 6)?;
+            check(t82, t54, 7.993605777301127e-15, 7)?;
+            check(t90, t70, 7.993605777301127e-15, 8)?;
+        }
+        let multipliers = [
+            lambda1.store(),
+            lambda2.store(),
+            lambda3.store(),
+            lambda4.store(),
+        ];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 2/3*l^2*m*der(crank[0])^2
+///     + 1/2*l^2*m*cos(coupler[1] - crank[0])*der(crank[0])*der(coupler[1])
+///     + 2/3*l^2*m*der(crank[1])^2
+///     + 1/2*l^2*m*cos(coupler[2] - crank[1])*der(crank[1])*der(coupler[2])
+///     + 1/6*l^2*m*der(crank[2])^2 + 1/6*l^2*m*der(coupler[1])^2 + 1/6*l^2*m*der(coupler[2])^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> S {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let crank_0_dot = v[0];
+    let crank_1_dot = v[1];
+    let crank_2_dot = v[2];
+    let coupler_1_dot = v[3];
+    let coupler_2_dot = v[4];
+    let (sin_crank_1, cos_crank_1) = crank_1.sin_cos();
+    let (sin_crank_0, cos_crank_0) = crank_0.sin_cos();
+    let (sin_coupler_2, cos_coupler_2) = coupler_2.sin_cos();
+    let (sin_coupler_1, cos_coupler_1) = coupler_1.sin_cos();
+    let t0 = crank_1_dot * p.l;
+    let t1 = p.l * crank_0_dot;
+    let t2 = p.k0 * coupler_2_dot;
+    let t3 = p.k0 * coupler_1_dot;
+    let t4 = crank_1_dot * crank_1_dot + crank_0_dot * crank_0_dot;
+    let t5 = t2 * sin_coupler_2 + t0 * sin_crank_1;
+    let t6 = t3 * sin_coupler_1 + t1 * sin_crank_0;
+    let t7 = t2 * cos_coupler_2 + t0 * cos_crank_1;
+    let t8 = t3 * cos_coupler_1 + t1 * cos_crank_0;
+    let t9 = p.m * (t8 * t8 + t6 * t6) + coupler_1_dot * (p.k1 * coupler_1_dot);
+    let t10 = p.m * (t7 * t7 + t5 * t5) + coupler_2_dot * (coupler_2_dot * p.k1) + t9;
+    t10 * S::from_f64(0.5) + (crank_2_dot * crank_2_dot + t4) * p.k4
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = 3/2*l*m*g*sin(crank[0]) + 3/2*l*m*g*sin(crank[1]) + 1/2*l*m*g*sin(crank[2])
+///     + 1/2*l*m*g*sin(coupler[1]) + 1/2*l*m*g*sin(coupler[2])
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+    let crank_0 = q[0];
+    let crank_1 = q[1];
+    let crank_2 = q[2];
+    let coupler_1 = q[3];
+    let coupler_2 = q[4];
+    let sin_crank_1 = crank_1.sin();
+    let sin_crank_0 = crank_0.sin();
+    let sin_coupler_2 = coupler_2.sin();
+    let sin_coupler_1 = coupler_1.sin();
+    let sin_crank_2 = crank_2.sin();
+    let t0 = p.k0 * sin_coupler_1 + p.l * sin_crank_0;
+    let t1 = (p.k0 * sin_coupler_2 + p.l * sin_crank_1 + t0) * p.k2;
+    t1 + (sin_crank_2 + (sin_crank_1 + sin_crank_0)) * p.k3
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 4] = [("l", "m"), ("m", "kg"), ("g", "m/s^2"), ("v0", "m/s")];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 5] = [
+    ("crank[0]", "rad"),
+    ("crank[1]", "rad"),
+    ("crank[2]", "rad"),
+    ("coupler[1]", "rad"),
+    ("coupler[2]", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 4] = [
+    ("along[1]", "m", "N", true),
+    ("along[2]", "m", "N", true),
+    ("across[1]", "m", "N", true),
+    ("across[2]", "m", "N", true),
+];
+
+impl ::lagrangian::Machine for FourBars {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "FourBars"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.l, self.m, self.g, self.v0];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 5];
+    type Matrix = [f64; 25];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        _: &Inputs,
+        result: &mut [f64; 5],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 5],
+        _: &[f64; 5],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 5], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(self, q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(5, 4)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 5];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            l: lanes(|p| p.l),
+            m: lanes(|p| p.m),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(5) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

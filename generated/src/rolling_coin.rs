@@ -1,0 +1,1044 @@
+// @generated from machines/rolling_coin.machine by `cargo xtask generate`; edits are lost.
+
+//! A coin, or a disc, that rolls on a table: position of the point where it touches, heading, lean
+//! and
+//! roll. What touches stands still: two constraints on rates alone.
+//!
+//! 5 coordinates, 5 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 7 | 6 | 2 | 0 | 0 | 15 |
+//! | `mass_matrix` | 10 | 1 | 0 | 2 | 0 | 15 |
+//! | `bias` | 23 | 7 | 0 | 2 | 0 | 34 |
+//! | `applied` | 1 | 0 | 0 | 1 | 0 | 2 |
+//! | `forces` | 24 | 9 | 0 | 2 | 0 | 37 |
+//! | `constraint_rates` | 5 | 3 | 0 | 1 | 0 | 10 |
+//! | `constraint_matrix` | 0 | 1 | 0 | 1 | 0 | 3 |
+//! | `constraint_drift` | 6 | 2 | 0 | 1 | 0 | 10 |
+//! | `accelerations` | 101 | 56 | 5 | 2 | 0 | 166 |
+//! | `multipliers` | 84 | 41 | 5 | 2 | 0 | 134 |
+//! | `kinetic_energy` | 20 | 10 | 0 | 2 | 0 | 34 |
+//! | `potential_energy` | 1 | 0 | 0 | 1 | 0 | 2 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A coin, or a disc, that rolls on a table: position of the point where it touches, heading, lean
+/// and
+/// roll. What touches stands still: two constraints on rates alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RollingCoin<S = f64> {
+    /// `m`. Unit: kg. Default: 1.
+    pub m: S,
+    /// `r`. Unit: m. Default: 0.1.
+    pub r: S,
+    /// `g`. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+    /// Inertia about the axis, and across it; those of a uniform disc. Unit: kg*m^2. Default:
+    /// 0.005.
+    pub C: S,
+    /// `A`. Unit: kg*m^2. Default: 0.0025.
+    pub A: S,
+}
+
+impl Default for RollingCoin {
+    fn default() -> Self {
+        Self {
+            m: 1.0,
+            r: 0.1,
+            g: 9.81,
+            C: 0.005,
+            A: 0.0025,
+        }
+    }
+}
+
+impl<S> RollingCoin<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> RollingCoin<R> {
+        RollingCoin {
+            m: f(self.m),
+            r: f(self.r),
+            g: f(self.g),
+            C: f(self.C),
+            A: f(self.A),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> RollingCoin<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let k1 = self.m * self.r;
+        let k10 = S::ONE / self.C;
+        let t0 = self.r * k1;
+        let k3 = self.A + t0;
+        let k2 = self.C + t0;
+        let k5 = k2 - self.A;
+        let k11 = self.r * k10;
+        let k0 = k1 * self.g;
+        let k4 = k1 * S::from_f64(2.0);
+        let k6 = S::from_f64(2.0) * k5;
+        let k7 = -k1;
+        let k8 = -self.C;
+        let k9 = -self.r;
+        let k12 = self.r * k11;
+        let k13 = S::ONE / k3;
+        let singular = if vanishes(self.C, self.C, 6.217248937900877e-15) {
+            Some(singular(4, self.C, self.C))
+        } else if vanishes(k3, k3, 6.217248937900877e-15) {
+            Some(singular(3, k3, k3))
+        } else {
+            None
+        };
+        Prepared {
+            m: self.m,
+            r: self.r,
+            C: self.C,
+            A: self.A,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let lean = S::from_ratio(-1, 5);
+        let x_rate = S::from_f64(0.8437240238811389) + S::from_f64(-4.102211543469247e-17);
+        let heading_rate = S::from_f64(1.6229615122531817) + S::from_f64(-1.1074752849271055e-16);
+        let roll_rate = S::from_f64(8.437240238811388) + S::from_f64(7.000018702782318e-16);
+        let q = [zero, zero, zero, lean, zero];
+        let v = [x_rate, zero, heading_rate, zero, roll_rate];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`RollingCoin`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// `x`. Unit: m.
+    pub x: S,
+    /// `y`. Unit: m.
+    pub y: S,
+    /// `heading`. Unit: rad.
+    pub heading: S,
+    /// `lean`. Unit: rad.
+    pub lean: S,
+    /// `roll`. Unit: rad.
+    pub roll: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 5] {
+        [self.x, self.y, self.heading, self.lean, self.roll]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 5]) -> Self {
+        Self {
+            x: q[0],
+            y: q[1],
+            heading: q[2],
+            lean: q[3],
+            roll: q[4],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            x: f(self.x),
+            y: f(self.y),
+            heading: f(self.heading),
+            lean: f(self.lean),
+            roll: f(self.roll),
+        }
+    }
+}
+
+/// What can be set while a [`RollingCoin`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`RollingCoin`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`RollingCoin`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `m`
+    m: S,
+    /// `r`
+    r: S,
+    /// `C`
+    C: S,
+    /// `A`
+    A: S,
+    /// `m*r*g`
+    k0: S,
+    /// `m*r`
+    k1: S,
+    /// `C + m*r^2`
+    k2: S,
+    /// `A + m*r^2`
+    k3: S,
+    /// `2*m*r`
+    k4: S,
+    /// `C - A + m*r^2`
+    k5: S,
+    /// `2*(C - A + m*r^2)`
+    k6: S,
+    /// `-m*r`
+    k7: S,
+    /// `-C`
+    k8: S,
+    /// `-r`
+    k9: S,
+    /// `1/C`
+    k10: S,
+    /// `r/C`
+    k11: S,
+    /// `r^2/C`
+    k12: S,
+    /// `1/(A + m*r^2)`
+    k13: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// M[heading, x] = m*r*cos(heading)*sin(lean)
+/// M[heading, y] = m*r*sin(heading)*sin(lean)
+/// M[heading, heading] = A*cos(lean)^2 + (m*r^2 + C)*sin(lean)^2
+/// M[lean, x] = m*r*sin(heading)*cos(lean)
+/// M[lean, y] = -m*r*cos(heading)*cos(lean)
+/// M[lean, lean] = m*r^2 + A
+/// M[roll, heading] = C*sin(lean)
+/// M[roll, roll] = C
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
+    let heading = q[2];
+    let lean = q[3];
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let (sin_lean, cos_lean) = lean.sin_cos();
+    let t0 = p.k1 * sin_heading;
+    let zero = S::ZERO;
+    let m31 = sin_lean * (p.k1 * cos_heading);
+    let m32 = sin_lean * t0;
+    let m33 = p.k2 - cos_lean * (cos_lean * p.k5);
+    let m41 = cos_lean * t0;
+    let m42 = cos_lean * (cos_heading * p.k7);
+    let m53 = sin_lean * p.C;
+    [
+        [p.m, zero, m31, m41, zero],
+        [zero, p.m, m32, m42, zero],
+        [m31, m32, m33, zero, m53],
+        [m41, m42, zero, p.k3, zero],
+        [zero, zero, m53, zero, p.C],
+    ]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[x] = 2*m*r*cos(heading)*cos(lean)*der(heading)*der(lean)
+///     - m*r*sin(heading)*sin(lean)*der(heading)^2 - m*r*sin(heading)*sin(lean)*der(lean)^2
+/// h[y] = m*r*cos(heading)*sin(lean)*der(heading)^2
+///     + 2*m*r*sin(heading)*cos(lean)*der(heading)*der(lean)
+///     + m*r*cos(heading)*sin(lean)*der(lean)^2
+/// h[heading] = 2*(m*r^2 + C - A)*cos(lean)*sin(lean)*der(heading)*der(lean)
+///     + C*cos(lean)*der(lean)*der(roll)
+/// h[lean] = -(m*r^2 + C - A)*cos(lean)*sin(lean)*der(heading)^2
+///     - C*cos(lean)*der(heading)*der(roll)
+/// h[roll] = C*cos(lean)*der(heading)*der(lean)
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+    let heading = q[2];
+    let lean = q[3];
+    let heading_dot = v[2];
+    let lean_dot = v[3];
+    let roll_dot = v[4];
+    let (sin_lean, cos_lean) = lean.sin_cos();
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let t0 = roll_dot * p.C;
+    let t1 = lean_dot * lean_dot;
+    let t2 = cos_lean * lean_dot;
+    let t3 = p.k1 * sin_lean;
+    let t4 = heading_dot * sin_lean;
+    let t5 = t2 * p.k4;
+    let t6 = t3 * sin_heading;
+    let t7 = t3 * cos_heading;
+    let h_x = heading_dot * (cos_heading * t5 - heading_dot * t6) - t6 * t1;
+    let h_y = heading_dot * (heading_dot * t7 + sin_heading * t5) + t1 * t7;
+    let h_heading = t2 * (t0 + t4 * p.k6);
+    let h_lean = -((t0 + t4 * p.k5) * (heading_dot * cos_lean));
+    let h_roll = t2 * (heading_dot * p.C);
+    [h_x, h_y, h_heading, h_lean, h_roll]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[lean] = m*r*g*sin(lean)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
+    let lean = q[3];
+    let sin_lean = lean.sin();
+    let zero = S::ZERO;
+    let q_lean = p.k0 * sin_lean;
+    [zero, zero, zero, q_lean, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+    let heading = q[2];
+    let lean = q[3];
+    let heading_dot = v[2];
+    let lean_dot = v[3];
+    let roll_dot = v[4];
+    let (sin_lean, cos_lean) = lean.sin_cos();
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let t0 = lean_dot * lean_dot;
+    let t1 = roll_dot * p.C;
+    let t2 = cos_lean * lean_dot;
+    let t3 = p.k1 * sin_lean;
+    let t4 = heading_dot * sin_lean;
+    let t5 = t2 * p.k4;
+    let t6 = t3 * sin_heading;
+    let t7 = t3 * cos_heading;
+    let f_x = t6 * t0 - heading_dot * (cos_heading * t5 - heading_dot * t6);
+    let f_y = -(heading_dot * (heading_dot * t7 + sin_heading * t5) + t0 * t7);
+    let f_heading = -(t2 * (t1 + t4 * p.k6));
+    let f_lean = (t1 + t4 * p.k5) * (heading_dot * cos_lean) + sin_lean * p.k0;
+    let f_roll = t2 * (heading_dot * p.k8);
+    [f_x, f_y, f_heading, f_lean, f_roll]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[ahead] = cos(heading)*der(x) + sin(heading)*der(y) - r*der(roll)
+/// phi[across] = cos(heading)*der(y) - sin(heading)*der(x)
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> [S; 2] {
+    let heading = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let roll_dot = v[4];
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let phi1 = sin_heading * y_dot + cos_heading * x_dot - roll_dot * p.r;
+    let phi2 = cos_heading * y_dot - sin_heading * x_dot;
+    [phi1, phi2]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[ahead, x] = cos(heading)
+/// G[ahead, y] = sin(heading)
+/// G[ahead, roll] = -r
+/// G[across, x] = -sin(heading)
+/// G[across, y] = cos(heading)
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 10] {
+    let heading = q[2];
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let zero = S::ZERO;
+    let g2_1 = -sin_heading;
+    [
+        cos_heading,
+        sin_heading,
+        zero,
+        zero,
+        p.k9,
+        g2_1,
+        cos_heading,
+        zero,
+        zero,
+        zero,
+    ]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[ahead] = sin(heading)*der(x)*der(heading) - cos(heading)*der(y)*der(heading)
+/// gamma[across] = cos(heading)*der(x)*der(heading) + sin(heading)*der(y)*der(heading)
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 5], v: &[S; 5]) -> [S; 2] {
+    let heading = q[2];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let heading_dot = v[2];
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let t0 = heading_dot * y_dot;
+    let t1 = heading_dot * x_dot;
+    let gamma1 = sin_heading * t1 - t0 * cos_heading;
+    let gamma2 = cos_heading * t1 + t0 * sin_heading;
+    [gamma1, gamma2]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
+/// multiplied out, factored.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> Result<[S; 5], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 5],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 5],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 5], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let heading = n(q[2]);
+        let lean = n(q[3]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let heading_dot = n(v[2]);
+        let lean_dot = n(v[3]);
+        let roll_dot = n(v[4]);
+        let angles = [lean, heading];
+        let circular = N::sin_cos_all(angles);
+        let (sin_lean, cos_lean) = circular[0];
+        let (sin_heading, cos_heading) = circular[1];
+        let t0 = lean_dot * lean_dot;
+        let t1 = n(p.C) * roll_dot;
+        let t2 = sin_lean * n(p.C);
+        let t3 = cos_lean * n(p.k1);
+        let t4 = sin_lean * n(p.k1);
+        let t5 = cos_lean * lean_dot;
+        let t6 = sin_lean * heading_dot;
+        let t7 = n(p.k10) * t2;
+        let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
+        let t9 = sin_heading * t3;
+        let t10 = t4 * cos_heading;
+        let t11 = cos_heading * t3;
+        let t12 = t4 * sin_heading;
+        let t13 = t2 * n(p.k11);
+        let t14 = t5 * n(p.k4);
+        let t15 = t2.neg_mul_add(t7, t8);
+        let t16 = n(p.k13) * t9;
+        let t17 = t5 * (n(p.C) * heading_dot);
+        let t18 = n(p.k13) * t11;
+        let t19 = N::ONE / t15;
+        let t20 = n(p.k5).mul_add(t6, t1);
+        let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
+        let t22 = cos_heading.mul_sub(t14, t12 * heading_dot);
+        let t23 = t10.mul_add(heading_dot, sin_heading * t14);
+        let t24 = t5.mul_sub(t6.mul_add(n(p.k6), t1), t7 * t17);
+        let t25 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+        let t26 = t19 * t10;
+        let t27 = t19 * t12;
+        let t28 = t19 * t13;
+        let t29 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+        let t30 = t10.neg_mul_add(t26, t9.neg_mul_add(t16, n(p.m)));
+        let t31 = t10.neg_mul_add(t27, t9 * t18);
+        let t32 = t10.neg_mul_add(t28, cos_heading);
+        let t33 = t16.mul_add(t21, heading_dot.mul_sub(t22, t12 * t0));
+        let t34 = t26.neg_mul_add(t24, t33);
+        let t35 = t18.neg_mul_add(t21, heading_dot.mul_add(t23, t10 * t0));
+        let t36 = N::ONE / t30;
+        let t37 = t36 * t31;
+        let t38 = t36 * t32;
+        let t39 = sin_heading * t36;
+        let t40 = t12.neg_mul_add(t27, t11.neg_mul_add(t18, n(p.m)));
+        let t41 = t31.neg_mul_add(t37, t40);
+        let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
+        let t43 = t31.mul_add(t39, cos_heading);
+        let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
+        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k11) * t17));
+        let t46 = N::ONE / t41;
+        let t47 = t46 * t42;
+        let t48 = t46 * t43;
+        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k12)));
+        let t50 = t42.mul_add(t47, t49);
+        let t51 = t48.neg_mul_add(t42, t39 * t32);
+        let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));
+        let t53 = t43.mul_add(t48, sin_heading * t39);
+        let t54 = N::ONE / t50;
+        let t55 = t54 * t51;
+        let t56 = t48.mul_add(t44, t39.neg_mul_add(t34, heading_dot * t29));
+        let t57 = t51.neg_mul_add(t55, t53);
+        let t58 = t55.mul_add(t52, t56) / t57;
+        let t59 = t55.mul_add(t58, t54 * t52);
+        let t60 = t48.neg_mul_add(t58, t46 * t44);
+        let t61 = t47 * t59;
+        let t62 = t38.neg_mul_add(t59, t39.mul_add(t58, t36 * t34));
+        let t63 = t60 - t61;
+        let t64 = t37 * t63;
+        let t65 = t27.neg_mul_add(t63, t28.neg_mul_add(t59, t19 * t24));
+        let t66 = t62 - t64;
+        let t67 = t26 * t66;
+        let t68 = n(p.k11).mul_add(t59, n(p.k10) * t17);
+        let x_ddot = t64 - t62;
+        let y_ddot = t61 - t60;
+        let heading_ddot = t67 - t65;
+        let lean_ddot = t16.mul_add(t66, t18.neg_mul_add(t63, n(p.k13) * t21));
+        let roll_ddot = t7.mul_sub(t65 - t67, t68);
+        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * t8)
+            & t30.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
+            & t41.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
+            & t50.exceeds(N::from_f64(6.217248937900877e-15) * t50)
+            & t57.exceeds(N::from_f64(6.217248937900877e-15) * t53)
+            & roll_ddot.is_finite();
+        if !sound {
+            check(t15, t8, 6.217248937900877e-15, 2)?;
+            check(t30, n(p.m), 6.217248937900877e-15, 0)?;
+            check(t41, n(p.m), 6.217248937900877e-15, 1)?;
+            check(t50, t50, 6.217248937900877e-15, 5)?;
+            check(t57, t53, 6.217248937900877e-15, 6)?;
+        }
+        let accelerations = [
+            x_ddot.store(),
+            y_ddot.store(),
+            heading_ddot.store(),
+            lean_ddot.store(),
+            roll_ddot.store(),
+        ];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> Result<[S; 2], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 5],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 5],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let heading = n(q[2]);
+        let lean = n(q[3]);
+        let x_dot = n(v[0]);
+        let y_dot = n(v[1]);
+        let heading_dot = n(v[2]);
+        let lean_dot = n(v[3]);
+        let roll_dot = n(v[4]);
+        let angles = [lean, heading];
+        let circular = N::sin_cos_all(angles);
+        let (sin_lean, cos_lean) = circular[0];
+        let (sin_heading, cos_heading) = circular[1];
+        let t0 = lean_dot * lean_dot;
+        let t1 = n(p.C) * roll_dot;
+        let t2 = sin_lean * n(p.C);
+        let t3 = cos_lean * n(p.k1);
+        let t4 = sin_lean * n(p.k1);
+        let t5 = cos_lean * lean_dot;
+        let t6 = sin_lean * heading_dot;
+        let t7 = t2 * n(p.k10);
+        let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
+        let t9 = sin_heading * t3;
+        let t10 = t4 * cos_heading;
+        let t11 = cos_heading * t3;
+        let t12 = t4 * sin_heading;
+        let t13 = t2 * n(p.k11);
+        let t14 = t5 * n(p.k4);
+        let t15 = t2.neg_mul_add(t7, t8);
+        let t16 = n(p.k13) * t9;
+        let t17 = t5 * (n(p.C) * heading_dot);
+        let t18 = n(p.k13) * t11;
+        let t19 = N::ONE / t15;
+        let t20 = n(p.k5).mul_add(t6, t1);
+        let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
+        let t22 = cos_heading.mul_sub(t14, t12 * heading_dot);
+        let t23 = t10.mul_add(heading_dot, sin_heading * t14);
+        let t24 = t5.mul_sub(t6.mul_add(n(p.k6), t1), t7 * t17);
+        let t25 = sin_heading.mul_sub(x_dot, cos_heading * y_dot);
+        let t26 = t19 * t10;
+        let t27 = t19 * t12;
+        let t28 = t19 * t13;
+        let t29 = cos_heading.mul_add(x_dot, sin_heading * y_dot);
+        let t30 = t10.neg_mul_add(t26, t9.neg_mul_add(t16, n(p.m)));
+        let t31 = t10.neg_mul_add(t27, t9 * t18);
+        let t32 = t10.neg_mul_add(t28, cos_heading);
+        let t33 = t16.mul_add(t21, heading_dot.mul_sub(t22, t12 * t0));
+        let t34 = t26.neg_mul_add(t24, t33);
+        let t35 = t18.neg_mul_add(t21, heading_dot.mul_add(t23, t10 * t0));
+        let t36 = N::ONE / t30;
+        let t37 = t36 * t31;
+        let t38 = t36 * t32;
+        let t39 = sin_heading * t36;
+        let t40 = t12.neg_mul_add(t27, t11.neg_mul_add(t18, n(p.m)));
+        let t41 = t31.neg_mul_add(t37, t40);
+        let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
+        let t43 = t31.mul_add(t39, cos_heading);
+        let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
+        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k11) * t17));
+        let t46 = N::ONE / t41;
+        let t47 = t46 * t42;
+        let t48 = t46 * t43;
+        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k12)));
+        let t50 = t42.mul_add(t47, t49);
+        let t51 = t42.neg_mul_add(t48, t32 * t39);
+        let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));
+        let t53 = t43.mul_add(t48, sin_heading * t39);
+        let t54 = N::ONE / t50;
+        let t55 = t54 * t51;
+        let t56 = t48.mul_add(t44, t39.neg_mul_add(t34, heading_dot * t29));
+        let t57 = t51.neg_mul_add(t55, t53);
+        let lambda2 = t55.mul_add(t52, t56) / t57;
+        let lambda1 = t55.mul_add(lambda2, t54 * t52);
+        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * t8)
+            & t30.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
+            & t41.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
+            & t50.exceeds(N::from_f64(6.217248937900877e-15) * t50)
+            & t57.exceeds(N::from_f64(6.217248937900877e-15) * t53)
+            & lambda1.is_finite();
+        if !sound {
+            check(t15, t8, 6.217248937900877e-15, 2)?;
+            check(t30, n(p.m), 6.217248937900877e-15, 0)?;
+            check(t41, n(p.m), 6.217248937900877e-15, 1)?;
+            check(t50, t50, 6.217248937900877e-15, 5)?;
+            check(t57, t53, 6.217248937900877e-15, 6)?;
+        }
+        let multipliers = [lambda1.store(), lambda2.store()];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*A*cos(lean)^2*der(heading)^2 + 1/2*A*der(lean)^2
+///     + 1/2*C*(sin(lean)*der(heading) + der(roll))^2 + 1/2*m*(sin(lean)^2*(cos(heading)*der(y) -
+///     sin(heading)*der(x))^2 + (r*sin(lean)*der(heading) + (cos(heading)*der(x) +
+///     sin(heading)*der(y)))^2 + (cos(lean)*(cos(heading)*der(y) - sin(heading)*der(x)) -
+///     r*der(lean))^2)
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> S {
+    let heading = q[2];
+    let lean = q[3];
+    let x_dot = v[0];
+    let y_dot = v[1];
+    let heading_dot = v[2];
+    let lean_dot = v[3];
+    let roll_dot = v[4];
+    let (sin_heading, cos_heading) = heading.sin_cos();
+    let (sin_lean, cos_lean) = lean.sin_cos();
+    let t0 = sin_lean * heading_dot;
+    let t1 = cos_lean * heading_dot;
+    let t2 = cos_heading * y_dot - sin_heading * x_dot;
+    let t3 = t0 + roll_dot;
+    let t4 = t0 * p.r + (sin_heading * y_dot + cos_heading * x_dot);
+    let t5 = t2 * sin_lean;
+    let t6 = t2 * cos_lean - p.r * lean_dot;
+    let t7 = (t1 * t1 + lean_dot * lean_dot) * p.A + t3 * (t3 * p.C);
+    S::from_f64(0.5) * ((t6 * t6 + (t5 * t5 + t4 * t4)) * p.m + t7)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = m*r*g*cos(lean)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+    let lean = q[3];
+    let cos_lean = lean.cos();
+    p.k0 * cos_lean
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 5] = [
+    ("m", "kg"),
+    ("r", "m"),
+    ("g", "m/s^2"),
+    ("C", "kg*m^2"),
+    ("A", "kg*m^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 5] = [
+    ("x", "m"),
+    ("y", "m"),
+    ("heading", "rad"),
+    ("lean", "rad"),
+    ("roll", "rad"),
+];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
+    [("ahead", "m/s", "N", false), ("across", "m/s", "N", false)];
+
+impl ::lagrangian::Machine for RollingCoin {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "RollingCoin"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.r, self.g, self.C, self.A];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 5];
+    type Matrix = [f64; 25];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 5]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 5] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        _: &Inputs,
+        result: &mut [f64; 5],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 5], v: &[f64; 5], result: &mut [f64; 5]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 5], _: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 5], v: &[f64; 5], _: &Inputs, result: &mut [f64; 5]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 5], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 5], _: &[f64; 5], _: &[f64; 5], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 5],
+        _: &[f64; 5],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        positions.fill(0.0);
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 5], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 5],
+        v: &[f64; 5],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(5, 2)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 5];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            m: lanes(|p| p.m),
+            r: lanes(|p| p.r),
+            C: lanes(|p| p.C),
+            A: lanes(|p| p.A),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(5) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

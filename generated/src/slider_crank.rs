@@ -1,0 +1,992 @@
+// @generated from machines/slider_crank.machine by `cargo xtask generate`; edits are lost.
+
+//! A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's axis.
+//! One
+//! degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin at
+//! the
+//! slider carries.
+//!
+//! 3 coordinates, 9 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 22 | 12 | 2 | 0 | 0 | 36 |
+//! | `start` | 4 | 3 | 1 | 0 | 2 | 10 |
+//! | `mass_matrix` | 3 | 1 | 0 | 2 | 0 | 8 |
+//! | `bias` | 8 | 1 | 0 | 2 | 0 | 13 |
+//! | `applied` | 2 | 0 | 0 | 2 | 0 | 4 |
+//! | `forces` | 12 | 4 | 0 | 2 | 0 | 20 |
+//! | `constraint_positions` | 4 | 3 | 0 | 2 | 0 | 11 |
+//! | `constraint_rates` | 6 | 4 | 0 | 2 | 0 | 14 |
+//! | `constraint_matrix` | 4 | 0 | 0 | 2 | 0 | 8 |
+//! | `constraint_drift` | 8 | 2 | 0 | 2 | 0 | 14 |
+//! | `accelerations` | 53 | 29 | 3 | 2 | 0 | 89 |
+//! | `multipliers` | 45 | 22 | 3 | 2 | 0 | 74 |
+//! | `kinetic_energy` | 16 | 6 | 0 | 2 | 0 | 26 |
+//! | `potential_energy` | 4 | 2 | 0 | 2 | 0 | 8 |
+//! | `assumption_0` | 0 | 0 | 0 | 1 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// A slider-crank: a crank turns, a rod joins it to a slider on a rail through the crank's axis.
+/// One
+/// degree of freedom; the loop is closed by two constraints, whose multipliers are what the pin at
+/// the
+/// slider carries.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SliderCrank<S = f64> {
+    /// Lengths of crank and rod. Unit: m. Default: 0.15.
+    pub a: S,
+    /// `b`. Unit: m. Default: 0.35.
+    pub b: S,
+    /// `m1`. Unit: kg. Default: 0.5.
+    pub m1: S,
+    /// `m2`. Unit: kg. Default: 0.8.
+    pub m2: S,
+    /// `m3`. Unit: kg. Default: 1.2.
+    pub m3: S,
+    /// Inertias about the mass centres. Unit: kg*m^2. Default: 0.001.
+    pub J1: S,
+    /// `J2`. Unit: kg*m^2. Default: 0.008.
+    pub J2: S,
+    /// `g`. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+    /// Rate of the crank when the run starts. Unit: rad/s. Default: 20.
+    pub omega: S,
+}
+
+impl Default for SliderCrank {
+    fn default() -> Self {
+        Self {
+            a: 0.15,
+            b: 0.35,
+            m1: 0.5,
+            m2: 0.8,
+            m3: 1.2,
+            J1: 0.001,
+            J2: 0.008,
+            g: 9.81,
+            omega: 20.0,
+        }
+    }
+}
+
+impl<S> SliderCrank<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> SliderCrank<R> {
+        SliderCrank {
+            a: f(self.a),
+            b: f(self.b),
+            m1: f(self.m1),
+            m2: f(self.m2),
+            m3: f(self.m3),
+            J1: f(self.J1),
+            J2: f(self.J2),
+            g: f(self.g),
+            omega: f(self.omega),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> SliderCrank<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let t0 = self.a * self.a;
+        let t1 = S::from_f64(0.5) * self.g;
+        let k1 = self.m2 * self.g;
+        let t2 = self.b * self.m2;
+        let t3 = self.m1 * t0;
+        let t4 = t1 * self.m1;
+        let k5 = t2 * (self.a * S::from_f64(0.5));
+        let k9 = t1 * t2;
+        let pivot_0 = t3 * S::from_f64(0.25) + (self.J1 + self.m2 * t0);
+        let t5 = (self.m1 + self.m2 * S::from_f64(4.0)) * (t0 * S::from_f64(0.25));
+        let k8 = self.a * (k1 + t4);
+        let k0 = self.b * S::from_f64(0.5);
+        let k2 = self.a * t4;
+        let k3 = S::from_f64(0.125) * (S::from_f64(4.0) * self.J1 + t3);
+        let k4 = self.m3 * S::from_f64(0.5);
+        let k6 = self.J1 + t5;
+        let k7 = self.J2 + t2 * (self.b * S::from_f64(0.25));
+        let k10 = -self.a;
+        let k11 = -k5;
+        let k12 = -k8;
+        let k13 = -k9;
+        let k14 = -self.b;
+        let k15 = S::ONE / self.m3;
+        let k16 = S::ONE / pivot_0;
+        let singular = if vanishes(self.m3, self.m3, 4.440892098500626e-15) {
+            Some(singular(2, self.m3, self.m3))
+        } else if vanishes(pivot_0, pivot_0, 4.440892098500626e-15) {
+            Some(singular(0, pivot_0, pivot_0))
+        } else {
+            None
+        };
+        Prepared {
+            a: self.a,
+            b: self.b,
+            m2: self.m2,
+            m3: self.m3,
+            J2: self.J2,
+            k0,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let theta = S::pi() * S::from_f64(0.5);
+        let phi = -(self.a / self.b).asin();
+        let s = (self.b * self.b - self.a * self.a).sqrt();
+        let zero = S::ZERO;
+        let s_rate = -(self.a * self.omega);
+        let q = [theta, phi, s];
+        let v = [self.omega, zero, s_rate];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`SliderCrank`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// Angles of crank and rod from the rail. Unit: rad.
+    pub theta: S,
+    /// `phi`. Unit: rad.
+    pub phi: S,
+    /// Position of the slider. Unit: m.
+    pub s: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 3] {
+        [self.theta, self.phi, self.s]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 3]) -> Self {
+        Self {
+            theta: q[0],
+            phi: q[1],
+            s: q[2],
+        }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            theta: f(self.theta),
+            phi: f(self.phi),
+            s: f(self.s),
+        }
+    }
+}
+
+/// What can be set while a [`SliderCrank`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`SliderCrank`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`SliderCrank`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `a`
+    a: S,
+    /// `b`
+    b: S,
+    /// `m2`
+    m2: S,
+    /// `m3`
+    m3: S,
+    /// `J2`
+    J2: S,
+    /// `0.5*b`
+    k0: S,
+    /// `m2*g`
+    k1: S,
+    /// `0.5*a*m1*g`
+    k2: S,
+    /// `0.125*(a^2*m1 + 4*J1)`
+    k3: S,
+    /// `0.5*m3`
+    k4: S,
+    /// `0.5*a*b*m2`
+    k5: S,
+    /// `J1 + 0.25*a^2*(m1 + 4*m2)`
+    k6: S,
+    /// `J2 + 0.25*b^2*m2`
+    k7: S,
+    /// `a*(m2*g + 0.5*m1*g)`
+    k8: S,
+    /// `0.5*b*m2*g`
+    k9: S,
+    /// `-a`
+    k10: S,
+    /// `-0.5*a*b*m2`
+    k11: S,
+    /// `-a*(m2*g + 0.5*m1*g)`
+    k12: S,
+    /// `-0.5*b*m2*g`
+    k13: S,
+    /// `-b`
+    k14: S,
+    /// `1/m3`
+    k15: S,
+    /// `1/(J1 + a^2*m2 + 0.25*a^2*m1)`
+    k16: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[theta, theta] = 1/4*a^2*m1 + a^2*m2 + J1
+/// M[phi, theta] = 1/2*a*b*m2*cos(phi - theta)
+/// M[phi, phi] = 1/4*b^2*m2 + J2
+/// M[s, s] = m3
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+    let theta = q[0];
+    let phi = q[1];
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let m21 = (sin_phi * sin_theta + cos_phi * cos_theta) * p.k5;
+    let zero = S::ZERO;
+    [[p.k6, m21, zero], [m21, p.k7, zero], [zero, zero, p.m3]]
+}
+
+/// Bias `h`: velocity products and explicit time in the inertia forces.
+///
+/// ```text
+/// h[theta] = -1/2*a*b*m2*sin(phi - theta)*der(phi)^2
+/// h[phi] = 1/2*a*b*m2*sin(phi - theta)*der(theta)^2
+/// ```
+pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let theta = q[0];
+    let phi = q[1];
+    let theta_dot = v[0];
+    let phi_dot = v[1];
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let t0 = sin_phi * cos_theta - cos_phi * sin_theta;
+    let h_theta = t0 * (phi_dot * (p.k11 * phi_dot));
+    let h_phi = t0 * (theta_dot * (theta_dot * p.k5));
+    let zero = S::ZERO;
+    [h_theta, h_phi, zero]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[theta] = -1/2*(m1 + 2*m2)*a*g*cos(theta)
+/// Q[phi] = -1/2*b*m2*g*cos(phi)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+    let theta = q[0];
+    let phi = q[1];
+    let cos_theta = theta.cos();
+    let cos_phi = phi.cos();
+    let q_theta = p.k12 * cos_theta;
+    let q_phi = p.k13 * cos_phi;
+    let zero = S::ZERO;
+    [q_theta, q_phi, zero]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+    let theta = q[0];
+    let phi = q[1];
+    let theta_dot = v[0];
+    let phi_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = phi_dot * phi_dot;
+    let t1 = theta_dot * theta_dot;
+    let t2 = sin_phi * (cos_theta * p.k5);
+    let t3 = cos_phi * (sin_theta * p.k5);
+    let f_theta = t0 * t2 - (t0 * t3 + cos_theta * p.k8);
+    let f_phi = t3 * t1 - (t2 * t1 + cos_phi * p.k9);
+    let zero = S::ZERO;
+    [f_theta, f_phi, zero]
+}
+
+/// What is left of the constraints of positions, `g`; 0 for the others.
+///
+/// ```text
+/// g[along] = a*cos(theta) - s + b*cos(phi)
+/// g[across] = a*sin(theta) + b*sin(phi)
+/// ```
+pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 2] {
+    let theta = q[0];
+    let phi = q[1];
+    let s = q[2];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let g1 = p.b * cos_phi + p.a * cos_theta - s;
+    let g2 = p.b * sin_phi + p.a * sin_theta;
+    [g1, g2]
+}
+
+/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+///
+/// ```text
+/// phi[along] = -a*sin(theta)*der(theta) - b*sin(phi)*der(phi) - der(s)
+/// phi[across] = a*cos(theta)*der(theta) + b*cos(phi)*der(phi)
+/// ```
+pub fn constraint_rates<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> [S; 2] {
+    let theta = q[0];
+    let phi = q[1];
+    let theta_dot = v[0];
+    let phi_dot = v[1];
+    let s_dot = v[2];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = theta_dot * p.a;
+    let t1 = phi_dot * p.b;
+    let phi1 = -(t1 * sin_phi + t0 * sin_theta + s_dot);
+    let phi2 = t1 * cos_phi + t0 * cos_theta;
+    [phi1, phi2]
+}
+
+/// The matrix `G` of the constraints, row after row.
+///
+/// ```text
+/// G[along, theta] = -a*sin(theta)
+/// G[along, phi] = -b*sin(phi)
+/// G[along, s] = -1
+/// G[across, theta] = a*cos(theta)
+/// G[across, phi] = b*cos(phi)
+/// ```
+pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 6] {
+    let theta = q[0];
+    let phi = q[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let g1_1 = p.k10 * sin_theta;
+    let g1_2 = p.k14 * sin_phi;
+    let g2_1 = cos_theta * p.a;
+    let g2_2 = cos_phi * p.b;
+    let zero = S::ZERO;
+    [g1_1, g1_2, S::from_f64(-1.0), g2_1, g2_2, zero]
+}
+
+/// `gamma` of `G a = gamma`.
+///
+/// ```text
+/// gamma[along] = a*cos(theta)*der(theta)^2 + b*cos(phi)*der(phi)^2
+/// gamma[across] = a*sin(theta)*der(theta)^2 + b*sin(phi)*der(phi)^2
+/// ```
+pub fn constraint_drift<S: ::lagrangian::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> [S; 2] {
+    let theta = q[0];
+    let phi = q[1];
+    let theta_dot = v[0];
+    let phi_dot = v[1];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = theta_dot * (theta_dot * p.a);
+    let t1 = phi_dot * (phi_dot * p.b);
+    let gamma1 = t1 * cos_phi + t0 * cos_theta;
+    let gamma2 = t1 * sin_phi + t0 * sin_theta;
+    [gamma1, gamma2]
+}
+
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
+/// multiplied out, factored.
+///
+/// What is known to be zero is not computed; a pivot that vanishes is an error.
+pub fn accelerations<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Result<[S; 3], ::lagrangian::Singular> {
+    S::run(Accelerations { p, q, v })
+}
+
+/// A call of [`accelerations`], to be run with whatever instructions the processor has.
+pub struct Accelerations<'a, S> {
+    /// As `accelerations` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `accelerations` takes it.
+    pub q: &'a [S; 3],
+    /// As `accelerations` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let phi = n(q[1]);
+        let theta_dot = n(v[0]);
+        let phi_dot = n(v[1]);
+        let angles = [phi, theta];
+        let circular = N::sin_cos_all(angles);
+        let (sin_phi, cos_phi) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let t0 = phi_dot * phi_dot;
+        let t1 = theta_dot * theta_dot;
+        let t2 = cos_theta * n(p.a);
+        let t3 = sin_theta * n(p.a);
+        let t4 = sin_phi * n(p.b);
+        let t5 = cos_phi * n(p.b);
+        let t6 = cos_phi * sin_theta;
+        let t7 = sin_phi * cos_theta;
+        let t8 = n(p.k16) * t2;
+        let t9 = n(p.k16) * t3;
+        let t10 = n(p.k5) * sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
+        let t11 = (t6 - t7).mul_add(t0 * n(p.k5), cos_theta * n(p.k8));
+        let t12 = n(p.k16) * t10;
+        let t13 = t10.neg_mul_add(t9, t4);
+        let t14 = t10.neg_mul_add(t8, t5);
+        let t15 = t10.neg_mul_add(t12, n(p.k7));
+        let t16 = (t7 - t6).mul_add(n(p.k5) * t1, cos_phi * n(p.k9));
+        let t17 = t11.neg_mul_add(t12, t16);
+        let t18 = N::ONE / t15;
+        let t19 = t18 * t13;
+        let t20 = t18 * t14;
+        let t21 = t13.mul_add(t19, t3.mul_add(t9, n(p.k15)));
+        let t22 = t20.mul_add(t13, t8 * t3);
+        let t23 = t11.neg_mul_add(t9, t0.mul_add(t5, t2 * t1));
+        let t24 = t19.neg_mul_add(t17, t23);
+        let t25 = t14.mul_add(t20, t2 * t8);
+        let t26 = N::ONE / t21;
+        let t27 = t26 * t22;
+        let t28 = t20.mul_add(t17, t11.mul_add(t8, t0.mul_add(t4, t3 * t1)));
+        let t29 = t22.neg_mul_add(t27, t25);
+        let t30 = t27.mul_add(t24, t28) / t29;
+        let t31 = t27.mul_add(t30, t26 * t24);
+        let t32 = t19.mul_add(t31, t20.neg_mul_add(t30, t18 * t17));
+        let t33 = t9.neg_mul_add(t31, t8.mul_sub(t30, n(p.k16) * t11));
+        let theta_ddot = t12.mul_add(t32, t33);
+        let phi_ddot = -t32;
+        let s_ddot = -(n(p.k15) * t31);
+        let sound = t15.exceeds(N::from_f64(4.440892098500626e-15) * n(p.k7))
+            & t21.exceeds(N::from_f64(4.440892098500626e-15) * t21)
+            & t29.exceeds(N::from_f64(4.440892098500626e-15) * t25)
+            & s_ddot.is_finite();
+        if !sound {
+            check(t15, n(p.k7), 4.440892098500626e-15, 1)?;
+            check(t21, t21, 4.440892098500626e-15, 3)?;
+            check(t29, t25, 4.440892098500626e-15, 4)?;
+        }
+        let accelerations = [theta_ddot.store(), phi_ddot.store(), s_ddot.store()];
+        Ok(accelerations)
+    }
+}
+
+/// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+///
+/// A pivot that vanishes is an error.
+pub fn multipliers<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Result<[S; 2], ::lagrangian::Singular> {
+    S::run(Multipliers { p, q, v })
+}
+
+/// A call of [`multipliers`], to be run with whatever instructions the processor has.
+pub struct Multipliers<'a, S> {
+    /// As `multipliers` takes it.
+    pub p: &'a Prepared<S>,
+    /// As `multipliers` takes it.
+    pub q: &'a [S; 3],
+    /// As `multipliers` takes it.
+    pub v: &'a [S; 3],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p, q, v } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let theta = n(q[0]);
+        let phi = n(q[1]);
+        let theta_dot = n(v[0]);
+        let phi_dot = n(v[1]);
+        let angles = [phi, theta];
+        let circular = N::sin_cos_all(angles);
+        let (sin_phi, cos_phi) = circular[0];
+        let (sin_theta, cos_theta) = circular[1];
+        let t0 = phi_dot * phi_dot;
+        let t1 = theta_dot * theta_dot;
+        let t2 = cos_theta * n(p.a);
+        let t3 = sin_theta * n(p.a);
+        let t4 = sin_phi * n(p.b);
+        let t5 = cos_phi * n(p.b);
+        let t6 = cos_phi * sin_theta;
+        let t7 = sin_phi * cos_theta;
+        let t8 = n(p.k16) * t2;
+        let t9 = n(p.k16) * t3;
+        let t10 = n(p.k5) * sin_phi.mul_add(sin_theta, cos_phi * cos_theta);
+        let t11 = (t6 - t7).mul_add(n(p.k5) * t0, cos_theta * n(p.k8));
+        let t12 = n(p.k16) * t10;
+        let t13 = t10.neg_mul_add(t9, t4);
+        let t14 = t10.neg_mul_add(t8, t5);
+        let t15 = t10.neg_mul_add(t12, n(p.k7));
+        let t16 = (t7 - t6).mul_add(n(p.k5) * t1, cos_phi * n(p.k9));
+        let t17 = t12.neg_mul_add(t11, t16);
+        let t18 = N::ONE / t15;
+        let t19 = t18 * t13;
+        let t20 = t18 * t14;
+        let t21 = t13.mul_add(t19, t3.mul_add(t9, n(p.k15)));
+        let t22 = t13.mul_add(t20, t3 * t8);
+        let t23 = t9.neg_mul_add(t11, t5.mul_add(t0, t2 * t1));
+        let t24 = t19.neg_mul_add(t17, t23);
+        let t25 = t14.mul_add(t20, t2 * t8);
+        let t26 = N::ONE / t21;
+        let t27 = t26 * t22;
+        let t28 = t20.mul_add(t17, t8.mul_add(t11, t4.mul_add(t0, t3 * t1)));
+        let t29 = t22.neg_mul_add(t27, t25);
+        let lambda2 = t27.mul_add(t24, t28) / t29;
+        let lambda1 = t27.mul_add(lambda2, t26 * t24);
+        let sound = t15.exceeds(N::from_f64(4.440892098500626e-15) * n(p.k7))
+            & t21.exceeds(N::from_f64(4.440892098500626e-15) * t21)
+            & t29.exceeds(N::from_f64(4.440892098500626e-15) * t25)
+            & lambda1.is_finite();
+        if !sound {
+            check(t15, n(p.k7), 4.440892098500626e-15, 1)?;
+            check(t21, t21, 4.440892098500626e-15, 3)?;
+            check(t29, t25, 4.440892098500626e-15, 4)?;
+        }
+        let multipliers = [lambda1.store(), lambda2.store()];
+        Ok(multipliers)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/8*(a^2*m1 + 4*a^2*m2 + 4*J1)*der(theta)^2
+///     + 1/2*a*b*m2*cos(phi - theta)*der(theta)*der(phi) + 1/8*(b^2*m2 + 4*J2)*der(phi)^2
+///     + 1/2*m3*der(s)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+    let theta = q[0];
+    let phi = q[1];
+    let theta_dot = v[0];
+    let phi_dot = v[1];
+    let s_dot = v[2];
+    let (sin_theta, cos_theta) = theta.sin_cos();
+    let (sin_phi, cos_phi) = phi.sin_cos();
+    let t0 = theta_dot * p.a;
+    let t1 = p.k0 * phi_dot;
+    let t2 = t1 * sin_phi + t0 * sin_theta;
+    let t3 = t1 * cos_phi + t0 * cos_theta;
+    let t4 = (t3 * t3 + t2 * t2) * p.m2 + phi_dot * (phi_dot * p.J2);
+    let t5 = s_dot * (s_dot * p.k4) + theta_dot * (theta_dot * p.k3);
+    t4 * S::from_f64(0.5) + t5
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = 1/2*(m1 + 2*m2)*a*g*sin(theta) + 1/2*b*m2*g*sin(phi)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+    let theta = q[0];
+    let phi = q[1];
+    let sin_theta = theta.sin();
+    let sin_phi = phi.sin();
+    p.k1 * (p.k0 * sin_phi + sin_theta * p.a) + sin_theta * p.k2
+}
+
+/// By how much `cos(phi) > 0` holds.
+pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+    let phi = q[1];
+    let cos_phi = phi.cos();
+    cos_phi
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 9] = [
+    ("a", "m"),
+    ("b", "m"),
+    ("m1", "kg"),
+    ("m2", "kg"),
+    ("m3", "kg"),
+    ("J1", "kg*m^2"),
+    ("J2", "kg*m^2"),
+    ("g", "m/s^2"),
+    ("omega", "rad/s"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 3] = [("theta", "rad"), ("phi", "rad"), ("s", "m")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// Names, units, units of multipliers, whether positions are constrained.
+const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
+    [("along", "m", "N", true), ("across", "m", "N", true)];
+
+impl ::lagrangian::Machine for SliderCrank {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "SliderCrank"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [
+            self.a, self.b, self.m1, self.m2, self.m3, self.J1, self.J2, self.g, self.omega,
+        ];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 3];
+    type Matrix = [f64; 9];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 3]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 3] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        _: &Inputs,
+        result: &mut [f64; 3],
+    ) -> Result<(), ::lagrangian::Singular> {
+        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
+        let rows = mass_matrix(self, q);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, q: &[f64; 3], v: &[f64; 3], result: &mut [f64; 3]) {
+        *result = bias(self, q, v);
+    }
+
+    fn applied(&self, _: f64, q: &[f64; 3], _: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = applied(self, q);
+    }
+
+    fn forces(&self, _: f64, q: &[f64; 3], v: &[f64; 3], _: &Inputs, result: &mut [f64; 3]) {
+        *result = forces(self, q, v);
+    }
+
+    fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
+        kinetic_energy(self, q, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 3], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 3], _: &[f64; 3], _: &[f64; 3], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        _: &[f64; 3],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        let facts = [assumption("cos(phi) > 0", true, assumption_0(q))];
+        facts.into_iter()
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+        CONSTRAINTS.iter().map(constraint)
+    }
+
+    fn residuals(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        positions: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        fill(positions, &constraint_positions(self, q));
+        fill(rates, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 3], rows: &mut [f64]) {
+        fill(rows, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], drift: &mut [f64]) {
+        fill(drift, &constraint_drift(self, q, v));
+    }
+
+    fn multipliers(
+        &self,
+        _: f64,
+        q: &[f64; 3],
+        v: &[f64; 3],
+        _: &Inputs,
+        lambda: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(lambda, &multipliers(self, q, v)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::constraint_room(3, 2)];
+        work(room.get_mut(..length))
+    }
+}
+
+impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+where
+    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+{
+    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type SeveralInputs = Inputs;
+
+    fn abreast(systems: [&Self; N]) -> Self::Several {
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        Prepared {
+            a: lanes(|p| p.a),
+            b: lanes(|p| p.b),
+            m2: lanes(|p| p.m2),
+            m3: lanes(|p| p.m3),
+            J2: lanes(|p| p.J2),
+            k0: lanes(|p| p.k0),
+            k1: lanes(|p| p.k1),
+            k2: lanes(|p| p.k2),
+            k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
+            k5: lanes(|p| p.k5),
+            k6: lanes(|p| p.k6),
+            k7: lanes(|p| p.k7),
+            k8: lanes(|p| p.k8),
+            k9: lanes(|p| p.k9),
+            k10: lanes(|p| p.k10),
+            k11: lanes(|p| p.k11),
+            k12: lanes(|p| p.k12),
+            k13: lanes(|p| p.k13),
+            k14: lanes(|p| p.k14),
+            k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
+            singular: None,
+        }
+    }
+
+    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+        Inputs {}
+    }
+
+    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+        Inputs {}
+    }
+
+    fn is_singular(&self) -> bool {
+        self.singular.is_some()
+    }
+
+    fn accelerations_abreast(
+        p: &Self::Several,
+        _: ::lagrangian::Lanes<N>,
+        q: &Self::Vectors,
+        v: &Self::Vectors,
+        _: &Self::SeveralInputs,
+        result: &mut Self::Vectors,
+    ) -> Result<(), ::lagrangian::Singular> {
+        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+            Accelerations { p, q, v },
+            result,
+        )
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// A fact and by how much it holds.
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
+    ::lagrangian::Assumption {
+        text,
+        margin,
+        strict,
+    }
+}
+
+/// A constraint, as it is called.
+fn constraint<'a>(
+    &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
+) -> ::lagrangian::Constraint<'a> {
+    ::lagrangian::Constraint {
+        name,
+        unit,
+        multiplier_unit,
+        holonomic,
+    }
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
+/// in any of several lanes.
+#[inline(always)]
+fn check<N: ::lagrangian::Scalar>(
+    pivot: N,
+    diagonal: N,
+    share: f64,
+    coordinate: usize,
+) -> Result<(), ::lagrangian::Singular> {
+    let bound = N::from_f64(share) * diagonal;
+    match pivot.exceeds(bound) {
+        true => Ok(()),
+        false => Err(singular(coordinate, pivot, diagonal)),
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    if let Some(constraint) = coordinate.checked_sub(3) {
+        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+    }
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}

@@ -1,0 +1,168 @@
+//! Bilateral constraints, for whoever keeps them.
+
+use super::Emitter;
+use crate::emit::layout::Layout;
+use crate::program::Role;
+
+/// About how many numbers a machine lends from the stack: a quarter of a megabyte.
+const MOST_LENT: usize = 1 << 15;
+
+impl Emitter<'_> {
+    /// What the constraints are called.
+    pub(super) fn table_of_constraints(&mut self) {
+        let constraints = &self.program.constraints;
+        if constraints.is_empty() {
+            return;
+        }
+        let rows = constraints.iter().map(|constraint| {
+            let texts = [
+                &constraint.name,
+                &constraint.unit,
+                &constraint.multiplier_unit,
+            ];
+            let texts = texts.map(|text| Layout::Atom(format!("{text:?}")));
+            let holonomic = Layout::Atom(constraint.holonomic.to_string());
+            Layout::List(
+                "(".into(),
+                texts.into_iter().chain([holonomic]).collect(),
+                ")",
+            )
+        });
+        let rows = Layout::nested(rows);
+        let str = self.types.known("str");
+        let bool = self.types.known("bool");
+        self.writer.gap();
+        self.writer
+            .line("/// Names, units, units of multipliers, whether positions are constrained.");
+        let head = format!(
+            "const CONSTRAINTS: [(&{str}, &{str}, &{str}, {bool}); {}] = ",
+            constraints.len()
+        );
+        self.writer.expression(&head, &rows, ";");
+    }
+
+    /// The methods of `System` that machines without constraints do not have.
+    pub(super) fn constraints(&mut self) {
+        if self.program.constraints.is_empty() {
+            return;
+        }
+        let runtime = self.options.runtime.clone();
+        let result = format!(
+            "impl {}<Item = {runtime}::Constraint<'_>>",
+            self.types.known("ExactSizeIterator")
+        );
+        self.method("constraints", &[], Some(&result), |body| {
+            body.line("CONSTRAINTS.iter().map(constraint)");
+        });
+        let mut fill = |name: &str, arguments: &[&str], targets: &[(&str, Role)]| {
+            let lines: Vec<String> = targets
+                .iter()
+                .map(|&(target, role)| match self.call(role) {
+                    Some(call) => format!("fill({target}, &{call});"),
+                    None => format!("{target}.fill(0.0);"),
+                })
+                .collect();
+            self.method(name, arguments, None, |body| {
+                lines.into_iter().for_each(|line| body.line(line));
+            });
+        };
+        fill(
+            "residuals",
+            &["t", "q", "v", "positions", "rates"],
+            &[
+                ("positions", Role::ConstraintPositions),
+                ("rates", Role::ConstraintRates),
+            ],
+        );
+        fill(
+            "constraint_matrix",
+            &["t", "q", "rows"],
+            &[("rows", Role::ConstraintMatrix)],
+        );
+        fill(
+            "constraint_drift",
+            &["t", "q", "v", "drift"],
+            &[("drift", Role::ConstraintDrift)],
+        );
+        let call = self.call(Role::Multipliers);
+        let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
+        self.method(
+            "multipliers",
+            &["t", "q", "v", "u", "lambda"],
+            Some(&result),
+            |body| {
+                if let Some(call) = call {
+                    body.line(format!("fill(lambda, &{call}?);"));
+                }
+                body.line("Ok(())");
+            },
+        );
+        self.lend();
+    }
+
+    /// Room for the work on constraints: an array, where that is no burden to a stack.
+    fn lend(&mut self) {
+        let (n, m) = (
+            self.program.coordinates.len(),
+            self.program.constraints.len(),
+        );
+        if 2 * n * m + n.min(m) * n.min(m) > MOST_LENT {
+            return;
+        }
+        let [option, once, f64, usize] =
+            ["Option", "FnOnce", "f64", "usize"].map(|name| self.types.known(name));
+        let runtime = &self.options.runtime;
+        let room = format!("let mut room = [0.0; {runtime}::constraint_room({n}, {m})];");
+        self.writer.gap();
+        self.writer.signature(
+            "fn lend<R>",
+            &[
+                "&self".to_owned(),
+                format!("length: {usize}"),
+                format!("work: impl {once}({option}<&mut [{f64}]>) -> R"),
+            ],
+            Some("R"),
+        );
+        self.writer.line(room);
+        self.writer.line("work(room.get_mut(..length))");
+        self.writer.close("}");
+    }
+
+    /// Small functions that the code above calls.
+    pub(super) fn helpers_of_constraints(&mut self) {
+        if self.program.constraints.is_empty() {
+            return;
+        }
+        let runtime = self.options.runtime.clone();
+        let [str, bool, f64] = ["str", "bool", "f64"].map(|name| self.types.known(name));
+        self.writer.gap();
+        self.writer.line("/// A constraint, as it is called.");
+        let text = format!("&'a {str}");
+        let row = format!("({text}, {text}, {text}, {bool})");
+        self.writer.signature(
+            "fn constraint<'a>",
+            &[format!(
+                "&(name, unit, multiplier_unit, holonomic): &'a {row}"
+            )],
+            Some(&format!("{runtime}::Constraint<'a>")),
+        );
+        let fields = ["name", "unit", "multiplier_unit", "holonomic"]
+            .map(|name| (name.to_owned(), Layout::Atom(name.to_owned())));
+        let literal = Layout::Struct(format!("{runtime}::Constraint"), fields.to_vec());
+        self.writer.expression("", &literal, "");
+        self.writer.close("}");
+        self.writer.gap();
+        self.writer
+            .line("/// Writes numbers where there is room for them.");
+        self.writer.signature(
+            "fn fill",
+            &[format!("to: &mut [{f64}]"), format!("from: &[{f64}]")],
+            None,
+        );
+        self.writer
+            .open("for (to, from) in to.iter_mut().zip(from) {");
+        self.writer.line("*to = *from;");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}
