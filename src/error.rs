@@ -154,7 +154,7 @@ pub enum Error {
 
 impl Error {
     /// The error of a step, in the words of its machine.
-    pub(crate) fn of_step<S: System>(error: StepError, system: &S) -> Self {
+    pub fn of_step<S: System>(error: StepError, system: &S) -> Self {
         let name = |index| name_of(system.coordinates().nth(index));
         match error {
             StepError::NotFinite { coordinate, t } => Self::NotFinite {

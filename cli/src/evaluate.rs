@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, UnknownName};
-use lagrangian::{Machine, Pivot, State, System};
+use lagrangian::{Error, Machine, Pivot, State, StepError, System, least_multipliers};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -178,6 +178,26 @@ fn fill(numbers: &mut Named, given: Option<Numbers>, what: &str) -> Result<(), S
     }
 }
 
+/// Why there are no numbers at a state.
+fn in_words(system: &InterpretedSystem, error: StepError) -> String {
+    match error {
+        StepError::Singular { singular, .. }
+            if matches!(singular.at, Pivot::Coordinate(_)) && singular.ratio.is_finite() =>
+        {
+            format!(
+                "the mass matrix is singular in `{}` here: {:e} of its inertia is left",
+                singular.name(system),
+                singular.ratio
+            )
+        }
+        StepError::Singular { singular, .. } if matches!(singular.at, Pivot::Coordinate(_)) => {
+            let name = singular.name(system);
+            format!("the mass matrix is singular in `{name}` here: it has no inertia")
+        }
+        error => Error::of_step(error, system).to_string(),
+    }
+}
+
 fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, String> {
     let State { t, q, v } = state;
     let (t, q, v) = (*t, &q.values, &v.values);
@@ -186,24 +206,20 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let zeros = || vec![0.0; n];
     let (mut bias, mut applied, mut forces, mut a) = (zeros(), zeros(), zeros(), zeros());
     let mut matrix = vec![0.0; n * n];
-    system
-        .accelerations(t, q, v, &u, &mut a)
-        .map_err(|singular| {
-            let name = singular.name(system);
-            if let Pivot::Constraint(_) = singular.at {
-                return format!("the constraint `{name}` depends on others here");
-            }
-            match singular.ratio.is_finite() {
-                true => format!(
-                    "the mass matrix is singular in `{name}` here: {:e} of its inertia is left",
-                    singular.ratio
-                ),
-                false => format!("the mass matrix is singular in `{name}` here: it has no inertia"),
-            }
-        })?;
     let mut multipliers = vec![0.0; system.constraints().len()];
-    // Where they have no value, the accelerations have none.
-    let _ = system.multipliers(t, q, v, &u, &mut multipliers);
+    let found = system
+        .accelerations(t, q, v, &u, &mut a)
+        .and_then(|()| system.multipliers(t, q, v, &u, &mut multipliers));
+    if let Err(singular) = found {
+        // What depends on others may be held by these in many ways, all with the same motion.
+        let least = match singular.at {
+            Pivot::Constraint(_) => {
+                least_multipliers(system, t, q, v, &u, &mut a, &mut multipliers)
+            }
+            Pivot::Coordinate(_) => Err(StepError::Singular { singular, t }),
+        };
+        least.map_err(|error| in_words(system, error))?;
+    }
     let mut rows = vec![0.0; multipliers.len() * n];
     system.constraint_matrix(t, q, &mut rows);
     let reaction = |i: usize| {

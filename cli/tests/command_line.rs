@@ -230,6 +230,52 @@ fn evaluate_gives_multipliers_by_name_and_reactions_by_coordinate() {
 }
 
 #[test]
+fn a_constraint_that_is_said_twice_is_held_in_halves() {
+    // The second is twice the first: half of the tension is a quarter of the multiplier.
+    let spec = Scratch::new(
+        "twice.machine",
+        "machine Twice in plane {
+            parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m = -l }
+            bodies { bob { mass: m, at: (x, y) } }
+            gravity (0, -g);
+            constraints { rod: (x^2 + y^2 - l^2)/(2*l) = 0, again: (x^2 + y^2 - l^2)/l = 0 }
+        }",
+    );
+    let output = lagrangian(&["evaluate", spec.path(), "--rate", "x=3"]);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+    let result = &json(&output)[0];
+    let pull = 2.0 * (9.81 + 3.0 * 3.0 / 0.5);
+    let near = |found: &Value, expected: f64| {
+        assert!(
+            (number(found) - expected).abs() < 1e-13 * pull,
+            "{found} {expected}"
+        );
+    };
+    near(&result["multipliers"]["rod"], -pull / 2.0);
+    near(&result["multipliers"]["again"], -pull / 4.0);
+    near(&result["reactions"][1], pull);
+    near(&result["accelerations"][1], 18.0);
+
+    // Two that contradict each other have no answer, and say which.
+    let spec = Scratch::new(
+        "torn.machine",
+        "machine Torn in plane {
+            parameters { m: kg = 2, w: m/s^2 = 3 }
+            coordinates { x: m, y: m }
+            bodies { bob { mass: m, at: (x, y) } }
+            constraints { rests: y = x, leaves: y = x + w*t^2/2 }
+        }",
+    );
+    let result = &json(&lagrangian(&["evaluate", spec.path()]))[0];
+    let error = result["error"].as_str().expect("an error");
+    assert!(
+        error.contains("`rests`") || error.contains("`leaves`"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_singular_state_is_an_error_of_its_point_only() {
     let points = r#"[{"q": {"s1": 0}}, {}]"#;
     let output = with_input(

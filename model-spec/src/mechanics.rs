@@ -31,9 +31,9 @@ mod reduction;
 mod refusal;
 mod symmetric;
 
-use lagrangian_symbolic::{Expr, Node, Symbol, normal, substitute};
+use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
-pub use circles::centre;
+pub use circles::{body_axes, placed};
 pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;
 pub use lagrange::{Oracle, OracleConstraint};
@@ -236,10 +236,7 @@ impl<'d> Equations<'d> {
     /// work.
     fn add_power_of_constraints(&mut self, model: &Model<'d>) {
         let dag = model.dag;
-        let x = Variables::of(model);
-        let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
-        let rates: Vec<_> = self.constraints.iter().map(|c| c.rate).collect();
-        let moves = substitute(dag, &rates, &at_rest);
+        let moves = constraints::rates_at_rest(model, &self.constraints);
         if moves.iter().all(|rate| rate.is_zero()) {
             return;
         }

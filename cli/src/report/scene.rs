@@ -12,7 +12,7 @@
 //! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
 //! vectors are places in the list of values that the page computes.
 
-use lagrangian_spec::mechanics::centre;
+use lagrangian_spec::mechanics::{body_axes, placed};
 use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
@@ -229,14 +229,7 @@ impl Points {
         });
         let turned = turned.collect();
         let circles = model.circles.iter().map(|circle| {
-            let axes = match circle.on {
-                Place::Frame(pose) => model.poses[pose.index()].axes.clone(),
-                Place::Body(body) => {
-                    let ground = || model.poses[PoseId::GROUND.index()].axes.clone();
-                    body_axes(model, &model.bodies[body]).unwrap_or_else(ground)
-                }
-            };
-            let center = centre(model, circle);
+            let (center, axes) = placed(model, circle);
             [
                 places.of(&center),
                 places.of(&[circle.radius]),
@@ -274,18 +267,6 @@ impl Points {
             body: holder(model, circle.on),
         });
         drawn.collect()
-    }
-}
-
-/// The axes of a body; none where the spec does not say how it is turned.
-fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<'d>>>> {
-    match body.rotation {
-        Rotation::Unspecified => None,
-        Rotation::Angle(angle) => {
-            let (sin, cos) = (angle.sin(), angle.cos());
-            Some(vec![vec![cos, sin], vec![-sin, cos]])
-        }
-        Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
     }
 }
 

@@ -107,6 +107,76 @@ impl Document {
     }
 }
 
+/// How a column of a table is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Column {
+    /// Numbers, one below the other, of this width in em.
+    Numbers(f32),
+    /// Each cell in one line, of this width in em.
+    Line(f32),
+    /// Cells are broken into lines of this width in em.
+    Wrapped(f32),
+}
+
+impl Column {
+    /// Its width in em, with the space around it.
+    pub fn width(self) -> f32 {
+        // Twice 6 points.
+        const SPACE: f32 = 1.2;
+        let (Column::Numbers(width) | Column::Line(width) | Column::Wrapped(width)) = self;
+        width + SPACE
+    }
+}
+
+/// The columns of a table, so that it fits a page: what is said last is wrapped, and where the rest is
+/// too wide the widest words are.
+pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
+    let natural = |k: usize| {
+        let rows = rows.iter().map(Vec::as_slice).chain([head]);
+        let cells = rows.filter_map(|row| row.get(k));
+        cells.map(width_of_words).fold(0.0, f32::max)
+    };
+    let column = |k: usize| match k + 1 == head.len() {
+        _ if super::html::is_numeric(rows, k) => Column::Numbers(natural(k)),
+        true => Column::Wrapped(DESCRIPTION),
+        false => Column::Line(natural(k)),
+    };
+    let mut columns: Vec<Column> = (0..head.len()).map(column).collect();
+    let whole: f32 = columns.iter().map(|column| column.width()).sum();
+    let line_width = |column: &Column| match column {
+        Column::Line(width) => *width,
+        _ => 0.0,
+    };
+    let by_width = |a: &&mut Column, b: &&mut Column| line_width(a).total_cmp(&line_width(b));
+    if whole > PAGE
+        && let Some(widest) = columns.iter_mut().max_by(by_width)
+    {
+        let left = line_width(widest) - (whole - PAGE);
+        *widest = Column::Wrapped(left.max(LEAST_WRAPPED));
+    }
+    columns
+}
+
+/// The width of a table, in em: 17 cm in a font of 10 points, less what an estimate may be off by.
+const PAGE: f32 = 47.0;
+
+/// The width of a column that describes what the others name, in em: 7 cm.
+const DESCRIPTION: f32 = 19.9;
+
+/// The least width of words that are broken into lines, in em: a long word.
+const LEAST_WRAPPED: f32 = 8.0;
+
+/// About how wide words are in one line, in em.
+fn width_of_words(words: &Words) -> f32 {
+    // Of typewriter type, all letters are as wide.
+    let run = |run: &Run| match run {
+        Run::Text(text) => Math::text(text.clone()).width(),
+        Run::Math(math) => math.width(),
+        Run::Code(code) => 0.525 * code.chars().count() as f32,
+    };
+    words.iter().map(run).sum()
+}
+
 impl Row {
     /// A formula in lines: the first is indented by so many steps, the others by two more; the note stands at the first.
     ///

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use lagrangian_symbolic::latex_words;
 
-use super::document::{Block, Document, Row, Run, Words};
+use super::document::{Block, Column, Document, Row, Run, Words, columns};
 
 /// The document as LaTeX.
 pub fn text(document: &Document) -> String {
@@ -100,13 +100,13 @@ pub(super) fn indent(steps: usize) -> String {
 }
 
 fn table(head: &[Words], rows: &[Vec<Words>]) -> String {
-    let columns: String = (0..head.len())
-        .map(|k| match k + 1 == head.len() {
-            _ if super::html::is_numeric(rows, k) => "r",
-            true => "p{7cm}",
-            false => "l",
-        })
-        .collect();
+    // A font of 10 points has 28.45 of them in a centimetre.
+    let columns = columns(head, rows).into_iter().map(|column| match column {
+        Column::Numbers(_) => "r".to_owned(),
+        Column::Line(_) => "l".to_owned(),
+        Column::Wrapped(width) => format!("p{{{:.1}cm}}", 10.0 * width / 28.45),
+    });
+    let columns: String = columns.collect();
     let row = |cells: &[Words]| {
         let cells: Vec<String> = cells.iter().map(words).collect();
         format!("{} \\\\\n", cells.join(" & "))

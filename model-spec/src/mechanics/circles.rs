@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent};
 
 use super::{experiment, kinematics};
-use crate::model::{Circle, Model, Place, PoseId, Rotation, Surface, Touching};
+use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
 
 /// How two circles stand to each other.
 pub(super) struct Contact<'d> {
@@ -16,16 +16,15 @@ pub(super) struct Contact<'d> {
     pub slip: Expr<'d>,
 }
 
-/// The centre of a circle, in ground axes.
-pub fn centre<'d>(model: &Model<'d>, circle: &Circle<'d>) -> Vec<Expr<'d>> {
+/// The centre of a circle and the axes of what it is fixed to, in ground axes.
+pub fn placed<'d>(model: &Model<'d>, circle: &Circle<'d>) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
+    let pose_of = |pose: PoseId| &model.poses[pose.index()];
     let (origin, axes) = match circle.on {
-        Place::Frame(pose) => {
-            let pose = &model.poses[pose.index()];
-            (pose.origin.clone(), pose.axes.clone())
-        }
+        Place::Frame(pose) => (&pose_of(pose).origin, pose_of(pose).axes.clone()),
         Place::Body(body) => {
             let body = &model.bodies[body];
-            (body.at.clone(), planar_axes(model, body.rotation.clone()))
+            let ground = || pose_of(PoseId::GROUND).axes.clone();
+            (&body.at, body_axes(model, body).unwrap_or_else(ground))
         }
     };
     let along = |k: usize| {
@@ -33,17 +32,17 @@ pub fn centre<'d>(model: &Model<'d>, circle: &Circle<'d>) -> Vec<Expr<'d>> {
         let along = along.map(|(&c, axis)| c * axis[k]);
         model.dag.sum([origin[k]].into_iter().chain(along))
     };
-    (0..origin.len()).map(along).collect()
+    ((0..origin.len()).map(along).collect(), axes)
 }
 
-/// The axes of a body in the plane; those of the ground where nothing says how it is turned.
-fn planar_axes<'d>(model: &Model<'d>, rotation: Rotation<'d>) -> Vec<Vec<Expr<'d>>> {
-    match rotation {
-        Rotation::Frame(pose) => model.poses[pose.index()].axes.clone(),
-        Rotation::Unspecified => model.poses[0].axes.clone(),
+/// The axes of a body, in ground axes; none where the spec does not say how it is turned.
+pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<'d>>>> {
+    match body.rotation {
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
+        Rotation::Unspecified => None,
         Rotation::Angle(angle) => {
             let (sin, cos) = (angle.sin(), angle.cos());
-            vec![vec![cos, sin], vec![-sin, cos]]
+            Some(vec![vec![cos, sin], vec![-sin, cos]])
         }
     }
 }
@@ -87,7 +86,7 @@ fn with_line<'d>(
     rate: &mut Tangent<'d>,
 ) -> Contact<'d> {
     let frame = &model.poses[pose.index()];
-    let centre = centre(model, circle);
+    let (centre, _) = placed(model, circle);
     let line: Vec<Expr<'d>> = centre
         .iter()
         .zip(&frame.origin)
@@ -116,7 +115,7 @@ fn with_circle<'d>(
     is_inside: bool,
     rate: &mut Tangent<'d>,
 ) -> Contact<'d> {
-    let centres = [first, other].map(|circle| centre(model, circle));
+    let centres = [first, other].map(|circle| placed(model, circle).0);
     let [a, b] = &centres;
     let line: Vec<Expr<'d>> = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).collect();
     let facts = model.assumptions.iter().map(|fact| fact.excess);

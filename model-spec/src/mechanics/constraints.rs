@@ -11,7 +11,7 @@
 //! on each other give one constraint of each kind: they touch, and the points that touch have the
 //! same velocity.
 
-use lagrangian_symbolic::{Expr, normal};
+use lagrangian_symbolic::{Expr, normal, substitute};
 
 use super::circles::{self, Contact};
 use super::kinematics::Variables;
@@ -85,6 +85,17 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
         all.extend(of_rolling(model, &x, rolling));
     }
     all
+}
+
+/// The rates `φ` of constraints where nothing moves: 0 but for those that move by themselves.
+pub(super) fn rates_at_rest<'d>(
+    model: &Model<'d>,
+    constraints: &[ConstraintEquation<'d>],
+) -> Vec<Expr<'d>> {
+    let x = Variables::of(model);
+    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, model.dag.zero())).collect();
+    let rates: Vec<_> = constraints.iter().map(|c| c.rate).collect();
+    substitute(model.dag, &rates, &at_rest)
 }
 
 /// What is to be zero.

@@ -3,10 +3,10 @@
 //! Each is decided in the prime field, see [`super::experiment`]: what is said here has been tried. What cannot be decided is
 //! not said.
 
-use lagrangian_symbolic::{Expr, substitute};
+use lagrangian_symbolic::Expr;
 
 use super::kinematics::Variables;
-use super::{Equations, experiment, lagrange};
+use super::{Equations, constraints, experiment, lagrange};
 use crate::model::{Model, stage};
 
 /// What holds of the equations of a machine.
@@ -97,9 +97,7 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
         return Energy::Conserved;
     }
     // A constraint that moves by itself does work, which no potential knows.
-    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
-    let rates: Vec<_> = equations.constraints.iter().map(|c| c.rate).collect();
-    let still = substitute(dag, &rates, &at_rest);
+    let still = constraints::rates_at_rest(model, &equations.constraints);
     if !still.into_iter().all(is_zero) {
         return Energy::Balance;
     }

@@ -9,7 +9,7 @@
 use std::fmt;
 
 use lagrangian_scalar::{Dual, Residue, Scalar};
-use lagrangian_symbolic::{Expr, Symbol, evaluate};
+use lagrangian_symbolic::{Expr, Symbol, evaluate, substitute};
 use rustc_hash::FxHashMap;
 
 use super::{
@@ -259,21 +259,21 @@ impl<'a, 'd> Point<'a, 'd> {
     }
 
     /// Puts coordinates that constraints settle, and their rates, where they are settled: a program
-    /// may not look at them.
+    /// may not look at them. What the start has decided is as the point has it.
     fn follow(&mut self, dependents: &[Dependent<'d>]) {
         self.settled = dependents.iter().map(|d| d.coordinate).collect();
-        for dependent in dependents {
-            // What the start has decided may be anything.
-            let settled = match dependent.offset {
-                None => vec![dependent.rate, dependent.position],
-                Some(_) => vec![dependent.rate],
-            };
-            let values = self.evaluate_all(&settled, &self.a);
+        let offsets = dependents.iter().filter_map(|d| d.offset);
+        let meant = offsets.filter_map(|[offset, meaning]| Some((offset.as_symbol()?, meaning)));
+        let meant: Vec<_> = meant.collect();
+        let states: Vec<Expr<'d>> = dependents
+            .iter()
+            .flat_map(|d| [d.rate, d.position])
+            .collect();
+        let states = substitute(self.model.dag, &states, &meant);
+        let values = self.evaluate_all(&states, &self.a);
+        for (dependent, state) in dependents.iter().zip(values.chunks_exact(2)) {
             let i = dependent.coordinate;
-            self.v[i] = values[0];
-            if let Some(position) = values.get(1) {
-                self.q[i] = *position;
-            }
+            [self.v[i], self.q[i]] = [state[0], state[1]];
         }
     }
 

@@ -11,7 +11,7 @@ use harness::{all_machines, residues, resolved};
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::emit::document::{Block, Document};
+use lagrangian_spec::emit::document::{Block, Document, columns};
 use lagrangian_spec::emit::{html, latex, markdown};
 use lagrangian_spec::mechanics::groups::{self, Kind, Source};
 
@@ -167,6 +167,27 @@ fn every_formula_fits_the_page() {
                     if width > 46.0 {
                         wide.push(format!("{name}: {width} em: {}", row.math.latex()));
                     }
+                }
+            }
+        }
+    });
+    assert!(wide.is_empty(), "{}", wide.join("\n"));
+}
+
+#[test]
+fn every_table_fits_the_page() {
+    let mut wide = Vec::new();
+    every_machine(|name, compiled| {
+        for section in Document::new(compiled).sections {
+            for block in section.blocks {
+                let Block::Table(head, rows) = block else {
+                    continue;
+                };
+                // 17 cm of paper in a font of 10 points.
+                let columns = columns(&head, &rows);
+                let width: f32 = columns.iter().map(|column| column.width()).sum();
+                if width > 48.3 {
+                    wide.push(format!("{name}: {width} em: {head:?}"));
                 }
             }
         }

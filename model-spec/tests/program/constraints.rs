@@ -385,9 +385,24 @@ const SETTLED: &str = "machine Settled in plane {
     }
 }";
 
+/// A cam that a rack turns, and a follower that the cam lifts: the angle is settled by rates, and the
+/// lift through that angle.
+const CAM: &str = "machine Cam in plane {
+    parameters { m: kg = 2, J: kg*m^2 = 0.3, r: m = 0.2, e: m = 0.05, h: m = 0.3, k: N/m = 40, g: m/s^2 = 9.8 }
+    coordinates { x: m, phi: rad = 0.4, y: m = h + e*sin(0.4) }
+    bodies {
+        rack { mass: m, at: (x, 0) },
+        cam { mass: m, inertia: J, at: (0, r), angle: -phi },
+        follower { mass: m, at: (x/3, y) },
+    }
+    gravity (0, -g);
+    springs { back { stiffness: k, stretch: x }, above { stiffness: k, from: (x, 0), to: (0, y) } }
+    constraints { meshes: der(x) = r*der(phi), lifts: y = h + e*sin(phi) }
+}";
+
 #[test]
 fn every_way_to_obey_constraints_is_right() {
-    for text in [PENDULUM, FOUR_BAR, MOVING, ROLLING, SETTLED] {
+    for text in [PENDULUM, FOUR_BAR, MOVING, ROLLING, SETTLED, CAM] {
         compiled(text, &[], |machine| {
             let (model, equations) = (&machine.model, &machine.equations);
             let (expanded, oracle) = (equations.expanded(), Oracle::derive(model));
