@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::call;
+use crate::contacts;
 use crate::failure::Failure;
 use crate::output;
 use crate::reading;
@@ -58,6 +59,9 @@ struct Numbered {
     /// Generalized reactions of the constraints on each coordinate, Gᵀ λ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     reactions: Vec<f64>,
+    /// Forces in rolling contacts, by name.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    contacts: Map<String, Value>,
     kinetic_energy: f64,
     potential_energy: f64,
     dissipation: f64,
@@ -241,6 +245,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             coordinate.name
         ));
     }
+    let contacts = contacts::forces(system, &multipliers);
     let result = Numbered {
         mass_matrix: matrix.chunks(n.max(1)).map(<[f64]>::to_vec).collect(),
         bias,
@@ -253,6 +258,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .map(|(constraint, value)| (constraint.name.to_owned(), value.into()))
             .collect(),
         reactions,
+        contacts,
         kinetic_energy: system.kinetic_energy(t, q, v),
         potential_energy: system.potential_energy(t, q, &u),
         dissipation: system.dissipation(t, q, v, &u),

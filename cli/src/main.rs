@@ -4,6 +4,7 @@
 
 mod call;
 mod check;
+mod contacts;
 mod derive;
 mod diagnostics;
 mod evaluate;

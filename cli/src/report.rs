@@ -20,6 +20,7 @@ use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
 
 use crate::call;
+use crate::contacts::Found;
 use crate::recording::{Column, Kind, Recording, thin};
 use crate::simulate::Run;
 use samples::Samples;
@@ -40,6 +41,8 @@ pub struct Report<'a, 'd> {
     pub run: &'a Run,
     /// The run, recorded as closely as [`finer`] says.
     pub recording: &'a Recording,
+    /// What it has shown of rolling contacts.
+    pub contacts: &'a [Found],
     /// What ended it early.
     pub error: Option<&'a Error>,
 }

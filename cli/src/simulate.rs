@@ -12,6 +12,7 @@ use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
 use crate::call;
+use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output;
@@ -38,16 +39,9 @@ pub type Run = Solution<InterpretedMachine>;
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let method = method(&call.method)?;
-    // Only a report asks for more than the program.
     let dag = Dag::new();
-    let (compiled, program) = if call.report.is_some() {
-        let compiled = Reading::open(&call.spec)?.compile(&dag)?;
-        let program = compiled.program.clone();
-        (Some(compiled), program)
-    } else {
-        (None, reading::program(&call.spec)?)
-    };
-    let machine = reading::machine(program, &call.start)?;
+    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let machine = reading::machine(compiled.program.clone(), &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
@@ -66,6 +60,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
         None => 1,
     };
+    let contacts = Contacts::new(&compiled.model, &machine);
     let bar = progress_bar(call.spec.json);
     let shown = Cell::new(0);
     let mut simulation = Simulation::new(&machine)
@@ -88,16 +83,19 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
         simulation = simulation.every(interval / f64::from(finer));
     }
+    let simulation = contacts.watch(simulation);
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     bar.finish_and_clear();
+    let contacts = contacts.found(&run);
 
     if recorded {
         let recording = record(&run);
         write(call, machine.name(), &recording.each(finer as usize))?;
-        if let (Some(path), Some(compiled)) = (&call.report, &compiled) {
+        if let Some(path) = &call.report {
             let report = Report {
                 call,
-                compiled,
+                compiled: &compiled,
+                contacts: &contacts,
                 machine: &machine,
                 method,
                 run: &run,
@@ -110,9 +108,12 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
     }
     if call.spec.json {
-        output::line(format_args!("{:#}", document(&run, error.as_ref())));
+        output::line(format_args!(
+            "{:#}",
+            document(&run, &contacts, error.as_ref())
+        ));
     } else {
-        print_summary(&machine, method, &run);
+        print_summary(&machine, method, &run, &contacts);
     }
     match error {
         None => Ok(()),
@@ -284,15 +285,15 @@ fn by_name(numbers: &Named) -> Value {
     )
 }
 
-fn document(run: &Run, error: Option<&Error>) -> Value {
+fn document(run: &Run, contacts: &[Found], error: Option<&Error>) -> Value {
     let statistics = run.statistics();
     let end = run.end();
-    let events: Vec<Value> = run
-        .events()
-        .iter()
+    let events: Vec<Value> = contacts::other_events(run, contacts)
         .map(|event| json!({ "t": event.state.t, "name": event.name }))
         .collect();
-    let warnings: Vec<String> = run.warnings().iter().map(ToString::to_string).collect();
+    let warnings = run.warnings().iter().map(ToString::to_string);
+    let warnings = warnings.chain(contacts.iter().flat_map(Found::warnings));
+    let warnings: Vec<String> = warnings.collect();
     let mut document = json!({
         "t": end.t,
         "q": by_name(&end.q),
@@ -306,8 +307,14 @@ fn document(run: &Run, error: Option<&Error>) -> Value {
         "events": events,
         "warnings": warnings,
     });
-    if let (Some(error), Value::Object(fields)) = (error, &mut document) {
-        fields.insert("error".into(), error.to_string().into());
+    if let Value::Object(fields) = &mut document {
+        if !contacts.is_empty() {
+            let contacts = contacts.iter().map(Found::json);
+            fields.insert("contacts".into(), contacts.collect());
+        }
+        if let Some(error) = error {
+            fields.insert("error".into(), error.to_string().into());
+        }
     }
     document
 }
@@ -320,7 +327,7 @@ pub fn shortest(x: f64) -> String {
     }
 }
 
-fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run) {
+fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, contacts: &[Found]) {
     let statistics = run.statistics();
     let (start, end) = (run.start(), run.end());
     output::line(format_args!(
@@ -371,13 +378,22 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run) {
             statistics.constraint_residual
         ));
     }
-    for event in run.events() {
+    if !contacts.is_empty() {
+        output::line(format_args!("  rolling contacts"));
+    }
+    for contact in contacts {
+        output::line(format_args!("    {}", contact.line()));
+    }
+    for event in contacts::other_events(run, contacts) {
         output::line(format_args!(
             "  event {} at t = {} s",
             event.name, event.state.t
         ));
     }
     for warning in run.warnings() {
+        output::line(format_args!("  warning: {warning}"));
+    }
+    for warning in contacts.iter().flat_map(Found::warnings) {
         output::line(format_args!("  warning: {warning}"));
     }
 }

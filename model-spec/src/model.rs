@@ -92,7 +92,7 @@ pub struct Model<'d> {
     /// Circles that can touch.
     pub circles: Vec<Circle<'d>>,
     /// Circles that touch and roll.
-    pub rolling: Vec<Rolling>,
+    pub rolling: Vec<Rolling<'d>>,
     /// Unilateral contacts.
     pub contacts: Vec<Contact<'d>>,
     /// Coordinates that are not treated exactly.
@@ -553,11 +553,14 @@ pub enum Surface {
 
 /// A circle that touches something and rolls on it.
 #[derive(Clone)]
-pub struct Rolling {
+pub struct Rolling<'d> {
     /// Its name.
     pub name: Name,
     /// Which circle, and on what.
     pub circles: Touching,
+    /// The coefficient of friction that there is, of parameters. The motion does not depend on it: it
+    /// says how far rolling may be believed.
+    pub friction: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }

@@ -10,6 +10,7 @@ use super::Report;
 use super::html::{self, Cell, text as safe};
 use super::samples::Samples;
 use super::scene::Scene;
+use crate::contacts::{Found, other_events};
 use crate::simulate::shortest;
 
 const PAGE: &str = include_str!("page.html");
@@ -45,7 +46,7 @@ pub fn text(
         "parameters" => parameters(report),
         "start" => start(report),
         "energy" => energy(report),
-        "events" => events(report),
+        "events" => [events(report), contacts(report)].concat(),
         "statistics" => statistics(report, samples),
         "counts" => counts(&report.compiled.program),
         "equations" => equations(report.compiled),
@@ -172,10 +173,12 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
             (100.0 * samples.error).ceil()
         ));
     }
-    for warning in report.run.warnings() {
+    let warnings = report.run.warnings().iter().map(ToString::to_string);
+    let contacts = report.contacts.iter().flat_map(Found::warnings);
+    for warning in warnings.chain(contacts) {
         alert.push_str(&format!(
             "<p class=\"alert\"><strong>Warning:</strong> {}</p>\n",
-            safe(&warning.to_string())
+            safe(&warning)
         ));
     }
     alert
@@ -344,10 +347,7 @@ fn energy(report: &Report<'_, '_>) -> String {
 
 /// What happened, each with a link to its instant.
 fn events(report: &Report<'_, '_>) -> String {
-    let rows: Vec<Vec<Cell>> = report
-        .run
-        .events()
-        .iter()
+    let rows: Vec<Vec<Cell>> = other_events(report.run, report.contacts)
         .map(|event| {
             let t = event.state.t;
             let link = format!("<a href=\"#t={t:?}\">{}</a>", shortest(t));
@@ -358,6 +358,40 @@ fn events(report: &Report<'_, '_>) -> String {
         return String::new();
     }
     html::table("Events", &["t [s]", "what happened"], &rows)
+}
+
+/// How much friction rolling needed, and from when on it could not be.
+fn contacts(report: &Report<'_, '_>) -> String {
+    let time = |t: f64| format!("<a href=\"#t={t:?}\">{}</a>", shortest(rounded(t)));
+    let from = |t: Option<f64>| Cell::Raw(t.map_or_else(|| "–".to_owned(), time));
+    let rows = report.contacts.iter().map(|contact| {
+        let coefficient = |x: Option<f64>| match x {
+            Some(x) => Cell::Figure(format!("{x:.3}")),
+            None => Cell::Figure("–".into()),
+        };
+        let greatest = contact.greatest.filter(|_| contact.pulls.is_none());
+        vec![
+            name(&contact.name),
+            coefficient(contact.friction),
+            coefficient(greatest.map(|(demand, _)| demand)),
+            from(greatest.map(|(_, t)| t)),
+            from(contact.slips),
+            from(contact.pulls),
+        ]
+    });
+    let rows: Vec<Vec<Cell>> = rows.collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let head = [
+        "contact",
+        "friction",
+        "friction needed",
+        "at t [s]",
+        "would slip from t [s]",
+        "pulls from t [s]",
+    ];
+    html::table("Rolling contacts", &head, &rows)
 }
 
 fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {

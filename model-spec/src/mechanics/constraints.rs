@@ -139,7 +139,7 @@ fn equation<'d>(
 fn of_rolling<'d>(
     model: &Model<'d>,
     x: &Variables<'d>,
-    rolling: &Rolling,
+    rolling: &Rolling<'d>,
 ) -> [ConstraintEquation<'d>; 2] {
     let Contact { gap, slip } = circles::contact(model, &rolling.circles, &mut x.coasting(model));
     let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {

@@ -996,7 +996,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn friction(&mut self, member: MemberId, friction: &'a Expression) -> Option<Expr<'d>> {
-        let scope = self.scope(member, &limits::FRICTION);
+        self.coefficient_of_friction(member, friction, &limits::FRICTION)
+    }
+
+    fn coefficient_of_friction(
+        &mut self,
+        member: MemberId,
+        friction: &'a Expression,
+        limit: &'static Limit,
+    ) -> Option<Expr<'d>> {
+        let scope = self.scope(member, limit);
         let why = "a coefficient of friction has no unit";
         let scalar = self.scalar_in(friction, Unit::ONE, why, scope)?;
         if scalar.number.is_some_and(|number| number < 0.0) {
@@ -1098,10 +1107,17 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    pub fn rolling(&mut self, member: MemberId) -> Option<Rolling> {
+    pub fn rolling(&mut self, member: MemberId) -> Option<Rolling<'d>> {
         let record = self.record(member)?;
+        let friction = record.get("friction").map(|friction| {
+            self.coefficient_of_friction(member, friction, &limits::FRICTION_OF_ROLLING)
+        });
         Some(Rolling {
             circles: self.touching(member, record)?,
+            friction: match friction {
+                Some(friction) => Some(friction?),
+                None => None,
+            },
             name: self.name(member),
             span: self.span(member),
         })

@@ -223,6 +223,11 @@ pub(super) mod limits {
         "a coefficient of friction",
         "only velocities, coordinates, parameters and `t` can stand here",
     );
+    pub static FRICTION_OF_ROLLING: Limit = limit(
+        stage::PARAMETER,
+        "the friction that rolling may need",
+        "only parameters can stand here",
+    );
     pub static RESTITUTION: Limit = limit(
         stage::PARAMETER,
         "a coefficient of restitution",

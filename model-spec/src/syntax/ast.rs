@@ -200,7 +200,7 @@ impl SectionKind {
             SectionKind::Torques => &["on", "torque"],
             SectionKind::Sliding => &["body", "on", "direction", "friction"],
             SectionKind::Circles => &["on", "center", "radius"],
-            SectionKind::Rolling => &["circle", "inside", "outside", "along"],
+            SectionKind::Rolling => &["circle", "inside", "outside", "along", "friction"],
             SectionKind::Contacts => &[
                 "circle",
                 "inside",

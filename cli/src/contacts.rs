@@ -1,0 +1,323 @@
+//! Whether what rolls could roll. A rolling contact is a bilateral constraint: it pulls where its force
+//! `N` is negative, and asks for as much friction as it needs, `|T|/N` of its force. Neither changes the
+//! motion, so a run says from when on it assumes what no machine does.
+
+use std::cell::RefCell;
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::{Crossing, Event, Machine, Pivot, Simulation, State, System, least_multipliers};
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::evaluate;
+use serde_json::{Map, Value, json};
+
+use crate::simulate::{Run, shortest};
+
+/// The rolling contacts of a machine, and what a run has shown of each.
+pub struct Contacts {
+    system: InterpretedSystem,
+    contacts: Vec<Contact>,
+    seen: RefCell<Seen>,
+}
+
+/// A rolling contact.
+struct Contact {
+    name: String,
+    /// Which multiplier its normal force `N` is, and which the tangential one, `T`.
+    multipliers: [usize; 2],
+    /// The coefficient of friction that there is, if the spec says.
+    friction: Option<f64>,
+}
+
+/// What is remembered from one look at a state to the next.
+#[derive(Default)]
+struct Seen {
+    /// The last state, and the multipliers there.
+    last: Option<(State<Named>, Vec<f64>)>,
+    /// For each contact.
+    tracks: Vec<Track>,
+}
+
+/// How much friction a contact needed.
+#[derive(Clone, Default)]
+struct Track {
+    /// When it was looked at first, and `N` and `T` then.
+    start: Option<(f64, [f64; 2])>,
+    /// When last.
+    last: f64,
+    /// The last two demands in a row, with their times.
+    before: [Option<(f64, f64)>; 2],
+    /// The greatest demand and its time.
+    greatest: Option<(f64, f64)>,
+}
+
+/// What a run has shown of a contact.
+pub struct Found {
+    /// Its name.
+    pub name: String,
+    /// The coefficient of friction that there is.
+    pub friction: Option<f64>,
+    /// From when on it pulls, in s.
+    pub pulls: Option<f64>,
+    /// From when on it needs more friction than there is, in s, as long as it presses.
+    pub slips: Option<f64>,
+    /// The greatest |T|/N while it presses, and when, in s; to about three digits, for it is looked at a
+    /// few times in every step.
+    pub greatest: Option<(f64, f64)>,
+}
+
+/// Normal force, tangential force and their ratio for each rolling contact, by the names of
+/// constraints; the ratio is null where the contact does not press.
+pub fn forces(system: &InterpretedSystem, multipliers: &[f64]) -> Map<String, Value> {
+    let pairs = pairs(system).into_iter().map(|(name, at)| {
+        let [normal, tangential] = at.map(|k| multipliers[k]);
+        let forces = json!({
+            "normal": normal,
+            "tangential": tangential,
+            "friction_needed": demand([normal, tangential]),
+        });
+        (name, forces)
+    });
+    pairs.collect()
+}
+
+/// The contacts among the constraints: the two of each are named after it.
+fn pairs(system: &InterpretedSystem) -> Vec<(String, [usize; 2])> {
+    let names: Vec<&str> = system.constraints().map(|c| c.name).collect();
+    let place = |name: String| names.iter().position(|other| **other == name);
+    let pair = |name: &str| {
+        let contact = name.strip_suffix(".gap")?;
+        let both = [place(name.to_owned())?, place(format!("{contact}.slip"))?];
+        Some((contact.to_owned(), both))
+    };
+    names.iter().filter_map(|name| pair(name)).collect()
+}
+
+/// |T|/N, if the contact presses.
+fn demand([normal, tangential]: [f64; 2]) -> Option<f64> {
+    (normal > 0.0).then(|| tangential.abs() / normal)
+}
+
+impl Contacts {
+    /// The contacts of a machine with its parameters.
+    pub fn new(model: &Model<'_>, machine: &InterpretedMachine) -> Contacts {
+        let system = machine.prepare();
+        let values = || model.parameters.iter().zip(machine.parameter_values());
+        let friction = |name: &str| {
+            let rolling = model.rolling.iter().find(|r| r.name.to_string() == name)?;
+            let known = |symbol| {
+                let own = values().find(|(p, _)| p.symbol.as_symbol() == Some(symbol));
+                own.map_or(f64::NAN, |(_, value)| *value)
+            };
+            Some(evaluate(model.dag, &[rolling.friction?], known)[0])
+        };
+        let contacts = pairs(&system)
+            .into_iter()
+            .map(|(name, multipliers)| Contact {
+                friction: friction(&name),
+                name,
+                multipliers,
+            });
+        let contacts: Vec<Contact> = contacts.collect();
+        let seen = Seen {
+            last: None,
+            tracks: vec![Track::default(); contacts.len()],
+        };
+        Contacts {
+            system,
+            contacts,
+            seen: RefCell::new(seen),
+        }
+    }
+
+    /// A simulation that looks at the contacts. Without any it is as it was.
+    pub fn watch<'a>(
+        &'a self,
+        mut simulation: Simulation<'a, InterpretedMachine>,
+    ) -> Simulation<'a, InterpretedMachine> {
+        for (index, contact) in self.contacts.iter().enumerate() {
+            let pulls = move |state: &State<Named>| self.look(index, state)[0];
+            simulation = simulation.event(&pulling(&contact.name), Crossing::Falling, pulls);
+            if let Some(friction) = contact.friction {
+                let reserve = move |state: &State<Named>| {
+                    let [normal, tangential] = self.look(index, state);
+                    friction * normal - tangential.abs()
+                };
+                simulation = simulation.event(&slipping(&contact.name), Crossing::Falling, reserve);
+            }
+        }
+        simulation
+    }
+
+    /// `N` and `T` at a state. Where they have no value they count as nothing: a run must not end for
+    /// being looked at.
+    fn look(&self, index: usize, state: &State<Named>) -> [f64; 2] {
+        let mut seen = self.seen.borrow_mut();
+        if seen.last.as_ref().is_none_or(|(last, _)| last != state) {
+            seen.last = Some((state.clone(), self.multipliers(state)));
+        }
+        let multipliers = seen.last.as_ref().map(|(_, multipliers)| multipliers);
+        let of = |k: usize| multipliers.map_or(0.0, |multipliers| multipliers[k]);
+        let forces = self.contacts[index].multipliers.map(of);
+        let forces = forces.map(|force| if force.is_finite() { force } else { 0.0 });
+        seen.tracks[index].add(state.t, forces);
+        forces
+    }
+
+    fn multipliers(&self, state: &State<Named>) -> Vec<f64> {
+        let State { t, q, v } = state;
+        let (t, q, v) = (*t, &q.values, &v.values);
+        let u = self.system.default_inputs();
+        let mut multipliers = vec![0.0; self.system.constraints().len()];
+        let mut a = vec![0.0; q.len()];
+        let known = self.system.multipliers(t, q, v, &u, &mut multipliers);
+        if matches!(known, Err(singular) if matches!(singular.at, Pivot::Constraint(_))) {
+            // Where there are none, no force is known.
+            let _ = least_multipliers(&self.system, t, q, v, &u, &mut a, &mut multipliers);
+        }
+        multipliers
+    }
+
+    /// What a run that was watched has shown.
+    pub fn found(&self, run: &Run) -> Vec<Found> {
+        let first = |name: &str| {
+            let mut events = run.events().iter();
+            events.find(|e| e.name == name).map(|e| e.state.t)
+        };
+        let seen = self.seen.borrow();
+        let found = self.contacts.iter().zip(&seen.tracks);
+        let found = found.map(|(contact, track)| {
+            let at_start = |is_wrong: &dyn Fn([f64; 2]) -> bool| {
+                let start = track.start.filter(|(_, forces)| is_wrong(*forces));
+                start.map(|(t, _)| t)
+            };
+            let exceeds = |[n, t]: [f64; 2]| contact.friction.is_some_and(|mu| t.abs() > mu * n);
+            Found {
+                name: contact.name.clone(),
+                friction: contact.friction,
+                pulls: at_start(&|[n, _]| n < 0.0).or_else(|| first(&pulling(&contact.name))),
+                slips: at_start(&exceeds).or_else(|| first(&slipping(&contact.name))),
+                greatest: track.greatest,
+            }
+        });
+        found.collect()
+    }
+}
+
+/// The name of the event that a contact begins to pull.
+fn pulling(contact: &str) -> String {
+    format!("{contact} pulls")
+}
+
+/// The name of the event that a contact begins to need more friction than there is.
+fn slipping(contact: &str) -> String {
+    format!("{contact} would slip")
+}
+
+/// The events of a run that are not of its contacts.
+pub fn other_events<'r>(
+    run: &'r Run,
+    contacts: &'r [Found],
+) -> impl Iterator<Item = &'r Event<Named>> {
+    run.events().iter().filter(|event| {
+        let mut names = contacts.iter().map(|contact| &contact.name);
+        !names.any(|name| event.name == pulling(name) || event.name == slipping(name))
+    })
+}
+
+impl Track {
+    /// Adds a look, unless it goes back in time, as those do that search for an event.
+    fn add(&mut self, t: f64, forces: [f64; 2]) {
+        let Some((begin, _)) = self.start else {
+            self.start = Some((t, forces));
+            self.last = t;
+            self.follow(t, demand(forces));
+            return;
+        };
+        if (t - begin).abs() > (self.last - begin).abs() {
+            self.last = t;
+            self.follow(t, demand(forces));
+        }
+    }
+
+    fn follow(&mut self, t: f64, demand: Option<f64>) {
+        let now = demand.map(|demand| (t, demand));
+        let [first, second] = self.before;
+        if let (Some(a), Some(b), Some(c)) = (first, second, now)
+            && b.1 >= a.1
+            && b.1 >= c.1
+        {
+            self.raise(vertex(a, b, c));
+        }
+        if let Some(now) = now {
+            self.raise(now);
+        }
+        self.before = [second, now];
+    }
+
+    fn raise(&mut self, (t, demand): (f64, f64)) {
+        if self.greatest.is_none_or(|(most, _)| demand > most) {
+            self.greatest = Some((demand, t));
+        }
+    }
+}
+
+/// The vertex of the parabola through three points, of which the second is the highest.
+fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> (f64, f64) {
+    let (left, right) = (a.0 - b.0, c.0 - b.0);
+    let [slope_left, slope_right] = [(a.1 - b.1) / left, (c.1 - b.1) / right];
+    // y = b + s x + k x² at both ends.
+    let curvature = (slope_right - slope_left) / (right - left);
+    let slope = slope_left - curvature * left;
+    let x = -slope / (2.0 * curvature);
+    match x.is_finite() {
+        true => (b.0 + x, b.1 + x * slope / 2.0),
+        false => b,
+    }
+}
+
+impl Found {
+    /// What is wrong with the contact, in words.
+    pub fn warnings(&self) -> Vec<String> {
+        let Found { name, .. } = self;
+        let mut warnings = Vec::new();
+        if let Some(t) = self.pulls {
+            warnings.push(format!(
+                "the contact `{name}` pulls from t = {} s on, where it would open",
+                shortest(t)
+            ));
+        }
+        if let (Some(t), Some(friction)) = (self.slips, self.friction) {
+            warnings.push(format!(
+                "the contact `{name}` needs more friction than its {} from t = {} s on, where it would slip",
+                shortest(friction),
+                shortest(t)
+            ));
+        }
+        warnings
+    }
+
+    /// A line of the summary.
+    pub fn line(&self) -> String {
+        let needs = match (self.pulls, self.greatest) {
+            (Some(t), _) => format!("pulls from t = {} s on", shortest(t)),
+            (None, Some((demand, t))) => {
+                format!("presses, and needs friction of {demand:.3} at t = {t:.4} s")
+            }
+            (None, None) => "carries nothing".into(),
+        };
+        format!("{}: {needs}", self.name)
+    }
+
+    /// The same as JSON: what pulls needs more friction than any.
+    pub fn json(&self) -> Value {
+        let greatest = self.greatest.filter(|_| self.pulls.is_none());
+        json!({
+            "name": self.name,
+            "friction": self.friction,
+            "friction_needed": greatest.map(|(demand, _)| demand),
+            "friction_needed_at": greatest.map(|(_, t)| t),
+            "slips_from": self.slips,
+            "pulls_from": self.pulls,
+        })
+    }
+}
