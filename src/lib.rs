@@ -52,6 +52,8 @@
 extern crate std;
 
 mod balance;
+#[cfg(feature = "std")]
+pub mod brachistochrone;
 mod compensated;
 mod constraints;
 mod lanes;
