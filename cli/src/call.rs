@@ -29,6 +29,8 @@ pub enum Command {
     Simulate(Simulate),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
     Modes(Modes),
+    /// Find the fastest motion from rest at one place to another, under control forces that do no work.
+    Brachistochrone(Brachistochrone),
 }
 
 /// Which machine, of which size.
@@ -170,6 +172,31 @@ pub struct Modes {
     /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
     pub steady: Vec<Steady>,
+}
+
+/// Arguments of `brachistochrone`.
+#[derive(Debug, Args)]
+pub struct Brachistochrone {
+    #[command(flatten)]
+    pub spec: Spec,
+    /// Set a parameter, as in `--set mu1=0.1`, or an input.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    pub parameters: Vec<Assignment>,
+    /// Where it starts, as in `--from q1=0,q2=0`; the spec's start values where left out.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true)]
+    pub from: Vec<Assignment>,
+    /// Where it ends, as in `--to q1=8,q2=4.75`; where it starts where left out.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true, required = true)]
+    pub to: Vec<Assignment>,
+    /// Take the values of `--from` and `--to` as normal coordinates, in the order of the coordinates.
+    #[arg(long)]
+    pub natural: bool,
+    /// Write the motion to a table: `.parquet`, or comma-separated text.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draw as SVG the way, the power of friction, and the control forces.
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
 }
 
 /// `name` or `name=rate`.

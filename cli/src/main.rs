@@ -2,6 +2,7 @@
 //!
 //! Exit status 0 when all is well, 1 when the machine or the run is at fault, 2 when the call is.
 
+mod brachistochrone;
 mod call;
 mod check;
 mod contacts;
@@ -35,6 +36,7 @@ fn main() -> ExitCode {
         Command::Evaluate(call) => (true, evaluate::run(call)),
         Command::Simulate(call) => (call.spec.json, simulate::run(call)),
         Command::Modes(call) => (call.spec.json, modes::run(call)),
+        Command::Brachistochrone(call) => (call.spec.json, brachistochrone::run(call)),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

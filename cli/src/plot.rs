@@ -7,12 +7,12 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::recording::{Kind, Panel, Recording, thin};
 
 /// Units of the drawing in 1/96 inch: the library rounds to whole units, and whole 1/96 inches show as stairs.
-const UNIT: u32 = 8;
+pub const UNIT: u32 = 8;
 
 /// Width of the drawing (a page's), of the names beside a panel, and height of a panel.
-const WIDTH: u32 = 760 * UNIT;
+pub const WIDTH: u32 = 760 * UNIT;
 const LEGEND: u32 = 130 * UNIT;
-const PANEL: u32 = 210 * UNIT;
+pub const PANEL: u32 = 210 * UNIT;
 
 /// Names beside a panel: more do not fit.
 const NAMES: usize = 12;
@@ -21,7 +21,7 @@ const NAMES: usize = 12;
 const POINTS: usize = 1500;
 
 /// Colours that stay apart in print and for the colour-blind: M. Okabe and K. Ito, *Color universal design* (2008).
-const COLOURS: [RGBColor; 8] = [
+pub const COLOURS: [RGBColor; 8] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -78,7 +78,8 @@ fn draw(title: &str, recording: &Recording, panels: &[Panel], backend: SVGBacken
     Ok(())
 }
 
-fn font(size: u32) -> TextStyle<'static> {
+/// The type of all texts.
+pub fn font(size: u32) -> TextStyle<'static> {
     (FontFamily::SansSerif, size * UNIT)
         .into_font()
         .color(&BLACK)
@@ -148,7 +149,7 @@ fn draw_panel(
 }
 
 /// The range of finite values with a margin of 1/20; a constant gets room around it.
-fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+pub fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (low, high) = values
         .filter(|value| value.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
@@ -166,7 +167,7 @@ fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 }
 
 /// A tick's label: plain where that is short, with an exponent elsewhere.
-fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()

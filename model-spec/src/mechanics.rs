@@ -15,6 +15,7 @@
 //! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
 
 mod approximation;
+mod brachistochrone;
 pub(crate) mod circles;
 mod constraints;
 mod derivatives;
@@ -33,6 +34,7 @@ mod symmetric;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
+pub use brachistochrone::{Brachistochronic, Unmet};
 pub use circles::{body_axes, placed};
 pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;

@@ -1,0 +1,146 @@
+//! From a machine to the problem of its fastest motion: conditions (17), recognized.
+//!
+//! ```text
+//! a_αβ constant    Q_α = −c_α constant    slip τ, load ν, weights ρ and μ of every guide constant
+//! ```
+//!
+//! The letters are those of D. Đurić, *On Brachistochronic Motion of a Multibody System with Real Constraints*:
+//! `b_α = Σ μ ν τ_α` and `d_αβ = Σ μ τ_α ρ_β` belong to the power of friction `−b·v − v·d a`. Whatever constant forces act
+//! besides gravity count as slopes of a potential.
+
+use std::fmt;
+
+use lagrangian_symbolic::{Expr, Symbol};
+
+use super::{Equations, experiment};
+use crate::model::Model;
+
+/// The problem of a machine's fastest motion, over symbols of parameters.
+#[derive(Clone, Debug)]
+pub struct Brachistochronic<'d> {
+    /// `a_αβ`, by rows.
+    pub mass: Vec<Vec<Expr<'d>>>,
+    /// `c_α = −Q_α`.
+    pub slope: Vec<Expr<'d>>,
+}
+
+/// A condition that a machine does not meet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unmet {
+    /// A coefficient depends on what changes along the motion.
+    Varies {
+        /// The coefficient.
+        what: String,
+        /// The coordinate, its rate as `der(q)`, the input, or `t`.
+        with: String,
+    },
+    /// The machine has constraints: its coordinates are not free.
+    Constrained,
+    /// There are no coordinates.
+    Empty,
+}
+
+impl fmt::Display for Unmet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Varies { what, with } => write!(f, "{what} depends on `{with}`"),
+            Self::Constrained => {
+                write!(
+                    f,
+                    "the machine has constraints, so that its coordinates are not free"
+                )
+            }
+            Self::Empty => write!(f, "the machine has no coordinates"),
+        }
+    }
+}
+
+impl<'d> Brachistochronic<'d> {
+    /// The problem, or every condition that is not met.
+    ///
+    /// # Errors
+    /// The conditions that the machine does not meet, each with the first thing on which a coefficient depends.
+    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
+        let mut unmet = Vec::new();
+        let n = model.coordinates.len();
+        if n == 0 {
+            unmet.push(Unmet::Empty);
+        }
+        if !equations.constraints.is_empty() {
+            unmet.push(Unmet::Constrained);
+        }
+        let name = |i: usize| model.coordinates[i].name.to_string();
+        let mass = (0..n).map(|i| {
+            let entries = (0..n).map(|j| {
+                let what = format!(
+                    "the mass a of `{}` and `{}`",
+                    name(i.max(j)),
+                    name(i.min(j))
+                );
+                let entry = *equations.mass_matrix.get(i.max(j), i.min(j));
+                constant(model, entry, &what, &mut unmet)
+            });
+            entries.collect()
+        });
+        let mass: Vec<Vec<Expr<'d>>> = mass.collect();
+        let slope = (0..n).map(|i| {
+            let force = format!("the force on `{}`", name(i));
+            // What explicit time or a changing mass adds to the inertia is a force as well.
+            let drive = format!("the inertia force on `{}`", name(i));
+            let applied = constant(model, equations.applied[i], &force, &mut unmet);
+            let bias = constant(model, equations.bias[i], &drive, &mut unmet);
+            bias - applied
+        });
+        let slope = slope.collect();
+        // The matrix is symmetric, and an entry is told once.
+        let mut told = Vec::new();
+        for condition in unmet {
+            if !told.contains(&condition) {
+                told.push(condition);
+            }
+        }
+        match told.is_empty() {
+            true => Ok(Brachistochronic { mass, slope }),
+            false => Err(told),
+        }
+    }
+}
+
+/// The coefficient with nothing but parameters in it; told where it is not constant.
+fn constant<'d>(
+    model: &Model<'d>,
+    value: Expr<'d>,
+    what: &str,
+    unmet: &mut Vec<Unmet>,
+) -> Expr<'d> {
+    if let Some(settled) = experiment::as_function_of_parameters(value) {
+        return settled;
+    }
+    let changes = |symbol: &Expr<'d>| {
+        let symbol: Option<Symbol> = symbol.as_symbol();
+        symbol.is_some_and(|symbol| {
+            value.depends_on(symbol)
+                && experiment::equal(value.diff(symbol), model.dag.zero()) != Some(true)
+        })
+    };
+    let coordinates = model.coordinates.iter();
+    let rates = model.coordinates.iter();
+    let named = coordinates
+        .map(|c| (c.q, c.name.to_string()))
+        .chain(rates.map(|c| (c.v, format!("der({})", c.name))))
+        .chain(
+            model
+                .inputs
+                .iter()
+                .map(|input| (input.symbol, input.name.to_string())),
+        )
+        .chain([(model.time, "t".to_owned())]);
+    let mut named = named.filter(|(symbol, _)| changes(symbol));
+    unmet.push(Unmet::Varies {
+        what: what.to_owned(),
+        with: named
+            .next()
+            .map_or_else(|| "the motion".to_owned(), |(_, name)| name),
+    });
+    value
+}
