@@ -89,6 +89,9 @@ fn draw_figure(
     let points = || figure.curves.iter().flat_map(|(_, points)| points);
     let across = range(points().map(|(x, _)| *x));
     let along = range(points().map(|(_, y)| *y));
+    // Ticks are multiples of a step, and rounding makes 6e-17 of the one at zero.
+    let label = |x: f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { x });
+    let (width, height) = (across.end - across.start, along.end - along.start);
     let mut chart = ChartBuilder::on(area)
         .margin(6 * UNIT)
         .margin_right(20 * UNIT)
@@ -106,8 +109,8 @@ fn draw_figure(
         .x_desc(figure.across.as_str())
         .y_desc(figure.along.as_str())
         .y_labels(5)
-        .x_label_formatter(&|x| short(*x))
-        .y_label_formatter(&|y| short(*y))
+        .x_label_formatter(&|x| label(*x, width))
+        .y_label_formatter(&|y| label(*y, height))
         .draw()?;
     for ((name, points), colour) in figure.curves.iter().zip(COLOURS.iter().cycle()) {
         let line = LineSeries::new(points.iter().copied(), colour.stroke_width(UNIT + UNIT / 4));
@@ -126,6 +129,7 @@ fn draw_figure(
         chart
             .configure_series_labels()
             .label_font(font(12))
+            .legend_area_size(20 * UNIT)
             .background_style(WHITE)
             .border_style(BLACK)
             .draw()?;

@@ -36,6 +36,8 @@ pub enum Unmet {
     },
     /// The machine has constraints: its coordinates are not free.
     Constrained,
+    /// Guides slide with friction, of which nothing is known here.
+    Slides,
     /// There are no coordinates.
     Empty,
 }
@@ -50,6 +52,10 @@ impl fmt::Display for Unmet {
                     "the machine has constraints, so that its coordinates are not free"
                 )
             }
+            Self::Slides => write!(
+                f,
+                "the machine has `sliding`, whose friction is not taken into account yet"
+            ),
             Self::Empty => write!(f, "the machine has no coordinates"),
         }
     }
@@ -68,6 +74,9 @@ impl<'d> Brachistochronic<'d> {
         }
         if !equations.constraints.is_empty() {
             unmet.push(Unmet::Constrained);
+        }
+        if !model.sliding.is_empty() {
+            unmet.push(Unmet::Slides);
         }
         let name = |i: usize| model.coordinates[i].name.to_string();
         let mass = (0..n).map(|i| {
