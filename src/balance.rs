@@ -18,6 +18,11 @@ pub trait Alongside<S: System>: Clone {
         u: &S::Inputs,
     );
 
+    /// Adds powers to the rates at a stage: work, and what is lost, in W.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn add(&mut self, _stage: usize, _work: f64, _lost: f64) {}
+
     /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the
     /// next step's first.
     #[doc(hidden)]
@@ -79,7 +84,7 @@ impl EnergyIntegrals {
         self.sums[1].high
     }
 
-    /// Energy lost in the dampers so far, in J.
+    /// Energy lost in dampers and by friction so far, in J.
     pub fn dissipated(&self) -> f64 {
         self.sums[2].high
     }
@@ -100,6 +105,14 @@ impl<S: System> Alongside<S> for EnergyIntegrals {
             work_rate.abs(),
             system.dissipation_rate(t, q, v, u),
         ];
+    }
+
+    #[inline]
+    fn add(&mut self, stage: usize, work: f64, lost: f64) {
+        let [rate, absolute, dissipation] = &mut self.rates[stage];
+        *rate += work;
+        *absolute = rate.abs();
+        *dissipation += lost;
     }
 
     #[inline]
@@ -138,7 +151,7 @@ pub struct EnergyBalance {
     pub end: f64,
     /// Work done on the machine by drives, applied forces and inputs, in J.
     pub work: f64,
-    /// Energy lost in the dampers, in J.
+    /// Energy lost in dampers and by friction, in J.
     pub dissipated: f64,
     /// What the run had to do with, the scale of [`relative`](Self::relative), in J: the greatest
     /// kinetic energy at the end of any step, `∫ |work rate| dt` and the energy dissipated.
@@ -174,7 +187,7 @@ pub struct Energies {
     pub potential: f64,
     /// Work done since the start by drives, applied forces and inputs, in J.
     pub work: f64,
-    /// Energy lost in the dampers since the start, in J.
+    /// Energy lost in dampers and by friction since the start, in J.
     pub dissipated: f64,
 }
 

@@ -99,6 +99,20 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The law of friction leaves no motion at all, or several: what Painlevé found of rods that slide
+    /// on rough ground.
+    FrictionParadox {
+        /// The contact.
+        contact: String,
+        /// Whether several motions are possible; if not, none is.
+        several: bool,
+        /// Time, in s.
+        t: f64,
+        /// The coordinates then, in their order.
+        q: std::vec::Vec<f64>,
+        /// Their rates.
+        v: std::vec::Vec<f64>,
+    },
     /// The machine lends no room for the work on its constraints ([`System::lend`]).
     NoRoomForConstraints {
         /// Time, in s.
@@ -178,6 +192,13 @@ impl Error {
                         constraint: name,
                         ratio,
                         t,
+                    },
+                    Pivot::Contact(_) => Self::FrictionParadox {
+                        contact: name,
+                        several: ratio > 0.0,
+                        t,
+                        q: std::vec::Vec::new(),
+                        v: std::vec::Vec::new(),
                     },
                 }
             }
@@ -296,6 +317,23 @@ impl Display for Error {
                 "the mass matrix cannot be inverted at t = {t} s: coordinate `{coordinate}` meets no inertia ({ratio:e} \
                  of what it had is left), and shorter steps do not avoid it"
             ),
+            Self::FrictionParadox {
+                contact,
+                several,
+                t,
+                q,
+                v,
+            } => {
+                let count = if *several { "several motions have" } else { "no motion has" };
+                write!(f, "{count} the friction of `{contact}` at t = {t} s")?;
+                if !q.is_empty() {
+                    write!(f, ", q = {q:?}, v = {v:?}")?;
+                }
+                write!(
+                    f,
+                    ": the law of Coulomb with rigid bodies does not say what happens (Painlevé)"
+                )
+            }
             Self::DependentConstraint {
                 constraint,
                 ratio,

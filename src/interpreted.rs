@@ -16,7 +16,7 @@ use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shap
 
 use crate::{
     Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
-    Staged, State, System,
+    Staged, State, System, accelerations_with_friction, multipliers_with_friction,
 };
 
 /// A machine whose equations are interpreted, with the values of its parameters.
@@ -273,6 +273,9 @@ impl System for InterpretedSystem {
         u: &Named,
         a: &mut Vec<f64>,
     ) -> Result<(), Singular> {
+        if !self.program.contacts.is_empty() {
+            return accelerations_with_friction(self, t, q, v, u, a);
+        }
         self.call(
             Role::Accelerations,
             Arguments {
@@ -543,10 +546,38 @@ impl System for InterpretedSystem {
             u: &u.values,
             a: &[],
         };
-        match self.program.constraints.is_empty() {
-            true => Ok(()),
-            false => self.call(Role::Multipliers, arguments, multipliers),
+        match (&*self.program.constraints, &*self.program.contacts) {
+            ([], _) => Ok(()),
+            (_, []) => self.call(Role::Multipliers, arguments, multipliers),
+            _ => multipliers_with_friction(self, t, q, v, u, multipliers),
         }
+    }
+
+    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.program.contacts.iter().map(String::as_str)
+    }
+
+    fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
+        let _ = self.call(Role::Slips, at(t, q, v, &[]), slips);
+    }
+
+    fn slip_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        let _ = self.call(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn slip_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
+        let _ = self.call(Role::SlipDrift, at(t, q, v, &[]), drift);
+    }
+
+    fn friction(
+        &self,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &Named,
+        parts: &mut [f64],
+    ) -> Result<(), Singular> {
+        self.call(Role::Friction, at(t, q, v, &u.values), parts)
     }
 }
 
@@ -562,6 +593,13 @@ impl Linearize for InterpretedSystem {
         by_rates: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = q.len();
+        if !self.program.contacts.is_empty() {
+            // What sticks has no linearization, and the law of what slides is not differentiated.
+            return Err(Singular {
+                at: Pivot::Contact(0),
+                ratio: f64::NAN,
+            });
+        }
         let u = &u.values;
         if !self.program.has_linearization() {
             return self.linearize_by_duals(t, [q, v, u], a, by_coordinates, by_rates);
@@ -615,6 +653,9 @@ impl Staged for InterpretedSystem {
         u: &Named,
         a: &mut Vec<f64>,
     ) -> Result<(), Singular> {
+        if !self.program.contacts.is_empty() {
+            return accelerations_with_friction(self, values[0], q, v, u, a);
+        }
         let role = match self.program.stages.is_empty() {
             true => Role::Accelerations,
             false => Role::AccelerationsAt,

@@ -56,6 +56,7 @@ mod balance;
 pub mod brachistochrone;
 mod compensated;
 mod constraints;
+mod friction;
 mod lanes;
 mod math;
 pub mod methods;
@@ -86,6 +87,10 @@ mod solution;
 
 pub use balance::{Alongside, Energies, EnergyBalance, EnergyIntegrals, NoBalance};
 pub use constraints::{constraint_room, least_multipliers};
+pub use friction::{
+    ContactForce, MOST_CONTACTS, accelerations_with_friction, contact_forces,
+    multipliers_with_friction, room,
+};
 pub use lanes::{Abreast, LaneVector, Several, SomeSingular};
 pub use methods::{METHODS, Method};
 pub use piece::Piece;

@@ -7,13 +7,14 @@ use std::vec::Vec;
 use crate::balance::{Alongside, Energies, EnergyBalance};
 use crate::constraints::Constraints;
 use crate::error::constraint_name;
-use crate::event::{self, Event, Triple, state};
+use crate::event::{self, Crossing, Event, Triple, state};
+use crate::friction::{Change, Contacts, Motion};
 use crate::piece::Piece;
 use crate::simulation::{Callbacks, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
 use crate::stepper::{InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper, Tolerance};
-use crate::{Coordinates, Error, Machine, State, System, Vector, Warning};
+use crate::{Coordinates, Error, Machine, Pivot, Singular, State, System, Vector, Warning};
 
 /// Makes the run of a simulation; with an error if something ended it early.
 ///
@@ -33,6 +34,13 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     let until = settings.check()?;
     check_parameters(machine)?;
     let system = machine.prepare();
+    if system.contacts().len() != 0 && until < start.t {
+        return Err(Error::InvalidSetting {
+            setting: "until",
+            value: until,
+            needed: "after the start: what friction has stopped cannot be run backward",
+        });
+    }
     let tolerance = settings.tolerance(&system)?;
     let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
     check_start(&system, start.t, &q, &v)?;
@@ -85,9 +93,12 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             samples: settings.every.map(|_| start.clone()).into_iter().collect(),
             events: Vec::new(),
             energies: Vec::new(),
+            contacts: Vec::new(),
             kinetic_energy: 0.0,
         },
     };
+    let contacts = run.stepper.contacts().iter().cloned();
+    run.record.contacts.extend(contacts.map(|known| (start.t, known)));
     run.enter_energies();
     let (ending, error) = match run.go() {
         Ok(ending) => (ending, None),
@@ -102,6 +113,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         mut samples,
         events,
         energies,
+        contacts,
         ..
     } = record;
     let end = state(
@@ -124,6 +136,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         },
         warnings: warnings(&settings, &stepper, of_start),
         constraints: stepper.constraints().clone(),
+        contacts,
         start,
         end,
         steps,
@@ -136,6 +149,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     };
     Ok((solution, error))
 }
+
+/// How often the states of contacts may change at one instant before they are taken not to settle:
+/// each of them has three.
+const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 
 /// A run in the making.
 struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> {
@@ -154,6 +171,8 @@ struct Record<M: Machine> {
     samples: Vec<State<Coordinates<M>>>,
     events: Vec<Event<Coordinates<M>>>,
     energies: Vec<Energies>,
+    /// The states of the contacts, and since when.
+    contacts: Vec<(f64, Contacts)>,
     /// The greatest so far, in J.
     kinetic_energy: f64,
 }
@@ -169,6 +188,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         // What will have ended the run, once the end of the stepper is reached.
         let mut ending = Ok(Ending::End);
         let mut looks_for_events = true;
+        // The state of a contact that ends where the stepper is to stop, and the step to go on with.
+        let mut pending = None;
+        // When contacts have changed last, and how often then.
+        let mut last_change = (f64::NAN, 0);
         while !self.stepper.is_done() {
             if self.stepper.work().steps == self.settings.max_steps {
                 return Err(Error::TooManySteps {
@@ -187,6 +210,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             }
 
             let mut piece = None;
+            if pending.is_none() && ending.is_ok()
+                && let Some((t, change)) = self.contact_changed(&mut piece)?
+            {
+                let step = self.stepper.last_step();
+                self.stepper.retreat(t);
+                pending = Some((change, step));
+                if self.stepper.is_done() {
+                    self.change(&mut pending, &mut last_change)?;
+                }
+                continue;
+            }
             // A run ends within a step by taking that step again, up to there: so the end is as
             // exact as every other step's, and so is the balance of energy.
             if ending.is_ok()
@@ -195,20 +229,140 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             {
                 self.stepper.retreat(t);
                 ending = Err(Error::AssumptionEnded { assumption, t });
+                pending = None;
                 continue;
             }
             if looks_for_events && let Some((t, event)) = self.find_events(&mut piece)? {
                 self.stepper.retreat(t);
                 ending = Ok(Ending::Event(event));
                 looks_for_events = false;
+                pending = None;
                 continue;
             }
             self.keep(&mut piece)?;
             if self.shall_stop() {
                 return Ok(Ending::Stopped);
             }
+            if self.stepper.is_done() {
+                self.change(&mut pending, &mut last_change)?;
+            }
         }
         ending
+    }
+
+    /// When the state of a contact ended in the last step, and which.
+    fn contact_changed(
+        &mut self,
+        piece: &mut LastPiece<M>,
+    ) -> Result<Option<(f64, Change)>, Error> {
+        let Self { model, stepper, .. } = self;
+        let Some(contacts) = stepper.contacts().clone() else {
+            return Ok(None);
+        };
+        let margins = |(t, q, v): &Triple<VectorOf<M>>| {
+            let inputs = model.inputs(*t, q, v);
+            contacts
+                .margins(model.system, (*t, q, v, &inputs))
+                .map_err(|error| model.explain(error, q, v))
+        };
+        let mut earliest: Option<(f64, f64, Change)> = None;
+        let mut theta_before = 0.0;
+        let theta_roundoff = event::theta_roundoff(stepper);
+        for theta in event::LOOKS {
+            let ended = contacts.ended(&margins(&event::glance_at(stepper, theta))?);
+            for (change, kind) in ended.into_iter().flatten() {
+                let piece = made(piece, stepper, model.system)?;
+                let at = |theta| event::state_at(model.system, stepper, piece, theta);
+                let margin = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
+                if margin(theta)? >= 0.0 {
+                    continue;
+                }
+                // What has just begun may hold only a little later.
+                let mut from = theta_before;
+                if margin(from)? <= 0.0 {
+                    let mut part = 0.5 * (theta - from);
+                    while part > theta_roundoff && margin(theta_before + part)? <= 0.0 {
+                        part *= 0.5;
+                    }
+                    from = match part > theta_roundoff {
+                        true => theta_before + part,
+                        false => theta_before,
+                    };
+                }
+                let found = match from > theta_before || margin(from)? > 0.0 {
+                    true => event::root([from, theta], theta_roundoff, margin)?,
+                    false => from,
+                };
+                if earliest.is_none_or(|(known, ..)| found < known) {
+                    earliest = Some((found, at(found)?.0, change));
+                }
+            }
+            if let Some((_, t, change)) = earliest {
+                return Ok(Some((t, change)));
+            }
+            theta_before = theta;
+        }
+        let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
+        let inputs = model.inputs(t, q, v);
+        contacts
+            .check(model.system, (t, q, v, &inputs))
+            .map_err(|error| model.explain(error, q, v))?;
+        Ok(None)
+    }
+
+    /// Lets the contacts go on in other states, if the stepper stands where one of them has ended.
+    fn change(
+        &mut self,
+        pending: &mut Option<(Change, f64)>,
+        (last_t, times): &mut (f64, usize),
+    ) -> Result<(), Error> {
+        let Some((change, step)) = pending.take() else {
+            return Ok(());
+        };
+        let t = self.stepper.t();
+        let is_at_once = *last_t == t;
+        (*last_t, *times) = (t, if is_at_once { *times + 1 } else { 0 });
+        if *times > MOST_CHANGES_AT_ONCE {
+            let singular = Singular {
+                at: Pivot::Contact(change.contact),
+                ratio: 0.0,
+            };
+            let error = StepError::Singular { singular, t };
+            return Err(self
+                .model
+                .explain(error, self.stepper.q(), self.stepper.v()));
+        }
+        let before = self.stepper.contacts().clone();
+        let changed = self.stepper.change(change, is_at_once, self.until, step);
+        if let Err(error) = changed {
+            return Err(self
+                .model
+                .explain(error, self.stepper.q(), self.stepper.v()));
+        }
+        if let Some(steps) = &mut self.record.steps {
+            steps.jump(&self.stepper);
+            self.enter_energies();
+        }
+        let Some(now) = self.stepper.contacts() else {
+            return Ok(());
+        };
+        let names = self.model.system.contacts().enumerate();
+        for (k, name) in names {
+            let was = before.as_ref().map(|before| before.mode.motion[k]);
+            let (word, crossing) = match now.mode.motion[k] {
+                motion if Some(motion) == was => continue,
+                Motion::Sticks => ("sticks", Crossing::Falling),
+                Motion::Slides(_) => ("slides", Crossing::Rising),
+            };
+            let at = (t, self.stepper.q().clone(), self.stepper.v().clone());
+            self.record.events.push(Event {
+                name: std::format!("{name} {word}"),
+                crossing,
+                state: state(self.model.system, at),
+            });
+        }
+        self.record.contacts.push((t, now.clone()));
+        Ok(())
     }
 
     /// When an assumption of the description ended in the last step, and which. It may hold again
@@ -491,6 +645,9 @@ fn dependences<S: System>(
 /// The error of a step; if constraints contradict each other, with those that do.
 fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
     let mut error_of_run = Error::of_step(error, system);
+    if let Error::FrictionParadox { q: at, v: rates, .. } = &mut error_of_run {
+        (*at, *rates) = (q.as_slice().to_vec(), v.as_slice().to_vec());
+    }
     if let Error::InconsistentConstraints {
         constraint,
         with,

@@ -7,6 +7,7 @@ use std::vec::Vec;
 use crate::compensated::Sum;
 use crate::constraints::Constraints;
 use crate::event::{Event, state};
+use crate::friction::{ContactForce, Contacts};
 use crate::methods::{MAX_STAGES, Method};
 use crate::piece::{Ends, Piece};
 use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, bring};
@@ -36,6 +37,8 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) warnings: Vec<Warning>,
     pub(crate) ending: Ending,
     pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
+    /// The states of the contacts, and since when.
+    pub(crate) contacts: Vec<(f64, Contacts)>,
 }
 
 /// How a run ended.
@@ -85,6 +88,8 @@ pub struct Observation<M: Machine> {
     /// Multipliers of the constraints, in their order: those of least norm where constraints depend
     /// on each other.
     pub multipliers: Vec<f64>,
+    /// The contacts that stick and slide, in their order.
+    pub contacts: Vec<ContactForce>,
     /// Kinetic energy, in J.
     pub kinetic_energy: f64,
     /// Potential energy, in J.
@@ -148,12 +153,22 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         let u = self
             .accelerations(t, &q, &v, &mut a)
             .map_err(|e| Error::of_step(e, &self.system))?;
-        let multipliers = self
-            .multipliers(t, &q, &v, &u)
-            .map_err(|e| Error::of_step(e, &self.system))?;
+        let (multipliers, contacts) = match self.contacts_at(t) {
+            None => (self.multipliers(t, &q, &v, &u), Vec::new()),
+            Some(known) => {
+                let mut multipliers = std::vec![0.0; self.system.constraints().len()];
+                let mut forces = std::vec![ContactForce::default(); self.system.contacts().len()];
+                let at = (t, &q, &v, &u);
+                let found = known.forces(&self.system, at, &mut multipliers, &mut forces);
+                let found = found.map_err(|singular| StepError::Singular { singular, t });
+                (found.map(|()| multipliers), forces)
+            }
+        };
+        let multipliers = multipliers.map_err(|e| Error::of_step(e, &self.system))?;
         Ok(Observation {
             t,
             multipliers,
+            contacts,
             q: state.q.clone(),
             v: state.v.clone(),
             a: self.system.to_coordinates(&a),
@@ -210,9 +225,19 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
                 known.choose_as_many(system, t, q)?;
                 known.accelerations(system, t, q, v, &u, a)?;
             }
-            _ => accelerations(system, constraints, (t, q, v, &u), a)?,
+            _ => {
+                let contacts = self.contacts_at(t).cloned();
+                accelerations(system, (constraints, &contacts), (t, q, v, &u), a)?;
+            }
         }
         Ok(u)
+    }
+
+    /// The states of the contacts at a time within the run.
+    fn contacts_at(&self, t: f64) -> Option<&Contacts> {
+        let after = self.contacts.partition_point(|(since, _)| *since <= t);
+        let (_, known) = self.contacts.get(after.saturating_sub(1))?;
+        Some(known)
     }
 
     fn multipliers(
@@ -265,7 +290,8 @@ impl<M: Machine, L> Solution<M, L> {
     /// The states at the beginning and at the end of every step; empty if the steps were forgotten.
     pub fn steps(&self) -> impl Iterator<Item = State<Coordinates<M>>> {
         let beginnings = self.steps.iter().flat_map(|steps| {
-            (0..steps.count()).map(|i| {
+            let is_step = |i: &usize| steps.times[*i].1 != 0.0;
+            (0..steps.count()).filter(is_step).map(|i| {
                 let (q, v) = steps.beginning(i);
                 state(&self.system, (steps.times[i].0.high, q.clone(), v.clone()))
             })
@@ -383,6 +409,11 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                 .map_err(|error| Error::of_step(error, &run.system))?;
             energies.work += half * weight * run.system.work_rate(t, &q, &v, &a, &u);
             energies.dissipated += half * weight * run.system.dissipation_rate(t, &q, &v, &u);
+            if let Some(contacts) = run.contacts_at(t) {
+                let [work, lost] = contacts.power(&run.system, (t, &q, &v, &u));
+                energies.work += half * weight * work;
+                energies.dissipated += half * weight * lost;
+            }
         }
         Ok(energies)
     }
@@ -477,6 +508,24 @@ impl<V: Vector> Steps<V> {
         }
     }
 
+    /// Notes that the accelerations jump now: a step of no length, that keeps the end of the last one
+    /// apart from the beginning of the next.
+    pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Alongside<S>>(
+        &mut self,
+        stepper: &Stepper<'_, S, L, A>,
+    ) {
+        let Some(last) = self.vectors.last().cloned() else {
+            return;
+        };
+        let now = Sum {
+            high: stepper.t(),
+            low: 0.0,
+        };
+        self.times.push((now, 0.0_f64.copysign(stepper.last_step())));
+        self.vectors
+            .resize(self.times.len() * self.stride(), last);
+    }
+
     /// How many vectors a step has.
     fn stride(&self) -> usize {
         2 + self.kept.len()
@@ -494,7 +543,7 @@ impl<V: Vector> Steps<V> {
     /// The step that `t`, which is within the run, is in.
     fn index(&self, t: f64) -> usize {
         let after = self.times.partition_point(|&(start, h)| {
-            if h > 0.0 {
+            if h.is_sign_positive() {
                 start.high <= t
             } else {
                 start.high >= t

@@ -4,6 +4,7 @@
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
+use crate::friction::{Change, Contacts};
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;
@@ -172,6 +173,8 @@ struct Model<'s, S: System, L> {
     inputs: S::Inputs,
     /// None if the machine has no constraints.
     constraints: Option<Constraints<S::Vector>>,
+    /// None if it has no contacts.
+    contacts: Option<Contacts>,
 }
 
 /// Signs of stiffness, as in DOP853 (section IV.2 of the second volume).
@@ -215,6 +218,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
                 system,
                 law,
                 constraints,
+                contacts: None,
             },
             alongside,
             end,
@@ -238,6 +242,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             work,
             ..
         } = &mut stepper;
+        if system.contacts().len() != 0 {
+            let Model { law, inputs, .. } = model;
+            law.set(system, now.t, &now.q, &now.v, inputs);
+            let contacts = Contacts::begin(system, now.t, &now.q, &now.v, inputs)?;
+            model.contacts = Some(contacts);
+        }
         model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
         if let Some(constraints) = &model.constraints
             && constraints.redundant
@@ -358,6 +368,43 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     #[cfg(feature = "std")]
     pub(crate) fn constraints(&self) -> &Option<Constraints<S::Vector>> {
         &self.model.constraints
+    }
+
+    /// What is known of the contacts.
+    #[cfg(feature = "std")]
+    pub(crate) fn contacts(&self) -> &Option<Contacts> {
+        &self.model.contacts
+    }
+
+    /// Goes on to `end` with contacts in other states: the motion is continuous, and the
+    /// accelerations jump. `is_at_once` says that the state that ended had only just begun.
+    #[cfg(feature = "std")]
+    pub(crate) fn change(
+        &mut self,
+        change: Change,
+        is_at_once: bool,
+        end: f64,
+        step: f64,
+    ) -> Result<(), StepError> {
+        let Self {
+            model, now, k, ..
+        } = self;
+        model
+            .law
+            .set(model.system, now.t, &now.q, &now.v, &mut model.inputs);
+        if let Some(contacts) = &mut model.contacts {
+            let place = now.place();
+            let at = (place.t, &*place.q[0], &model.inputs);
+            contacts.change(model.system, at, place.v, change, is_at_once)?;
+        }
+        let newest = self.newest;
+        let work = &mut self.work;
+        model.accelerations(now.t, &now.q, &now.v, &mut k[newest], work)?;
+        model.take_rates(&mut self.alongside, 0, (now.t, &now.q, &now.v, &k[newest]));
+        self.end = end;
+        self.step = step;
+        self.error_before = 1e-4;
+        Ok(())
     }
 
     /// The work done so far.
@@ -782,7 +829,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     ) -> Result<(), StepError> {
         work.evaluations += 1;
         self.law.set(self.system, t, q, v, &mut self.inputs);
-        accelerations(self.system, &self.constraints, (t, q, v, &self.inputs), a)?;
+        let known = (&self.constraints, &self.contacts);
+        accelerations(self.system, known, (t, q, v, &self.inputs), a)?;
         // The sum of what is not finite is not finite, and one test is cheaper than many.
         let sum: f64 = a.as_slice().iter().sum();
         if sum.is_finite() {
@@ -812,18 +860,30 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Brings the end of a step onto the constraints; says whether that moved it.
     #[inline(always)]
     fn bring(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
-        if self.system.constraints().len() == 0 {
-            return Ok(false);
+        let moved = match &mut self.constraints {
+            Some(constraints) if self.system.constraints().len() != 0 => {
+                constraints.bring(self.system, &mut now.place())?
+            }
+            _ => false,
+        };
+        if self.system.contacts().len() != 0
+            && let Some(contacts) = &self.contacts
+        {
+            let place = now.place();
+            let at = (place.t, &*place.q[0], &self.inputs);
+            contacts.hold(self.system, at, place.v)?;
         }
-        match &mut self.constraints {
-            Some(constraints) => constraints.bring(self.system, &mut now.place()),
-            None => Ok(false),
-        }
+        Ok(moved)
     }
 
     /// Takes note of the end of a step.
     #[inline(always)]
     fn accept(&mut self, now: &Point<S::Vector>) {
+        if self.system.contacts().len() != 0
+            && let Some(contacts) = &mut self.contacts
+        {
+            contacts.accept(self.system, now.t, &now.q, &now.v);
+        }
         if self.system.constraints().len() == 0 {
             return;
         }
@@ -844,6 +904,14 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
     ) {
         alongside.stage(stage, self.system, at, &self.inputs);
+        if self.system.contacts().len() != 0
+            && let Some(contacts) = &self.contacts
+            && alongside.integrals().is_some()
+        {
+            let (t, q, v, _) = at;
+            let [work, lost] = contacts.power(self.system, (t, q, v, &self.inputs));
+            alongside.add(stage, work, lost);
+        }
     }
 }
 
@@ -869,10 +937,17 @@ impl Stiffness {
 #[inline(always)]
 pub(crate) fn accelerations<S: System>(
     system: &S,
-    constraints: &Option<Constraints<S::Vector>>,
+    (constraints, contacts): (&Option<Constraints<S::Vector>>, &Option<Contacts>),
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     a: &mut S::Vector,
 ) -> Result<(), StepError> {
+    if system.contacts().len() != 0
+        && let Some(contacts) = contacts
+    {
+        return contacts
+            .accelerations(system, (t, q, v, u), a)
+            .map_err(|singular| StepError::Singular { singular, t });
+    }
     if system.constraints().len() != 0
         && let Some(constraints) = constraints
         && constraints.redundant

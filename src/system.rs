@@ -229,6 +229,47 @@ pub trait System {
         Ok(())
     }
 
+    /// The names of the guided contacts with friction. None by default, and a machine without any has
+    /// nothing to say in the methods that follow.
+    ///
+    /// A machine with contacts finds its accelerations by
+    /// [`accelerations_with_friction`](crate::accelerations_with_friction).
+    #[inline(always)]
+    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
+        core::iter::empty()
+    }
+
+    /// How fast each contact slides along its direction, `w(q, v, t)`, in m/s.
+    #[inline(always)]
+    fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
+
+    /// The matrix `τ(q, t) = ∂w/∂v` of the slips, row after row.
+    #[inline(always)]
+    fn slip_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// `dw/dt` at `a = 0`, for each contact.
+    #[inline(always)]
+    fn slip_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+
+    /// What follows from the frictions `F` of the `k` contacts, all of it linear: first what there is
+    /// without any, then what a unit of each adds to it. Each of these `1 + k` parts holds the
+    /// accelerations, the multipliers of the constraints, and for each contact `dw/dt` and the normal
+    /// reaction `N`. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
+    /// `μ₀` of what sticks.
+    ///
+    /// An error only where the machine is singular without any friction.
+    #[inline(always)]
+    fn friction(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+        _parts: &mut [f64],
+    ) -> Result<(), Singular> {
+        Ok(())
+    }
+
     /// Lends `length` numbers to `work`, whatever they are: the room in which a state is brought
     /// onto the constraints, `None` if there is none.
     ///
@@ -436,7 +477,8 @@ pub struct Singular {
     /// Where elimination stopped.
     pub at: Pivot,
     /// What elimination left of its diagonal element, relative to that element; 0 when nothing is
-    /// left or the element itself is 0.
+    /// left or the element itself is 0. At a contact, 0 where no motion has this friction, and
+    /// infinite where several have.
     pub ratio: f64,
 }
 
@@ -447,6 +489,8 @@ pub enum Pivot {
     Coordinate(usize),
     /// That of the constraint with this index.
     Constraint(usize),
+    /// That of the contact with this index: the law of friction has no solution, or several.
+    Contact(usize),
 }
 
 impl Singular {
@@ -467,6 +511,7 @@ impl Singular {
         let name = match self.at {
             Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
             Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
+            Pivot::Contact(index) => system.contacts().nth(index),
         };
         name.unwrap_or("?")
     }
@@ -493,6 +538,10 @@ impl Display for Singular {
                 index + 1,
                 self.ratio
             ),
+            Pivot::Contact(index) => {
+                let count = if self.ratio == 0.0 { "no" } else { "more than one" };
+                write!(f, "{count} motion has the friction of contact number {}", index + 1)
+            }
         }
     }
 }

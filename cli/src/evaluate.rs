@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, UnknownName};
-use lagrangian::{Error, Machine, Pivot, State, StepError, System, least_multipliers};
+use lagrangian::{
+    ContactForce, Error, Machine, Pivot, State, StepError, System, contact_forces, least_multipliers,
+};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -59,7 +61,7 @@ struct Numbered {
     /// Generalized reactions of the constraints on each coordinate, Gᵀ λ.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     reactions: Vec<f64>,
-    /// Forces in rolling contacts, by name.
+    /// Forces in contacts that roll or slide, by name.
     #[serde(skip_serializing_if = "Map::is_empty")]
     contacts: Map<String, Value>,
     kinetic_energy: f64,
@@ -217,10 +219,11 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     if let Err(singular) = found {
         // What depends on others may be held by these in many ways, all with the same motion.
         let least = match singular.at {
-            Pivot::Constraint(_) => {
+            // Of what sticks and slides beside them nothing is known then.
+            Pivot::Constraint(_) if system.contacts().len() == 0 => {
                 least_multipliers(system, t, q, v, &u, &mut a, &mut multipliers)
             }
-            Pivot::Coordinate(_) => Err(StepError::Singular { singular, t }),
+            _ => Err(StepError::Singular { singular, t }),
         };
         least.map_err(|error| in_words(system, error))?;
     }
@@ -245,7 +248,8 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             coordinate.name
         ));
     }
-    let contacts = contacts::forces(system, &multipliers);
+    let mut contacts = contacts::forces(system, &multipliers);
+    contacts.extend(sliding(system, (t, q, v, &u)));
     let result = Numbered {
         mass_matrix: matrix.chunks(n.max(1)).map(<[f64]>::to_vec).collect(),
         bias,
@@ -268,4 +272,27 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .collect(),
     };
     serde_json::to_value(result).map_err(|error| error.to_string())
+}
+
+/// Slip, normal reaction and friction of each contact that sticks or slides.
+fn sliding(
+    system: &InterpretedSystem,
+    at: (f64, &Vec<f64>, &Vec<f64>, &Named),
+) -> Vec<(String, Value)> {
+    let mut forces = vec![ContactForce::default(); system.contacts().len()];
+    if forces.is_empty() {
+        return Vec::new();
+    }
+    // Where they have no value, the accelerations have none.
+    let _ = contact_forces(system, at, &mut [], &mut [], &mut forces);
+    let entry = |(name, force): (&str, &ContactForce)| {
+        let force = serde_json::json!({
+            "slip": force.slip,
+            "normal": force.normal,
+            "friction": force.friction,
+            "sticks": force.sticks,
+        });
+        (name.to_owned(), force)
+    };
+    system.contacts().zip(&forces).map(entry).collect()
 }

@@ -23,6 +23,12 @@ use crate::reading;
 /// If the spec is wrong, a file cannot be written, or `rustc` is missing.
 pub fn run(call: &call::Library) -> Result<(), Failure> {
     let program = reading::program(&call.spec)?;
+    if !program.contacts.is_empty() {
+        return Err(Failure::run(
+            "what sticks and slides has a state that a function of q and v alone does not know: a library of a machine with \
+             `sliding` cannot be made",
+        ));
+    }
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();

@@ -71,7 +71,13 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
 fn program(spec: &call::Spec) -> Result<Program, Failure> {
     let dag = Dag::new();
     let mut reading = Reading::open(spec)?;
-    let model = reading.model(&dag).map(|mut model| {
+    let model = reading.model(&dag);
+    if model.as_ref().is_some_and(|model| !model.sliding.is_empty()) {
+        return Err(Failure::run(
+            "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",
+        ));
+    }
+    let model = model.map(|mut model| {
         model.derivatives = Variable::of_state(model.coordinates.len());
         model
     });

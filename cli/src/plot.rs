@@ -37,6 +37,7 @@ const KINDS: [Kind; 5] = [
     Kind::Coordinate,
     Kind::Output,
     Kind::Multiplier,
+    Kind::Contact,
     Kind::Energy,
     Kind::Residual,
 ];

@@ -13,6 +13,8 @@ pub enum Kind {
     Residual,
     /// A quantity that the spec asks to observe.
     Output,
+    /// The normal reaction, the friction or the slip of a contact.
+    Contact,
     /// The multiplier of a constraint.
     Multiplier,
 }
@@ -120,6 +122,7 @@ impl Panel<'_> {
             Kind::Rate => "rates",
             Kind::Output => "outputs",
             Kind::Multiplier => "multipliers",
+            Kind::Contact => "contacts",
             Kind::Energy => "energy",
             Kind::Residual => "energy balance",
         };

@@ -85,6 +85,7 @@ impl Report<'_, '_> {
             Kind::Rate,
             Kind::Output,
             Kind::Multiplier,
+            Kind::Contact,
             Kind::Energy,
             Kind::Residual,
         ];

@@ -219,29 +219,37 @@ fn record(run: &Run) -> Recording {
         let name = format!("multiplier({})", constraint.name);
         column(name, constraint.multiplier_unit.into(), Kind::Multiplier);
     }
+    for name in system.contacts() {
+        for (what, unit) in [("normal", "N"), ("friction", "N"), ("slip", "m/s")] {
+            column(format!("{what}({name})"), unit.into(), Kind::Contact);
+        }
+    }
     for name in ["kinetic energy", "potential energy", "total energy"] {
         column(name.into(), "J".into(), Kind::Energy);
     }
     column("energy residual".into(), "J".into(), Kind::Residual);
 
     let unknown = |count: usize| vec![f64::NAN; count];
-    let constraints = system.constraints().len();
+    let reactions = system.constraints().len() + 3 * system.contacts().len();
     for state in states {
         // Where a run ends early there may be no accelerations, and then nothing that is made from them.
-        let (outputs, multipliers, energies) = match run.observe_state(state) {
+        let (outputs, reactions, energies) = match run.observe_state(state) {
             Ok(seen) => {
                 let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
                 let energies = [kinetic, potential, kinetic + potential];
-                (seen.outputs.values, seen.multipliers, energies)
+                let contacts = seen.contacts.iter();
+                let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
+                let reactions = seen.multipliers.iter().copied().chain(contacts);
+                (seen.outputs.values, reactions.collect(), energies)
             }
             Err(_) => {
                 let outputs = unknown(outputs.values.len());
-                (outputs, unknown(constraints), [f64::NAN; 3])
+                (outputs, unknown(reactions), [f64::NAN; 3])
             }
         };
         let moving = state.q.values.iter().chain(&state.v.values).copied();
         let residual = residual_at(run.energies(), state.t);
-        let observed = outputs.into_iter().chain(multipliers);
+        let observed = outputs.into_iter().chain(reactions);
         let row = moving.chain(observed).chain(energies).chain([residual]);
         for (column, value) in columns.iter_mut().zip(row) {
             column.values.push(value);

@@ -131,6 +131,9 @@ fn mend<'d>(
         }
         PublishedQuantity::Dissipation => vec![equations.dissipation],
         PublishedQuantity::Force(coordinate) => vec![equations.applied[coordinate]],
+        PublishedQuantity::Friction(coordinate) => {
+            vec![equations.sliding_friction(model, coordinate)]
+        }
         PublishedQuantity::Position(body) => equations.bodies[body].position.clone(),
         PublishedQuantity::Velocity(body) => equations.bodies[body].velocity.clone(),
         PublishedQuantity::Equation(coordinate) => {
@@ -185,7 +188,11 @@ fn mend_equation<'d>(
     let dag = model.dag;
     let inertia = model.coordinates.iter().enumerate();
     let inertia = inertia.map(|(j, c)| *equations.mass_matrix.get(coordinate, j) * c.a);
-    let others = [equations.bias[coordinate], -equations.applied[coordinate]];
+    let others = [
+        equations.bias[coordinate],
+        -equations.applied[coordinate],
+        -equations.sliding_friction(model, coordinate),
+    ];
     let right = dag.sum(inertia.chain(others));
     let factor = printed / right;
     if experiment::is_free_of_motion(factor) && !equal(printed, dag.zero()) {

@@ -178,6 +178,8 @@ codes! {
     NotSupported => "not-supported",
     /// A coordinate that moves no mass.
     NoInertia => "no-inertia",
+    /// A body that slides is not held by its guide, or by more than that.
+    NoGuide => "no-guide",
     /// A small coordinate about whose zero an energy has no expansion.
     NoExpansion => "no-expansion",
     /// An energy or an equation that has no value anywhere.

@@ -30,6 +30,7 @@ mod power;
 mod projected;
 mod reduction;
 mod refusal;
+mod sliding;
 mod symmetric;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
@@ -38,9 +39,10 @@ pub use brachistochrone::{Brachistochronic, Unmet};
 pub use circles::{body_axes, placed};
 pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;
-pub use lagrange::{Oracle, OracleConstraint};
+pub use lagrange::{Oracle, OracleConstraint, OracleSliding};
 pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
 pub use refusal::MOST_COORDINATES;
+pub use sliding::{MOST_CONTACTS, SlidingEquation};
 pub use symmetric::Symmetric;
 
 use crate::diagnostic::Report;
@@ -79,6 +81,8 @@ pub struct Equations<'d> {
     /// The bilateral constraints, which the accelerations obey and `M`, `h`, `Q` and `f` know nothing
     /// of.
     pub constraints: Vec<ConstraintEquation<'d>>,
+    /// The guided contacts with friction, of which `M`, `h`, `Q` and `f` know nothing either.
+    pub sliding: Vec<SlidingEquation<'d>>,
     /// The same machine without the coordinates that constraints settle, if they settle any.
     pub reduction: Option<Box<Reduction<'d>>>,
     /// What is left of the forces where accelerations are given, `f − M a`, eq. (E25); with
@@ -173,6 +177,7 @@ impl<'d> Equations<'d> {
             return None;
         };
         equations.slopes = slopes;
+        equations.sliding = sliding::sliding(model, report)?;
         equations.reduction = reduction::reduction(model, &equations.constraints);
         let refused = refusal::refuse_undefined(model, &equations, report)
             || refusal::refuse_massless(model, &equations.mass_matrix, report);
@@ -232,6 +237,16 @@ impl<'d> Equations<'d> {
             forms.extend(derivatives::slopes(model, &unbalanced));
         }
         forms
+    }
+
+    /// The generalized friction on a coordinate where every contact slides along its direction and
+    /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
+    /// constraints and other frictions press is not.
+    pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
+        let friction = |s: &SlidingEquation<'d>| {
+            -(s.friction * s.normal(model) * s.row[coordinate])
+        };
+        model.dag.sum(self.sliding.iter().map(friction))
     }
 
     /// Adds the power of constraints that move by themselves, `v·Gᵀλ = v·(M a − f)`; the others do no
@@ -318,6 +333,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         applied: projection.project(&applied, all.clone()),
         unprojected: Some(projection.unprojected(&weightless, &forces)),
         constraints: constraints::constraints(model),
+        sliding: Vec::new(),
         reduction: None,
         forces: projection.project(&forces, all),
         unbalanced: match model.derivatives.is_empty() {
@@ -389,6 +405,7 @@ fn approximate<'d>(
         applied,
         unprojected: None,
         constraints: constraints::constraints(model),
+        sliding: Vec::new(),
         reduction: None,
         unbalanced,
         slopes: Vec::new(),

@@ -89,6 +89,10 @@ pub struct Model<'d> {
     pub constraints: Vec<Constraint<'d>>,
     /// Guided contacts with Coulomb friction.
     pub sliding: Vec<Sliding<'d>>,
+    /// The same machine with every guide of `sliding` relaxed: what the guided body is built on can
+    /// move off, by two coordinates for each guide behind all others. It tells what holds the guides
+    /// shut. None where nothing slides.
+    pub relaxed: Option<Box<Model<'d>>>,
     /// Circles that can touch.
     pub circles: Vec<Circle<'d>>,
     /// Circles that touch and roll.
@@ -510,8 +514,12 @@ pub struct Sliding<'d> {
     pub on: Place,
     /// The direction of sliding, as given.
     pub direction: Vec<Expr<'d>>,
+    /// The side on which the body is, as given; the direction turned left where nothing is said.
+    pub normal: Option<Vec<Expr<'d>>>,
     /// The coefficient of friction.
     pub friction: Expr<'d>,
+    /// The coefficient of friction of what sticks, where it is another.
+    pub static_friction: Option<Expr<'d>>,
     /// Its name in the spec.
     pub span: Span,
 }
@@ -710,6 +718,9 @@ pub enum PublishedQuantity {
     Dissipation,
     /// The applied generalized force on a coordinate.
     Force(usize),
+    /// The generalized friction on a coordinate, of contacts that slide along their directions and
+    /// press to their sides.
+    Friction(usize),
     /// The position of a body's mass centre.
     Position(usize),
     /// The velocity of a body's mass centre.

@@ -85,6 +85,9 @@ pub struct Program {
     pub assumptions: Vec<Fact>,
     /// The bilateral constraints; the functions about them are there if these are.
     pub constraints: Vec<Constraint>,
+    /// The names of the guided contacts with friction; the functions about them are there if these
+    /// are.
+    pub contacts: Vec<String>,
     /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
     /// not there.
     pub derivatives: Vec<Variable>,
@@ -183,6 +186,15 @@ pub enum Role {
     Accelerations,
     /// Lagrange's multipliers λ of the constraints.
     Multipliers,
+    /// How fast the guided contacts slide, w(q, v, t).
+    Slips,
+    /// The matrix τ = ∂w/∂v of the slips, row after row.
+    SlipMatrix,
+    /// dw/dt at a = 0.
+    SlipDrift,
+    /// What follows from the frictions of the contacts, see [`FrictionLayout`]. A machine with
+    /// contacts has this in place of [`Role::Accelerations`] and [`Role::Multipliers`].
+    Friction,
     /// The accelerations, and their derivatives by [`Program::derivatives`]: a matrix whose first
     /// column are the accelerations, and every other their derivatives by one variable.
     Derivatives,
@@ -209,6 +221,14 @@ pub enum Role {
 }
 
 impl Role {
+    /// Whether it is one of what guided contacts with friction need.
+    pub fn is_of_contacts(self) -> bool {
+        matches!(
+            self,
+            Role::Slips | Role::SlipMatrix | Role::SlipDrift | Role::Friction
+        )
+    }
+
     /// The name of a function of this role; outputs and assumptions are numbered.
     pub fn name(self) -> String {
         match self {
@@ -224,6 +244,10 @@ impl Role {
             Role::ConstraintDrift => "constraint_drift".into(),
             Role::Accelerations => "accelerations".into(),
             Role::Multipliers => "multipliers".into(),
+            Role::Slips => "slips".into(),
+            Role::SlipMatrix => "slip_matrix".into(),
+            Role::SlipDrift => "slip_drift".into(),
+            Role::Friction => "friction".into(),
             Role::Derivatives => "derivatives".into(),
             Role::AtTime => "at_time".into(),
             Role::AtPosition => "at_position".into(),
@@ -245,6 +269,7 @@ impl Role {
             self,
             Role::Accelerations
                 | Role::Multipliers
+                | Role::Friction
                 | Role::Derivatives
                 | Role::AtPosition
                 | Role::AccelerationsAt
@@ -255,6 +280,39 @@ impl Role {
     /// instructions the processor has.
     pub fn is_fast(self) -> bool {
         self.inverts() || self == Role::AtTime
+    }
+}
+
+/// How the results of [`Role::Friction`] are arranged.
+///
+/// Everything is linear in the frictions `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
+/// friction, then what one unit of each does. A part holds the accelerations, the multipliers of
+/// constraints, and for each contact `dw/dt` and the normal reaction `N`; behind all parts stand `μ`
+/// of each contact and `μ₀` of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrictionLayout {
+    /// How many coordinates there are.
+    pub coordinates: usize,
+    /// How many constraints.
+    pub constraints: usize,
+    /// How many contacts.
+    pub contacts: usize,
+}
+
+impl FrictionLayout {
+    /// The length of a part.
+    pub fn part(self) -> usize {
+        self.coordinates + self.constraints + 2 * self.contacts
+    }
+
+    /// How many results there are.
+    pub fn len(self) -> usize {
+        (1 + self.contacts) * self.part() + 2 * self.contacts
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(self) -> bool {
+        self.len() == 0
     }
 }
 
@@ -470,6 +528,15 @@ impl Program {
             Role::Prepare => Some(&self.prepare),
             Role::Start => Some(&self.start),
             _ => self.functions.iter().find(|function| function.role == role),
+        }
+    }
+
+    /// The role of the function that solves the equations of motion: the accelerations, or what they
+    /// are made of where contacts stick and slide.
+    pub fn solving(&self) -> Role {
+        match self.contacts.is_empty() {
+            true => Role::Accelerations,
+            false => Role::Friction,
         }
     }
 

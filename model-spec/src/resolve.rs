@@ -15,6 +15,7 @@
 //! | [`frames`] | frames and points |
 //! | [`items`] | bodies, springs, forces, … |
 //! | [`rates`] | rates at the start |
+//! | [`relaxation`] | the same machine with its guides relaxed |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`stages`] | which of their stages are to be computed by themselves |
 //! | [`published`] | assumptions, and equations that somebody printed |
@@ -27,6 +28,7 @@ mod layers;
 mod names;
 mod published;
 mod rates;
+mod relaxation;
 mod stages;
 mod text;
 mod value;
@@ -48,6 +50,7 @@ use crate::unit::Unit;
 use frames::PoseKey;
 use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
+use relaxation::Guide;
 use value::{MemberId, Scope, limits};
 use work::Need;
 
@@ -79,7 +82,15 @@ impl<'d> Model<'d> {
         report: &mut Report,
     ) -> Option<Model<'d>> {
         let layers = Layers::load(spec, files, sources, report);
-        Resolver::new(&layers, dag, constants, report).resolve(&layers.specs)
+        let mut model = Resolver::new(&layers, dag, constants, report).resolve(&layers.specs)?;
+        if !model.sliding.is_empty() {
+            // What is wrong has been said.
+            let mut unread = Report::new();
+            let mut resolver = Resolver::new(&layers, dag, constants, &mut unread);
+            resolver.guides = relaxation::guides(&model);
+            model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
+        }
+        Some(model)
     }
 }
 
@@ -112,6 +123,8 @@ struct Resolver<'a, 'd, 'r> {
     facts: Vec<(Expr<'d>, BTreeSet<Symbol>)>,
     poses: Vec<Pose<'d>>,
     pose_of: FxHashMap<PoseKey, PoseId>,
+    /// The guides that are relaxed.
+    guides: Vec<Guide<'d>>,
 
     /// How many nodes there were before.
     first_node: usize,
@@ -148,6 +161,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             facts: Vec::new(),
             poses: Vec::new(),
             pose_of: FxHashMap::default(),
+            guides: Vec::new(),
             steps: 0,
             exhausted: false,
         }
@@ -205,6 +219,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
         let published = self.published(layers);
 
+        coordinates.extend(self.relaxed_coordinates());
+
         self.check_masses(&bodies, &parameters);
         self.check_not_empty(machine);
         if self.report.has_errors() {
@@ -237,6 +253,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             torques,
             constraints,
             sliding,
+            relaxed: None,
             circles,
             rolling,
             contacts,

@@ -323,6 +323,10 @@ impl<'a> Emitter<'a> {
             Role::Start
                 | Role::Accelerations
                 | Role::Multipliers
+                | Role::Slips
+                | Role::SlipMatrix
+                | Role::SlipDrift
+                | Role::Friction
                 | Role::Derivatives
                 | Role::AtTime
                 | Role::AtPosition
@@ -749,6 +753,14 @@ fn docs(role: Role) -> &'static str {
         }
         Role::ConstraintMatrix => "The matrix G of the constraints, row after row.",
         Role::ConstraintDrift => "gamma of G a = gamma.",
+        Role::Slips => "How fast the contacts slide, w.",
+        Role::SlipMatrix => "The matrix tau = dw/dv of the slips, row after row.",
+        Role::SlipDrift => "dw/dt at a = 0.",
+        Role::Friction => {
+            "What there is without friction, and what each unit of friction adds to it: accelerations, \
+             multipliers, dw/dt and the normal reaction of each contact; behind these the coefficients of \
+             friction. Returns 0, or one more than the index of a coordinate whose pivot vanishes."
+        }
         Role::Multipliers => {
             "Lagrange's multipliers lambda of M a = f + G^T lambda. Returns what the accelerations return."
         }

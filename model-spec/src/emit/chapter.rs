@@ -6,6 +6,7 @@
 
 mod conserved;
 mod constraints;
+mod contacts;
 mod energies;
 mod kinematics;
 mod machine;
@@ -52,6 +53,7 @@ pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         ("Energies and forces", chapter.energies()),
         ("Equations of motion", chapter.motion()),
         ("Constraints", chapter.constraints()),
+        ("Friction", chapter.contacts()),
         ("Mass matrix", chapter.mass_matrix()),
         (
             "What is conserved, and what is not there",

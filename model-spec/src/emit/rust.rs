@@ -4,6 +4,7 @@
 //! the arguments that they use; `Machine` and `System` are implemented on top of them for `f64`.
 
 mod constraints;
+mod contacts;
 mod derivatives;
 mod docs;
 mod functions;
@@ -205,11 +206,14 @@ impl<'a> Emitter<'a> {
         }
         self.tables();
         self.table_of_constraints();
+        self.table_of_contacts();
         self.impl_machine();
         self.impl_system();
         self.impl_linearize();
         self.impl_staged();
-        self.impl_abreast();
+        if self.program.contacts.is_empty() {
+            self.impl_abreast();
+        }
         self.helpers();
         self.writer.finish()
     }

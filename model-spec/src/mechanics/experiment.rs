@@ -59,6 +59,33 @@ pub(crate) fn is_free_of_motion(expression: Expr<'_>) -> bool {
     constants(expression.dag(), &[expression])[0].is_some()
 }
 
+/// Whether the last of some rows is a combination of the others, wherever all have a value. Of rows
+/// that have one nowhere it is not said.
+pub(super) fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
+    let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
+    let width = rows.first().map_or(0, Vec::len);
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let Some(values) = points.find(|values| values.iter().all(|x| x.is_finite())) else {
+        return false;
+    };
+    let mut rows: Vec<Vec<Residue>> = values.chunks(width.max(1)).map(<[_]>::to_vec).collect();
+    let Some(mut last) = rows.pop() else {
+        return false;
+    };
+    while let Some(row) = rows.pop() {
+        let Some(pivot) = row.iter().position(|x| *x != Residue::ZERO) else {
+            continue;
+        };
+        for other in rows.iter_mut().chain([&mut last]) {
+            let factor = other[pivot] / row[pivot];
+            for (to, from) in other.iter_mut().zip(&row) {
+                *to = *to - factor * *from;
+            }
+        }
+    }
+    last.iter().all(|x| *x == Residue::ZERO)
+}
+
 /// An expression with nothing but parameters in it, if it is a function of them alone.
 pub(crate) fn as_function_of_parameters(expression: Expr<'_>) -> Option<Expr<'_>> {
     let mut settled = [expression];

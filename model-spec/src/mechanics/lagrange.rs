@@ -8,13 +8,14 @@
 //! code is emitted from it unless an approximation asks for these very equations
 //! ([`super::approximation`]). Explicit time is never dropped: the `d/dt` is that of eq. (E8).
 
-use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
+use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, substitute};
 
 use super::approximation::Approximations;
 use super::constraints::{self, ConstraintEquation};
 use super::energy;
 use super::kinematics::{self, Variables};
 use super::refusal;
+use super::sliding::{guide, relative};
 use super::symmetric::Symmetric;
 use crate::model::{Action, Model, Rotation, Space};
 
@@ -34,6 +35,8 @@ pub struct Oracle<'d> {
     pub applied: Vec<Expr<'d>>,
     /// The bilateral constraints.
     pub constraints: Vec<OracleConstraint<'d>>,
+    /// The guided contacts with friction.
+    pub sliding: Vec<OracleSliding<'d>>,
     /// `d/dt ∂T/∂v − ∂T/∂q − Q` with the accelerations in it, eq. (E7): zero along every motion.
     pub residual: Vec<Expr<'d>>,
 }
@@ -48,6 +51,29 @@ pub struct OracleConstraint<'d> {
     pub row: Vec<Expr<'d>>,
     /// `Σ vᵢ ∂φ/∂qᵢ + Σ aᵢ ∂φ/∂vᵢ + ∂φ/∂t`: zero along every motion.
     pub residual: Expr<'d>,
+}
+
+/// A guided contact, every derivative by the rule of the chain and one variable at a time.
+pub struct OracleSliding<'d> {
+    /// `w`.
+    pub slip: Expr<'d>,
+    /// `∂w/∂vᵢ`.
+    pub row: Vec<Expr<'d>>,
+    /// `Σ vᵢ ∂w/∂qᵢ + ∂w/∂t`.
+    pub drift: Expr<'d>,
+    /// `dw/dt` with the accelerations in it.
+    pub slip_rate: Expr<'d>,
+    /// The equation of the displacement that opens the guide, along its normal: what inertia and
+    /// applied forces leave of it.
+    pub unbalanced: Expr<'d>,
+    /// What the multipliers of the constraints do along that displacement,
+    pub by_multipliers: Vec<Expr<'d>>,
+    /// what the frictions of the contacts do,
+    pub by_frictions: Vec<Expr<'d>>,
+    /// and what the normal reactions do.
+    pub by_normals: Vec<Expr<'d>>,
+    /// `μ` and `μ₀`.
+    pub coefficients: [Expr<'d>; 2],
 }
 
 impl<'d> Oracle<'d> {
@@ -93,6 +119,7 @@ impl<'d> Oracle<'d> {
         };
         let constraints = constraints::constraints(model);
         Oracle {
+            sliding: sliding(model),
             constraints: constraints.into_iter().map(constraint).collect(),
             mass_matrix: mass_matrix(&momenta, &x.v),
             bias: (0..x.q.len()).map(|i| inertia(coasting, i)).collect(),
@@ -105,6 +132,55 @@ impl<'d> Oracle<'d> {
             applied,
         }
     }
+}
+
+/// The guided contacts of a machine, by Lagrange's equations of the relaxed one.
+fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
+    let Some(relaxed) = &model.relaxed else {
+        return Vec::new();
+    };
+    let dag = model.dag;
+    let (n, x) = (model.coordinates.len(), Variables::of(relaxed));
+    let shut: Vec<_> = (n..x.q.len())
+        .flat_map(|i| [x.q[i], x.v[i], x.a[i]])
+        .map(|symbol| (symbol, dag.zero()))
+        .collect();
+    let closed = |e: Expr<'d>| substitute(dag, &[e], &shut)[0];
+    let oracle = Oracle::derive(relaxed);
+    let guides: Vec<_> = model.sliding.iter().map(|s| guide(model, s)).collect();
+    let pairs = || relaxed.sliding.iter().zip(&guides);
+    let mut coasting = x.coasting(relaxed);
+    let rates: Vec<_> = pairs()
+        .map(|(sliding, guide)| relative(relaxed, sliding, guide, &mut coasting))
+        .collect();
+    let contact = |k: usize| {
+        let dimension = model.space.dimension();
+        let along = |column: &dyn Fn(usize) -> Expr<'d>| {
+            let pairs = (n + dimension * k..).zip(&guides[k].normal);
+            closed(dag.sum(pairs.map(|(i, &normal)| normal * column(i))))
+        };
+        let slip = closed(rates[k][0]);
+        let row: Vec<Expr<'d>> = (0..n).map(|i| slip.diff(x.v[i])).collect();
+        let moving = (0..n).map(|i| slip.diff(x.q[i]) * model.coordinates[i].v);
+        let drift = dag.sum(moving.chain([slip.diff(x.t)]));
+        let accelerating = row.iter().zip(&model.coordinates).map(|(&tau, c)| tau * c.a);
+        let sliding = &model.sliding[k];
+        OracleSliding {
+            slip,
+            slip_rate: dag.sum(accelerating.chain([drift])),
+            drift,
+            unbalanced: along(&|i| oracle.residual[i]),
+            by_multipliers: oracle.constraints.iter().map(|c| along(&|i| c.row[i])).collect(),
+            by_frictions: rates.iter().map(|[w, _]| along(&|i| w.diff(x.v[i]))).collect(),
+            by_normals: rates.iter().map(|[_, u]| along(&|i| u.diff(x.v[i]))).collect(),
+            coefficients: [
+                sliding.friction,
+                sliding.static_friction.unwrap_or(sliding.friction),
+            ],
+            row,
+        }
+    };
+    (0..guides.len()).map(contact).collect()
 }
 
 /// Mass matrix, eq. (E4): `Mᵢⱼ = ∂²T/∂vᵢ∂vⱼ = ∂pᵢ/∂vⱼ`.

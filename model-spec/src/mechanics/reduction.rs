@@ -253,7 +253,9 @@ pub(super) fn reduction<'d>(
 ) -> Option<Box<Reduction<'d>>> {
     let dependents = dependents(model, constraints);
     // Derivatives, and what stages leave, are about all of the state.
-    if dependents.is_empty() || !model.derivatives.is_empty() || !model.stages.is_empty() {
+    // So is friction.
+    let is_whole = !model.derivatives.is_empty() || !model.stages.is_empty();
+    if dependents.is_empty() || is_whole || !model.sliding.is_empty() {
         return None;
     }
     let x = Variables::of(model);

@@ -3,31 +3,66 @@
 use lagrangian_symbolic::Expr;
 
 use super::Equations;
+use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::model::{Model, Place, Rotation, Surface, Touching};
+use crate::model::{Model, Place, Rotation, Space, Surface, Touching};
 use crate::syntax::SectionKind;
 
 /// Refuses what is understood but not derived yet: one message for each section. True if anything
 /// is refused. Circles are geometry: on their own they add nothing to the equations, and reports
 /// draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
-    let sections = [
-        (SectionKind::Sliding, model.sliding.is_empty()),
-        (SectionKind::Contacts, model.contacts.is_empty()),
-    ];
     let mut refused = false;
-    for (section, empty) in sections {
-        if !empty {
-            let span = model.section(section).unwrap_or(model.span);
-            let message =
-                format!("the equations of a machine with `{section}` cannot be derived yet");
-            let help = format!(
-                "it is checked all the same; without `{section}` the machine can be derived"
-            );
-            report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
-            refused = true;
-        }
+    if !model.contacts.is_empty() {
+        let section = SectionKind::Contacts;
+        let span = model.section(section).unwrap_or(model.span);
+        let message = format!("the equations of a machine with `{section}` cannot be derived yet");
+        let help =
+            format!("it is checked all the same; without `{section}` the machine can be derived");
+        report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
+        refused = true;
+    }
+    refuse_sliding(model, report) || refused
+}
+
+/// Refuses what goes with friction not yet. True if anything is refused.
+fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
+    let Some(first) = model.sliding.first() else {
+        return false;
+    };
+    let mut refused = false;
+    let mut refuse = |code, span, message: String, help: String| {
+        report.push(Diagnostic::new(code, span, message).help(help));
+        refused = true;
+    };
+    if model.space == Space::Space {
+        let message = "sliding with friction can be derived in the plane only".to_owned();
+        let help = "without `sliding` the machine can be derived".to_owned();
+        refuse(Code::NotSupported, first.span, message, help);
+    }
+    let beside = [
+        (SectionKind::Approximations, model.approximations.is_empty()),
+        (SectionKind::Derivatives, model.derivatives.is_empty()),
+        (SectionKind::Stages, model.stages.is_empty()),
+    ];
+    for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
+        let span = model.section(section).unwrap_or(model.span);
+        let message =
+            format!("`{section}` of a machine with `sliding` cannot be derived yet");
+        let help = format!("without `{section}`, or without `sliding`, it can be derived");
+        refuse(Code::NotSupported, span, message, help);
+    }
+    if let Some(contact) = model.sliding.get(MOST_CONTACTS) {
+        let count = model.sliding.len();
+        let message = format!("{count} contacts that stick or slide are too many");
+        let help = format!("a machine may have {MOST_CONTACTS} of them");
+        refuse(Code::TooLarge, contact.span, message, help);
+    }
+    if model.relaxed.is_none() {
+        let message = "the equations of this machine with its guides relaxed are too large";
+        let help = "it is read a second time, with two coordinates more for each contact";
+        refuse(Code::TooLarge, first.span, message.to_owned(), help.to_owned());
     }
     refused
 }

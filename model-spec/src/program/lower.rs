@@ -1,6 +1,7 @@
 //! From expressions to programs.
 
 mod derivatives;
+mod friction;
 mod stages;
 
 use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
@@ -15,7 +16,7 @@ use super::rounding::{Rounding, States};
 use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution, System};
 use super::{Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
-use crate::mechanics::{ConstraintEquation, Equations, Reduction, Unprojected};
+use crate::mechanics::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
 use crate::model::{Model, Name, Stages, stage};
 use crate::unit::Unit;
 
@@ -74,6 +75,7 @@ impl Program {
                 false => None,
             },
             slopes: &slopes,
+            sliding: &equations.sliding,
             multipliers: &multipliers,
             reduced: reduced
                 .as_ref()
@@ -88,8 +90,15 @@ impl Program {
                     reduction: Some(reduction),
                 }),
         };
-        let constraints = equations.constraints.iter().map(constraint).collect();
-        Program::build(model, source, constraints, choose)
+        let mut program = Program::build(
+            model,
+            source,
+            equations.constraints.iter().map(constraint).collect(),
+            choose,
+        );
+        program.contacts = equations.sliding.iter().map(|s| s.name.clone()).collect();
+        debug_assert_eq!(program.verify(), Ok(()));
+        program
     }
 
     /// The program that computes the quantities.
@@ -101,6 +110,7 @@ impl Program {
             expanded: &[],
             unprojected: None,
             slopes: &|_| Vec::new(),
+            sliding: &[],
             multipliers: &[],
             reduced: None,
         };
@@ -187,7 +197,10 @@ impl Program {
             let drafts = of_quantity(&mut lowering, quantity, source.expanded);
             take(drafts, &lowering.graph);
         }
-        let mut ways = accelerations(&mut lowering, source.whole(model));
+        let mut ways = match source.sliding.is_empty() {
+            true => accelerations(&mut lowering, source.whole(model)),
+            false => friction::friction(&mut lowering, source),
+        };
         if let Some(reduced) = source.reduced {
             let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
             let offsets = offsets.filter_map(|d| d.offset.map(|[name, meaning]| (name, meaning)));
@@ -240,6 +253,7 @@ impl Program {
             outputs,
             assumptions: facts(model),
             constraints,
+            contacts: Vec::new(),
             derivatives: match has_derivatives {
                 true => model.derivatives.clone(),
                 false => Vec::new(),
@@ -251,7 +265,7 @@ impl Program {
             functions,
             choices,
         };
-        debug_assert_eq!(program.verify(), Ok(()));
+        debug_assert!(!source.sliding.is_empty() || program.verify() == Ok(()));
         program
     }
 }
@@ -271,6 +285,8 @@ struct Origin<'a, 'd> {
     /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
     /// they were derived or multiplied out.
     slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
+    /// The contacts with friction.
+    sliding: &'a [SlidingEquation<'d>],
     /// The symbols of the multipliers in them.
     multipliers: &'a [Expr<'d>],
     /// The same machine without the coordinates that constraints settle.
@@ -324,6 +340,7 @@ pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quant
         scalar(Role::DissipationRate, equations.dissipation_rate),
     ]);
     quantities.extend(of_constraints(model, equations));
+    quantities.extend(friction::of_slips(equations));
     let outputs = equations.outputs.iter().enumerate();
     quantities.extend(outputs.map(|(index, value)| scalar(Role::Output(index), *value)));
     let assumptions = model.assumptions.iter().enumerate();

@@ -13,7 +13,7 @@ use lagrangian_symbolic::{Expr, Symbol, evaluate, substitute};
 use rustc_hash::FxHashMap;
 
 use super::{
-    Arguments, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular, Source, Value,
+    Arguments, FrictionLayout, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular, Source, Value,
 };
 use crate::mechanics::{Dependent, Oracle, dependents};
 use crate::model::{Model, Variable};
@@ -161,6 +161,20 @@ pub fn prove(
                 constraints.iter().map(|c| c.rate).collect(),
             ),
             each(Role::ConstraintMatrix, rows),
+        ]);
+    }
+    let contacts = &oracle.sliding;
+    if !contacts.is_empty() {
+        let vector = |role, values: Vec<_>| Quantity {
+            role,
+            shape: Shape::Vector(values.len()),
+            values,
+        };
+        let rows = contacts.iter().flat_map(|c| c.row.clone()).collect();
+        quantities.extend([
+            vector(Role::Slips, contacts.iter().map(|c| c.slip).collect()),
+            vector(Role::SlipMatrix, rows),
+            vector(Role::SlipDrift, contacts.iter().map(|c| c.drift).collect()),
         ]);
     }
     let dependents = dependents(model, &crate::mechanics::constraints(model));
@@ -355,6 +369,9 @@ impl<'a, 'd> Point<'a, 'd> {
     /// The accelerations and multipliers, put into the equations of motion and of the constraints,
     /// leave nothing.
     fn check_motion(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
+        if !oracle.sliding.is_empty() {
+            return self.check_friction(oracle);
+        }
         let (n, point) = (oracle.residual.len(), self.number);
         let accelerations = self.call(Role::Accelerations, n)?;
         let mut left = self.evaluate(&oracle.residual, &accelerations)?;
@@ -384,6 +401,86 @@ impl<'a, 'd> Point<'a, 'd> {
             Some(coordinate) => Err(Disagreement::Motion { coordinate, point }.into()),
             None => Ok(()),
         }
+    }
+
+    /// With any frictions the accelerations, multipliers and normal reactions obey the equations of
+    /// motion, of the constraints, and of the displacements that would open the guides.
+    fn check_friction(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
+        let (n, point) = (oracle.residual.len(), self.number);
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: oracle.constraints.len(),
+            contacts: oracle.sliding.len(),
+        };
+        let (m, count, part) = (layout.constraints, layout.contacts, layout.part());
+        let responses = self.call(Role::Friction, layout.len())?;
+        let frictions: Vec<Residue> = (0..count as u64)
+            .map(|k| Residue::random(self.number, 1_000_000 + k))
+            .collect();
+        let values: Vec<Residue> = (0..part)
+            .map(|i| {
+                let own = frictions.iter().enumerate();
+                own.fold(responses[i], |sum, (k, f)| {
+                    sum + *f * responses[(k + 1) * part + i]
+                })
+            })
+            .collect();
+        let (a, rest) = values.split_at(n);
+        let (multipliers, rest) = rest.split_at(m);
+        let (slips, normals) = rest.split_at(count);
+
+        let mut left = self.evaluate(&oracle.residual, a)?;
+        for (constraint, multiplier) in oracle.constraints.iter().zip(multipliers) {
+            let row = self.evaluate(&constraint.row, a)?;
+            for (left, g) in left.iter_mut().zip(row) {
+                *left = *left - g * *multiplier;
+            }
+            if self.evaluate(&[constraint.residual], a)?[0] != Residue::ZERO {
+                let constraint = 0;
+                return Err(Disagreement::Constraint { constraint, point }.into());
+            }
+        }
+        for (contact, friction) in oracle.sliding.iter().zip(&frictions) {
+            let row = self.evaluate(&contact.row, a)?;
+            for (left, tau) in left.iter_mut().zip(row) {
+                *left = *left - tau * *friction;
+            }
+        }
+        if let Some(coordinate) = left.iter().position(|left| *left != Residue::ZERO) {
+            return Err(Disagreement::Motion { coordinate, point }.into());
+        }
+        let wrong = |index: usize| {
+            let role = Role::Friction;
+            Verdict::from(Disagreement::Result { role, index, point })
+        };
+        for (k, contact) in oracle.sliding.iter().enumerate() {
+            let known = self.evaluate(&[contact.slip_rate, contact.unbalanced], a)?;
+            if known[0] != slips[k] {
+                return Err(wrong(n + m + k));
+            }
+            let terms = [
+                (&contact.by_multipliers, multipliers, -Residue::ONE),
+                (&contact.by_frictions, &frictions[..], -Residue::ONE),
+                (&contact.by_normals, normals, -Residue::ONE),
+            ];
+            let mut open = known[1];
+            for (coefficients, values, sign) in terms {
+                for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
+                    open = open + sign * c * *x;
+                }
+            }
+            if open != Residue::ZERO {
+                return Err(wrong(n + m + count + k));
+            }
+            let at = (1 + count) * part + k;
+            let expected = self.evaluate(&contact.coefficients, a)?;
+            for (index, expected) in [at, at + count].into_iter().zip(expected) {
+                if responses[index] != expected {
+                    return Err(wrong(index));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// The lower triangle of the matrix that is eliminated: M, and behind it the rows of G.
@@ -543,7 +640,7 @@ impl<'a, 'd> Point<'a, 'd> {
             return Err(wrong.into());
         }
         std::mem::swap(&mut self.interpreter, &mut self.guards);
-        let values = self.call(Role::Accelerations, 2 * sorted.len());
+        let values = self.call(self.program.solving(), 2 * sorted.len());
         std::mem::swap(&mut self.interpreter, &mut self.guards);
         let values = values?;
         let mut pairs = vec![[Residue::ONE; 2]; n];
@@ -608,7 +705,7 @@ fn with_guarded_values(program: &Program) -> Program {
     for function in probe
         .functions
         .iter_mut()
-        .filter(|function| function.role == Role::Accelerations)
+        .filter(|function| function.role == program.solving())
     {
         let varying: Vec<Value> = values(function);
         function.results.clear();
@@ -635,7 +732,7 @@ fn with_guarded_values(program: &Program) -> Program {
 fn guarded_coordinates(program: &Program) -> Vec<usize> {
     let functions = [
         Some(&program.prepare),
-        program.function(Role::Accelerations),
+        program.function(program.solving()),
     ];
     let guards = functions
         .into_iter()

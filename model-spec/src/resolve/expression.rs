@@ -829,6 +829,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 }
             }
         }
+        for guide in &self.guides {
+            for [q, v, a] in guide.by.iter().copied() {
+                rates.push((q.as_symbol()?, v));
+                rates.push((v.as_symbol()?, a));
+            }
+        }
         complete.then_some(rates)
     }
 

@@ -57,7 +57,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if let Some(&known) = self.pose_of.get(&key) {
             return known;
         }
-        let pose = make(self);
+        let mut pose = make(self);
+        self.relax_pose(&mut pose);
         // There are fewer poses than steps of evaluation, which are limited.
         let id = PoseId(u32::try_from(self.poses.len()).unwrap_or(u32::MAX));
         self.poses.push(pose);

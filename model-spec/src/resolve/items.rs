@@ -302,10 +302,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let scope = self.scope(member, &limits::POSITION);
             let why = "a point is in m";
             return match self.vector_in(at, "a point", Unit::METRE, why, scope) {
-                Some(centre) => Value::Vector(Vector {
-                    unit: Some(Unit::METRE),
-                    ..centre
-                }),
+                Some(centre) => Value::Vector(self.relaxed_centre(
+                    member,
+                    Vector {
+                        unit: Some(Unit::METRE),
+                        ..centre
+                    },
+                )),
                 None => Value::Unknown,
             };
         }
@@ -984,13 +987,26 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let on = on.and_then(|on| self.place(member, on));
         let scope = self.scope(member, &limits::DIRECTION);
         let direction = direction.and_then(|direction| self.vector(direction, "a vector", scope));
+        let normal = record.get("normal");
+        let normal = normal.map(|normal| self.vector(normal, "a vector", scope));
         let friction = friction.and_then(|friction| self.friction(member, friction));
+        let sticking = record.get("static_friction");
+        let sticking = sticking.map(|friction| self.friction(member, friction));
         Some(Sliding {
             name: self.name(member),
             body: self.ordinal(body?)?,
             on: on?,
             direction: direction?.components,
+            // What is said and wrong has been reported.
+            normal: match normal {
+                Some(normal) => Some(normal?.components),
+                None => None,
+            },
             friction: friction?,
+            static_friction: match sticking {
+                Some(friction) => Some(friction?),
+                None => None,
+            },
             span: self.span(member),
         })
     }

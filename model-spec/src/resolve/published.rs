@@ -289,7 +289,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             PublishedKind::Position => {
                 Some((Quantity::Position(self.printed_body(of?)?), Unit::METRE))
             }
-            PublishedKind::Force | PublishedKind::Equation => {
+            PublishedKind::Force | PublishedKind::Friction | PublishedKind::Equation => {
                 let (name, index) = of?;
                 let group = self.find_group(Namespace::Values, &name.base.text);
                 let found = group.and_then(|group| self.groups[group].members.get(&index).copied());
@@ -314,6 +314,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let unit = Unit::JOULE.over(self.unit_of(coordinate)?);
                 Some(match kind {
                     PublishedKind::Force => (Quantity::Force(ordinal), unit),
+                    PublishedKind::Friction => (Quantity::Friction(ordinal), unit),
                     _ => (Quantity::Equation(ordinal), unit),
                 })
             }

@@ -198,7 +198,14 @@ impl SectionKind {
             SectionKind::Dampers => &["damping", "stretch", "from", "to"],
             SectionKind::Forces => &["at", "force", "on", "value"],
             SectionKind::Torques => &["on", "torque"],
-            SectionKind::Sliding => &["body", "on", "direction", "friction"],
+            SectionKind::Sliding => &[
+                "body",
+                "on",
+                "direction",
+                "normal",
+                "friction",
+                "static_friction",
+            ],
             SectionKind::Circles => &["on", "center", "radius"],
             SectionKind::Rolling => &["circle", "inside", "outside", "along", "friction"],
             SectionKind::Contacts => &[
@@ -499,6 +506,8 @@ pub enum PublishedKind {
     Dissipation,
     /// `force` on a coordinate: the generalized force.
     Force,
+    /// `friction` on a coordinate: the generalized force of contacts that slide forward.
+    Friction,
     /// `position` of the mass centre of a body.
     Position,
     /// `velocity` of the mass centre of a body.
@@ -514,6 +523,7 @@ impl PublishedKind {
         PublishedKind::PotentialEnergy,
         PublishedKind::Dissipation,
         PublishedKind::Force,
+        PublishedKind::Friction,
         PublishedKind::Position,
         PublishedKind::Velocity,
         PublishedKind::Equation,
@@ -526,6 +536,7 @@ impl PublishedKind {
             PublishedKind::PotentialEnergy => "potential_energy",
             PublishedKind::Dissipation => "dissipation",
             PublishedKind::Force => "force",
+            PublishedKind::Friction => "friction",
             PublishedKind::Position => "position",
             PublishedKind::Velocity => "velocity",
             PublishedKind::Equation => "equation",

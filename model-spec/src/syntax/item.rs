@@ -534,7 +534,7 @@ impl Parser<'_> {
             PublishedKind::KineticEnergy | PublishedKind::Position | PublishedKind::Velocity => {
                 Some(self.declared("the name of a body")?)
             }
-            PublishedKind::Force | PublishedKind::Equation => {
+            PublishedKind::Force | PublishedKind::Friction | PublishedKind::Equation => {
                 Some(self.declared("the name of a coordinate")?)
             }
         };

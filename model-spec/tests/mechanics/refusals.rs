@@ -31,6 +31,7 @@ fn sections_that_are_not_derived_yet_are_named() {
                 bowl { on: ground, center: (0, 0), radius: 2*r },
             }
             sliding { guide { body: ball, on: ground, direction: (1, 0), friction: 0.1 } }
+            derivatives { coordinates }
             contacts { inside { circle: rim, inside: bowl, restitution: 0.5, friction: 0.1 } }
         }",
     );
@@ -38,7 +39,7 @@ fn sections_that_are_not_derived_yet_are_named() {
     assert_eq!(codes.len(), 2);
     assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
     assert!(
-        codes[0].1.contains("`sliding`") && codes[1].1.contains("`contacts`"),
+        codes[0].1.contains("`contacts`") && codes[1].1.contains("`derivatives`"),
         "{codes:?}"
     );
 }

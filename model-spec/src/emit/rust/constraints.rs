@@ -4,9 +4,6 @@ use super::Emitter;
 use crate::emit::layout::Layout;
 use crate::program::Role;
 
-/// About how many numbers a machine lends from the stack: a quarter of a megabyte.
-const MOST_LENT: usize = 1 << 15;
-
 impl Emitter<'_> {
     /// What the constraints are called.
     pub(super) fn table_of_constraints(&mut self) {
@@ -85,47 +82,24 @@ impl Emitter<'_> {
             &[("drift", Role::ConstraintDrift)],
         );
         let call = self.call(Role::Multipliers);
+        let has_contacts = !self.program.contacts.is_empty();
         let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
         self.method(
             "multipliers",
             &["t", "q", "v", "u", "lambda"],
             Some(&result),
             |body| {
+                if has_contacts {
+                    let own = format!("{runtime}::multipliers_with_friction");
+                    body.line(format!("{own}(self, t, q, v, u, lambda)"));
+                    return;
+                }
                 if let Some(call) = call {
                     body.line(format!("fill(lambda, &{call}?);"));
                 }
                 body.line("Ok(())");
             },
         );
-        self.lend();
-    }
-
-    /// Room for the work on constraints: an array, where that is no burden to a stack.
-    fn lend(&mut self) {
-        let (n, m) = (
-            self.program.coordinates.len(),
-            self.program.constraints.len(),
-        );
-        if 2 * n * m + n.min(m) * n.min(m) > MOST_LENT {
-            return;
-        }
-        let [option, once, f64, usize] =
-            ["Option", "FnOnce", "f64", "usize"].map(|name| self.types.known(name));
-        let runtime = &self.options.runtime;
-        let room = format!("let mut room = [0.0; {runtime}::constraint_room({n}, {m})];");
-        self.writer.gap();
-        self.writer.signature(
-            "fn lend<R>",
-            &[
-                "&self".to_owned(),
-                format!("length: {usize}"),
-                format!("work: impl {once}({option}<&mut [{f64}]>) -> R"),
-            ],
-            Some("R"),
-        );
-        self.writer.line(room);
-        self.writer.line("work(room.get_mut(..length))");
-        self.writer.close("}");
     }
 
     /// Small functions that the code above calls.
@@ -134,7 +108,7 @@ impl Emitter<'_> {
             return;
         }
         let runtime = self.options.runtime.clone();
-        let [str, bool, f64] = ["str", "bool", "f64"].map(|name| self.types.known(name));
+        let [str, bool] = ["str", "bool"].map(|name| self.types.known(name));
         self.writer.gap();
         self.writer.line("/// A constraint, as it is called.");
         let text = format!("&'a {str}");
@@ -150,19 +124,6 @@ impl Emitter<'_> {
             .map(|name| (name.to_owned(), Layout::Atom(name.to_owned())));
         let literal = Layout::Struct(format!("{runtime}::Constraint"), fields.to_vec());
         self.writer.expression("", &literal, "");
-        self.writer.close("}");
-        self.writer.gap();
-        self.writer
-            .line("/// Writes numbers where there is room for them.");
-        self.writer.signature(
-            "fn fill",
-            &[format!("to: &mut [{f64}]"), format!("from: &[{f64}]")],
-            None,
-        );
-        self.writer
-            .open("for (to, from) in to.iter_mut().zip(from) {");
-        self.writer.line("*to = *from;");
-        self.writer.close("}");
         self.writer.close("}");
     }
 }

@@ -251,6 +251,13 @@ impl<'a> Emitter<'a> {
             (Role::ConstraintRates, _) => numbered("phi", function.shape.len()),
             (Role::ConstraintDrift, _) => numbered("gamma", function.shape.len()),
             (Role::Multipliers, _) => numbered("lambda", function.shape.len()),
+            (Role::Slips, _) => numbered("w", function.shape.len()),
+            (Role::SlipMatrix, shape) => {
+                let n = self.program.dimension();
+                let entries = (0..shape.len()).map(|k| (k / n + 1, k % n + 1));
+                entries.map(|(i, j)| format!("tau{i}_{j}")).collect()
+            }
+            (Role::SlipDrift, _) => numbered("drift", function.shape.len()),
             (Role::Bias, _) => each(&|name| format!("h_{name}")),
             (Role::Applied, _) => each(&|name| format!("q_{name}")),
             (Role::Forces, _) => each(&|name| format!("f_{name}")),
@@ -302,6 +309,13 @@ impl<'a> Emitter<'a> {
             Role::ConstraintMatrix => "The matrix `G` of the constraints, row after row.".into(),
             Role::ConstraintDrift => "`gamma` of `G a = gamma`.".into(),
             Role::Multipliers => "Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.\n\n\
+                A pivot that vanishes is an error."
+                .into(),
+            Role::Slips => "How fast the contacts slide, `w`, in m/s.".into(),
+            Role::SlipMatrix => "The matrix `tau = dw/dv` of the slips, row after row.".into(),
+            Role::SlipDrift => "`dw/dt` at `a = 0`.".into(),
+            Role::Friction => "What there is without friction, and what each unit of friction adds to it: accelerations, \
+                multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction.\n\n\
                 A pivot that vanishes is an error."
                 .into(),
             Role::KineticEnergy => "Kinetic energy `T`, in J.".into(),

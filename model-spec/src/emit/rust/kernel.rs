@@ -26,6 +26,7 @@ impl Emitter<'_> {
             Role::AtPosition => self.types.stage_calls[1].clone(),
             Role::AccelerationsAt => self.types.stage_calls[2].clone(),
             Role::Multipliers => self.types.multipliers_call.clone(),
+            Role::Friction => self.types.friction_call.clone(),
             _ => self.types.accelerations.clone(),
         }
     }

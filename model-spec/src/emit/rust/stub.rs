@@ -90,6 +90,7 @@ fn standstill(spec: &Spec) -> Program {
         outputs,
         assumptions: Vec::new(),
         constraints: Vec::new(),
+        contacts: Vec::new(),
         derivatives: Vec::new(),
         stages,
         prepare: zeros(Role::Prepare, Shape::Vector(0)),

@@ -80,7 +80,9 @@ impl Emitter<'_> {
             "coordinates" => format!("&{coordinates}"),
             "matrix" => format!("&mut [{f64}; {}]", n * n),
             "result" => format!("&mut [{f64}; {n}]"),
-            "positions" | "rates" | "rows" | "drift" | "lambda" => format!("&mut [{f64}]"),
+            "positions" | "rates" | "rows" | "drift" | "lambda" | "slips" | "parts" => {
+                format!("&mut [{f64}]")
+            }
             _ => format!("&[{f64}; {n}]"),
         }
     }
@@ -186,6 +188,8 @@ impl Emitter<'_> {
         self.inputs_and_outputs();
         self.assumptions();
         self.constraints();
+        self.contacts();
+        self.lend();
         self.writer.close("}");
     }
 
@@ -197,7 +201,13 @@ impl Emitter<'_> {
             self.options.runtime
         );
         let f64 = self.types.known("f64");
-        let call = self.accelerations_in_place(&f64, "self");
+        let call = match self.program.contacts.is_empty() {
+            true => self.accelerations_in_place(&f64, "self"),
+            false => {
+                let own = format!("{}::accelerations_with_friction", self.options.runtime);
+                Some(vec![format!("{own}(self, t, q, v, u, result)")])
+            }
+        };
         self.method(
             "accelerations",
             &["t", "q", "v", "u", "result"],
@@ -375,6 +385,7 @@ impl Emitter<'_> {
             self.writer.close("}");
         }
         self.helpers_of_constraints();
+        self.helper_of_room();
         self.helpers_of_guards();
     }
 

@@ -19,6 +19,8 @@ pub(super) struct Types {
     pub(super) accelerations: [String; 2],
     /// A call of the multipliers, and what its pieces are.
     pub(super) multipliers_call: [String; 2],
+    /// A call of what frictions bring about, and what its pieces are.
+    pub(super) friction_call: [String; 2],
     /// A call of the derivatives, and what its pieces are.
     pub(super) derivatives_call: [String; 2],
     /// What a stage of the accelerations leaves to the next one.
@@ -46,6 +48,7 @@ impl Types {
             derivatives: scope.take("Derivatives"),
             accelerations: ["Accelerations", "AccelerationsPiece"].map(|name| scope.take(name)),
             multipliers_call: ["Multipliers", "MultipliersPiece"].map(|name| scope.take(name)),
+            friction_call: ["Friction", "FrictionPiece"].map(|name| scope.take(name)),
             derivatives_call: ["DerivativesCall", "DerivativesPiece"].map(|name| scope.take(name)),
             at_time: scope.take("AtTime"),
             at_position: scope.take("AtPosition"),

@@ -24,11 +24,11 @@ struct Step {
 }
 
 /// The accelerations, and how they were found.
-struct Solved {
-    accelerations: Vec<Scaled>,
-    multipliers: Vec<Scaled>,
+pub(super) struct Solved {
+    pub accelerations: Vec<Scaled>,
+    pub multipliers: Vec<Scaled>,
     steps: Vec<Step>,
-    pivots: Vec<Pivot>,
+    pub pivots: Vec<Pivot>,
     /// How many unknowns there are; the first are the accelerations.
     unknowns: usize,
 }
@@ -93,11 +93,15 @@ impl Asked<'_, '_> {
 }
 
 fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination) -> Solved {
-    let solution = solve::solve(graph, asked.system, elimination);
+    of_elimination(solve::solve(graph, asked.system, elimination), asked.system)
+}
+
+/// How the accelerations were found, where the matrix of the system was eliminated.
+pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
         // Pivots of constraints are guarded as positive numbers.
-        pivot: Some(match pivot.coordinate < asked.system.coordinates {
+        pivot: Some(match pivot.coordinate < system.coordinates {
             true => pivot.pivot,
             false => pivot.pivot.negated(),
         }),
@@ -113,7 +117,7 @@ fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination)
         multipliers: solution.multipliers,
         steps: steps.map(step).collect(),
         pivots: solution.pivots,
-        unknowns: asked.system.forces.len(),
+        unknowns: system.forces.len(),
     }
 }
 
@@ -177,17 +181,7 @@ fn function<'d>(
     let n = asked.system.coordinates;
     let rights = right_hand_sides(lowering, slopes, asked, solved);
     let graph = &mut lowering.graph;
-    let inverses: Vec<Scaled> = solved
-        .steps
-        .iter()
-        .map(|step| match step.pivot {
-            Some(pivot) => {
-                let inverse = graph.product(&[(pivot, -1)]);
-                graph.whole(inverse)
-            }
-            None => Scaled::ZERO,
-        })
-        .collect();
+    let inverses = inverses(graph, solved);
     let mut columns = vec![solved.accelerations.clone()];
     for right in rights {
         columns.push(respond(graph, solved, &inverses, right));
@@ -233,8 +227,20 @@ fn right_hand_sides<'d>(
     rights
 }
 
-/// Solves `M x = r` by the steps that found the accelerations.
-fn respond(
+/// The reciprocals of the pivots, step by step.
+pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
+    let inverse = |step: &Step| match step.pivot {
+        Some(pivot) => {
+            let inverse = graph.product(&[(pivot, -1)]);
+            graph.whole(inverse)
+        }
+        None => Scaled::ZERO,
+    };
+    solved.steps.iter().map(inverse).collect()
+}
+
+/// Solves `M x = r` by the steps that found the accelerations; of rows of constraints, `−λ`.
+pub(super) fn respond(
     graph: &mut Graph,
     solved: &Solved,
     inverses: &[Scaled],

@@ -1,0 +1,116 @@
+//! The same machine with its guides relaxed.
+//!
+//! A guide holds a body on a line, and what it takes to hold it is found by letting go: the frame of
+//! the body, and all that is built on it, may move off by a displacement that is a coordinate of its
+//! own. The spec is read once more with these displacements in it, so that springs, points and
+//! outputs that hang on the body know of them. Where they are zero it is the machine again.
+
+use lagrangian_symbolic::Expr;
+
+use super::Resolver;
+use super::value::{MemberId, Vector};
+use crate::model::{Coordinate, Model, Name, Pose, PoseId, Rotation, Sliding, stage};
+use crate::source::Span;
+use crate::unit::Unit;
+
+/// A guide that is relaxed.
+pub(super) struct Guide<'d> {
+    name: String,
+    span: Span,
+    /// The frame that moves off, with all that is built on it.
+    frame: Option<PoseId>,
+    /// The body whose mass centre moves off by itself, by its index.
+    body: Option<usize>,
+    /// The displacement in ground axes: symbols of each component, of its rate, and of its
+    /// acceleration.
+    pub by: Vec<[Expr<'d>; 3]>,
+}
+
+/// The guides of a machine, in the order of its contacts.
+pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<Guide<'d>> {
+    model.sliding.iter().map(|one| guide(model, one)).collect()
+}
+
+fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
+    let body = &model.bodies[sliding.body];
+    let frame = match body.rotation {
+        Rotation::Frame(pose) if pose != PoseId::GROUND => Some(pose),
+        _ => None,
+    };
+    let place = body.local.as_ref().map(|local| local.pose);
+    let is_carried = frame.is_some_and(|frame| {
+        place.is_some_and(|mut place| {
+            while place != frame && place != PoseId::GROUND {
+                place = model.poses[place.index()].parent;
+            }
+            place == frame
+        })
+    });
+    let name = sliding.name.to_string();
+    let component = |axis: &str| {
+        let symbol = |of: &str, stage| model.dag.symbol(&format!("{of}({name}.{axis})"), stage);
+        [
+            symbol("relaxed", stage::POSITION),
+            symbol("relaxed_rate", stage::VELOCITY),
+            symbol("relaxed_acceleration", stage::ACCELERATION),
+        ]
+    };
+    let axes = ["x", "y", "z"].iter().take(model.space.dimension());
+    Guide {
+        span: sliding.span,
+        frame,
+        body: (!is_carried).then_some(sliding.body),
+        by: axes.map(|axis| component(axis)).collect(),
+        name,
+    }
+}
+
+impl<'d> Resolver<'_, 'd, '_> {
+    /// Moves a new pose off by the guides of what it is the frame of. Poses are numbered as they are
+    /// made, and they are made in the same order again.
+    pub(super) fn relax_pose(&self, pose: &mut Pose<'d>) {
+        let own = |guide: &&Guide<'d>| guide.frame.is_some_and(|f| f.index() == self.poses.len());
+        for guide in self.guides.iter().filter(own) {
+            for (x, &[by, ..]) in pose.origin.iter_mut().zip(&guide.by) {
+                *x = *x + by;
+            }
+        }
+    }
+
+    /// The mass centre of a body, moved off by the guides of a body that has no frame.
+    pub(super) fn relaxed_centre(&self, member: MemberId, mut centre: Vector<'d>) -> Vector<'d> {
+        let body = self.ordinal(member);
+        for guide in &self.guides {
+            if guide.body.is_some() && guide.body == body {
+                centre.local = None;
+                for (x, &[by, ..]) in centre.components.iter_mut().zip(&guide.by) {
+                    *x = *x + by;
+                }
+            }
+        }
+        centre
+    }
+
+    /// The displacements, as coordinates.
+    pub(super) fn relaxed_coordinates(&self) -> Vec<Coordinate<'d>> {
+        let of_guide = |guide: &Guide<'d>| {
+            let coordinate = |&[q, v, a]: &[Expr<'d>; 3]| Coordinate {
+                name: Name {
+                    base: guide.name.clone(),
+                    index: None,
+                },
+                docs: String::new(),
+                unit: Unit::METRE,
+                unit_text: "m".into(),
+                start: self.dag.zero(),
+                start_rate: self.dag.zero(),
+                q,
+                v,
+                a,
+                span: guide.span,
+            };
+            guide.by.iter().map(coordinate).collect::<Vec<_>>()
+        };
+        self.guides.iter().flat_map(of_guide).collect()
+    }
+}

@@ -1,0 +1,864 @@
+//! Coulomb friction in guided contacts: what sticks, what slides, and with which forces.
+//!
+//! ```text
+//! slides   F = −s μ |N|,   s = sgn w         until w = 0
+//! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|          until |F| = μ₀ |N|
+//! ```
+//!
+//! A machine says how accelerations, `dw/dt` and the normal reactions `N` depend on the frictions `F`
+//! of all its contacts ([`System::friction`]): linearly. With the states of the contacts given, what
+//! is left is one equation for each of them, `F + s η μ N(F) = 0` or `dw/dt(F) = 0`, where η is the
+//! sign of `N`. They are solved with a full search for pivots: the matrix is not symmetric, and it
+//! may be singular (P. Painlevé, *Leçons sur le frottement*, 1895).
+//!
+//! Which states the contacts are in is a question for all of them at once, and it is asked only where
+//! something comes to rest, breaks away, or changes the side on which it presses. Then every
+//! combination is looked at; that there is exactly one solution is found out and not presumed. (F.
+//! Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996, chapters 5 and 6, write
+//! the same as a linear complementarity problem.) In between, the states stay as they are: the motion
+//! is smooth, and what sticks is held at `w = 0` itself.
+
+use crate::{Pivot, Singular, StepError, System, Vector};
+
+/// The most contacts of a machine.
+pub const MOST_CONTACTS: usize = 6;
+
+/// What rounding may take from a condition, relative to its terms.
+const ROUNDING: f64 = 1e-12;
+
+/// Solutions whose accelerations differ by less than this, relative to their greatest, are the same.
+const SAME: f64 = 1e-9;
+
+/// A pivot is zero below this, relative to the entries of its row.
+const SINGULAR: f64 = 1e-12;
+
+/// Slips below this, relative to the greatest of the same contact in the run, count as rest where
+/// another contact comes to rest.
+const AT_REST: f64 = 1e-10;
+
+/// A number for each contact.
+type Each = [f64; MOST_CONTACTS];
+
+/// How many numbers the work on constraints and contacts needs: what [`System::lend`] is asked for.
+pub const fn room(coordinates: usize, constraints: usize, contacts: usize) -> usize {
+    let of_friction = Layout {
+        n: coordinates,
+        m: constraints,
+        k: contacts,
+    }
+    .len()
+        + contacts * (coordinates + 1);
+    let of_constraints = crate::constraint_room(coordinates, constraints);
+    if of_friction > of_constraints {
+        of_friction
+    } else {
+        of_constraints
+    }
+}
+
+/// A contact at a state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactForce {
+    /// How fast it slides along its direction, in m/s.
+    pub slip: f64,
+    /// The normal reaction, in N: positive where it presses the body to the side of the normal.
+    pub normal: f64,
+    /// The friction on the body along the direction, in N.
+    pub friction: f64,
+    /// Whether it sticks.
+    pub sticks: bool,
+}
+
+/// What a contact does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Motion {
+    /// It stays where it is on its guide.
+    Sticks,
+    /// It slides forward (1) or backward (−1).
+    Slides(f64),
+}
+
+/// The states of the contacts: what they do, and to which side they press (1 or −1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Mode {
+    pub motion: [Motion; MOST_CONTACTS],
+    pub press: Each,
+}
+
+/// What a run knows of its contacts.
+#[derive(Clone, Debug)]
+pub(crate) struct Contacts {
+    count: usize,
+    pub mode: Mode,
+    /// The greatest slips so far.
+    sizes: Each,
+}
+
+/// What ended the state of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Change {
+    /// Which contact.
+    pub contact: usize,
+    pub cause: Cause,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Cause {
+    /// It came to rest.
+    Stopped,
+    /// Its friction would have to be greater than it can be.
+    BrokeAway,
+    /// Its normal reaction went through zero.
+    Turned,
+}
+
+/// How many solutions there are, where it is not one, and of which contact first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Paradox {
+    pub contact: usize,
+    pub several: bool,
+}
+
+impl Paradox {
+    fn singular(self) -> Singular {
+        Singular {
+            at: Pivot::Contact(self.contact),
+            ratio: if self.several { f64::INFINITY } else { 0.0 },
+        }
+    }
+}
+
+/// How the results of [`System::friction`] are arranged: `1 + k` parts of `n` accelerations, `m`
+/// multipliers, `k` slip rates and `k` normal reactions, then `k` coefficients of what slides and `k`
+/// of what sticks.
+#[derive(Clone, Copy)]
+struct Layout {
+    n: usize,
+    m: usize,
+    k: usize,
+}
+
+impl Layout {
+    const fn part(self) -> usize {
+        self.n + self.m + 2 * self.k
+    }
+
+    const fn len(self) -> usize {
+        (1 + self.k) * self.part() + 2 * self.k
+    }
+}
+
+/// What follows from the frictions.
+struct Parts<'p> {
+    layout: Layout,
+    values: &'p [f64],
+}
+
+impl Parts<'_> {
+    /// Entry `i` of a part: of what there is without friction (0), or by the friction of a contact.
+    fn at(&self, part: usize, i: usize) -> f64 {
+        self.values[part * self.layout.part() + i]
+    }
+
+    /// Entry `i` with all frictions, and the size of its terms.
+    fn sum(&self, i: usize, frictions: &Each) -> [f64; 2] {
+        let alone = self.at(0, i);
+        let mut sum = [alone, alone.abs()];
+        for (k, friction) in frictions[..self.layout.k].iter().enumerate() {
+            let term = self.at(1 + k, i) * friction;
+            sum = [sum[0] + term, sum[1] + term.abs()];
+        }
+        sum
+    }
+
+    /// Where the slip rate of a contact stands in a part.
+    fn slip_rate(&self, contact: usize) -> usize {
+        self.layout.n + self.layout.m + contact
+    }
+
+    /// Where its normal reaction stands.
+    fn normal(&self, contact: usize) -> usize {
+        self.slip_rate(contact) + self.layout.k
+    }
+
+    fn friction(&self, contact: usize) -> f64 {
+        self.values[(1 + self.layout.k) * self.layout.part() + contact]
+    }
+
+    fn static_friction(&self, contact: usize) -> f64 {
+        self.values[(1 + self.layout.k) * self.layout.part() + self.layout.k + contact]
+    }
+
+    /// The frictions of contacts in given states; none where there is no such motion.
+    fn frictions(&self, mode: &Mode) -> Option<Each> {
+        let count = self.layout.k;
+        let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
+        for (k, row) in rows[..count].iter_mut().enumerate() {
+            let (entry, factor, own) = match mode.motion[k] {
+                Motion::Sticks => (self.slip_rate(k), 1.0, 0.0),
+                Motion::Slides(sign) => {
+                    (self.normal(k), sign * mode.press[k] * self.friction(k), 1.0)
+                }
+            };
+            for (j, x) in row[..count].iter_mut().enumerate() {
+                *x = factor * self.at(1 + j, entry);
+            }
+            row[k] += own;
+            row[count] = -factor * self.at(0, entry);
+        }
+        solve(&mut rows, count)
+    }
+
+    /// Whether contacts in given states can have these frictions: those of `open` may be in any
+    /// state, the others slide as they do.
+    fn admits(&self, mode: &Mode, frictions: &Each) -> bool {
+        (0..self.layout.k).all(|k| {
+            let [normal, terms] = self.sum(self.normal(k), frictions);
+            match mode.motion[k] {
+                Motion::Sticks => {
+                    let most = self.static_friction(k) * normal.abs();
+                    frictions[k].abs() <= most + ROUNDING * (most + self.static_friction(k) * terms)
+                }
+                Motion::Slides(_) => mode.press[k] * normal >= -ROUNDING * terms,
+            }
+        })
+    }
+
+    /// Whether what slides off from rest does so in its direction.
+    fn departs(&self, mode: &Mode, frictions: &Each, contact: usize) -> bool {
+        let [rate, terms] = self.sum(self.slip_rate(contact), frictions);
+        match mode.motion[contact] {
+            Motion::Sticks => true,
+            Motion::Slides(sign) => sign * rate >= -ROUNDING * terms,
+        }
+    }
+
+    /// Whether two solutions give the machine the same accelerations.
+    fn same(&self, one: &Each, other: &Each) -> bool {
+        let (mut most, mut apart) = (0.0_f64, 0.0_f64);
+        for i in 0..self.layout.n {
+            let ([x, of_x], [y, of_y]) = (self.sum(i, one), self.sum(i, other));
+            most = most.max(of_x.max(of_y));
+            apart = apart.max((x - y).abs());
+        }
+        apart <= SAME * most
+    }
+}
+
+/// What is open about the contacts where one of their states ends.
+#[derive(Clone, Copy)]
+struct Question {
+    /// What each contact does, if that is known.
+    motion: [Option<Motion>; MOST_CONTACTS],
+    /// What has just proved impossible: what a contact does, or the side to which it presses.
+    excluded: Option<(usize, Motion, Option<f64>)>,
+}
+
+impl Question {
+    /// The one solution.
+    ///
+    /// Where what sticks holds more than what slides, both may be possible: then it sticks.
+    fn answer(&self, parts: &Parts<'_>) -> Result<(Mode, Each), Paradox> {
+        let count = parts.layout.k;
+        let holds_more = (0..count)
+            .any(|k| self.motion[k].is_none() && parts.static_friction(k) > parts.friction(k));
+        let sticking = |mode: &Mode| {
+            let all = mode.motion[..count].iter();
+            all.filter(|motion| **motion == Motion::Sticks).count()
+        };
+        let mut best: Option<(Mode, Each)> = None;
+        let mut several = None;
+        self.each(count, &mut |mode| {
+            let Some(frictions) = parts.frictions(&mode) else {
+                return;
+            };
+            let departs = |k: usize| self.motion[k].is_some() || parts.departs(&mode, &frictions, k);
+            if !parts.admits(&mode, &frictions) || !(0..count).all(departs) {
+                return;
+            }
+            let Some((known, other)) = &best else {
+                best = Some((mode, frictions));
+                return;
+            };
+            let more = sticking(&mode).cmp(&sticking(known));
+            if parts.same(&frictions, other) {
+                if more.is_gt() {
+                    best = Some((mode, frictions));
+                }
+            } else if holds_more && more.is_ne() {
+                if more.is_gt() {
+                    best = Some((mode, frictions));
+                    several = None;
+                }
+            } else {
+                let differs = |k: &usize| {
+                    known.motion[*k] != mode.motion[*k] || known.press[*k] != mode.press[*k]
+                };
+                several = several.or((0..count).find(differs));
+            }
+        });
+        match (best, several) {
+            (Some(best), None) => Ok(best),
+            (Some(_), Some(contact)) => Err(Paradox {
+                contact,
+                several: true,
+            }),
+            (None, _) => Err(Paradox {
+                contact: self.excluded.map_or(0, |(contact, ..)| contact),
+                several: false,
+            }),
+        }
+    }
+
+    /// Every combination of states that the question leaves open.
+    fn each(&self, count: usize, look: &mut dyn FnMut(Mode)) {
+        const STATES: [(Motion, f64); 5] = [
+            (Motion::Sticks, 1.0),
+            (Motion::Slides(1.0), 1.0),
+            (Motion::Slides(1.0), -1.0),
+            (Motion::Slides(-1.0), 1.0),
+            (Motion::Slides(-1.0), -1.0),
+        ];
+        let mut digits = [0; MOST_CONTACTS];
+        loop {
+            let mut mode = Mode {
+                motion: [Motion::Sticks; MOST_CONTACTS],
+                press: [1.0; MOST_CONTACTS],
+            };
+            let mut is_open = true;
+            for (k, &digit) in digits[..count].iter().enumerate() {
+                (mode.motion[k], mode.press[k]) = STATES[digit];
+                is_open &= self.motion[k].is_none_or(|known| known == mode.motion[k]);
+                if let Some((contact, motion, press)) = self.excluded
+                    && contact == k
+                {
+                    let same_side = press.is_none_or(|press| press == mode.press[k]);
+                    is_open &= !(motion == mode.motion[k] && same_side);
+                }
+            }
+            if is_open {
+                look(mode);
+            }
+            let Some(next) = digits[..count].iter().position(|d| d + 1 < STATES.len()) else {
+                return;
+            };
+            digits[next] += 1;
+            digits[..next].fill(0);
+        }
+    }
+}
+
+/// Accelerations and multipliers of a machine with contacts, and the forces in these, at a state.
+///
+/// A contact whose slip is not 0 slides. Where it is exactly 0, all contacts at rest are asked
+/// together whether they stick or slide off. A run knows more: there a contact that has come to rest
+/// stays so until its friction is used up.
+///
+/// # Errors
+/// Beside what makes the machine itself singular, where no motion has these contacts, or several have
+/// ([`Pivot::Contact`]).
+pub fn contact_forces<S: System>(
+    system: &S,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    accelerations: &mut [f64],
+    multipliers: &mut [f64],
+    forces: &mut [ContactForce],
+) -> Result<(), Singular> {
+    let count = system.contacts().len();
+    let slips = slips(system, t, q, v);
+    let question = Question {
+        motion: core::array::from_fn(|k| {
+            (slips[k] != 0.0).then_some(Motion::Slides(slips[k].signum()))
+        }),
+        excluded: None,
+    };
+    with_parts(system, t, q, v, u, |parts, _| {
+        let (mode, frictions) = question.answer(parts).map_err(Paradox::singular)?;
+        results(parts, &frictions, accelerations, multipliers);
+        for (k, force) in forces[..count].iter_mut().enumerate() {
+            *force = ContactForce {
+                slip: slips[k],
+                normal: parts.sum(parts.normal(k), &frictions)[0],
+                friction: frictions[k],
+                sticks: mode.motion[k] == Motion::Sticks,
+            };
+        }
+        Ok(())
+    })
+}
+
+/// [`System::accelerations`] of a machine with contacts, by [`contact_forces`].
+pub fn accelerations_with_friction<S: System>(
+    system: &S,
+    t: f64,
+    q: &S::Vector,
+    v: &S::Vector,
+    u: &S::Inputs,
+    a: &mut S::Vector,
+) -> Result<(), Singular> {
+    contact_forces(
+        system,
+        (t, q, v, u),
+        a.as_mut_slice(),
+        &mut [],
+        &mut [ContactForce::default(); MOST_CONTACTS],
+    )
+}
+
+/// [`System::multipliers`] of a machine with contacts, by [`contact_forces`].
+pub fn multipliers_with_friction<S: System>(
+    system: &S,
+    t: f64,
+    q: &S::Vector,
+    v: &S::Vector,
+    u: &S::Inputs,
+    multipliers: &mut [f64],
+) -> Result<(), Singular> {
+    contact_forces(
+        system,
+        (t, q, v, u),
+        &mut [],
+        multipliers,
+        &mut [ContactForce::default(); MOST_CONTACTS],
+    )
+}
+
+/// What the machine says of frictions, and the room beside it.
+fn with_parts<S: System, R>(
+    system: &S,
+    t: f64,
+    q: &S::Vector,
+    v: &S::Vector,
+    u: &S::Inputs,
+    work: impl FnOnce(&Parts<'_>, &mut [f64]) -> Result<R, Singular>,
+) -> Result<R, Singular> {
+    let layout = Layout {
+        n: q.as_slice().len(),
+        m: system.constraints().len(),
+        k: system.contacts().len(),
+    };
+    let length = room(layout.n, layout.m, layout.k);
+    system.lend(length, |room| {
+        // A machine with contacts lends room, or there is an allocator.
+        let Some(room) = room else {
+            return Err(Singular {
+                at: Pivot::Contact(0),
+                ratio: f64::NAN,
+            });
+        };
+        let (values, rest) = room.split_at_mut(layout.len());
+        system.friction(t, q, v, u, values)?;
+        work(&Parts { layout, values }, rest)
+    })
+}
+
+fn slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
+    let mut slips = [0.0; MOST_CONTACTS];
+    let count = system.contacts().len();
+    system.slips(t, q, v, &mut slips[..count]);
+    slips
+}
+
+/// Accelerations and multipliers with these frictions, as far as there is room for them.
+fn results(parts: &Parts<'_>, frictions: &Each, a: &mut [f64], multipliers: &mut [f64]) {
+    for (i, a) in a.iter_mut().enumerate() {
+        *a = parts.sum(i, frictions)[0];
+    }
+    for (i, multiplier) in multipliers.iter_mut().enumerate() {
+        *multiplier = parts.sum(parts.layout.n + i, frictions)[0];
+    }
+}
+
+impl Contacts {
+    /// The states of the contacts at the start of a run.
+    pub fn begin<S: System>(
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+    ) -> Result<Contacts, StepError> {
+        let slips = slips(system, t, q, v);
+        let motion = core::array::from_fn(|k| {
+            (slips[k] != 0.0).then_some(Motion::Slides(slips[k].signum()))
+        });
+        let question = Question {
+            motion,
+            excluded: None,
+        };
+        let mode = with_parts(system, t, q, v, u, |parts, _| {
+            let (mode, _) = question.answer(parts).map_err(Paradox::singular)?;
+            Ok(mode)
+        });
+        let mut contacts = Contacts {
+            count: system.contacts().len(),
+            mode: mode.map_err(|singular| StepError::Singular { singular, t })?,
+            sizes: [0.0; MOST_CONTACTS],
+        };
+        contacts.accept(system, t, q, v);
+        Ok(contacts)
+    }
+
+    /// Takes note of a state.
+    pub fn accept<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        for (size, slip) in self.sizes.iter_mut().zip(slips(system, t, q, v)) {
+            *size = size.max(slip.abs());
+        }
+    }
+
+    /// Accelerations in the states that the contacts are in; of what sticks, without any creep.
+    pub fn accelerations<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        a: &mut S::Vector,
+    ) -> Result<(), Singular> {
+        with_parts(system, t, q, v, u, |parts, room| {
+            let frictions = self.frictions(parts)?;
+            results(parts, &frictions, a.as_mut_slice(), &mut []);
+            if self.sticks() {
+                self.still(system, (t, q, v), a, room);
+            }
+            Ok(())
+        })
+    }
+
+    /// The forces in the contacts, and the multipliers.
+    pub fn forces<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        multipliers: &mut [f64],
+        forces: &mut [ContactForce],
+    ) -> Result<(), Singular> {
+        let slips = slips(system, t, q, v);
+        with_parts(system, t, q, v, u, |parts, _| {
+            let frictions = self.frictions(parts)?;
+            results(parts, &frictions, &mut [], multipliers);
+            for (k, force) in forces.iter_mut().enumerate() {
+                let sticks = self.mode.motion[k] == Motion::Sticks;
+                *force = ContactForce {
+                    slip: if sticks { 0.0 } else { slips[k] },
+                    normal: parts.sum(parts.normal(k), &frictions)[0],
+                    friction: frictions[k],
+                    sticks,
+                };
+            }
+            Ok(())
+        })
+    }
+
+    /// The powers of the frictions, in W: the work that what moves by itself does through them, and
+    /// what is lost, `−Σ Fₖ wₖ`. Together they are the power on the coordinates, `Σ Fₖ τₖ v`.
+    pub fn power<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    ) -> [f64; 2] {
+        let slips = slips(system, t, q, v);
+        let power = with_parts(system, t, q, v, u, |parts, room| {
+            let frictions = self.frictions(parts)?;
+            let n = parts.layout.n;
+            let rows = &mut room[..self.count * n];
+            system.slip_matrix(t, q, rows);
+            let mut power = [0.0; 2];
+            for (k, row) in rows.chunks_exact(n).enumerate() {
+                let rate: f64 = row.iter().zip(v.as_slice()).map(|(tau, v)| tau * v).sum();
+                power[0] += frictions[k] * rate;
+                if self.mode.motion[k] != Motion::Sticks {
+                    power[1] -= frictions[k] * slips[k];
+                }
+            }
+            power[0] += power[1];
+            Ok(power)
+        });
+        power.unwrap_or([f64::NAN; 2])
+    }
+
+    /// By how much the states of the contacts hold, two numbers for each: what slides is on its side
+    /// of rest and presses to its side; what sticks has friction left. Negative where one has ended.
+    pub fn margins<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    ) -> Result<[[f64; 2]; MOST_CONTACTS], StepError> {
+        let slips = slips(system, t, q, v);
+        let margins = with_parts(system, t, q, v, u, |parts, _| {
+            let frictions = self.frictions(parts)?;
+            let mut margins = [[f64::INFINITY; 2]; MOST_CONTACTS];
+            for (k, margin) in margins[..self.count].iter_mut().enumerate() {
+                let [normal, terms] = parts.sum(parts.normal(k), &frictions);
+                *margin = match self.mode.motion[k] {
+                    Motion::Sticks => {
+                        let coefficient = parts.static_friction(k);
+                        let most = coefficient * (normal.abs() + ROUNDING * terms);
+                        [most - frictions[k].abs(), f64::INFINITY]
+                    }
+                    Motion::Slides(sign) => [
+                        sign * slips[k],
+                        self.mode.press[k] * normal + ROUNDING * terms,
+                    ],
+                };
+            }
+            Ok(margins)
+        });
+        margins.map_err(|singular| StepError::Singular { singular, t })
+    }
+
+    /// The states that have ended, by their margins, and which of the two margins says so.
+    #[cfg(feature = "std")]
+    pub fn ended(
+        &self,
+        margins: &[[f64; 2]; MOST_CONTACTS],
+    ) -> [Option<(Change, usize)>; 2 * MOST_CONTACTS] {
+        let mut ended = [None; 2 * MOST_CONTACTS];
+        for (k, margins) in margins[..self.count].iter().enumerate() {
+            for (kind, margin) in margins.iter().enumerate() {
+                if *margin >= 0.0 {
+                    continue;
+                }
+                let cause = match (self.mode.motion[k], kind) {
+                    (Motion::Sticks, _) => Cause::BrokeAway,
+                    (Motion::Slides(_), 0) => Cause::Stopped,
+                    (Motion::Slides(_), _) => Cause::Turned,
+                };
+                let contact = k;
+                ended[2 * k + kind] = Some((Change { contact, cause }, kind));
+            }
+        }
+        ended
+    }
+
+    /// Whether the motion is determined: with what sticks and slides as it does, no other side to
+    /// press to gives another motion.
+    pub fn check<S: System>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    ) -> Result<(), StepError> {
+        let question = Question {
+            motion: self.mode.motion.map(Some),
+            excluded: None,
+        };
+        with_parts(system, t, q, v, u, |parts, _| {
+            match question.answer(parts) {
+                Err(paradox) if paradox.several => Err(paradox.singular()),
+                // Where there is none, its state has ended: that is seen elsewhere.
+                _ => Ok(()),
+            }
+        })
+        .map_err(|singular| StepError::Singular { singular, t })
+    }
+
+    /// Decides anew after the state of a contact has ended, and stops what has come to rest.
+    pub fn change<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, u): (f64, &S::Vector, &S::Inputs),
+        v: [&mut S::Vector; 2],
+        change: Change,
+        is_at_once: bool,
+    ) -> Result<(), StepError> {
+        let now = slips(system, t, q, v[0]);
+        let mut resting = [false; MOST_CONTACTS];
+        for k in 0..self.count {
+            resting[k] = match self.mode.motion[k] {
+                Motion::Sticks => true,
+                Motion::Slides(_) => now[k].abs() <= AT_REST * self.sizes[k],
+            };
+        }
+        let k = change.contact;
+        resting[k] |= change.cause == Cause::Stopped;
+        let [v, v_low] = v;
+        self.stop(system, (t, q, u), [&mut *v, v_low], &resting)?;
+        let known = |k: usize| (!resting[k]).then_some(self.mode.motion[k]);
+        let own = (k, self.mode.motion[k]);
+        let question = Question {
+            motion: core::array::from_fn(known),
+            excluded: match change.cause {
+                Cause::BrokeAway => Some((own.0, own.1, None)),
+                Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
+                // It did not even begin to slide so.
+                Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
+                Cause::Stopped => None,
+            },
+        };
+        let decided = with_parts(system, t, q, v, u, |parts, _| {
+            question.answer(parts).map_err(Paradox::singular)
+        });
+        let (mode, _) = decided.map_err(|singular| StepError::Singular { singular, t })?;
+        self.mode = mode;
+        Ok(())
+    }
+
+    /// Keeps what sticks at rest, after a step.
+    #[inline]
+    pub fn hold<S: System>(
+        &self,
+        system: &S,
+        (t, q, u): (f64, &S::Vector, &S::Inputs),
+        v: [&mut S::Vector; 2],
+    ) -> Result<(), StepError> {
+        if !self.sticks() {
+            return Ok(());
+        }
+        let resting = self.mode.motion.map(|motion| motion == Motion::Sticks);
+        self.stop(system, (t, q, u), v, &resting)
+    }
+
+    fn sticks(&self) -> bool {
+        self.mode.motion[..self.count].contains(&Motion::Sticks)
+    }
+
+    fn frictions(&self, parts: &Parts<'_>) -> Result<Each, Singular> {
+        let none = || Paradox {
+            contact: 0,
+            several: false,
+        };
+        parts.frictions(&self.mode).ok_or_else(|| none().singular())
+    }
+
+    /// Accelerations of what sticks that only rounding keeps from being what they must be: where one
+    /// coordinate alone makes the slip, its acceleration is known without any friction.
+    fn still<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        a: &mut S::Vector,
+        room: &mut [f64],
+    ) {
+        let n = q.as_slice().len();
+        let (rows, drift) = room[..self.count * (n + 1)].split_at_mut(self.count * n);
+        system.slip_matrix(t, q, rows);
+        system.slip_drift(t, q, v, drift);
+        for (k, row) in rows.chunks_exact(n).enumerate() {
+            if self.mode.motion[k] == Motion::Sticks
+                && let Some(i) = only_entry(row)
+            {
+                a.as_mut_slice()[i] = -drift[k] / row[i];
+            }
+        }
+    }
+
+    /// Stops the contacts that are to rest, by the least change of the rates in the metric of
+    /// inertia. Where one coordinate alone makes the slip, to the last bit.
+    fn stop<S: System>(
+        &self,
+        system: &S,
+        (t, q, u): (f64, &S::Vector, &S::Inputs),
+        [v, v_low]: [&mut S::Vector; 2],
+        resting: &[bool; MOST_CONTACTS],
+    ) -> Result<(), StepError> {
+        let before = v.clone();
+        let now = slips(system, t, q, v);
+        let moving = |k: usize| resting[k] && now[k] != 0.0;
+        if !(0..self.count).any(moving) {
+            return Ok(());
+        }
+        let stopped = with_parts(system, t, q, &before, u, |parts, room| {
+            let (n, count) = (parts.layout.n, self.count);
+            // dw = W Λ for impulses Λ along the contacts: those that rest get dw = −w.
+            let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
+            for (k, row) in rows[..count].iter_mut().enumerate() {
+                if !resting[k] {
+                    row[k] = 1.0;
+                    continue;
+                }
+                for (j, x) in row[..count].iter_mut().enumerate() {
+                    if resting[j] {
+                        *x = parts.at(1 + j, parts.slip_rate(k));
+                    }
+                }
+                row[count] = -now[k];
+            }
+            if let Some(impulses) = solve(&mut rows, count) {
+                for (i, v) in v.as_mut_slice().iter_mut().enumerate() {
+                    let by = (0..count).map(|k| parts.at(1 + k, i) * impulses[k]);
+                    let by: f64 = by.sum();
+                    if by != 0.0 {
+                        *v += by;
+                        v_low.as_mut_slice()[i] = 0.0;
+                    }
+                }
+            }
+            let matrix = &mut room[..count * n];
+            system.slip_matrix(t, q, matrix);
+            for (k, row) in matrix.chunks_exact(n).enumerate() {
+                if resting[k]
+                    && let Some(i) = only_entry(row)
+                {
+                    v.as_mut_slice()[i] = 0.0;
+                    v_low.as_mut_slice()[i] = 0.0;
+                    let left = slips(system, t, q, v)[k];
+                    if left != 0.0 {
+                        v.as_mut_slice()[i] = -left / row[i];
+                    }
+                }
+            }
+            Ok(())
+        });
+        stopped.map_err(|singular| StepError::Singular { singular, t })
+    }
+}
+
+/// The place of the only entry of a row that is not zero.
+fn only_entry(row: &[f64]) -> Option<usize> {
+    let mut entries = row.iter().enumerate().filter(|(_, x)| **x != 0.0);
+    match (entries.next(), entries.next()) {
+        (Some((i, _)), None) => Some(i),
+        _ => None,
+    }
+}
+
+/// Solves `count` equations with their right-hand sides behind them, by Gauss's elimination with a
+/// full search for pivots. What is not determined is 0; none where they contradict each other.
+fn solve(rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], count: usize) -> Option<Each> {
+    let rows = &mut rows[..count];
+    for row in rows.iter_mut() {
+        let most = row[..count].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if most > 0.0 {
+            row[..=count].iter_mut().for_each(|x| *x /= most);
+        }
+    }
+    let largest = rows.iter().fold(0.0_f64, |most, row| most.max(row[count].abs()));
+    let mut column_of = [None; MOST_CONTACTS];
+    for done in 0..count {
+        let mut pivot = (0.0, 0, 0);
+        for (i, row) in rows.iter().enumerate().skip(done) {
+            for (j, x) in row[..count].iter().enumerate() {
+                if x.abs() > pivot.0 {
+                    pivot = (x.abs(), i, j);
+                }
+            }
+        }
+        let (size, i, j) = pivot;
+        if !(size > SINGULAR) {
+            let open = rows[done..].iter().map(|row| row[count].abs());
+            if open.fold(0.0_f64, f64::max) > SAME * largest {
+                return None;
+            }
+            break;
+        }
+        rows.swap(done, i);
+        column_of[done] = Some(j);
+        let own = rows[done];
+        for (other, row) in rows.iter_mut().enumerate() {
+            if other == done {
+                continue;
+            }
+            let factor = row[j] / own[j];
+            for (x, y) in row[..=count].iter_mut().zip(own) {
+                *x -= factor * y;
+            }
+            row[j] = 0.0;
+        }
+    }
+    let mut solution = [0.0; MOST_CONTACTS];
+    for (row, column) in rows.iter().zip(column_of) {
+        if let Some(j) = column {
+            solution[j] = row[count] / row[j];
+        }
+    }
+    let is_finite = solution.iter().all(|x| x.is_finite());
+    is_finite.then_some(solution)
+}
