@@ -136,6 +136,7 @@ fn the_table_of_the_library_is_complete_and_true() {
     let mut known = [
         &support::library::MACHINES[..],
         &support::library::CONSTRAINED,
+        &support::library::SLIDING,
     ]
     .concat();
     known.sort_unstable();

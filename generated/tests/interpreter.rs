@@ -138,25 +138,34 @@ fn agrees_in_f64<M: Machine + Default>(
         let mut out = vector(&vec![0.0; n]);
 
         let place = |what: &str| format!("{file}, seed {seed}: {what}");
+        let k = program.contacts.len();
+        assert!(system.contacts().eq(program.contacts.iter().map(String::as_str)));
+        let mut parts = vec![0.0; program.function(Role::Friction).map_or(0, |f| f.results.len())];
+        let (emitted, role) = match k {
+            0 => (system.accelerations(t, &q, &v, &u, &mut out), Role::Accelerations),
+            _ => (system.friction(t, &q, &v, &u, &mut parts), Role::Friction),
+        };
+        let found = if k == 0 { out.as_slice() } else { &parts[..] };
         match (
-            system.accelerations(t, &q, &v, &u, &mut out),
+            emitted,
             f64::run(Interpreted {
                 interpreter: &mut Interpreter::new(&program, &parameters),
-                role: Role::Accelerations,
-                len: n,
+                role,
+                len: found.len(),
                 arguments,
             }),
         ) {
             (Ok(()), Ok(expected)) => assert_eq!(
-                bits(out.as_slice()),
+                bits(found),
                 bits(&expected),
                 "{}",
-                place("accelerations")
+                place(&role.name())
             ),
             (Err(emitted), Err(expected)) => {
                 let row = match emitted.at {
                     Pivot::Coordinate(coordinate) => coordinate,
                     Pivot::Constraint(constraint) => n + constraint,
+                    Pivot::Contact(_) => panic!("{}", place("nothing slides")),
                 };
                 assert_eq!(row, expected.coordinate, "{}", place("singular"));
                 assert_eq!(
@@ -242,6 +251,20 @@ fn agrees_in_f64<M: Machine + Default>(
                     place("multipliers")
                 );
             }
+        }
+
+        if k > 0 {
+            let mut check_list = |role: Role, found: &[f64]| {
+                let expected = interpret(role, found.len()).expect("nothing is inverted");
+                assert_eq!(bits(found), bits(&expected), "{}", place(&role.name()));
+            };
+            let (mut slips, mut drift, mut rows) = (vec![0.0; k], vec![0.0; k], vec![0.0; k * n]);
+            system.slips(t, &q, &v, &mut slips);
+            check_list(Role::Slips, &slips);
+            system.slip_drift(t, &q, &v, &mut drift);
+            check_list(Role::SlipDrift, &drift);
+            system.slip_matrix(t, &q, &mut rows);
+            check_list(Role::SlipMatrix, &rows);
         }
 
         let mut matrix = <M::System as System>::Matrix::zeros(n * n);
@@ -484,4 +507,12 @@ fn the_mechanisms_are_the_programs_to_the_last_bit() {
     agrees_in_f64::<machines::CrushingCrusher>("crushing_crusher", |_| Default::default());
     agrees_in_f64::<machines::CakedCrusher>("caked_crusher", |_| Default::default());
     agrees_in_f64::<machines::GrainCrusher>("grain_crusher", |_| Default::default());
+}
+
+#[test]
+fn machines_that_stick_and_slide_agree() {
+    agrees_in_f64::<machines::BlockOnIncline>("block_on_incline", |_| Default::default());
+    agrees_in_f64::<machines::Prisms>("prisms", |_| Default::default());
+    agrees_in_f64::<machines::StickSlip>("stick_slip", |_| Default::default());
+    agrees_in_f64::<machines::WedgeAndBlock>("wedge_and_block", |_| Default::default());
 }

@@ -28,7 +28,7 @@ impl<'d> Compiled<'d> {
         }
         let expanded = equations.expanded();
         let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::best);
-        let choice = program.choice(Role::Accelerations);
+        let choice = program.choice(program.solving());
         let is_expanded = choice.is_some_and(|c| {
             let form = c.chosen().form;
             form.basis == Basis::Expanded && !form.reduced

@@ -88,6 +88,8 @@ impl<'d> Model<'d> {
             let mut unread = Report::new();
             let mut resolver = Resolver::new(&layers, dag, constants, &mut unread);
             resolver.guides = relaxation::guides(&model);
+            resolver.time = model.time;
+            resolver.symbols = relaxation::symbols(&model);
             model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
         }
         Some(model)
@@ -125,6 +127,8 @@ struct Resolver<'a, 'd, 'r> {
     pose_of: FxHashMap<PoseKey, PoseId>,
     /// The guides that are relaxed.
     guides: Vec<Guide<'d>>,
+    /// The symbols that are to be used again, by name.
+    symbols: FxHashMap<String, Expr<'d>>,
 
     /// How many nodes there were before.
     first_node: usize,
@@ -162,6 +166,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             poses: Vec::new(),
             pose_of: FxHashMap::default(),
             guides: Vec::new(),
+            symbols: FxHashMap::default(),
             steps: 0,
             exhausted: false,
         }

@@ -55,6 +55,14 @@ pub const CONSTRAINED: [&str; 15] = [
     "slider_crank",
 ];
 
+/// The file names of those that stick and slide.
+pub const SLIDING: [&str; 4] = [
+    "block_on_incline",
+    "prisms",
+    "stick_slip",
+    "wedge_and_block",
+];
+
 /// Does something with every machine without constraints, as compiled into `lagrangian-machines`: `$do!(CartPole,
 /// "cart_pole")`.
 #[macro_export]

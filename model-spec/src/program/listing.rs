@@ -259,7 +259,7 @@ impl<'a> Listing<'a> {
         let _ = writeln!(text, "{}", rounding.unwrap_or_default());
         if matches!(
             self.function.role,
-            Role::Accelerations | Role::AccelerationsAt
+            Role::Accelerations | Role::AccelerationsAt | Role::Friction
         ) {
             for other in choice.others() {
                 let _ = writeln!(text, "  // not {other}");

@@ -488,14 +488,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             _ => return,
         };
         let name = self.name(member).to_string();
-        let symbol = self.dag.symbol(&name, stage);
-        let mut symbols = [symbol; 3];
+        let mut symbols = [self.symbol(&name, stage); 3];
         if section == SectionKind::Coordinates {
             let rate = format!("der({name})");
-            symbols[1] = self.dag.symbol(&rate, stage::VELOCITY);
-            symbols[2] = self
-                .dag
-                .symbol(&format!("der({rate})"), stage::ACCELERATION);
+            symbols[1] = self.symbol(&rate, stage::VELOCITY);
+            symbols[2] = self.symbol(&format!("der({rate})"), stage::ACCELERATION);
         }
         let unit = match content {
             Content::Quantity(quantity) => declared_unit(quantity),
@@ -506,7 +503,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member.state = State::Done;
         if let Some(unit) = unit {
             member.value = Value::Scalar(Scalar {
-                expr: symbol,
+                expr: symbols[0],
                 unit: Some(unit),
                 number: None,
             });

@@ -5,7 +5,8 @@
 //! own. The spec is read once more with these displacements in it, so that springs, points and
 //! outputs that hang on the body know of them. Where they are zero it is the machine again.
 
-use lagrangian_symbolic::Expr;
+use lagrangian_symbolic::{Expr, Stage};
+use rustc_hash::FxHashMap;
 
 use super::Resolver;
 use super::value::{MemberId, Vector};
@@ -65,7 +66,25 @@ fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
     }
 }
 
+/// The symbols of a machine by name: those of the relaxed one are the same.
+pub(super) fn symbols<'d>(model: &Model<'d>) -> FxHashMap<String, Expr<'d>> {
+    let parameters = model.parameters.iter().map(|p| (p.name.to_string(), p.symbol));
+    let inputs = model.inputs.iter().map(|i| (i.name.to_string(), i.symbol));
+    let coordinates = model.coordinates.iter().flat_map(|c| {
+        let name = c.name.to_string();
+        let (rate, acceleration) = (format!("der({name})"), format!("der(der({name}))"));
+        [(name, c.q), (rate, c.v), (acceleration, c.a)]
+    });
+    parameters.chain(inputs).chain(coordinates).collect()
+}
+
 impl<'d> Resolver<'_, 'd, '_> {
+    /// A symbol of the machine: a new one, or that of the machine that is read again.
+    pub(super) fn symbol(&self, name: &str, stage: Stage) -> Expr<'d> {
+        let known = self.symbols.get(name).copied();
+        known.unwrap_or_else(|| self.dag.symbol(name, stage))
+    }
+
     /// Moves a new pose off by the guides of what it is the frame of. Poses are numbered as they are
     /// made, and they are made in the same order again.
     pub(super) fn relax_pose(&self, pose: &mut Pose<'d>) {

@@ -3,6 +3,7 @@
 mod approximations;
 mod by_hand;
 mod energy;
+mod friction;
 mod harness;
 mod oracle;
 mod paper;

@@ -100,6 +100,13 @@ pub fn all_machines() -> Vec<String> {
     names
 }
 
+/// Those of them whose accelerations are a function: nothing sticks or slides.
+pub fn smooth_machines() -> Vec<String> {
+    let mut names = all_machines();
+    names.retain(|name| !library_text(name).contains("sliding {"));
+    names
+}
+
 /// Compiles a text with derivatives by everything, whatever it asks for.
 pub fn differentiated<R>(
     text: &str,

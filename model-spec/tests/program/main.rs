@@ -4,6 +4,7 @@ mod accuracy;
 mod candidates;
 mod constraints;
 mod derivatives;
+mod friction;
 mod harness;
 mod lowering;
 mod machines;

@@ -8,7 +8,7 @@ use lagrangian_spec::program::{
     mutants, prove,
 };
 
-use crate::harness::{all_machines, compiled, library_text, machine};
+use crate::harness::{smooth_machines, compiled, library_text, machine};
 
 /// The requests that there are.
 const REQUESTS: [&str; 3] = ["time, coordinates", "coordinates", "time"];
@@ -38,7 +38,7 @@ fn function(program: &Program, role: Role) -> &Function {
 
 #[test]
 fn the_stages_of_every_machine_lead_to_its_accelerations() {
-    for name in all_machines() {
+    for name in smooth_machines() {
         for request in REQUESTS {
             staged(&name, &[], request, |machine| {
                 assert!(!machine.program.staged_roles().is_empty(), "{name}");
@@ -110,7 +110,7 @@ fn no_mistake_in_a_stage_survives() {
 /// Nothing that a stage knows is left to a later one, and nothing is handed on that nobody reads.
 #[test]
 fn a_stage_does_all_that_it_can() {
-    for name in all_machines() {
+    for name in smooth_machines() {
         staged(&name, &[], "time, coordinates", |machine| {
             let program = &machine.program;
             for (role, allowed) in [
@@ -184,7 +184,7 @@ fn stages_change_nothing_else() {
 /// what they are: the machines are far from singular here.
 #[test]
 fn numbers_in_stages_are_the_numbers_at_once() {
-    for name in all_machines() {
+    for name in smooth_machines() {
         for request in REQUESTS {
             staged(&name, &[], request, |machine| {
                 let program = &machine.program;

@@ -1,6 +1,7 @@
 //! Guided contacts: how they slide, what presses, and what friction does with that.
 
-use lagrangian_symbolic::{Form, Mark, Math, Sign};
+use lagrangian_symbolic::Math;
+use lagrangian_symbolic::print::{Form, Mark, Sign};
 
 use super::{Chapter, words};
 use crate::emit::document::{Block, Row};

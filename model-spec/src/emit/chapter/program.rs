@@ -3,7 +3,7 @@
 use super::{Chapter, code, counted, head, words};
 use crate::emit::document::{Block, Words};
 use crate::mechanics::Route;
-use crate::program::{Candidate, Role, cycles};
+use crate::program::{Candidate, cycles};
 
 impl Chapter<'_, '_> {
     pub(super) fn program(&self) -> Vec<Block> {
@@ -54,7 +54,8 @@ impl Chapter<'_, '_> {
 
     /// The programs from which that of the accelerations was chosen.
     fn ways_to_accelerations(&self) -> Vec<Block> {
-        let Some(choice) = self.compiled.program.choice(Role::Accelerations) else {
+        let program = &self.compiled.program;
+        let Some(choice) = program.choice(program.solving()) else {
             return Vec::new();
         };
         let words = words![

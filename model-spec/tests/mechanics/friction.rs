@@ -1,0 +1,185 @@
+//! Guided contacts: their normal reactions against formulas typed in by hand, and guides that are none.
+
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_spec::compare::compare;
+use lagrangian_spec::diagnostic::{Code, Report};
+use lagrangian_spec::mechanics::Equations;
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Dag, Expr};
+
+use crate::harness::{derived, residues, resolved, text_of};
+
+/// The expressions are equal at points of the prime field.
+fn assert_equal<'d>(
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+    pairs: &[(&str, Expr<'d>, Expr<'d>)],
+) {
+    let differences: Vec<Expr<'d>> = pairs.iter().map(|(_, a, b)| *a - *b).collect();
+    for values in residues(model, equations, &differences, false) {
+        for ((name, ..), value) in pairs.iter().zip(values) {
+            assert!(value == Residue::ZERO, "{name}");
+        }
+    }
+}
+
+fn symbol<'d>(model: &Model<'d>, name: &str) -> Expr<'d> {
+    let parameters = model.parameters.iter();
+    let mut found = parameters.filter(|p| p.name.to_string() == name);
+    found.next().expect("a parameter").symbol
+}
+
+#[test]
+fn the_prisms_have_the_coefficients_of_the_paper() {
+    derived(&text_of("prisms"), |model, equations| {
+        let dag: &Dag = model.dag;
+        let of = |name| symbol(model, name);
+        let (m, big, g) = (of("m"), of("M"), of("g"));
+        let (mu1, mu2, tan) = (of("mu1"), of("mu2"), of("alpha").tan());
+        let contacts = &equations.sliding;
+        // P = −b q̇ − d q̇ q̈: b_i = Σ μ ν τ_i, d_ij = Σ μ τ_i ρ_j.
+        let b = |i: usize| dag.sum(contacts.iter().map(|c| c.friction * c.load * c.row[i]));
+        let d = |i: usize, j: usize| {
+            dag.sum(contacts.iter().map(|c| c.friction * c.row[i] * c.by_accelerations[j]))
+        };
+        let zero = dag.zero();
+        assert_equal(
+            model,
+            equations,
+            &[
+                ("b1", b(0), mu2 * (m + big) * g),
+                ("b2", b(1), mu1 * m * g),
+                ("d11", d(0, 0), zero),
+                ("d12", d(0, 1), -(m * mu2 * tan)),
+                ("d21", d(1, 0), -(m * mu1 * tan)),
+                ("d22", d(1, 1), zero),
+            ],
+        );
+    });
+}
+
+#[test]
+fn the_bracket_that_the_paper_drops_is_found() {
+    derived(&text_of("prisms"), |model, equations| {
+        let found = compare(model, equations);
+        let verdicts: Vec<(&str, bool)> =
+            found.iter().map(|c| (c.item.as_str(), c.agrees)).collect();
+        assert_eq!(
+            verdicts,
+            [("potential_energy", true), ("friction q1", false), ("friction q2", true)]
+        );
+        // −μ₂ [(m + M) g − m q̈₂ tan α], printed without the bracket: the term is positive and has μ₂.
+        let m = |name| symbol(model, name);
+        let right = m("mu2") * m("m") * model.coordinates[1].a * m("alpha").tan();
+        let printed = -(m("m") * model.coordinates[1].a * m("alpha").tan());
+        let sum = |terms: &[Expr<'_>]| terms.len();
+        let mend = &found[1].mend[0];
+        assert_eq!((sum(&mend.add), sum(&mend.drop)), (1, 1));
+        assert_equal(
+            model,
+            equations,
+            &[("add", mend.add[0], right), ("drop", mend.drop[0], printed)],
+        );
+    });
+}
+
+/// A piston that a crank-shaped cam lifts: the piston slides between two walls that are not parallel to
+/// what lifts it, so that both press.
+const LIFTED: &str = "machine Lifted in plane {
+    parameters { m: kg = 1, M: kg = 2, alpha: rad = 0.4, mu: 1 = 0.2, nu: 1 = 0.1, g: m/s^2 = 9.81 }
+    coordinates { x: m }
+    frames { wedge = ground.shift(x, 0), piston = ground.shift(0, x*tan(alpha)) }
+    bodies { wedge { mass: M, frame: wedge }, piston { mass: m, frame: piston } }
+    gravity (0, -g);
+    sliding {
+        face { body: piston, on: wedge, direction: (-cos(alpha), sin(alpha)), friction: mu },
+        slot { body: piston, on: ground, direction: (0, 1), friction: nu },
+    }
+}";
+
+#[test]
+fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
+    let text = LIFTED.replace("(-cos(alpha), sin(alpha))", "(-cos(alpha), -sin(alpha))");
+    // The wedge that lifts it slopes up to the left: seen from it, the piston moves to the left and up.
+    for (text, fits) in [(LIFTED, true), (text.as_str(), false)] {
+        let refused = codes(text);
+        assert_eq!(refused.is_empty(), fits, "{refused:?}");
+    }
+    derived(LIFTED, |model, equations| {
+        let of = |name| symbol(model, name);
+        let (m, g, alpha) = (of("m"), of("g"), of("alpha"));
+        let (sin, cos, a) = (alpha.sin(), alpha.cos(), model.coordinates[0].a);
+        let [face, slot] = &equations.sliding[..] else {
+            panic!("two contacts");
+        };
+        // Directions turned left: n_face = (−sin α, −cos α), n_slot = (−1, 0). Newton for the piston:
+        // N_face n_face + N_slot n_slot + (0, −m g) = (0, m ẍ tan α).
+        let normal = -(m * (g + a * alpha.tan()) / cos);
+        assert_equal(
+            model,
+            equations,
+            &[
+                ("face", face.normal(model), normal),
+                ("slot", slot.normal(model), -(normal * sin)),
+                // Friction on the face, along (−cos α, sin α), lifts too: N_face cos α = … + F sin α.
+                ("face by face", face.by_frictions[0], sin / cos),
+                ("face by slot", face.by_frictions[1], model.dag.one() / cos),
+            ],
+        );
+    });
+}
+
+fn codes(text: &str) -> Vec<(Code, String)> {
+    resolved(text, |model| {
+        let mut report = Report::new();
+        let _ = Equations::derive(model, &mut report);
+        let diagnostics = report.diagnostics();
+        diagnostics.iter().map(|d| (d.code, d.message.clone())).collect()
+    })
+}
+
+#[test]
+fn guides_that_are_none_are_refused() {
+    let cart = |sliding: &str| {
+        format!(
+            "machine Cart in plane {{
+                parameters {{ m: kg = 1, M: kg = 2, alpha: rad = 0.4, w: rad/s = 2 }}
+                coordinates {{ x: m, y: m }}
+                frames {{
+                    cart = ground.shift(x, 0),
+                    box = cart.shift(y, 0),
+                    piston = ground.shift(0, x*tan(alpha)),
+                }}
+                bodies {{
+                    cart {{ mass: M, frame: cart }}, box {{ mass: m, frame: box }},
+                    piston {{ mass: m, frame: piston }}, still {{ mass: m, at: (0, 1) }},
+                }}
+                sliding {{ {sliding} }}
+            }}"
+        )
+    };
+    let of = |fields: &str| format!("a {{ {fields}, friction: 0.1 }}");
+    for (sliding, said) in [
+        (of("body: cart, on: ground, direction: (0, 1)"), "let the body of `a` leave"),
+        (of("body: cart, on: ground, direction: direction(w*t)"), "let the body of `a` leave"),
+        (of("body: still, on: ground, direction: (1, 0)"), "`a` does not slide"),
+        (of("body: cart, on: ground, direction: (0, 0)"), "has no length"),
+        (of("body: cart, on: ground, direction: (1, 0), normal: (1, 1)"), "not at a right angle"),
+        (
+            of("body: piston, on: cart, direction: (-cos(alpha), sin(alpha))"),
+            "held by more than this guide",
+        ),
+        (
+            of("body: box, on: cart, direction: (1, 0)") + "," + &of("body: box, on: ground, direction: (1, 0)").replacen('a', "b", 1),
+            "is not determined",
+        ),
+    ] {
+        let refused = codes(&cart(&sliding));
+        let [(code, message)] = &refused[..] else {
+            panic!("{sliding}: {refused:?}");
+        };
+        assert_eq!(*code, Code::NoGuide);
+        assert!(message.contains(said), "{sliding}: {message}");
+    }
+    assert!(codes(&cart(&of("body: box, on: cart, direction: (2, 0)"))).is_empty());
+}
