@@ -324,7 +324,11 @@ impl Display for Error {
                 q,
                 v,
             } => {
-                let count = if *several { "several motions have" } else { "no motion has" };
+                let count = if *several {
+                    "several motions have"
+                } else {
+                    "no motion has"
+                };
                 write!(f, "{count} the friction of `{contact}` at t = {t} s")?;
                 if !q.is_empty() {
                     write!(f, ", q = {q:?}, v = {v:?}")?;

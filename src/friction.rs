@@ -272,7 +272,8 @@ impl Question {
             let Some(frictions) = parts.frictions(&mode) else {
                 return;
             };
-            let departs = |k: usize| self.motion[k].is_some() || parts.departs(&mode, &frictions, k);
+            let departs =
+                |k: usize| self.motion[k].is_some() || parts.departs(&mode, &frictions, k);
             if !parts.admits(&mode, &frictions) || !(0..count).all(departs) {
                 return;
             }
@@ -671,12 +672,20 @@ impl Contacts {
         resting[k] |= change.cause == Cause::Stopped;
         let [v, v_low] = v;
         self.stop(system, (t, q, u), [&mut *v, v_low], &resting)?;
-        let known = |k: usize| (!resting[k]).then_some(self.mode.motion[k]);
+        let mut motion: [Option<Motion>; MOST_CONTACTS] =
+            core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
+        let held = with_parts(system, t, q, v, u, |parts, _| self.frictions(parts))
+            .map_err(|singular| StepError::Singular { singular, t })?;
+        if change.cause == Cause::BrokeAway {
+            // Against what held it. Just here its slip may not even grow: it is where the friction of
+            // what sticks and of what slides are the same.
+            motion[k] = Some(Motion::Slides(-held[k].signum()));
+        }
         let question = Question {
-            motion: core::array::from_fn(known),
+            motion,
             excluded: match change.cause {
-                Cause::BrokeAway => Some((own.0, own.1, None)),
+                Cause::BrokeAway => None,
                 Cause::Turned => Some((own.0, own.1, Some(self.mode.press[k]))),
                 // It did not even begin to slide so.
                 Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
@@ -815,12 +824,16 @@ fn only_entry(row: &[f64]) -> Option<usize> {
 fn solve(rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], count: usize) -> Option<Each> {
     let rows = &mut rows[..count];
     for row in rows.iter_mut() {
-        let most = row[..count].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let most = row[..count]
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
         if most > 0.0 {
             row[..=count].iter_mut().for_each(|x| *x /= most);
         }
     }
-    let largest = rows.iter().fold(0.0_f64, |most, row| most.max(row[count].abs()));
+    let largest = rows
+        .iter()
+        .fold(0.0_f64, |most, row| most.max(row[count].abs()));
     let mut column_of = [None; MOST_CONTACTS];
     for done in 0..count {
         let mut pivot = (0.0, 0, 0);

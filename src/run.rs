@@ -98,7 +98,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         },
     };
     let contacts = run.stepper.contacts().iter().cloned();
-    run.record.contacts.extend(contacts.map(|known| (start.t, known)));
+    run.record
+        .contacts
+        .extend(contacts.map(|known| (start.t, known)));
     run.enter_energies();
     let (ending, error) = match run.go() {
         Ok(ending) => (ending, None),
@@ -210,7 +212,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             }
 
             let mut piece = None;
-            if pending.is_none() && ending.is_ok()
+            if pending.is_none()
+                && ending.is_ok()
                 && let Some((t, change)) = self.contact_changed(&mut piece)?
             {
                 let step = self.stepper.last_step();
@@ -645,7 +648,10 @@ fn dependences<S: System>(
 /// The error of a step; if constraints contradict each other, with those that do.
 fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
     let mut error_of_run = Error::of_step(error, system);
-    if let Error::FrictionParadox { q: at, v: rates, .. } = &mut error_of_run {
+    if let Error::FrictionParadox {
+        q: at, v: rates, ..
+    } = &mut error_of_run
+    {
         (*at, *rates) = (q.as_slice().to_vec(), v.as_slice().to_vec());
     }
     if let Error::InconsistentConstraints {

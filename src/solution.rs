@@ -521,9 +521,9 @@ impl<V: Vector> Steps<V> {
             high: stepper.t(),
             low: 0.0,
         };
-        self.times.push((now, 0.0_f64.copysign(stepper.last_step())));
-        self.vectors
-            .resize(self.times.len() * self.stride(), last);
+        self.times
+            .push((now, 0.0_f64.copysign(stepper.last_step())));
+        self.vectors.resize(self.times.len() * self.stride(), last);
     }
 
     /// How many vectors a step has.

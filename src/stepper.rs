@@ -386,9 +386,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         end: f64,
         step: f64,
     ) -> Result<(), StepError> {
-        let Self {
-            model, now, k, ..
-        } = self;
+        let Self { model, now, k, .. } = self;
         model
             .law
             .set(model.system, now.t, &now.q, &now.v, &mut model.inputs);

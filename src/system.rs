@@ -539,8 +539,16 @@ impl Display for Singular {
                 self.ratio
             ),
             Pivot::Contact(index) => {
-                let count = if self.ratio == 0.0 { "no" } else { "more than one" };
-                write!(f, "{count} motion has the friction of contact number {}", index + 1)
+                let count = if self.ratio == 0.0 {
+                    "no"
+                } else {
+                    "more than one"
+                };
+                write!(
+                    f,
+                    "{count} motion has the friction of contact number {}",
+                    index + 1
+                )
             }
         }
     }

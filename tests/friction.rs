@@ -142,7 +142,10 @@ fn a_block_on_a_belt_sticks_and_slips_with_the_period_of_the_closed_form() {
     // While it slips it swings about F_k/k with the amplitude that it was torn loose with.
     let amplitude = (jump * jump + v_b * v_b).sqrt();
     let states = run.every(0.001).expect("in the run");
-    let x = states.iter().filter(|s| s.t > period).map(|s| value(&s.q, "x"));
+    let x = states
+        .iter()
+        .filter(|s| s.t > period)
+        .map(|s| value(&s.q, "x"));
     let (least, most) = x.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
         (a.min(x), b.max(x))
     });
@@ -190,7 +193,9 @@ fn prisms_move_as_their_equations_typed_by_hand() {
     let (q, v) = (vec![0.3, 0.7], vec![1.0, 2.0]);
     let mut a = vec![0.0; 2];
     let u = system.default_inputs();
-    system.accelerations(0.0, &q, &v, &u, &mut a).expect("it moves");
+    system
+        .accelerations(0.0, &q, &v, &u, &mut a)
+        .expect("it moves");
     for (found, expected) in a.iter().zip(expected) {
         assert_near(*found, expected, 1e-14 * expected.abs());
     }
@@ -205,7 +210,10 @@ fn prisms_move_as_their_equations_typed_by_hand() {
     assert!(floor.sticks && !incline.sticks);
     let cos = (PI / 4.0).cos();
     assert_near(incline.normal, m * g * cos, 1e-12);
-    let (push, load) = (m * g * cos * (cos - 0.1 * cos), m * g * cos * (cos + 0.1 * cos));
+    let (push, load) = (
+        m * g * cos * (cos - 0.1 * cos),
+        m * g * cos * (cos + 0.1 * cos),
+    );
     assert_near(floor.friction.abs(), push, 1e-12);
     assert_near(floor.normal, big * g + load, 1e-12);
 }
@@ -214,7 +222,13 @@ fn prisms_move_as_their_equations_typed_by_hand() {
 fn a_wedge_and_its_block_move_in_absolute_coordinates_too() {
     // The same bodies, the wedge said as in `prisms`: q2 = s cos α, q1 = x.
     let (alpha, mu1, mu2) = (PI / 6.0, 0.1, 0.02);
-    let set = [("alpha", alpha), ("mu1", mu1), ("mu2", mu2), ("m", 1.0), ("M", 3.0)];
+    let set = [
+        ("alpha", alpha),
+        ("mu1", mu1),
+        ("mu2", mu2),
+        ("m", 1.0),
+        ("M", 3.0),
+    ];
     let wedge = run(&interpreted("wedge_and_block"), &set, &[], (1e-11, 1.0)).expect("it runs");
     let mirrored = run(&interpreted("prisms"), &set, &[], (1e-11, 1.0)).expect("it runs");
     // Here the block slides to the right, there to the left.
@@ -262,7 +276,11 @@ fn a_rod_slides_with_the_reaction_of_its_equations_typed_by_hand() {
             .expect("it moves");
         let normal = rest / by_n;
         assert_near(forces[0].normal, normal, 1e-13 * normal.abs());
-        assert_near(forces[0].friction, -sign * 0.5 * normal.abs(), 1e-13 * normal.abs());
+        assert_near(
+            forces[0].friction,
+            -sign * 0.5 * normal.abs(),
+            1e-13 * normal.abs(),
+        );
     }
 }
 
@@ -277,7 +295,16 @@ fn where_no_motion_or_several_have_a_friction_the_state_is_said() {
         let result = run(&machine(ROD), &[("mu", mu)], &start, (1e-9, 1e-3));
         match (result, is_left) {
             (Ok(_), false) => {}
-            (Err(Error::FrictionParadox { contact, several, t, q, v }), true) => {
+            (
+                Err(Error::FrictionParadox {
+                    contact,
+                    several,
+                    t,
+                    q,
+                    v,
+                }),
+                true,
+            ) => {
                 assert_eq!((contact.as_str(), several, t), ("rail", false, 0.0));
                 assert_eq!((q, v), (vec![0.0, theta], vec![-1.0, 0.0]));
             }

@@ -5,7 +5,8 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, UnknownName};
 use lagrangian::{
-    ContactForce, Error, Machine, Pivot, State, StepError, System, contact_forces, least_multipliers,
+    ContactForce, Error, Machine, Pivot, State, StepError, System, contact_forces,
+    least_multipliers,
 };
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

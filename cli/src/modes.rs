@@ -72,7 +72,10 @@ fn program(spec: &call::Spec) -> Result<Program, Failure> {
     let dag = Dag::new();
     let mut reading = Reading::open(spec)?;
     let model = reading.model(&dag);
-    if model.as_ref().is_some_and(|model| !model.sliding.is_empty()) {
+    if model
+        .as_ref()
+        .is_some_and(|model| !model.sliding.is_empty())
+    {
         return Err(Failure::run(
             "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",
         ));

@@ -139,10 +139,22 @@ fn agrees_in_f64<M: Machine + Default>(
 
         let place = |what: &str| format!("{file}, seed {seed}: {what}");
         let k = program.contacts.len();
-        assert!(system.contacts().eq(program.contacts.iter().map(String::as_str)));
-        let mut parts = vec![0.0; program.function(Role::Friction).map_or(0, |f| f.results.len())];
+        assert!(
+            system
+                .contacts()
+                .eq(program.contacts.iter().map(String::as_str))
+        );
+        let mut parts = vec![
+            0.0;
+            program
+                .function(Role::Friction)
+                .map_or(0, |f| f.results.len())
+        ];
         let (emitted, role) = match k {
-            0 => (system.accelerations(t, &q, &v, &u, &mut out), Role::Accelerations),
+            0 => (
+                system.accelerations(t, &q, &v, &u, &mut out),
+                Role::Accelerations,
+            ),
             _ => (system.friction(t, &q, &v, &u, &mut parts), Role::Friction),
         };
         let found = if k == 0 { out.as_slice() } else { &parts[..] };
@@ -155,12 +167,9 @@ fn agrees_in_f64<M: Machine + Default>(
                 arguments,
             }),
         ) {
-            (Ok(()), Ok(expected)) => assert_eq!(
-                bits(found),
-                bits(&expected),
-                "{}",
-                place(&role.name())
-            ),
+            (Ok(()), Ok(expected)) => {
+                assert_eq!(bits(found), bits(&expected), "{}", place(&role.name()))
+            }
             (Err(emitted), Err(expected)) => {
                 let row = match emitted.at {
                     Pivot::Coordinate(coordinate) => coordinate,

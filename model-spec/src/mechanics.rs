@@ -243,9 +243,8 @@ impl<'d> Equations<'d> {
     /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
     /// constraints and other frictions press is not.
     pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
-        let friction = |s: &SlidingEquation<'d>| {
-            -(s.friction * s.normal(model) * s.row[coordinate])
-        };
+        let friction =
+            |s: &SlidingEquation<'d>| -(s.friction * s.normal(model) * s.row[coordinate]);
         model.dag.sum(self.sliding.iter().map(friction))
     }
 

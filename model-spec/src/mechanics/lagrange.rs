@@ -163,16 +163,29 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
         let row: Vec<Expr<'d>> = (0..n).map(|i| slip.diff(x.v[i])).collect();
         let moving = (0..n).map(|i| slip.diff(x.q[i]) * model.coordinates[i].v);
         let drift = dag.sum(moving.chain([slip.diff(x.t)]));
-        let accelerating = row.iter().zip(&model.coordinates).map(|(&tau, c)| tau * c.a);
+        let accelerating = row
+            .iter()
+            .zip(&model.coordinates)
+            .map(|(&tau, c)| tau * c.a);
         let sliding = &model.sliding[k];
         OracleSliding {
             slip,
             slip_rate: dag.sum(accelerating.chain([drift])),
             drift,
             unbalanced: along(&|i| oracle.residual[i]),
-            by_multipliers: oracle.constraints.iter().map(|c| along(&|i| c.row[i])).collect(),
-            by_frictions: rates.iter().map(|[w, _]| along(&|i| w.diff(x.v[i]))).collect(),
-            by_normals: rates.iter().map(|[_, u]| along(&|i| u.diff(x.v[i]))).collect(),
+            by_multipliers: oracle
+                .constraints
+                .iter()
+                .map(|c| along(&|i| c.row[i]))
+                .collect(),
+            by_frictions: rates
+                .iter()
+                .map(|[w, _]| along(&|i| w.diff(x.v[i])))
+                .collect(),
+            by_normals: rates
+                .iter()
+                .map(|[_, u]| along(&|i| u.diff(x.v[i])))
+                .collect(),
             coefficients: [
                 sliding.friction,
                 sliding.static_friction.unwrap_or(sliding.friction),

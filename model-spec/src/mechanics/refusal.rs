@@ -48,8 +48,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     ];
     for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
         let span = model.section(section).unwrap_or(model.span);
-        let message =
-            format!("`{section}` of a machine with `sliding` cannot be derived yet");
+        let message = format!("`{section}` of a machine with `sliding` cannot be derived yet");
         let help = format!("without `{section}`, or without `sliding`, it can be derived");
         refuse(Code::NotSupported, span, message, help);
     }
@@ -62,7 +61,12 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     if model.relaxed.is_none() {
         let message = "the equations of this machine with its guides relaxed are too large";
         let help = "it is read a second time, with two coordinates more for each contact";
-        refuse(Code::TooLarge, first.span, message.to_owned(), help.to_owned());
+        refuse(
+            Code::TooLarge,
+            first.span,
+            message.to_owned(),
+            help.to_owned(),
+        );
     }
     refused
 }

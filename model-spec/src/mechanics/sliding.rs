@@ -98,10 +98,7 @@ pub(super) fn relative<'d>(
 }
 
 /// A point of what a body slides on, and how far that is turned.
-fn base<'m, 'd>(
-    model: &'m Model<'d>,
-    sliding: &Sliding<'d>,
-) -> (&'m [Expr<'d>], Option<Expr<'d>>) {
+fn base<'m, 'd>(model: &'m Model<'d>, sliding: &Sliding<'d>) -> (&'m [Expr<'d>], Option<Expr<'d>>) {
     match sliding.on {
         Place::Frame(pose) => {
             let pose = &model.poses[pose.index()];
@@ -218,11 +215,18 @@ fn what_is_wrong<'d>(
     }
     if is_zero(slip) {
         return error(
-            format!("the body of `{name}` does not slide: no coordinate moves it along the direction"),
+            format!(
+                "the body of `{name}` does not slide: no coordinate moves it along the direction"
+            ),
             "friction acts where something moves, or could",
         );
     }
-    let alone = model.sliding.iter().filter(|s| s.body == sliding.body).count() == 1;
+    let alone = model
+        .sliding
+        .iter()
+        .filter(|s| s.body == sliding.body)
+        .count()
+        == 1;
     if alone && follows(model, sliding, slip, &mut coasting) {
         return error(
             format!("the body of `{name}` is held by more than this guide"),

@@ -141,14 +141,10 @@ impl fmt::Display for Form {
         f.write_str(match (self.role, self.basis) {
             (_, Basis::Along) => "eliminated along the machine",
             (_, Basis::Ahead) => "eliminated along the machine, pivots ahead",
-            (
-                Role::Accelerations | Role::AccelerationsAt | Role::Friction,
-                Basis::Derived,
-            ) => "from the mass matrix",
-            (
-                Role::Accelerations | Role::AccelerationsAt | Role::Friction,
-                Basis::Expanded,
-            ) => {
+            (Role::Accelerations | Role::AccelerationsAt | Role::Friction, Basis::Derived) => {
+                "from the mass matrix"
+            }
+            (Role::Accelerations | Role::AccelerationsAt | Role::Friction, Basis::Expanded) => {
                 "from the mass matrix multiplied out"
             }
             (_, Basis::Derived) => "as derived",

@@ -13,7 +13,8 @@ use lagrangian_symbolic::{Expr, Symbol, evaluate, substitute};
 use rustc_hash::FxHashMap;
 
 use super::{
-    Arguments, FrictionLayout, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular, Source, Value,
+    Arguments, FrictionLayout, Function, Interpreter, Op, Program, Quantity, Role, Shape, Singular,
+    Source, Value,
 };
 use crate::mechanics::{Dependent, Oracle, dependents};
 use crate::model::{Model, Variable};
@@ -730,10 +731,7 @@ fn with_guarded_values(program: &Program) -> Program {
 
 /// The coordinates of the guards, in the order of [`with_guarded_values`].
 fn guarded_coordinates(program: &Program) -> Vec<usize> {
-    let functions = [
-        Some(&program.prepare),
-        program.function(program.solving()),
-    ];
+    let functions = [Some(&program.prepare), program.function(program.solving())];
     let guards = functions
         .into_iter()
         .flatten()

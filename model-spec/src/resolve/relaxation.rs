@@ -68,7 +68,10 @@ fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
 
 /// The symbols of a machine by name: those of the relaxed one are the same.
 pub(super) fn symbols<'d>(model: &Model<'d>) -> FxHashMap<String, Expr<'d>> {
-    let parameters = model.parameters.iter().map(|p| (p.name.to_string(), p.symbol));
+    let parameters = model
+        .parameters
+        .iter()
+        .map(|p| (p.name.to_string(), p.symbol));
     let inputs = model.inputs.iter().map(|i| (i.name.to_string(), i.symbol));
     let coordinates = model.coordinates.iter().flat_map(|c| {
         let name = c.name.to_string();

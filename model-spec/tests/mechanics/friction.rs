@@ -40,7 +40,11 @@ fn the_prisms_have_the_coefficients_of_the_paper() {
         // P = −b q̇ − d q̇ q̈: b_i = Σ μ ν τ_i, d_ij = Σ μ τ_i ρ_j.
         let b = |i: usize| dag.sum(contacts.iter().map(|c| c.friction * c.load * c.row[i]));
         let d = |i: usize, j: usize| {
-            dag.sum(contacts.iter().map(|c| c.friction * c.row[i] * c.by_accelerations[j]))
+            dag.sum(
+                contacts
+                    .iter()
+                    .map(|c| c.friction * c.row[i] * c.by_accelerations[j]),
+            )
         };
         let zero = dag.zero();
         assert_equal(
@@ -66,7 +70,11 @@ fn the_bracket_that_the_paper_drops_is_found() {
             found.iter().map(|c| (c.item.as_str(), c.agrees)).collect();
         assert_eq!(
             verdicts,
-            [("potential_energy", true), ("friction q1", false), ("friction q2", true)]
+            [
+                ("potential_energy", true),
+                ("friction q1", false),
+                ("friction q2", true)
+            ]
         );
         // −μ₂ [(m + M) g − m q̈₂ tan α], printed without the bracket: the term is positive and has μ₂.
         let m = |name| symbol(model, name);
@@ -134,7 +142,10 @@ fn codes(text: &str) -> Vec<(Code, String)> {
         let mut report = Report::new();
         let _ = Equations::derive(model, &mut report);
         let diagnostics = report.diagnostics();
-        diagnostics.iter().map(|d| (d.code, d.message.clone())).collect()
+        diagnostics
+            .iter()
+            .map(|d| (d.code, d.message.clone()))
+            .collect()
     })
 }
 
@@ -160,17 +171,34 @@ fn guides_that_are_none_are_refused() {
     };
     let of = |fields: &str| format!("a {{ {fields}, friction: 0.1 }}");
     for (sliding, said) in [
-        (of("body: cart, on: ground, direction: (0, 1)"), "let the body of `a` leave"),
-        (of("body: cart, on: ground, direction: direction(w*t)"), "let the body of `a` leave"),
-        (of("body: still, on: ground, direction: (1, 0)"), "`a` does not slide"),
-        (of("body: cart, on: ground, direction: (0, 0)"), "has no length"),
-        (of("body: cart, on: ground, direction: (1, 0), normal: (1, 1)"), "not at a right angle"),
+        (
+            of("body: cart, on: ground, direction: (0, 1)"),
+            "let the body of `a` leave",
+        ),
+        (
+            of("body: cart, on: ground, direction: direction(w*t)"),
+            "let the body of `a` leave",
+        ),
+        (
+            of("body: still, on: ground, direction: (1, 0)"),
+            "`a` does not slide",
+        ),
+        (
+            of("body: cart, on: ground, direction: (0, 0)"),
+            "has no length",
+        ),
+        (
+            of("body: cart, on: ground, direction: (1, 0), normal: (1, 1)"),
+            "not at a right angle",
+        ),
         (
             of("body: piston, on: cart, direction: (-cos(alpha), sin(alpha))"),
             "held by more than this guide",
         ),
         (
-            of("body: box, on: cart, direction: (1, 0)") + "," + &of("body: box, on: ground, direction: (1, 0)").replacen('a', "b", 1),
+            of("body: box, on: cart, direction: (1, 0)")
+                + ","
+                + &of("body: box, on: ground, direction: (1, 0)").replacen('a', "b", 1),
             "is not determined",
         ),
     ] {

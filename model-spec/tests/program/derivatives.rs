@@ -9,7 +9,7 @@ use lagrangian_spec::program::{
 };
 
 use crate::harness::{
-    smooth_machines, compiled, differentiated, differentiated_machine, machine, program,
+    compiled, differentiated, differentiated_machine, machine, program, smooth_machines,
 };
 
 fn assert_proved(machine: &Compiled<'_>) {

@@ -77,7 +77,12 @@ fn accelerations_multipliers_and_reactions_are_right_with_any_friction() {
 
 #[test]
 fn the_contacts_of_the_library_are_proved() {
-    for name in ["prisms", "wedge_and_block", "block_on_incline", "stick_slip"] {
+    for name in [
+        "prisms",
+        "wedge_and_block",
+        "block_on_incline",
+        "stick_slip",
+    ] {
         machine(name, &[], assert_proved);
     }
 }
@@ -88,7 +93,10 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
     compiled(GUIDED, &[], |machine| {
         let oracle = Oracle::derive(&machine.model);
         let mut found = 0;
-        let function = machine.program.function(Role::Friction).expect("it is there");
+        let function = machine
+            .program
+            .function(Role::Friction)
+            .expect("it is there");
         let layout = FrictionLayout {
             coordinates: 5,
             constraints: 0,

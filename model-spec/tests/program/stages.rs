@@ -8,7 +8,7 @@ use lagrangian_spec::program::{
     mutants, prove,
 };
 
-use crate::harness::{smooth_machines, compiled, library_text, machine};
+use crate::harness::{compiled, library_text, machine, smooth_machines};
 
 /// The requests that there are.
 const REQUESTS: [&str; 3] = ["time, coordinates", "coordinates", "time"];

@@ -41,7 +41,12 @@ impl Emitter<'_> {
         for (name, arguments, target, role) in [
             ("slips", &["t", "q", "v", "slips"][..], "slips", Role::Slips),
             ("slip_matrix", &["t", "q", "rows"], "rows", Role::SlipMatrix),
-            ("slip_drift", &["t", "q", "v", "drift"], "drift", Role::SlipDrift),
+            (
+                "slip_drift",
+                &["t", "q", "v", "drift"],
+                "drift",
+                Role::SlipDrift,
+            ),
         ] {
             let line = match self.call(role) {
                 Some(call) => format!("fill({target}, &{call});"),

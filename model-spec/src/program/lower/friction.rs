@@ -33,10 +33,7 @@ pub(super) fn of_slips<'d>(equations: &Equations<'d>) -> Vec<Quantity<'d>> {
 }
 
 /// The programs for [`Role::Friction`], from the equations as they were derived and multiplied out.
-pub(super) fn friction<'d>(
-    lowering: &mut Lowering<'_, 'd>,
-    source: Origin<'_, 'd>,
-) -> Vec<Draft> {
+pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
     let contacts: Vec<Contact> = source
         .sliding
         .iter()
@@ -147,7 +144,11 @@ fn results(
         let slips: Vec<Scaled> = contacts
             .iter()
             .map(|contact| {
-                let start = if part == 0 { contact.drift } else { Scaled::ZERO };
+                let start = if part == 0 {
+                    contact.drift
+                } else {
+                    Scaled::ZERO
+                };
                 combine(start, [(&contact.row, &accelerations), (&[], &[])])
             })
             .collect();
@@ -159,7 +160,10 @@ fn results(
                     Some(k) => contact.by_frictions[k],
                 };
                 let by = [
-                    (contact.by_accelerations.as_slice(), accelerations.as_slice()),
+                    (
+                        contact.by_accelerations.as_slice(),
+                        accelerations.as_slice(),
+                    ),
                     (contact.by_multipliers.as_slice(), multipliers.as_slice()),
                 ];
                 combine(start, by)
