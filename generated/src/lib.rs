@@ -11,6 +11,8 @@ pub mod andrews_squeezer;
 pub mod asymmetric_top;
 /// The machine of [`BallInBowl`].
 pub mod ball_in_bowl;
+/// The machine of [`BlockOnIncline`].
+pub mod block_on_incline;
 /// The machine of [`CakedCrusher`].
 pub mod caked_crusher;
 /// The machine of [`CartPole`].
@@ -55,6 +57,8 @@ pub mod motor_crusher;
 pub mod paper_crusher;
 /// The machine of [`ParticlePendulum`].
 pub mod particle_pendulum;
+/// The machine of [`Prisms`].
+pub mod prisms;
 /// The machine of [`Rattleback`].
 pub mod rattleback;
 /// The machine of [`RollingCoin`].
@@ -73,6 +77,8 @@ pub mod small_angle_crusher;
 pub mod spherical_pendulum;
 /// The machine of [`SpringMassTrain`].
 pub mod spring_mass_train;
+/// The machine of [`StickSlip`].
+pub mod stick_slip;
 /// The machine of [`TwoBodyOrbit`].
 pub mod two_body_orbit;
 /// The machine of [`TwoDebalanceCrusher`].
@@ -81,10 +87,13 @@ pub mod two_debalance_crusher;
 pub mod two_joint_arm;
 /// The machine of [`VibratingCrusher`].
 pub mod vibrating_crusher;
+/// The machine of [`WedgeAndBlock`].
+pub mod wedge_and_block;
 
 pub use andrews_squeezer::AndrewsSqueezer;
 pub use asymmetric_top::AsymmetricTop;
 pub use ball_in_bowl::BallInBowl;
+pub use block_on_incline::BlockOnIncline;
 pub use caked_crusher::CakedCrusher;
 pub use cart_pole::CartPole;
 pub use chain::Chain;
@@ -107,6 +116,7 @@ pub use kapitza_pendulum::KapitzaPendulum;
 pub use motor_crusher::MotorCrusher;
 pub use paper_crusher::PaperCrusher;
 pub use particle_pendulum::ParticlePendulum;
+pub use prisms::Prisms;
 pub use rattleback::Rattleback;
 pub use rolling_coin::RollingCoin;
 pub use rolling_cylinder::RollingCylinder;
@@ -116,7 +126,9 @@ pub use slider_crank::SliderCrank;
 pub use small_angle_crusher::SmallAngleCrusher;
 pub use spherical_pendulum::SphericalPendulum;
 pub use spring_mass_train::SpringMassTrain;
+pub use stick_slip::StickSlip;
 pub use two_body_orbit::TwoBodyOrbit;
 pub use two_debalance_crusher::TwoDebalanceCrusher;
 pub use two_joint_arm::TwoJointArm;
 pub use vibrating_crusher::VibratingCrusher;
+pub use wedge_and_block::WedgeAndBlock;

@@ -39,7 +39,7 @@ impl Emitter<'_> {
             body.line("CONTACTS.iter().copied()");
         });
         for (name, arguments, target, role) in [
-            ("slips", &["t", "q", "v", "slips"][..], "slips", Role::Slips),
+            ("slips", &["t", "q", "v", "w"][..], "w", Role::Slips),
             ("slip_matrix", &["t", "q", "rows"], "rows", Role::SlipMatrix),
             (
                 "slip_drift",

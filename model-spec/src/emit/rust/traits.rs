@@ -80,7 +80,7 @@ impl Emitter<'_> {
             "coordinates" => format!("&{coordinates}"),
             "matrix" => format!("&mut [{f64}; {}]", n * n),
             "result" => format!("&mut [{f64}; {n}]"),
-            "positions" | "rates" | "rows" | "drift" | "lambda" | "slips" | "parts" => {
+            "positions" | "rates" | "rows" | "drift" | "lambda" | "w" | "parts" => {
                 format!("&mut [{f64}]")
             }
             _ => format!("&[{f64}; {n}]"),

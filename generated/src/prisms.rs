@@ -1,0 +1,601 @@
+// @generated from machines/prisms.machine by `cargo xtask generate`; edits are lost.
+
+//! Two prisms with Coulomb friction: one slides down on the other, which slides on the floor (D.
+//! Đurić,
+//! *On Brachistochronic Motion of a Multibody System with Real Constraints*, figure 1).
+//!
+//! The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does not
+//! give.
+//!
+//! 2 coordinates, 6 parameters. Arithmetic of one call:
+//!
+//! | function | mul | add | div | sin cos | other | temporaries |
+//! | --- | --: | --: | --: | --: | --: | --: |
+//! | `prepare` | 31 | 11 | 3 | 1 | 0 | 47 |
+//! | `slips` | 2 | 3 | 0 | 0 | 0 | 5 |
+//! | `kinetic_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
+//! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
+//!
+//! Sine and cosine of one angle count once; subtractions and changes of sign are additions. A
+//! function that is not here gives zeros.
+
+// A program uses some of it.
+#![allow(dead_code, unreachable_pub)]
+// Names and numbers are those of the description.
+#![allow(non_snake_case, non_camel_case_types)]
+#![allow(clippy::approx_constant, clippy::upper_case_acronyms)]
+// Formulas are written as derived.
+#![allow(clippy::let_and_return, clippy::too_many_arguments)]
+#![allow(clippy::just_underscores_and_digits, clippy::excessive_precision)]
+#![allow(clippy::pedantic, clippy::nursery)]
+// What the description says is no Markdown.
+#![allow(rustdoc::all)]
+
+/// Two prisms with Coulomb friction: one slides down on the other, which slides on the floor (D.
+/// Đurić,
+/// *On Brachistochronic Motion of a Multibody System with Real Constraints*, figure 1).
+///
+/// The defaults are those of the paper's example, with 9.81 m/s² for the gravity that it does not
+/// give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prisms<S = f64> {
+    /// Mass of the prism that slides down. Unit: kg. Default: 32/13.
+    pub m: S,
+    /// Mass of the prism on the floor. Unit: kg. Default: 20/13.
+    pub M: S,
+    /// Angle of the rough side to the horizontal. Unit: rad. Default: 0.25*pi.
+    pub alpha: S,
+    /// Coefficient of friction between the prisms. Unit: 1. Default: 0.1.
+    pub mu1: S,
+    /// Coefficient of friction on the floor. Unit: 1. Default: 0.02.
+    pub mu2: S,
+    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    pub g: S,
+}
+
+impl Default for Prisms {
+    fn default() -> Self {
+        Self {
+            m: 2.4615384615384617,
+            M: 1.5384615384615385,
+            alpha: 0.7853981633974483,
+            mu1: 0.1,
+            mu2: 0.02,
+            g: 9.81,
+        }
+    }
+}
+
+impl<S> Prisms<S> {
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Prisms<R> {
+        Prisms {
+            m: f(self.m),
+            M: f(self.M),
+            alpha: f(self.alpha),
+            mu1: f(self.mu1),
+            mu2: f(self.mu2),
+            g: f(self.g),
+        }
+    }
+}
+
+impl<S: ::lagrangian::Scalar> Prisms<S> {
+    /// Computes what depends on the parameters alone, once.
+    pub fn prepare(&self) -> Prepared<S> {
+        let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
+        let k2 = self.m + self.M;
+        let t0 = self.g * self.m;
+        let t1 = S::ONE / k2;
+        let t2 = self.m * t1;
+        let k8 = S::ONE / cos_self_alpha;
+        let t3 = k8 * k8;
+        let t4 = sin_self_alpha * k8;
+        let k6 = self.m * t3;
+        let k1 = t0 * t4;
+        let pivot_1 = k6 - self.m * t2;
+        let t5 = S::ONE / pivot_1;
+        let t6 = self.m * t5;
+        let k16 = t1 * t6;
+        let t7 = t4 * t6;
+        let k17 = t1 + t2 * k16;
+        let k11 = self.g * t7;
+        let t8 = t0 * t7;
+        let k3 = t4 * t4;
+        let k4 = self.M * S::from_f64(0.5);
+        let k5 = self.m * S::from_f64(0.5);
+        let k7 = sin_self_alpha * t4;
+        let k9 = -self.m;
+        let k10 = -k1;
+        let k12 = t1 * t8;
+        let k13 = k8 * k11;
+        let k14 = t0 + self.g * self.M - t4 * t8;
+        let k15 = cos_self_alpha * t0 - t8 * (sin_self_alpha * t2);
+        let k18 = k8 * k16;
+        let k19 = k8 * t5;
+        let k20 = t3 * t5;
+        let k21 = -(t2 * t7);
+        let k22 = -(k17 * (sin_self_alpha * self.m));
+        let k23 = -(k8 * t7);
+        let singular = if vanishes(k2, k2, 1.7763568394002505e-15) {
+            Some(singular(0, k2, k2))
+        } else if vanishes(pivot_1, k6, 1.7763568394002505e-15) {
+            Some(singular(1, pivot_1, k6))
+        } else {
+            None
+        };
+        Prepared {
+            k0: cos_self_alpha,
+            k1,
+            k2,
+            k3,
+            k4,
+            k5,
+            k6,
+            k7,
+            k8,
+            k9,
+            k10,
+            mu2: self.mu2,
+            mu1: self.mu1,
+            k11,
+            k12,
+            k13,
+            k14,
+            k15,
+            k16,
+            k17,
+            k18,
+            k19,
+            k20,
+            k21,
+            k22,
+            k23,
+            singular,
+        }
+    }
+
+    /// The start values of the description, at rest and `t = 0`.
+    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+        let zero = S::ZERO;
+        let q = [zero, zero];
+        let v = [S::ZERO; 2];
+        ::lagrangian::State {
+            t: 0.0,
+            q: Coordinates::from_array(q),
+            v: Coordinates::from_array(v),
+        }
+    }
+}
+
+/// The coordinates of [`Prisms`], or their rates, by name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coordinates<S = f64> {
+    /// How far the prism on the floor has moved. Unit: m.
+    pub q1: S,
+    /// How far the other has moved on it, horizontally and to the other side. Unit: m.
+    pub q2: S,
+}
+
+impl<S: Copy> Coordinates<S> {
+    /// The numbers in the order of the description: the order of `q` in every function here.
+    pub fn to_array(self) -> [S; 2] {
+        [self.q1, self.q2]
+    }
+
+    /// Names for numbers in the order of the description.
+    pub fn from_array(q: [S; 2]) -> Self {
+        Self { q1: q[0], q2: q[1] }
+    }
+
+    /// The same over other numbers.
+    pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
+        Coordinates {
+            q1: f(self.q1),
+            q2: f(self.q2),
+        }
+    }
+}
+
+/// What can be set while a [`Prisms`] runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {}
+
+/// What can be observed of a [`Prisms`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outputs {}
+
+/// The parameters of a [`Prisms`], with the work done that depends on them alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared<S = f64> {
+    /// `cos(alpha)`
+    k0: S,
+    /// `m*g*sin(alpha)/cos(alpha)`
+    k1: S,
+    /// `m + M`
+    k2: S,
+    /// `sin(alpha)^2/cos(alpha)^2`
+    k3: S,
+    /// `0.5*M`
+    k4: S,
+    /// `0.5*m`
+    k5: S,
+    /// `m/cos(alpha)^2`
+    k6: S,
+    /// `sin(alpha)^2/cos(alpha)`
+    k7: S,
+    /// `1/cos(alpha)`
+    k8: S,
+    /// `-m`
+    k9: S,
+    /// `-m*g*sin(alpha)/cos(alpha)`
+    k10: S,
+    /// `mu2`
+    mu2: S,
+    /// `mu1`
+    mu1: S,
+    /// `m*g*sin(alpha)/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k11: S,
+    /// `m^2*g*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k12: S,
+    /// `m*g*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
+    k13: S,
+    /// `M*g + m*g - m^2*g*sin(alpha)^2/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
+    k14: S,
+    /// `m*g*cos(alpha) - m^3*g*sin(alpha)^2/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k15: S,
+    /// `m/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k16: S,
+    /// `1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M))`
+    k17: S,
+    /// `m/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k18: S,
+    /// `1/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k19: S,
+    /// `1/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
+    k20: S,
+    /// `-m^2*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
+    k21: S,
+    /// `-m*sin(alpha)*(1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M)))`
+    k22: S,
+    /// `-m*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
+    k23: S,
+    /// Why these parameters leave the machine without accelerations, if they do.
+    singular: Option<::lagrangian::Singular>,
+}
+
+/// Mass matrix `M`, row by row.
+///
+/// ```text
+/// M[q1, q1] = m + M
+/// M[q2, q1] = -m
+/// M[q2, q2] = m/cos(alpha)^2
+/// ```
+pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
+    [[p.k2, p.k9], [p.k9, p.k6]]
+}
+
+/// Applied generalized forces `Q`.
+///
+/// ```text
+/// Q[q2] = m*g*sin(alpha)/cos(alpha)
+/// ```
+pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
+    let zero = S::ZERO;
+    [zero, p.k1]
+}
+
+/// Right-hand side `f = Q - h` of `M a = f`.
+pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
+    let zero = S::ZERO;
+    [zero, p.k1]
+}
+
+/// How fast the contacts slide, `w`, in m/s.
+pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
+    let q1_dot = v[0];
+    let q2_dot = v[1];
+    let w2 = (q1_dot - (q1_dot - q2_dot)) * p.k0 + q2_dot * p.k7;
+    [q1_dot, w2]
+}
+
+/// The matrix `tau = dw/dv` of the slips, row after row.
+pub fn slip_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
+    let one = S::ONE;
+    let zero = S::ZERO;
+    [one, zero, zero, p.k8]
+}
+
+/// What there is without friction, and what each unit of friction adds to it: accelerations,
+/// multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of
+/// friction.
+///
+/// A pivot that vanishes is an error.
+pub fn friction<S: ::lagrangian::Number>(
+    p: &Prepared<S>,
+) -> Result<[S; 22], ::lagrangian::Singular> {
+    S::run(Friction { p })
+}
+
+/// A call of [`friction`], to be run with whatever instructions the processor has.
+pub struct Friction<'a, S> {
+    /// As `friction` takes it.
+    pub p: &'a Prepared<S>,
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 22], ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self { p } = self;
+        let n = N::load;
+        if let Some(singular) = p.singular {
+            return Err(singular);
+        }
+        let friction = [
+            n(p.k12).store(),
+            n(p.k11).store(),
+            n(p.k12).store(),
+            n(p.k13).store(),
+            n(p.k14).store(),
+            n(p.k15).store(),
+            n(p.k17).store(),
+            n(p.k16).store(),
+            n(p.k17).store(),
+            n(p.k18).store(),
+            n(p.k21).store(),
+            n(p.k22).store(),
+            n(p.k18).store(),
+            n(p.k19).store(),
+            n(p.k18).store(),
+            n(p.k20).store(),
+            n(p.k23).store(),
+            n(p.k21).store(),
+            n(p.mu2).store(),
+            n(p.mu1).store(),
+            n(p.mu2).store(),
+            n(p.mu1).store(),
+        ];
+        Ok(friction)
+    }
+}
+
+/// Kinetic energy `T`, in J.
+///
+/// ```text
+/// T = 1/2*(m + M)*der(q1)^2 - m*der(q1)*der(q2) + 1/2*m*der(q2)^2/cos(alpha)^2
+/// ```
+pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
+    let q1_dot = v[0];
+    let q2_dot = v[1];
+    let t0 = q1_dot - q2_dot;
+    p.k5 * (q2_dot * (q2_dot * p.k3) + t0 * t0) + q1_dot * (q1_dot * p.k4)
+}
+
+/// Potential energy `V`, in J.
+///
+/// ```text
+/// V = -m*g*sin(alpha)*q2/cos(alpha)
+/// ```
+pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+    let q2 = q[1];
+    p.k10 * q2
+}
+
+/// Names and units.
+const PARAMETERS: [(&str, &str); 6] = [
+    ("m", "kg"),
+    ("M", "kg"),
+    ("alpha", "rad"),
+    ("mu1", "1"),
+    ("mu2", "1"),
+    ("g", "m/s^2"),
+];
+
+/// Names and units.
+const COORDINATES: [(&str, &str); 2] = [("q1", "m"), ("q2", "m")];
+
+/// Names and units.
+const INPUTS: [(&str, &str); 0] = [];
+
+/// Names and units.
+const OUTPUTS: [(&str, &str); 0] = [];
+
+/// The names of the contacts that stick and slide.
+const CONTACTS: [&str; 2] = ["floor", "incline"];
+
+impl ::lagrangian::Machine for Prisms {
+    type System = Prepared;
+
+    fn name(&self) -> &str {
+        "Prisms"
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [self.m, self.M, self.alpha, self.mu1, self.mu2, self.g];
+        quantities(&PARAMETERS, values)
+    }
+
+    fn prepare(&self) -> Prepared {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::State<Coordinates> {
+        Self::start(self)
+    }
+}
+
+impl ::lagrangian::System for Prepared {
+    type Vector = [f64; 2];
+    type Matrix = [f64; 4];
+    type Coordinates = Coordinates;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[f64; 2]) -> Coordinates {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates) -> [f64; 2] {
+        coordinates.to_array()
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &[f64; 2],
+        v: &[f64; 2],
+        u: &Inputs,
+        result: &mut [f64; 2],
+    ) -> Result<(), ::lagrangian::Singular> {
+        ::lagrangian::accelerations_with_friction(self, t, q, v, u, result)
+    }
+
+    fn mass_matrix(&self, _: f64, _: &[f64; 2], matrix: &mut [f64; 4]) {
+        let rows = mass_matrix(self);
+        for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {
+            *to = *from;
+        }
+    }
+
+    fn bias(&self, _: f64, _: &[f64; 2], _: &[f64; 2], result: &mut [f64; 2]) {
+        *result = [0.0; 2];
+    }
+
+    fn applied(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
+        *result = applied(self);
+    }
+
+    fn forces(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs, result: &mut [f64; 2]) {
+        *result = forces(self);
+    }
+
+    fn kinetic_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
+        kinetic_energy(self, v)
+    }
+
+    fn potential_energy(&self, _: f64, q: &[f64; 2], _: &Inputs) -> f64 {
+        potential_energy(self, q)
+    }
+
+    fn dissipation(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn work_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn dissipation_rate(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> f64 {
+        0.0
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs::default()
+    }
+
+    fn input_values(
+        &self,
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&INPUTS, values)
+    }
+
+    fn output_values(
+        &self,
+        _: &Outputs,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+        let values = [];
+        quantities(&OUTPUTS, values)
+    }
+
+    fn outputs(&self, _: f64, _: &[f64; 2], _: &[f64; 2], _: &[f64; 2], _: &Inputs) -> Outputs {
+        Outputs {}
+    }
+
+    fn assumptions(
+        &self,
+        _: f64,
+        _: &[f64; 2],
+        _: &[f64; 2],
+        _: &Inputs,
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+        ::core::iter::empty()
+    }
+
+    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
+        CONTACTS.iter().copied()
+    }
+
+    fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], w: &mut [f64]) {
+        fill(w, &slips(self, v));
+    }
+
+    fn slip_matrix(&self, _: f64, _: &[f64; 2], rows: &mut [f64]) {
+        fill(rows, &slip_matrix(self));
+    }
+
+    fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], drift: &mut [f64]) {
+        drift.fill(0.0);
+    }
+
+    fn friction(
+        &self,
+        _: f64,
+        _: &[f64; 2],
+        _: &[f64; 2],
+        _: &Inputs,
+        parts: &mut [f64],
+    ) -> Result<(), ::lagrangian::Singular> {
+        fill(parts, &friction(self)?);
+        Ok(())
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::room(2, 0, 2)];
+        work(room.get_mut(..length))
+    }
+}
+
+/// A name with its unit.
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
+    ::lagrangian::Quantity { name, unit }
+}
+
+/// Names and units beside values.
+fn quantities<'a, const N: usize>(
+    names: &'a [(&'a str, &'a str); N],
+    values: [f64; N],
+) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+    names.iter().map(quantity).zip(values)
+}
+
+/// Writes numbers where there is room for them.
+fn fill(to: &mut [f64], from: &[f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
+/// no number.
+fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+    let bound = S::from_f64(share) * diagonal;
+    !pivot.exceeds(bound)
+}
+
+/// What is left of a pivot, for the message.
+#[cold]
+fn singular<S: ::lagrangian::Scalar>(
+    coordinate: usize,
+    pivot: S,
+    diagonal: S,
+) -> ::lagrangian::Singular {
+    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+}
