@@ -88,6 +88,38 @@ fn the_conditions_that_fail_are_named() {
     assert!(error.contains("cannot be reached from rest"), "{error}");
 }
 
+/// The spec's defaults are the paper's example; published to six digits, recomputed to forty elsewhere.
+#[test]
+fn the_prisms_take_the_papers_time() {
+    let arguments = [
+        "machines/prisms.machine",
+        "--json",
+        "--natural",
+        "--to",
+        "q1=12,q2=6",
+    ];
+    let output = lagrangian(&[&["brachistochrone"], &arguments[..]].concat());
+    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    close(&found["time"], 1.637369712040567, 1e-13);
+    let parameters = &found["parameters"];
+    close(
+        &parameters["epsilon_start"],
+        -0.413_771_376_224_754_8,
+        1e-13,
+    );
+    close(&parameters["epsilon_end"], 0.951_221_090_127_751_6, 1e-13);
+    close(&parameters["C1"], 0.0393521181000199, 1e-13);
+    close(&found["end"]["q"]["q1"], 8.0, 1e-13);
+    close(&found["end"]["q"]["q2"], 4.75, 1e-13);
+    assert_eq!(found["warnings"], serde_json::json!([]));
+    for moment in found["path"].as_array().expect("a path") {
+        for guide in ["floor", "incline"] {
+            assert!(moment["reactions"][guide].as_f64().expect("a number") > 0.0);
+        }
+        assert!(moment["friction_power"].as_f64().expect("a number") <= 0.0);
+    }
+}
+
 #[test]
 fn tables_and_drawings_are_written() {
     let spec = Scratch::new("drawn.machine", BEAD);

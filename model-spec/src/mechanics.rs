@@ -35,7 +35,7 @@ mod symmetric;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
-pub use brachistochrone::{Brachistochronic, Unmet};
+pub use brachistochrone::{Brachistochronic, Guided, Unmet};
 pub use circles::{body_axes, placed};
 pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;

@@ -1,11 +1,12 @@
 //! From a compiled machine and its parameters to numbers.
 
 use lagrangian::Machine;
-use lagrangian::brachistochrone::{Problem, Unsolved};
+use lagrangian::brachistochrone::{Guide, Problem, Unsolved};
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::mechanics::Brachistochronic;
+use lagrangian_spec::mechanics::{Brachistochronic, Guided};
 use lagrangian_symbolic::{Expr, evaluate};
+use nalgebra::DMatrix;
 
 use crate::failure::Failure;
 
@@ -45,8 +46,49 @@ pub fn problem(compiled: &Compiled, machine: &InterpretedMachine) -> Result<Prob
         })
     };
     let mass: Vec<Vec<f64>> = form.mass.iter().map(|row| values(row)).collect();
-    let problem = Problem::new(&mass, &values(&form.slope));
-    problem.map_err(|unsolved| Failure::Run(explained(&unsolved, &names)))
+    let refused = |unsolved: Unsolved| Failure::Run(explained(&unsolved, &names));
+    let problem = Problem::new(&mass, &values(&form.slope)).map_err(refused)?;
+    let guides = guides(&form, values)?;
+    let add = |problem: Problem, guide| problem.with_guide(guide);
+    guides.into_iter().try_fold(problem, add).map_err(refused)
+}
+
+/// The guides, each reaction by accelerations alone: `(1 + κ μ) N = ν + ρ·a` for all of them.
+fn guides<'d>(
+    form: &Brachistochronic<'d>,
+    values: impl Fn(&[Expr<'d>]) -> Vec<f64>,
+) -> Result<Vec<Guide>, Failure> {
+    let (count, n) = (form.guides.len(), form.slope.len());
+    if count == 0 {
+        return Ok(Vec::new()); // An empty matrix has no factors.
+    }
+    let list = |of: &dyn Fn(&Guided<'d>) -> Vec<Expr<'d>>| -> Vec<Vec<f64>> {
+        form.guides.iter().map(|guide| values(&of(guide))).collect()
+    };
+    let scalars = list(&|guide| vec![guide.load, guide.friction]);
+    let weights = list(&|guide| guide.weights.clone());
+    let by_frictions = list(&|guide| guide.by_frictions.clone());
+    let along = list(&|guide| guide.along.clone());
+    let coupling = DMatrix::from_fn(count, count, |i, j| {
+        f64::from(u8::from(i == j)) + by_frictions[i][j] * scalars[j][1]
+    });
+    let loads = DMatrix::from_fn(count, n + 1, |i, j| match j {
+        0 => scalars[i][0],
+        _ => weights[i][j - 1],
+    });
+    let reactions = coupling.lu().solve(&loads).ok_or_else(|| {
+        Failure::run(
+            "the normal reactions of the guides are not determined: friction makes them jam",
+        )
+    })?;
+    let guide = |(i, guide): (usize, &Guided<'d>)| Guide {
+        name: guide.name.clone(),
+        along: along[i].clone(),
+        load: reactions[(i, 0)],
+        weights: (1..=n).map(|j| reactions[(i, j)]).collect(),
+        friction: scalars[i][1],
+    };
+    Ok(form.guides.iter().enumerate().map(guide).collect())
 }
 
 /// Why there is no fastest motion, with the names of coordinates where there are numbers.

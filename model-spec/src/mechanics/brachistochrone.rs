@@ -12,7 +12,7 @@ use std::fmt;
 
 use lagrangian_symbolic::{Expr, Symbol};
 
-use super::{Equations, experiment};
+use super::{Equations, SlidingEquation, experiment};
 use crate::model::Model;
 
 /// The problem of a machine's fastest motion, over symbols of parameters.
@@ -22,6 +22,25 @@ pub struct Brachistochronic<'d> {
     pub mass: Vec<Vec<Expr<'d>>>,
     /// `c_α = −Q_α`.
     pub slope: Vec<Expr<'d>>,
+    /// The guides that slide.
+    pub guides: Vec<Guided<'d>>,
+}
+
+/// A guide that slides and presses: `N = ν + ρ·a + Σ κ F`, with the friction `F = −μ N` of each guide.
+#[derive(Clone, Debug)]
+pub struct Guided<'d> {
+    /// Its name.
+    pub name: String,
+    /// `τ`.
+    pub along: Vec<Expr<'d>>,
+    /// `ν`, in N.
+    pub load: Expr<'d>,
+    /// `ρ`.
+    pub weights: Vec<Expr<'d>>,
+    /// `κ`, by the guides in their order.
+    pub by_frictions: Vec<Expr<'d>>,
+    /// `μ`.
+    pub friction: Expr<'d>,
 }
 
 /// A condition that a machine does not meet.
@@ -36,8 +55,6 @@ pub enum Unmet {
     },
     /// The machine has constraints: its coordinates are not free.
     Constrained,
-    /// Guides slide with friction, of which nothing is known here.
-    Slides,
     /// There are no coordinates.
     Empty,
 }
@@ -52,10 +69,6 @@ impl fmt::Display for Unmet {
                     "the machine has constraints, so that its coordinates are not free"
                 )
             }
-            Self::Slides => write!(
-                f,
-                "the machine has `sliding`, whose friction is not taken into account yet"
-            ),
             Self::Empty => write!(f, "the machine has no coordinates"),
         }
     }
@@ -74,9 +87,6 @@ impl<'d> Brachistochronic<'d> {
         }
         if !equations.constraints.is_empty() {
             unmet.push(Unmet::Constrained);
-        }
-        if !model.sliding.is_empty() {
-            unmet.push(Unmet::Slides);
         }
         let name = |i: usize| model.coordinates[i].name.to_string();
         let mass = (0..n).map(|i| {
@@ -101,6 +111,10 @@ impl<'d> Brachistochronic<'d> {
             bias - applied
         });
         let slope = slope.collect();
+        let guides = equations.sliding.iter();
+        let guides = guides
+            .map(|sliding| guided(model, sliding, &mut unmet))
+            .collect();
         // The matrix is symmetric, and an entry is told once.
         let mut told = Vec::new();
         for condition in unmet {
@@ -109,9 +123,48 @@ impl<'d> Brachistochronic<'d> {
             }
         }
         match told.is_empty() {
-            true => Ok(Brachistochronic { mass, slope }),
+            true => Ok(Brachistochronic {
+                mass,
+                slope,
+                guides,
+            }),
             false => Err(told),
         }
+    }
+}
+
+fn guided<'d>(
+    model: &Model<'d>,
+    sliding: &SlidingEquation<'d>,
+    unmet: &mut Vec<Unmet>,
+) -> Guided<'d> {
+    let name = &sliding.name;
+    let mut of =
+        |value: Expr<'d>, what: &str| constant(model, value, &format!("{what} of `{name}`"), unmet);
+    let mut each = |list: &[Expr<'d>], what: &str| -> Vec<Expr<'d>> {
+        list.iter().map(|&value| of(value, what)).collect()
+    };
+    let along = each(&sliding.row, "the direction");
+    let weights = each(&sliding.by_accelerations, "the reaction to accelerations");
+    let by_frictions = each(&sliding.by_frictions, "the reaction to friction");
+    let load = of(sliding.load, "the reaction at rest");
+    let friction = of(sliding.friction, "the coefficient of friction");
+    // What it slides on may be driven.
+    let moving = model.coordinates.iter().zip(&sliding.row);
+    let moving = model.dag.sum(moving.map(|(c, &row)| row * c.v));
+    if experiment::equal(sliding.slip, moving) != Some(true) {
+        unmet.push(Unmet::Varies {
+            what: format!("the slip of `{name}` while the machine is at rest"),
+            with: "t".to_owned(),
+        });
+    }
+    Guided {
+        name: name.clone(),
+        along,
+        load,
+        weights,
+        by_frictions,
+        friction,
     }
 }
 
