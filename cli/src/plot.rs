@@ -33,7 +33,7 @@ pub const COLOURS: [RGBColor; 8] = [
 ];
 
 /// What is drawn, from top to bottom.
-const KINDS: [Kind; 5] = [
+const KINDS: [Kind; 6] = [
     Kind::Coordinate,
     Kind::Output,
     Kind::Multiplier,
