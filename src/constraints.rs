@@ -13,6 +13,8 @@
     reason = "what is not a number passes no test here"
 )]
 
+#[cfg(feature = "std")]
+use crate::Pivot;
 use crate::compensated::two_sum;
 use crate::math::sqrt;
 use crate::{Singular, StepError, System, Vector};
@@ -78,7 +80,7 @@ pub fn least_multipliers<S: System>(
     constraints.choose(system, t, q, Rank::Revealed(INDEPENDENT))?;
     constraints.accelerations(system, t, q, v, u, a)?;
     constraints.multipliers(system, t, q, v, u, multipliers)?;
-    constraints.check_accelerations(system, t, q, v, a)
+    constraints.check_accelerations(system, (t, q, v, u), a)
 }
 
 /// What a run knows of the constraints of its machine.
@@ -522,22 +524,33 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Whether accelerations obey the rows that were not chosen, too.
+    ///
+    /// They are sums of what forces would give and of what constraints take away again, so what is left
+    /// is measured by the forces as well: in balance nothing else is there.
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
         system: &S,
-        t: f64,
-        q: &V,
-        v: &V,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &V,
     ) -> Result<(), StepError> {
         in_room(system, t, q.as_slice().len(), |room| {
             system.constraint_matrix(t, q, room.matrix);
             system.constraint_drift(t, q, v, room.row);
+            system.mass_matrix(t, q, &mut room.metric);
+            let mut f = a.zeros_like();
+            system.forces(t, q, v, u, &mut f);
+            let inertias = room.metric.as_slice().iter().step_by(room.n + 1);
+            for (free, inertia) in room.column.iter_mut().zip(inertias) {
+                *free = if *inertia > 0.0 { 1.0 / inertia } else { 0.0 };
+            }
+            for (free, f) in room.column.iter_mut().zip(f.as_slice()) {
+                *free *= f.abs();
+            }
             for (k, row) in room.matrix.chunks_exact(room.n).enumerate() {
                 let (mut left, mut scale) = (-room.row[k], room.row[k].abs());
-                for (g, a) in row.iter().zip(a.as_slice()) {
+                for ((g, a), free) in row.iter().zip(a.as_slice()).zip(&*room.column) {
                     left += g * a;
-                    scale += (g * a).abs();
+                    scale += (g * a).abs() + g.abs() * free;
                 }
                 let residual = share(left, scale);
                 if !(residual <= CONSISTENT) {
@@ -872,6 +885,40 @@ impl<V: Vector> Constraints<V> {
                 (k, on)
             });
             Ok(others.collect())
+        })
+    }
+
+    /// The row that has lost most of its hold on the way from one pose to another, and what is left of
+    /// it beside the others, relative to what it had; none where it had nothing.
+    ///
+    /// Where it is 0, rows depend on each other that did not before: more directions are free there than
+    /// elsewhere, and branches of the motion may meet.
+    pub fn weakest<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        before: (f64, &V),
+        now: (f64, &V),
+    ) -> Result<Option<(usize, f64)>, StepError> {
+        self.choose(system, before.0, before.1, Rank::Revealed(INDEPENDENT))?;
+        let mut held = before.1.zeros_like();
+        let held = held.as_mut_slice();
+        in_room(system, before.0, before.1.as_slice().len(), |room| {
+            self.prepare(system, room, before.0, before.1)?;
+            for (j, held) in held.iter_mut().take(self.rank).enumerate() {
+                *held = room.triangle[j * self.rank + j];
+            }
+            let prepared = self.prepare(system, room, now.0, now.1);
+            if let Err(StepError::Singular { singular, .. }) = prepared
+                && let Pivot::Constraint(k) = singular.at
+            {
+                return Ok(Some((k, 0.0)));
+            }
+            prepared?;
+            let left = (0..self.rank).map(|j| {
+                let left = room.triangle[j * self.rank + j] / held[j];
+                (self.row(j), left)
+            });
+            Ok(left.min_by(|a, b| a.1.total_cmp(&b.1)))
         })
     }
 

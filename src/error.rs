@@ -113,6 +113,17 @@ pub enum Error {
         /// Their rates.
         v: std::vec::Vec<f64>,
     },
+    /// Constraints come to depend on each other where they did not before. The machine may go on in more
+    /// than one way from there, as a parallelogram whose bars come into line, and rounding hides which
+    /// way the motion has.
+    Fork {
+        /// The constraint that loses its hold.
+        constraint: String,
+        /// What is left of it beside the others, relative to what it had at the start.
+        left: f64,
+        /// Time, in s.
+        t: f64,
+    },
     /// The machine lends no room for the work on its constraints ([`System::lend`]).
     NoRoomForConstraints {
         /// Time, in s.
@@ -366,6 +377,16 @@ impl Display for Error {
                 f,
                 "the constraint `{constraint}` contradicts {} at t = {t} s: {residual:.1e} of its terms' size is left",
                 quoted(with)
+            ),
+            Self::Fork {
+                constraint,
+                left,
+                t,
+            } => write!(
+                f,
+                "the constraint `{constraint}` loses its hold near t = {t} s ({left:.1e} of what it had is left): from there the \
+                 machine may go on in more than one way, and rounding hides in which; the longer steps of a coarser tolerance \
+                 may pass over it"
             ),
             Self::NoRoomForConstraints { t } => write!(
                 f,

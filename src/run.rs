@@ -58,6 +58,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     let model = Model {
         system: &system,
         law: &law,
+        start: (start.t, &q),
     };
     if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
         return Err(Error::AssumptionEnded {
@@ -529,6 +530,8 @@ pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Alongside<S>>(
 struct Model<'r, S: System, L> {
     system: &'r S,
     law: &'r L,
+    /// The time and the coordinates at which the run began.
+    start: (f64, &'r S::Vector),
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
@@ -588,7 +591,28 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 };
             }
         }
-        contradiction(error, self.system, q, v)
+        match self.fork(&error, q, v) {
+            Some(fork) => fork,
+            None => contradiction(error, self.system, q, v),
+        }
+    }
+
+    /// What stops a run where constraints come to depend on each other.
+    fn fork(&self, error: &StepError, q: &S::Vector, v: &S::Vector) -> Option<Error> {
+        let (StepError::StepTooSmall { t, .. }
+        | StepError::Inconsistent { t, .. }
+        | StepError::Singular { t, .. }) = *error
+        else {
+            return None;
+        };
+        let mut known = Constraints::new(self.system, q, v);
+        let weakest = known.weakest(self.system, self.start, (t, q)).ok()??;
+        let (row, left) = weakest;
+        (left < NEAR_FORK).then(|| Error::Fork {
+            constraint: constraint_name(self.system, row),
+            left,
+            t,
+        })
     }
 }
 
@@ -627,6 +651,10 @@ fn bring_start<S: System>(
     }
     Ok(found)
 }
+
+/// A run that is stopped where less than this is left of a constraint is stopped by that: rounding in
+/// what is left of positions grows as its inverse square in the rates, to ten digits here.
+const NEAR_FORK: f64 = 1e-2;
 
 /// Moves of the start that are less than this, relative to the size of a number, are no news: about
 /// what a formula for a start value loses to rounding.

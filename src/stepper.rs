@@ -252,7 +252,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         if let Some(constraints) = &model.constraints
             && constraints.redundant
         {
-            constraints.check_accelerations(system, now.t, &now.q, &now.v, &k[0])?;
+            let at = (now.t, &now.q, &now.v, &model.inputs);
+            constraints.check_accelerations(system, at, &k[0])?;
         }
         model.take_rates(alongside, 0, (now.t, &now.q, &now.v, &k[0]));
         Ok(stepper)

@@ -9,7 +9,7 @@ use lagrangian_scalar::DoubleDouble;
 use lagrangian_spec::program::{
     Arguments, Candidate, Interpreter, MOST_ROUNDING, Program, Role, Slot,
 };
-use support::library::{self, MACHINES};
+use support::library::{self, CONSTRAINED, MACHINES};
 use support::random::SplitMix;
 use support::sampling::{Random, Sample};
 
@@ -115,7 +115,7 @@ fn limit(spread: f64) -> f64 {
 
 #[test]
 fn rounding_is_what_the_choice_takes_it_for() {
-    for name in MACHINES {
+    for name in MACHINES.into_iter().chain(CONSTRAINED) {
         for choice in &library::program(name, &[]).choices {
             let role = choice.role();
             let judge = |(index, candidate): (usize, &Candidate)| {

@@ -11,7 +11,8 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lagrangian::{Machine, System, Vector};
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Error, Machine, Simulation, System, Vector, Warning};
 use lagrangian_machines::*;
 use support::limits::follows;
 use support::random::SplitMix;
@@ -275,6 +276,171 @@ fn windows_that_stay_below_their_pins_swing_as_one_pendulum() {
     follows(&row, &start, FINE, (&rows, &scales, BOUND), |y| {
         y[..6].to_vec()
     });
+}
+
+/// The tolerance of runs through forks: level cranks make rows of G vanish as sin ψ, and rounding in
+/// the loops grows as 1/sin² ψ in the rates. The long steps of this tolerance pass over that.
+const THROUGH_FORKS: f64 = 5e-8;
+
+/// N-four-bar mechanism, IFToMM library of benchmarks A02, where the cranks turn over: place and
+/// velocity of the first crank's end, by Jacobi's functions in 40 digits.
+fn turns_over<M: Machine>(row: &M, cranks: usize, known: [[f64; 4]; 3]) {
+    let rows: Vec<Row> = [1.0, 4.0, 10.0]
+        .iter()
+        .zip(&known)
+        .map(|(t, end)| Row::of(*t, &end.repeat(cranks)))
+        .collect();
+    let view = |y: &[f64]| {
+        let ends = (0..cranks).flat_map(|crank| {
+            let (sin, cos) = y[crank].sin_cos();
+            let rate = y[y.len() / 2 + crank];
+            [cos, sin, -rate * sin, rate * cos]
+        });
+        ends.collect()
+    };
+    // A coarse run through ten forks is right to a part in a hundred.
+    let scales = vec![1.0; 4 * cranks];
+    let known = (&rows[..], &scales[..], 1e-2);
+    follows(row, &row.start(), THROUGH_FORKS, known, view);
+}
+
+#[test]
+fn one_window_turns_over_and_stays_a_parallelogram() {
+    let row = InterpretedMachine::new(support::library::program("four_bars", &[("N", 1)]));
+    turns_over(
+        &row,
+        2,
+        [
+            [
+                -0.2607126751836503563452,
+                -0.9654164391590731679089,
+                -6.637809496121751439211,
+                1.792553970388930557664,
+            ],
+            [
+                0.1589555042571177732168,
+                0.9872857477277616476855,
+                1.125395047766196994902,
+                -0.181191451125319240673,
+            ],
+            [
+                0.4783850577609705590054,
+                0.8781501787912093011639,
+                1.727264075547153635754,
+                -0.940952179371515644193,
+            ],
+        ],
+    );
+}
+
+#[test]
+fn two_windows_turn_over_and_stay_parallelograms() {
+    turns_over(
+        &FourBars::default(),
+        3,
+        [
+            [
+                -0.1950203019494350936441,
+                -0.9807992056621738326018,
+                -6.676678036881158066163,
+                1.327578325160487213913,
+            ],
+            [
+                0.1176161023768086117149,
+                0.9930591384513251009601,
+                1.069039265028968636683,
+                -0.1266150491667202800595,
+            ],
+            [
+                0.3284581115408153786522,
+                0.9445185381786009621613,
+                1.423051470206944123281,
+                -0.4948688454870429589909,
+            ],
+        ],
+    );
+}
+
+/// A tolerance below what rounding leaves of the rates there ends the run at the first fork, at a crank
+/// angle of 0, and says why.
+#[test]
+fn a_fork_stops_a_run_that_asks_for_more_digits_than_it_leaves() {
+    let row = FourBars::default();
+    let run = Simulation::new(&row)
+        .tolerance(1e-12)
+        .until(1.0)
+        .run(row.start());
+    let Err(Error::Fork {
+        constraint,
+        left,
+        t,
+    }) = run
+    else {
+        panic!("no fork: {:?}", run.map(|run| run.end().clone()));
+    };
+    assert!(constraint.starts_with("along["), "{constraint}");
+    assert!(left < 1e-2);
+    // Where Jacobi's functions have the crank level.
+    let windows = 2.0;
+    let moment = (windows + 1.0) / 2.0 + windows;
+    let inertia = (windows + 1.0) / 3.0 + windows;
+    let rate = |fallen: f64| (1.0 + 2.0 * row.g * moment / inertia * fallen).sqrt();
+    // dt = dψ/ψ̇ from the top to level, by Simpson's rule.
+    let steps = 1000;
+    let h = FRAC_PI_2 / f64::from(steps);
+    let level: f64 = (0..steps)
+        .map(|i| {
+            let at = |x: f64| 1.0 / rate(1.0 - f64::cos(h * (f64::from(i) + x)));
+            h / 6.0 * (at(0.0) + 4.0 * at(0.5) + at(1.0))
+        })
+        .sum();
+    assert!((t - level).abs() < 2.0 * 1e-2 / rate(1.0), "{t} {level}");
+}
+
+/// Bricard mechanism, IFToMM library of benchmarks A04: the joint opposite to the origin, published
+/// with what DOP853 left of 12 digits in a null space of G.
+#[test]
+fn a_bricard_mechanism_moves_although_one_constraint_is_redundant() {
+    let machine = Bricard::default();
+    let run = Simulation::new(&machine)
+        .tolerance(FINE)
+        .until(10.0)
+        .run(machine.start())
+        .expect("it runs");
+    let redundant = |warning: &&Warning| matches!(warning, Warning::RedundantConstraint { .. });
+    assert_eq!(run.warnings().iter().filter(redundant).count(), 1);
+    assert_eq!(run.warnings().len(), 1);
+
+    // About y, z and x, each in the axes of the bar before.
+    let turn = |axis: usize, angle: f64, v: [f64; 3]| {
+        let (sin, cos) = angle.sin_cos();
+        let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+        let mut turned = v;
+        turned[j] = cos * v[j] - sin * v[k];
+        turned[k] = sin * v[j] + cos * v[k];
+        turned
+    };
+    let opposite = |y: &[f64]| {
+        let [x, yy, z] = turn(0, y[2], [0.0, 0.0, 1.0]);
+        let [x, yy, z] = turn(2, y[1], [x, yy - 1.0, z]);
+        turn(1, y[0], [x + 1.0, yy, z]).to_vec()
+    };
+    let published = [
+        (
+            1.0,
+            [0.5105014611872216, -1.649167599394731, 0.14012311455334087],
+        ),
+        (
+            2.0,
+            [-0.9693403447777307, -1.221246894956177, 0.7542780107797571],
+        ),
+        (
+            10.0,
+            [0.9999999637980451, -1.0002690126868803, 0.9997309511299383],
+        ),
+    ];
+    let rows = published.map(|(t, place)| Row::of(t, &place));
+    runs(&machine, &rows, &[1.0; 3], opposite);
 }
 
 /// By one coordinate: `Σ w p′ (p′ θ″ + p″ θ̇² − force) = 0` over everything that moves, where a dash

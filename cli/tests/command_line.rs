@@ -257,6 +257,22 @@ fn a_constraint_that_is_said_twice_is_held_in_halves() {
     near(&result["reactions"][1], pull);
     near(&result["accelerations"][1], 18.0);
 
+    // Hanging at rest, where nothing accelerates but for rounding.
+    let spec = Scratch::new(
+        "hanging.machine",
+        "machine Hanging in plane {
+            parameters { m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81 }
+            coordinates { x: m = 0.3, y: m = -0.4 }
+            bodies { bob { mass: m, at: (x, y) } }
+            gravity (0.6*g, -0.8*g);
+            constraints { rod: (x^2 + y^2 - l^2)/(2*l) = 0, again: (x^2 + y^2 - l^2)/l = 0 }
+        }",
+    );
+    let output = lagrangian(&["evaluate", spec.path()]);
+    near(&json(&output)[0]["multipliers"]["rod"], -9.81);
+    let output = lagrangian(&["simulate", spec.path(), "--until", "0.1"]);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+
     // Two that contradict each other have no answer, and say which.
     let spec = Scratch::new(
         "torn.machine",

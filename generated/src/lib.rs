@@ -13,6 +13,8 @@ pub mod asymmetric_top;
 pub mod ball_in_bowl;
 /// The machine of [`BlockOnIncline`].
 pub mod block_on_incline;
+/// The machine of [`Bricard`].
+pub mod bricard;
 /// The machine of [`CakedCrusher`].
 pub mod caked_crusher;
 /// The machine of [`CartPole`].
@@ -94,6 +96,7 @@ pub use andrews_squeezer::AndrewsSqueezer;
 pub use asymmetric_top::AsymmetricTop;
 pub use ball_in_bowl::BallInBowl;
 pub use block_on_incline::BlockOnIncline;
+pub use bricard::Bricard;
 pub use caked_crusher::CakedCrusher;
 pub use cart_pole::CartPole;
 pub use chain::Chain;

@@ -512,6 +512,7 @@ fn the_mechanisms_are_the_programs_to_the_last_bit() {
     agrees_in_f64::<machines::RollingCoin>("rolling_coin", |_| Default::default());
     agrees_in_f64::<machines::RollingCylinder>("rolling_cylinder", |_| Default::default());
     agrees_in_f64::<machines::BallInBowl>("ball_in_bowl", |_| Default::default());
+    agrees_in_f64::<machines::Bricard>("bricard", |_| Default::default());
     agrees_in_f64::<machines::Rattleback>("rattleback", |_| Default::default());
     agrees_in_f64::<machines::CrushingCrusher>("crushing_crusher", |_| Default::default());
     agrees_in_f64::<machines::CakedCrusher>("caked_crusher", |_| Default::default());

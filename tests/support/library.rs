@@ -37,9 +37,10 @@ pub const MACHINES: [&str; 23] = [
 ];
 
 /// The file names of those that have constraints.
-pub const CONSTRAINED: [&str; 15] = [
+pub const CONSTRAINED: [&str; 16] = [
     "andrews_squeezer",
     "ball_in_bowl",
+    "bricard",
     "caked_crusher",
     "chaplygin_sleigh",
     "closed_pendulum",
