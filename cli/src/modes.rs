@@ -1,5 +1,6 @@
 //! `lagrangian modes`: where a machine stays, and how it moves about that place.
 
+mod constrained;
 mod equilibrium;
 mod precise;
 mod rank;
@@ -52,10 +53,22 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let u = system.default_inputs();
     refuse_drives(&machine, &system, &q, &v, &u)?;
     refuse_unsteady(&system, &q, &v, &u, &steady)?;
-    let mut statics = Statics::new(&machine, &system, &v, &u);
-    let found = statics.find(&q).map_err(|lost| failure(&system, &lost))?;
-    let modes = spectrum::modes(&found.by_coordinates, &found.by_rates)
-        .ok_or_else(|| Failure::run("the eigenvalues cannot be found"))?;
+    let found = match system.constraints().len() {
+        0 => {
+            let found = Statics::new(&machine, &system, &v, &u).find(&q);
+            found.map(|found| {
+                let modes = spectrum::modes(&found.by_coordinates, &found.by_rates);
+                (found, modes)
+            })
+        }
+        _ if steady.contains(&true) => {
+            let unknown = "steady rotation of a machine with constraints is not known yet";
+            return Err(Failure::run(unknown));
+        }
+        _ => constrained::find(&machine, &system, &q, &u),
+    };
+    let (found, modes) = found.map_err(|lost| failure(&system, &lost))?;
+    let modes = modes.ok_or_else(|| Failure::run("the eigenvalues cannot be found"))?;
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
         let result = as_json(&names, &found, &v, &modes);
@@ -217,6 +230,9 @@ fn failure(system: &InterpretedSystem, lost: &Lost) -> Failure {
              another place to look from",
             name(*index)
         ),
+        Lost::Constraints(why) => {
+            format!("{why}; --start sets another place to look from")
+        }
         Lost::NoEnd(steps) => format!(
             "no equilibrium was found in {steps} steps from the start; --start sets another place to look from"
         ),

@@ -612,3 +612,91 @@ fn a_reader_sees_what_moves_and_how() {
         "{text}"
     );
 }
+
+// Machines with constraints.
+
+#[test]
+fn a_pendulum_on_a_rod_swings_as_its_angle_does() {
+    for again in ["", ", again: x^2 + y^2 = l^2"] {
+        let spec = Scratch::new(
+            "rod.machine",
+            &format!(
+                "machine Rod in plane {{
+                    parameters {{ m: kg = 2, l: m = 0.5, g: m/s^2 = 9.81 }}
+                    coordinates {{ x: m = 0.3, y: m = -0.4 }}
+                    bodies {{ bob {{ mass: m, at: (x, y) }} }}
+                    gravity (0, -g);
+                    constraints {{ rod: (x^2 + y^2 - l^2)/(2*l) = 0{again} }}
+                }}"
+            ),
+        );
+        let result = modes(&[spec.path()]);
+        let found = &result["equilibrium"];
+        close(number(&found["q"]["y"]), -0.5);
+        assert!(number(&found["q"]["x"]).abs() < 1e-12);
+        assert_eq!(found["free"], 0);
+        assert_eigenvalues(&result, &[(0.0, (9.81_f64 / 0.5).sqrt())]);
+        close(number(&result["modes"][0]["shape"]["x"][0]), 1.0);
+        assert_eq!(number(&result["modes"][0]["shape"]["y"][0]), 0.0);
+    }
+}
+
+/// Section 1.7 of the reference problems: `ω² = g/((R − r)(1 + J/(m r²)))`.
+#[test]
+fn a_cylinder_rocks_in_another_as_published() {
+    let result = modes(&["machines/rolling_cylinder.machine"]);
+    assert_eigenvalues(&result, &[(0.0, 16.41662250603011537)]);
+    // It might as well touch with another side.
+    assert_eq!(result["equilibrium"]["free"], 1);
+    assert!(number(&result["equilibrium"]["q"]["phi"]).abs() < 1e-12);
+    close(number(&result["modes"][0]["shape"]["theta"][0]), -0.08);
+}
+
+/// N windows are one pendulum, `((N + 1)/3 + N) l ψ″ = −((N + 1)/2 + N) g sin ψ`.
+#[test]
+fn windows_swing_as_one_pendulum() {
+    let start = ["crank[0]", "crank[1]", "crank[2]"].map(|crank| format!("{crank}=-1.2"));
+    let call: Vec<&str> = ["machines/four_bars.machine"]
+        .into_iter()
+        .chain(start.iter().flat_map(|set| ["--start", set]))
+        .collect();
+    let result = modes(&call);
+    close(number(&result["equilibrium"]["q"]["crank[1]"]), -PI / 2.0);
+    assert_eigenvalues(&result, &[(0.0, (9.81 * 3.5_f64 / 3.0).sqrt())]);
+}
+
+/// `(m + J/r²) ẍ + b ẋ + k x = 0`; what rolls may stand on any side.
+#[test]
+fn a_wheel_on_a_spring_has_the_inertia_of_its_turning_too() {
+    let spec = Scratch::new(
+        "wheel.machine",
+        "machine Wheel in plane {
+            parameters { m: kg = 2, J: kg*m^2 = 0.1, r: m = 0.25, k: N/m = 50, b: N*s/m = 3, g: m/s^2 = 9.81 }
+            coordinates { x: m = 0.2, y: m = r, phi: rad }
+            bodies { wheel { mass: m, inertia: J, at: (x, y), angle: phi } }
+            gravity (0, -g);
+            springs { back { stiffness: k, stretch: x } }
+            dampers { drag { damping: b, stretch: x } }
+            circles { tyre { on: wheel, center: (0, 0), radius: r } }
+            rolling { road { circle: tyre, along: ground } }
+        }",
+    );
+    let result = modes(&[spec.path()]);
+    let inertia = 2.0 + 0.1 / (0.25 * 0.25);
+    let decay: f64 = 3.0 / (2.0 * inertia);
+    let frequency = (50.0 / inertia - decay * decay).sqrt();
+    assert_eigenvalues(&result, &[(-decay, frequency)]);
+    assert_eq!(result["equilibrium"]["free"], 1);
+    close(number(&result["modes"][0]["shape"]["phi"][0]), 1.0);
+    close(number(&result["modes"][0]["shape"]["x"][0]), -0.25);
+}
+
+#[test]
+fn steady_rotation_with_constraints_is_refused() {
+    let (good, _, error) = said(&["machines/flyball_governor.machine", "--steady", "phi=10"]);
+    assert!(!good);
+    assert!(
+        error.contains("constraints") || error.contains("psi"),
+        "{error}"
+    );
+}

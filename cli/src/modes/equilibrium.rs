@@ -23,24 +23,24 @@ use super::precise;
 use super::rank::{self, Direction};
 
 /// The most steps; Newton's method takes five, and a few more for each radian on the way.
-const MOST_STEPS: usize = 200;
+pub(super) const MOST_STEPS: usize = 200;
 
 /// The most halvings of one step.
-const MOST_HALVINGS: usize = 30;
+pub(super) const MOST_HALVINGS: usize = 30;
 
 /// A step is as long as this at most, in rad, m, or as a share of the coordinate.
-const LONGEST_STEP: f64 = 1.0;
+pub(super) const LONGEST_STEP: f64 = 1.0;
 
 /// Steps end where the next one changes no coordinate by more than this, in rad, m, or as a share of the coordinate: the
 /// error after it is about the square of that.
-const TOLERANCE: f64 = 1e-10;
+pub(super) const TOLERANCE: f64 = 1e-10;
 
 /// A stiffness counts if it is more than this share of what forces, off zero by a step of one, would make of it.
 const DAMPING: f64 = 0.1;
 
 /// The share of what its own terms come to that a force may be off zero: a thousand roundings, and the square of
 /// [`TOLERANCE`].
-const BALANCED: f64 = 1e-12;
+pub(super) const BALANCED: f64 = 1e-12;
 
 /// A state in which nothing accelerates.
 pub struct Equilibrium {
@@ -66,6 +66,8 @@ pub enum Lost {
     Accelerates(usize, f64),
     /// No end was reached.
     NoEnd(usize),
+    /// What the constraints have against it.
+    Constraints(String),
 }
 
 /// The accelerations at a state, and their derivatives by the coordinates and by the rates.
@@ -100,7 +102,7 @@ pub struct Statics<'a> {
 }
 
 /// Forces, row after row their derivatives by the coordinates, and those by the rates.
-struct Derived<S>([Vec<S>; 3]);
+pub(super) struct Derived<S>(pub(super) [Vec<S>; 3]);
 
 /// The forces in a pose, over the lengths `1/√M_ii`.
 struct Forces {
@@ -113,7 +115,7 @@ struct Forces {
 }
 
 impl<S: Scalar<Stored = S>> Derived<S> {
-    fn new(interpreter: &mut Interpreter<Dual<S>>, [q, v, u]: [&[S]; 3]) -> Derived<S> {
+    pub(super) fn new(interpreter: &mut Interpreter<Dual<S>>, [q, v, u]: [&[S]; 3]) -> Derived<S> {
         let n = q.len();
         let [mut q, mut v, u] = [q, v, u].map(constants);
         let mut forces = vec![Dual::constant(S::ZERO); n];
@@ -383,11 +385,11 @@ impl Forces {
     }
 }
 
-fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
+pub(super) fn constants<S: Scalar>(values: &[S]) -> Vec<Dual<S>> {
     values.iter().copied().map(Dual::constant).collect()
 }
 
-fn moved(q: &[f64], step: &DVector<f64>, share: f64) -> Vec<f64> {
+pub(super) fn moved(q: &[f64], step: &DVector<f64>, share: f64) -> Vec<f64> {
     q.iter()
         .zip(step.iter())
         .map(|(q, x)| q + share * x)
@@ -395,7 +397,7 @@ fn moved(q: &[f64], step: &DVector<f64>, share: f64) -> Vec<f64> {
 }
 
 /// The largest of the changes, each in rad, m, or as a share of its coordinate.
-fn largest_share(step: &DVector<f64>, q: &[f64]) -> f64 {
+pub(super) fn largest_share(step: &DVector<f64>, q: &[f64]) -> f64 {
     let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
     shares.fold(0.0, f64::max)
 }
