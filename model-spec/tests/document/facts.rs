@@ -49,6 +49,11 @@ fn momenta_are_conserved_exactly_where_it_is_said() {
     let (mut conserved, mut changed) = (0, 0);
     every_machine(|name, compiled| {
         let model = &compiled.model;
+        // Where as many constraints as coordinates leave a motion, they depend on each other; at random
+        // points they do not, and nothing moves there that could show what changes.
+        if compiled.equations.constraints.len() >= model.coordinates.len() {
+            return;
+        }
         let facts = Facts::of(model, &compiled.equations);
         let rate = &mut total(model);
         let rates = facts
