@@ -136,6 +136,8 @@ struct Pose {
     forces: DVector<f64>,
     /// What the terms of each of these come to.
     sizes: DVector<f64>,
+    /// What rounding may leave of all forces together, where the terms of one come to nothing.
+    rounding: f64,
     /// `Nᵀ K N`, and its singular values.
     stiffness: DMatrix<f64>,
     parts: Vec<Direction>,
@@ -178,12 +180,16 @@ impl Search<'_> {
             let reactions = (0..m).map(|k| (rows[(k, i)] * multipliers[k]).abs());
             forces[i].abs() + springs.chain(reactions).sum::<f64>()
         };
+        // In the length that the inertia of each coordinate gives it.
+        let squares = (0..n).map(|i| size(i).powi(2) / mass[(i, i)]);
+        let rounding = rank::tolerance(n) * squares.sum::<f64>().sqrt();
         let sizes = directions.abs().transpose() * DVector::from_fn(n, |i, _| size(i));
         let along = |k: DMatrix<f64>| directions.transpose() * k * &directions;
         let stiffness = along(own + curvature);
         Ok(Pose {
             forces: directions.transpose() * DVector::from_vec(forces),
             sizes,
+            rounding,
             parts: rank::directions(&stiffness).ok_or(Lost::NotFinite(0))?,
             stiffness,
             damping: along(DMatrix::from_row_slice(n, n, &by_v)),
@@ -249,7 +255,7 @@ impl Pose {
 
     fn is_balanced(&self) -> bool {
         let mut each = self.forces.iter().zip(&self.sizes);
-        each.all(|(force, size)| force.abs() <= BALANCED * size)
+        each.all(|(force, size)| force.abs() <= self.rounding.max(BALANCED * size))
     }
 }
 
