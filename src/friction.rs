@@ -845,7 +845,7 @@ fn solve(rows: &mut [[f64; MOST_CONTACTS + 1]; MOST_CONTACTS], count: usize) -> 
             }
         }
         let (size, i, j) = pivot;
-        if !(size > SINGULAR) {
+        if size <= SINGULAR || size.is_nan() {
             let open = rows[done..].iter().map(|row| row[count].abs());
             if open.fold(0.0_f64, f64::max) > SAME * largest {
                 return None;

@@ -39,7 +39,7 @@ fn sections_that_are_not_derived_yet_are_named() {
     assert_eq!(codes.len(), 2);
     assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
     assert!(
-        codes[0].1.contains("`contacts`") && codes[1].1.contains("`derivatives`"),
+        codes[0].1.contains("`derivatives`") && codes[1].1.contains("`contacts`"),
         "{codes:?}"
     );
 }

@@ -128,7 +128,17 @@ fn the_record_tells_what_was_taken() {
                 assert_eq!(chosen.counts, function.counts(), "{name}: {}", chosen.form);
                 assert_eq!(chosen.cost, function.cost(), "{name}: {}", chosen.form);
                 let most_exact = choice.candidates.iter().filter_map(|c| c.rounding).min();
-                let most_exact = most_exact.expect("every machine has regular states");
+                let Some(most_exact) = most_exact else {
+                    // What is 0 at all states, as the bias of a drive that stands still by default,
+                    // has no rounding.
+                    assert!(
+                        choice
+                            .others()
+                            .iter()
+                            .all(|other| chosen.compare(other).is_le())
+                    );
+                    continue;
+                };
                 let is_exact = |candidate: &Candidate| {
                     let rounding = candidate.rounding.expect("known for all or none");
                     rounding.units() <= MOST_ROUNDING as f64 * most_exact.units()
