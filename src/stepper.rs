@@ -4,7 +4,9 @@
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
-use crate::friction::{Change, Contacts};
+#[cfg(feature = "std")]
+use crate::friction::Change;
+use crate::friction::Contacts;
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;

@@ -376,7 +376,7 @@ fn a_fork_stops_a_run_that_asks_for_more_digits_than_it_leaves() {
         t,
     }) = run
     else {
-        panic!("no fork: {:?}", run.map(|run| run.end().clone()));
+        panic!("no fork: {:?}", run.map(|run| *run.end()));
     };
     assert!(constraint.starts_with("along["), "{constraint}");
     assert!(left < 1e-2);
