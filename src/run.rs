@@ -352,9 +352,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         };
         let names = self.model.system.contacts().enumerate();
         for (k, name) in names {
-            let was = before.as_ref().map(|before| before.mode.motion[k]);
+            let Some(was) = before.as_ref().map(|before| before.mode) else {
+                continue;
+            };
             let (word, crossing) = match now.mode.motion[k] {
-                motion if Some(motion) == was => continue,
+                Motion::Sticks if was.motion[k] == Motion::Sticks => continue,
+                motion if motion == was.motion[k] => match now.mode.press[k] {
+                    press if press == was.press[k] => continue,
+                    press if press > 0.0 => ("presses the other way", Crossing::Rising),
+                    _ => ("presses the other way", Crossing::Falling),
+                },
                 Motion::Sticks => ("sticks", Crossing::Falling),
                 Motion::Slides(_) => ("slides", Crossing::Rising),
             };

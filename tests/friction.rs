@@ -361,3 +361,35 @@ fn a_cart_with_a_pendulum_moves_alike_with_and_without_a_constraint() {
     let balance = one.energy_balance().expect("kept");
     assert!(balance.relative().abs() < 1e-9, "{balance:?}");
 }
+
+#[test]
+fn a_reaction_that_changes_its_side_is_an_event() {
+    // A block on a rail that shakes up and down harder than gravity holds: N = m (g − a w² cos w t).
+    let shaken = machine(
+        "machine Shaken in plane {
+            parameters { m: kg = 1, a: m = 0.01, w: rad/s = 40, mu: 1 = 0.3, g: m/s^2 = 9.81 }
+            coordinates { x: m, der(x): m/s = 3 }
+            frames { rail = ground.shift(0, a*cos(w*t)), seat = rail.shift(x, 0) }
+            bodies { block { mass: m, frame: seat } }
+            gravity (0, -g);
+            sliding { rail { body: block, on: rail, direction: (1, 0), friction: mu } }
+        }",
+    );
+    let run = run(&shaken, &[], &[], (1e-11, 0.15)).expect("it runs");
+    let (g, most, w) = (9.81, 0.01 * 40.0 * 40.0, 40.0);
+    let turn = (g / most).acos() / w;
+    let known = events(&run);
+    assert_eq!(known.len(), 2, "{known:?}");
+    for ((name, t), expected) in known.iter().zip([turn, 2.0 * PI / w - turn]) {
+        assert_eq!(name, "rail presses the other way");
+        assert_near(*t, expected, 1e-10);
+    }
+    // v = 3 − μ ∫ |g − a w² cos w t| dt, by parts between the turns.
+    let primitive = |t: f64| g * t - most * (w * t).sin() / w;
+    let ends = [0.0, turn, 2.0 * PI / w - turn, 0.15];
+    let pressed: f64 = ends
+        .windows(2)
+        .map(|p| (primitive(p[1]) - primitive(p[0])).abs())
+        .sum();
+    assert_near(value(&run.end().v, "x"), 3.0 - 0.3 * pressed, 1e-10);
+}

@@ -31,7 +31,7 @@ fn keys(value: &Value) -> Vec<&String> {
 
 #[test]
 fn results_have_the_keys_that_the_page_prints() {
-    let [point, evaluated, simulated, modes] = &blocks()[..] else {
+    let [point, evaluated, simulated, modes, fastest] = &blocks()[..] else {
         panic!("the page has other blocks of JSON");
     };
     let spec = "machines/double_pendulum.machine";
@@ -51,4 +51,11 @@ fn results_have_the_keys_that_the_page_prints() {
     assert_eq!(keys(&found), keys(modes));
     assert_eq!(keys(&found["equilibrium"]), keys(&modes["equilibrium"]));
     assert_eq!(keys(&found["modes"][0]), keys(&modes["modes"][0]));
+
+    let prisms = ["brachistochrone", "machines/prisms.machine"];
+    let to = ["--natural", "--to", "q1=12,q2=6", "--json"];
+    let found = printed(&[&prisms[..], &to].concat());
+    assert_eq!(keys(&found), keys(fastest));
+    assert_eq!(keys(&found["parameters"]), keys(&fastest["parameters"]));
+    assert_eq!(keys(&found["path"][1]), keys(&fastest["path"][0]));
 }
