@@ -376,7 +376,7 @@ fn a_reaction_that_changes_its_side_is_an_event() {
         }",
     );
     let run = run(&shaken, &[], &[], (1e-11, 0.15)).expect("it runs");
-    let (g, most, w) = (9.81, 0.01 * 40.0 * 40.0, 40.0);
+    let (g, most, w) = (9.81_f64, 16.0, 40.0);
     let turn = (g / most).acos() / w;
     let known = events(&run);
     assert_eq!(known.len(), 2, "{known:?}");
