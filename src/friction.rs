@@ -30,9 +30,9 @@ use crate::{Pivot, Singular, StepError, System, Vector};
 /// The most contacts of a machine.
 pub const MOST_CONTACTS: usize = 6;
 
-#[cfg(feature = "std")]
 /// Slips below this, relative to the greatest of the same contact in the run, count as rest where
 /// another contact comes to rest.
+#[cfg(feature = "std")]
 const AT_REST: f64 = 1e-10;
 
 /// How many numbers the work on constraints and contacts needs: what [`System::lend`] is asked for.
@@ -74,8 +74,8 @@ pub(crate) struct Contacts {
     sizes: Each,
 }
 
-#[cfg(feature = "std")]
 /// What ended the state of a contact.
+#[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Change {
     /// Which contact.
@@ -110,25 +110,12 @@ pub fn contact_forces<S: System>(
     multipliers: &mut [f64],
     forces: &mut [ContactForce],
 ) -> Result<(), Singular> {
-    let count = system.contacts().len();
     let slips = slips(system, t, q, v);
-    let question = Question {
-        motion: core::array::from_fn(|k| {
-            (slips[k] != 0.0).then_some(Motion::Slides(slips[k].signum()))
-        }),
-        excluded: None,
-    };
     with_parts(system, t, q, v, u, |parts, _| {
-        let (mode, frictions) = question.answer(parts).map_err(Paradox::singular)?;
+        let known = Question::from_slips(&slips);
+        let (mode, frictions) = known.answer(parts).map_err(Paradox::singular)?;
         results(parts, &frictions, accelerations, multipliers);
-        for (k, force) in forces[..count].iter_mut().enumerate() {
-            *force = ContactForce {
-                slip: slips[k],
-                normal: parts.sum(parts.normal(k), &frictions)[0],
-                friction: frictions[k],
-                sticks: mode.motion[k] == Motion::Sticks,
-            };
-        }
+        in_contacts(parts, &mode, &frictions, &slips, forces);
         Ok(())
     })
 }
@@ -215,6 +202,25 @@ fn results(parts: &Parts<'_>, frictions: &Each, a: &mut [f64], multipliers: &mut
     }
 }
 
+/// The forces in contacts of these states with these frictions.
+fn in_contacts(
+    parts: &Parts<'_>,
+    mode: &Mode,
+    frictions: &Each,
+    slips: &Each,
+    forces: &mut [ContactForce],
+) {
+    for (k, force) in forces.iter_mut().enumerate().take(parts.layout.k) {
+        let sticks = mode.motion[k] == Motion::Sticks;
+        *force = ContactForce {
+            slip: if sticks { 0.0 } else { slips[k] },
+            normal: parts.sum(parts.normal(k), frictions)[0],
+            friction: frictions[k],
+            sticks,
+        };
+    }
+}
+
 impl Contacts {
     /// The states of the contacts at the start of a run.
     pub fn begin<S: System>(
@@ -224,14 +230,7 @@ impl Contacts {
         v: &S::Vector,
         u: &S::Inputs,
     ) -> Result<Contacts, StepError> {
-        let slips = slips(system, t, q, v);
-        let motion = core::array::from_fn(|k| {
-            (slips[k] != 0.0).then_some(Motion::Slides(slips[k].signum()))
-        });
-        let question = Question {
-            motion,
-            excluded: None,
-        };
+        let question = Question::from_slips(&slips(system, t, q, v));
         let mode = with_parts(system, t, q, v, u, |parts, _| {
             let (mode, _) = question.answer(parts).map_err(Paradox::singular)?;
             Ok(mode)
@@ -269,8 +268,8 @@ impl Contacts {
         })
     }
 
-    #[cfg(feature = "std")]
     /// The forces in the contacts, and the multipliers.
+    #[cfg(feature = "std")]
     pub fn forces<S: System>(
         &self,
         system: &S,
@@ -282,15 +281,7 @@ impl Contacts {
         with_parts(system, t, q, v, u, |parts, _| {
             let frictions = self.frictions(parts)?;
             results(parts, &frictions, &mut [], multipliers);
-            for (k, force) in forces.iter_mut().enumerate() {
-                let sticks = self.mode.motion[k] == Motion::Sticks;
-                *force = ContactForce {
-                    slip: if sticks { 0.0 } else { slips[k] },
-                    normal: parts.sum(parts.normal(k), &frictions)[0],
-                    friction: frictions[k],
-                    sticks,
-                };
-            }
+            in_contacts(parts, &self.mode, &frictions, &slips, forces);
             Ok(())
         })
     }
@@ -322,9 +313,9 @@ impl Contacts {
         power.unwrap_or([f64::NAN; 2])
     }
 
-    #[cfg(feature = "std")]
     /// By how much the states of the contacts hold, two numbers for each: what slides is on its side
     /// of rest and presses to its side; what sticks has friction left. Negative where one has ended.
+    #[cfg(feature = "std")]
     pub fn margins<S: System>(
         &self,
         system: &S,
@@ -377,9 +368,9 @@ impl Contacts {
         ended
     }
 
-    #[cfg(feature = "std")]
     /// Whether the motion is determined: with what sticks and slides as it does, no other side to
     /// press to gives another motion.
+    #[cfg(feature = "std")]
     pub fn check<S: System>(
         &self,
         system: &S,
@@ -399,8 +390,8 @@ impl Contacts {
         .map_err(|singular| StepError::Singular { singular, t })
     }
 
-    #[cfg(feature = "std")]
     /// Decides anew after the state of a contact has ended, and stops what has come to rest.
+    #[cfg(feature = "std")]
     pub fn change<S: System>(
         &mut self,
         system: &S,
@@ -424,9 +415,10 @@ impl Contacts {
         let mut motion: [Option<Motion>; MOST_CONTACTS] =
             core::array::from_fn(|k| (!resting[k]).then_some(self.mode.motion[k]));
         let own = (k, self.mode.motion[k]);
-        let held = with_parts(system, t, q, v, u, |parts, _| self.frictions(parts))
-            .map_err(|singular| StepError::Singular { singular, t })?;
+        let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway {
+            let held = with_parts(system, t, q, v, u, |parts, _| self.frictions(parts));
+            let held = held.map_err(at)?;
             // Against what held it. Just here its slip may not even grow: it is where the friction of
             // what sticks and of what slides are the same.
             motion[k] = Some(Motion::Slides(-held[k].signum()));
@@ -444,8 +436,7 @@ impl Contacts {
         let decided = with_parts(system, t, q, v, u, |parts, _| {
             question.answer(parts).map_err(Paradox::singular)
         });
-        let (mode, _) = decided.map_err(|singular| StepError::Singular { singular, t })?;
-        self.mode = mode;
+        (self.mode, _) = decided.map_err(at)?;
         Ok(())
     }
 

@@ -31,7 +31,7 @@
 //! gravity     = "gravity" expression ";"
 //! published   = "published" TEXT "{" list(print) "}"
 //! print       = ("potential_energy" | "dissipation" | "kinetic_energy" [declared]
-//!               | ("position" | "velocity" | "force") declared) "=" expression
+//!               | ("position" | "velocity" | "force" | "friction") declared) "=" expression
 //!             | "equation" declared ":" equation
 //! remove      = "remove" SECTION ["." declared] ";"
 //!

@@ -47,7 +47,7 @@ impl Paradox {
     }
 }
 
-/// How the results of [`System::friction`] are arranged: `1 + k` parts of `n` accelerations, `m`
+/// How the results of [`System::friction`](crate::System::friction) are arranged: `1 + k` parts of `n` accelerations, `m`
 /// multipliers, `k` slip rates and `k` normal reactions, then `k` coefficients of what slides and `k`
 /// of what sticks.
 #[derive(Clone, Copy)]
@@ -128,8 +128,8 @@ impl Parts<'_> {
         solve(&mut rows, count)
     }
 
-    /// Whether contacts in given states can have these frictions: those of `open` may be in any
-    /// state, the others slide as they do.
+    /// Whether contacts in given states can have these frictions: what sticks no more than it can
+    /// hold, what slides on the side to which it is said to press.
     fn admits(&self, mode: &Mode, frictions: &Each) -> bool {
         (0..self.layout.k).all(|k| {
             let [normal, terms] = self.sum(self.normal(k), frictions);
@@ -174,6 +174,15 @@ pub(super) struct Question {
 }
 
 impl Question {
+    /// Where nothing but the slips is known: what moves slides, the rest is open.
+    pub fn from_slips(slips: &Each) -> Question {
+        let sliding = |slip: f64| (slip != 0.0).then_some(Motion::Slides(slip.signum()));
+        Question {
+            motion: slips.map(sliding),
+            excluded: None,
+        }
+    }
+
     /// The one solution.
     ///
     /// Where what sticks holds more than what slides, both may be possible: then it sticks.

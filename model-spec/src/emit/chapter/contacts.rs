@@ -63,7 +63,11 @@ impl<'d> Chapter<'_, 'd> {
             if !entry.is_zero() {
                 let on = self.name(coordinate.q);
                 let force = letter('Q').with_index(on);
-                let entry = self.math(entry) * letter('F');
+                let entry = if entry.is_one() {
+                    letter('F')
+                } else {
+                    self.math(entry) * letter('F')
+                };
                 rows.extend(Row::lines(&force.equals(entry), 0, "its part of the force"));
             }
         }
