@@ -49,6 +49,7 @@ fn main() {
         };
     }
     for_each_machine!(measure);
+    for_each_constrained_machine!(measure);
 }
 
 fn row<M: Machine>(machine: &M, program: &Program)

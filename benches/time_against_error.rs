@@ -12,13 +12,16 @@ use std::fmt::Write;
 use std::process::ExitCode;
 
 use lagrangian::{Coordinates, METHODS, Machine, Method, Simulation, State, System, Vector};
-use lagrangian_machines::{Crusher9, DoublePendulum, crusher9, double_pendulum};
+use lagrangian_machines::{
+    AndrewsSqueezer, ClosedPendulum, Crusher9, DoublePendulum, FourBar, crusher9, double_pendulum,
+};
 
 /// Runs of one setting; the quickest counts, for everything else on the computer only adds.
 const REPEATS: usize = 7;
 
 /// A run whose end is known to more digits than `f64` has: by Gragg–Bulirsch–Stoer extrapolation in
-/// binary128, two resolutions of which agree to 4e-21.
+/// binary128, two resolutions of which agree to 4e-21; of the four-bar linkage and the five-link
+/// pendulum, by Taylor's method in 64-bit mantissas, whose resolutions agree to 2e-14 and 1e-17.
 struct Case<M: Machine> {
     name: &'static str,
     machine: M,
@@ -148,6 +151,18 @@ fn crusher() -> Case<Crusher9> {
     }
 }
 
+/// A mechanism that constraints close, from where its spec starts it.
+fn closed<M: Machine>(name: &'static str, machine: M, until: f64, end: &[f64]) -> Case<M> {
+    Case {
+        name,
+        start: machine.start(),
+        machine,
+        until,
+        end: end.to_vec(),
+        scales: vec![1.0; end.len()],
+    }
+}
+
 fn main() -> ExitCode {
     let regular = pendulum(
         "double pendulum, regular, 100 s",
@@ -172,10 +187,64 @@ fn main() -> ExitCode {
         ],
     );
     let crusher = crusher();
+    let four_bar = closed(
+        "four-bar linkage, 10 s",
+        FourBar::default(),
+        10.0,
+        &[
+            127.706727238734034,
+            0.264982342180569,
+            2.223460105630880,
+            8.956708571057673,
+            -0.651087510065570,
+            4.733833590786719,
+        ],
+    );
+    let five_links = closed(
+        "five-link pendulum, 2 s",
+        ClosedPendulum::default(),
+        2.0,
+        &[
+            -0.6903013997507062590,
+            -1.666516406019056136,
+            -0.2774484363529711450,
+            1.627660829310782490,
+            1.137795839578224454,
+            0.3494834116071452420,
+            1.232930582693645329,
+            0.3388175752150544740,
+            2.296904466447944176,
+            -0.8268732502550627055,
+        ],
+    );
+    let squeezer = closed(
+        "Andrews' squeezer, 0.03 s",
+        AndrewsSqueezer::default(),
+        0.03,
+        &[
+            15.81077119515370709712,
+            -15.75637105841183946973,
+            0.04082224011964580485828,
+            -0.5347301163420795937702,
+            0.5244099658799540693717,
+            0.5347301163420795937702,
+            1.048080741041937873069,
+            1139.920302259106064198,
+            -1424.379295177540073196,
+            11.03291191061859374533,
+            19.29337410503204083163,
+            0.5735699148295024538177,
+            -19.29337410503204083163,
+            0.3231791492491308749908,
+        ],
+    );
     let cases = [
         (crusher.name, crusher.points()),
         (regular.name, regular.points()),
         (chaotic.name, chaotic.points()),
+        (four_bar.name, four_bar.points()),
+        (five_links.name, five_links.points()),
+        (squeezer.name, squeezer.points()),
     ];
 
     println!("| case | method | tolerance | evaluations | microseconds | error |");
@@ -213,24 +282,26 @@ fn main() -> ExitCode {
 /// Size of a panel and its margins, in pixels.
 const PANEL: [f64; 2] = [360.0, 320.0];
 const MARGIN: [f64; 2] = [64.0, 48.0];
-const COLORS: [&str; 3] = ["#1b6ca8", "#c8553d", "#588157"];
+const IN_A_ROW: usize = 3;
+const COLORS: [&str; 4] = ["#1b6ca8", "#c8553d", "#588157", "#8a5a9e"];
 
 /// Error to the right, from 1 to 10⁻¹⁵; time upward, from 10 µs to 1 s; both logarithmic. Down and
 /// to the right is better.
 fn drawing(cases: &[(&str, Vec<Point>)]) -> String {
     let mut svg = String::new();
-    let width = cases.len() as f64 * (PANEL[0] + MARGIN[0]) + 16.0;
-    let height = PANEL[1] + 2.0 * MARGIN[1];
+    let rows = cases.len().div_ceil(IN_A_ROW) as f64;
+    let width = IN_A_ROW as f64 * (PANEL[0] + MARGIN[0]) + 16.0;
+    let height = rows * (PANEL[1] + 2.0 * MARGIN[1]);
     let _ = writeln!(
         svg,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
          font-size=\"12\"><rect width=\"100%\" height=\"100%\" fill=\"white\"/>"
     );
     for (i, (name, points)) in cases.iter().enumerate() {
-        let left = MARGIN[0] + i as f64 * (PANEL[0] + MARGIN[0]);
+        let left = MARGIN[0] + (i % IN_A_ROW) as f64 * (PANEL[0] + MARGIN[0]);
+        let top = MARGIN[1] + (i / IN_A_ROW) as f64 * (PANEL[1] + 2.0 * MARGIN[1]);
         let x = |error: f64| left + PANEL[0] * (-error.log10() / 15.0).clamp(0.0, 1.0);
-        let y =
-            |time: f64| MARGIN[1] + PANEL[1] * (1.0 - (time.log10() + 5.0) / 5.0).clamp(0.0, 1.0);
+        let y = |time: f64| top + PANEL[1] * (1.0 - (time.log10() + 5.0) / 5.0).clamp(0.0, 1.0);
         let text = |svg: &mut String, x: f64, y: f64, anchor: &str, text: &str| {
             let _ = writeln!(
                 svg,
@@ -240,9 +311,9 @@ fn drawing(cases: &[(&str, Vec<Point>)]) -> String {
         text(
             &mut svg,
             left + PANEL[0] / 2.0,
-            MARGIN[1] - 12.0,
+            top - 12.0,
             "middle",
-            name,
+            &name.replace('\'', "’"),
         );
         for power in 0..=5 {
             let (error, time) = (10_f64.powi(-3 * power), 10_f64.powi(power - 5));

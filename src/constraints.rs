@@ -27,6 +27,10 @@ pub(crate) const RESIDUAL: f64 = 1e-13;
 /// What is left is worked off from here: what depends on several rows keeps the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
 
+/// What rounding alone may change in what is left, relative: some eight operations from a coordinate
+/// to a constraint.
+const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
+
 /// A row depends on others if less than this is left of it beside them, relative to its length.
 /// States are on the constraints to [`RESIDUAL`], so rows that depend on each other there do so to
 /// about a hundred times that; and a multiplier that is held by less has lost ten of its digits.
@@ -88,6 +92,8 @@ pub fn least_multipliers<S: System>(
 pub(crate) struct Constraints<V> {
     /// By which residuals are measured: the greatest `|qⱼ|` and `|vⱼ|` so far.
     sizes: [V; 2],
+    /// 1 for a coordinate that is an angle, else 0.
+    angles: V,
     /// The indices of rows that are independent, those of positions first. There are no more than
     /// coordinates.
     rows: V,
@@ -99,6 +105,13 @@ pub(crate) struct Constraints<V> {
     pub redundant: bool,
     /// By how much the last state was moved, coordinates and rates.
     pub moved: [V; 2],
+    /// What is left of the chosen rows at the last state, of positions and rates, relative to their
+    /// scale.
+    left: [f64; 2],
+    /// The same at the end of the last step: it is not an error of the next one.
+    left_before: [f64; 2],
+    /// How much of the move made up for what the step itself was off by; the rest is older.
+    pub share: [f64; 2],
     /// What was left of the constraints then, relative to their scale.
     pub residual: f64,
     /// The greatest of these after any step.
@@ -151,6 +164,7 @@ impl<V: Vector> Constraints<V> {
     pub fn new<S: System<Vector = V>>(system: &S, q: &V, v: &V) -> Self {
         let zeros = q.zeros_like();
         let mut sizes = [zeros.clone(), zeros.clone()];
+        let mut angles = zeros.clone();
         for (j, coordinate) in system.coordinates().enumerate() {
             for (size, of) in sizes.iter_mut().zip([q, v]) {
                 let alike = system.coordinates().zip(of.as_slice());
@@ -160,15 +174,20 @@ impl<V: Vector> Constraints<V> {
             if coordinate.unit == "rad" {
                 let size = &mut sizes[0].as_mut_slice()[j];
                 *size = size.max(1.0);
+                angles.as_mut_slice()[j] = 1.0;
             }
         }
         Self {
             sizes,
+            angles,
             rows: zeros.clone(),
             rank: 0,
             holonomic: 0,
             redundant: false,
             moved: [zeros.clone(), zeros],
+            left: [0.0; 2],
+            left_before: [0.0; 2],
+            share: [0.0; 2],
             residual: 0.0,
             greatest_residual: 0.0,
         }
@@ -215,6 +234,7 @@ impl<V: Vector> Constraints<V> {
             }
         }
         self.greatest_residual = self.greatest_residual.max(self.residual);
+        self.left_before = self.left;
     }
 
     /// Chooses the rows anew at a state on the constraints.
@@ -363,17 +383,36 @@ impl<V: Vector> Constraints<V> {
         }
         in_room(system, t, place.q[0].as_slice().len(), |room| {
             let [positions, rates] = self.left(system, room, place);
+            self.left = [positions.0, rates.0];
+            for (level, roundoff) in self.roundoff().into_iter().enumerate() {
+                let before = self.left_before[level] + roundoff;
+                let now = self.left[level];
+                self.share[level] = if now > before {
+                    1.0 - before / now
+                } else {
+                    0.0
+                };
+            }
             let still = positions.0 <= WORKED_OFF && rates.0 <= WORKED_OFF;
             if !still {
                 self.prepare(system, room, t, place.q[0])?;
                 self.newton(system, room, place, Level::Positions, positions)?;
                 let [_, rates] = self.left(system, room, place);
                 self.newton(system, room, place, Level::Rates, rates)?;
-                let _ = self.left(system, room, place);
+                let [positions, rates] = self.left(system, room, place);
+                self.left = [positions.0, rates.0];
             }
             self.check(system, room, place)?;
             Ok(!still)
         })
+    }
+
+    /// What rounding alone may change in what is left of positions and rates, relative to their scale.
+    /// The rows that rates go through turn by as much as angles are rounded.
+    fn roundoff(&self) -> [f64; 2] {
+        let angles = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
+        let greatest = angles.fold(1.0_f64, |most, (is_angle, size)| most.max(is_angle * size));
+        [ROUNDOFF, ROUNDOFF * greatest]
     }
 
     /// Newton's method on one level, with the matrices of one state while it contracts.

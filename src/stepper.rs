@@ -667,17 +667,18 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     }
 
     /// How far the step just tried was moved onto the constraints, in the norm of its
-    /// [`error`](Self::error): what it was off by across them.
+    /// [`error`](Self::error): what it was off by across them, and not what its beginning was.
     fn error_of_move(&self) -> f64 {
         let Some(constraints) = &self.model.constraints else {
             return 0.0;
         };
         let Tolerance { relative, absolute } = &self.tolerance;
         let mut sum = 0.0;
-        for (moved, y) in constraints.moved.iter().zip([&self.now.q, &self.now.v]) {
+        let levels = constraints.moved.iter().zip(constraints.share);
+        for ((moved, share), y) in levels.zip([&self.now.q, &self.now.v]) {
             let by = moved.as_slice().iter().zip(y.as_slice());
             for ((moved, y), absolute) in by.zip(absolute.as_slice()) {
-                let error = moved / (absolute + relative * y.abs());
+                let error = share * moved / (absolute + relative * y.abs());
                 sum += error * error;
             }
         }

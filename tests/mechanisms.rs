@@ -1098,3 +1098,33 @@ fn grains_turn_pestle_and_mortar_as_willis_said() {
         );
     }
 }
+
+/// What rounding moves a state by is no error of a step: cranks that have turned often, and rates near
+/// 0 beside great ones, once stopped such runs.
+#[test]
+fn the_finest_tolerance_ends_no_run() {
+    fn runs<M: Machine>(machine: &M, until: f64) {
+        let run = Simulation::new(machine)
+            .tolerance(1e-14)
+            .energy_balance(true)
+            .forget_steps()
+            .until(until)
+            .run(machine.start())
+            .expect("it runs");
+        let done = run.statistics();
+        assert!(
+            done.constraint_residual <= 1e-13,
+            "{:e}",
+            done.constraint_residual
+        );
+        // Each step by its tolerance and by what it may be moved within the residual.
+        let balance = run.energy_balance().expect("it was asked for");
+        let limit = done.steps as f64 * 1.1e-13 * balance.turned_over;
+        assert!(balance.residual().abs() <= limit, "{balance:?}");
+    }
+    runs(&SliderCrank::default(), 20.0);
+    runs(&FourBar::default(), 60.0);
+    runs(&ClosedPendulum::default(), 20.0);
+    runs(&FlyballGovernor::default(), 10.0);
+    runs(&ParticlePendulum::default(), 20.0);
+}

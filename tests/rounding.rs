@@ -39,4 +39,5 @@ fn interpreted_and_compiled_machines_accelerate_the_same_to_the_last_bit() {
         };
     }
     for_each_machine!(check);
+    for_each_constrained_machine!(check);
 }

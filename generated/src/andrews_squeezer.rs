@@ -12,7 +12,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 37 | 16 | 3 | 0 | 0 | 56 |
+//! | `prepare` | 56 | 21 | 4 | 0 | 0 | 81 |
 //! | `mass_matrix` | 20 | 20 | 0 | 3 | 0 | 46 |
 //! | `bias` | 33 | 14 | 0 | 3 | 0 | 53 |
 //! | `applied` | 15 | 12 | 1 | 1 | 1 | 31 |
@@ -21,8 +21,8 @@
 //! | `constraint_rates` | 21 | 18 | 0 | 7 | 0 | 53 |
 //! | `constraint_matrix` | 16 | 9 | 0 | 7 | 0 | 39 |
 //! | `constraint_drift` | 28 | 20 | 0 | 7 | 0 | 62 |
-//! | `accelerations` | 265 | 199 | 11 | 10 | 1 | 496 |
-//! | `multipliers` | 233 | 176 | 11 | 10 | 1 | 441 |
+//! | `accelerations` | 252 | 195 | 10 | 7 | 1 | 472 |
+//! | `multipliers` | 239 | 185 | 10 | 7 | 1 | 449 |
 //! | `kinetic_energy` | 51 | 22 | 0 | 4 | 0 | 81 |
 //! | `potential_energy` | 8 | 8 | 0 | 1 | 1 | 19 |
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
@@ -244,6 +244,7 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
         let k2 = self.ra * (self.ra * self.m1);
         let k20 = self.m2 * self.da;
         let k4 = self.da * k20;
+        let k5 = self.I2 + k4;
         let k23 = self.m4 * k0;
         let k6 = k0 * k23;
         let k7 = self.I4 + k6;
@@ -252,40 +253,62 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
         let k9 = self.I6 + k8;
         let k10 = self.m3 * self.sa;
         let k11 = self.m3 * self.sb;
-        let t0 = self.ta * self.ta;
-        let t1 = self.tb * self.tb;
-        let t2 = self.ub * self.ub;
-        let t3 = self.ua * self.ua;
+        let t0 = self.I1 + k2;
+        let t1 = self.ta * self.ta;
+        let t2 = self.tb * self.tb;
+        let t3 = self.ub * self.ub;
+        let t4 = self.ua * self.ua;
+        let k21 = self.m2 * self.rr;
+        let k22 = self.zt * k23;
+        let k24 = self.m4 * self.zt;
+        let k25 = self.m5 * t2 + self.m5 * t1;
+        let k26 = self.u * k27;
+        let k28 = self.m6 * self.u;
+        let k29 = self.m7 * t4 + self.m7 * t3;
+        let k30 = self.rr * k20;
         let k31 = self.I3 + (self.sa * k10 + self.sb * k11);
+        let k47 = S::ONE / k9;
+        let k49 = k26 * k47;
+        let k48 = S::ONE / k7;
+        let k50 = k22 * k48;
+        let k52 = S::ONE / k5;
+        let k51 = k30 * k52;
+        let k53 = S::ONE / k31;
+        let k43 = self.c0 * k53;
         let k3 = S::from_f64(0.5) * self.c0;
-        let k5 = self.I2 + k4;
         let k12 = self.sc * self.c0;
         let k13 = self.sd * self.c0;
         let k14 = self.da * self.da;
         let k15 = k0 * k0;
         let k16 = k1 * k1;
-        let k17 = S::from_f64(0.5) * (self.I1 + k2);
-        let k18 = S::from_f64(0.5) * (self.I5 + self.m5 * (t0 + t1));
-        let k19 = S::from_f64(0.5) * (self.I7 + self.m7 * (t2 + t3));
-        let k21 = self.m2 * self.rr;
-        let k22 = self.zt * k23;
-        let k24 = self.m4 * self.zt;
-        let k25 = self.m5 * t1 + self.m5 * t0;
-        let k26 = self.u * k27;
-        let k28 = self.m6 * self.u;
-        let k29 = self.m7 * t3 + self.m7 * t2;
-        let k30 = self.rr * k20;
+        let k17 = S::from_f64(0.5) * t0;
+        let k18 = S::from_f64(0.5) * (self.I5 + self.m5 * (t1 + t2));
+        let k19 = S::from_f64(0.5) * (self.I7 + self.m7 * (t3 + t4));
         let k32 = -self.d;
         let k33 = -self.zf;
-        let k34 = S::ONE / k31;
-        let k35 = S::ONE / k7;
-        let k36 = S::ONE / k9;
-        let singular = if vanishes(k31, k31, 1.1546319456101628e-14) {
-            Some(singular(2, k31, k31))
+        let k34 = k26 * k49;
+        let k35 = k29 + (self.I7 + self.u * k28);
+        let k36 = k27 * k47;
+        let k37 = k22 * k50;
+        let k38 = k25 + (self.I5 + self.zt * k24);
+        let k39 = k23 * k48;
+        let k40 = k20 * k51;
+        let k41 = k30 * k51;
+        let k42 = t0 + self.rr * k21;
+        let k44 = k20 * k52;
+        let k45 = self.zt * k22;
+        let k46 = self.u * k26;
+        let k54 = self.ss * k43;
+        let k55 = self.e * k23;
+        let k56 = self.zf * k27;
+        let singular = if vanishes(k9, k9, 1.1546319456101628e-14) {
+            Some(singular(5, k9, k9))
         } else if vanishes(k7, k7, 1.1546319456101628e-14) {
             Some(singular(3, k7, k7))
-        } else if vanishes(k9, k9, 1.1546319456101628e-14) {
-            Some(singular(5, k9, k9))
+        } else if vanishes(k5, k5, 1.1546319456101628e-14) {
+            Some(singular(1, k5, k5))
+        } else if vanishes(k31, k31, 1.1546319456101628e-14) {
+            Some(singular(2, k31, k31))
         } else {
             None
         };
@@ -358,6 +381,26 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
             k34,
             k35,
             k36,
+            k37,
+            k38,
+            k39,
+            k40,
+            k41,
+            k42,
+            k43,
+            k44,
+            k45,
+            k46,
+            k47,
+            k48,
+            k49,
+            k50,
+            k51,
+            k52,
+            k53,
+            k54,
+            k55,
+            k56,
             singular,
         }
     }
@@ -582,12 +625,52 @@ pub struct Prepared<S = f64> {
     k32: S,
     /// `-zf`
     k33: S,
-    /// `1/(I3 + m3*sb^2 + m3*sa^2)`
+    /// `m6^2*u^2*(zf - fa)^2/(I6 + m6*(zf - fa)^2)`
     k34: S,
-    /// `1/(I4 + m4*(e - ea)^2)`
+    /// `I7 + m7*ub^2 + m7*ua^2 + m6*u^2`
     k35: S,
-    /// `1/(I6 + m6*(zf - fa)^2)`
+    /// `m6*(zf - fa)/(I6 + m6*(zf - fa)^2)`
     k36: S,
+    /// `m4^2*zt^2*(e - ea)^2/(I4 + m4*(e - ea)^2)`
+    k37: S,
+    /// `I5 + m5*ta^2 + m5*tb^2 + m4*zt^2`
+    k38: S,
+    /// `m4*(e - ea)/(I4 + m4*(e - ea)^2)`
+    k39: S,
+    /// `m2^2*da^2*rr/(I2 + m2*da^2)`
+    k40: S,
+    /// `m2^2*da^2*rr^2/(I2 + m2*da^2)`
+    k41: S,
+    /// `I1 + m1*ra^2 + m2*rr^2`
+    k42: S,
+    /// `c0/(I3 + m3*sb^2 + m3*sa^2)`
+    k43: S,
+    /// `m2*da/(I2 + m2*da^2)`
+    k44: S,
+    /// `m4*zt^2*(e - ea)`
+    k45: S,
+    /// `m6*u^2*(zf - fa)`
+    k46: S,
+    /// `1/(I6 + m6*(zf - fa)^2)`
+    k47: S,
+    /// `1/(I4 + m4*(e - ea)^2)`
+    k48: S,
+    /// `m6*u*(zf - fa)/(I6 + m6*(zf - fa)^2)`
+    k49: S,
+    /// `m4*zt*(e - ea)/(I4 + m4*(e - ea)^2)`
+    k50: S,
+    /// `m2*da*rr/(I2 + m2*da^2)`
+    k51: S,
+    /// `1/(I2 + m2*da^2)`
+    k52: S,
+    /// `1/(I3 + m3*sb^2 + m3*sa^2)`
+    k53: S,
+    /// `ss*c0/(I3 + m3*sb^2 + m3*sa^2)`
+    k54: S,
+    /// `m4*e*(e - ea)`
+    k55: S,
+    /// `m6*zf*(zf - fa)`
+    k56: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -994,7 +1077,8 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
     [gamma1, gamma2, gamma3, gamma4, gamma5, gamma6]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix.
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
+/// machine, factored.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -1040,235 +1124,222 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let Omega_dot = n(v[5]);
         let epsilon_dot = n(v[6]);
         let t0 = Theta + beta;
-        let t1 = Phi + delta;
-        let t2 = Omega + epsilon;
-        let angles = [Theta, beta, gamma, Phi, t0, delta, Omega, t1, epsilon, t2];
+        let t1 = delta + Phi;
+        let t2 = epsilon + Omega;
+        let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
         let circular = N::sin_cos_all(angles);
-        let (sin_Theta, cos_Theta) = circular[0];
-        let (sin_beta, cos_beta) = circular[1];
-        let (sin_gamma, cos_gamma) = circular[2];
-        let (sin_Phi, cos_Phi) = circular[3];
-        let (sin_t0, cos_t0) = circular[4];
-        let (sin_delta, cos_delta) = circular[5];
-        let (sin_Omega, cos_Omega) = circular[6];
-        let (sin_t1, cos_t1) = circular[7];
-        let (sin_epsilon, cos_epsilon) = circular[8];
-        let (sin_t2, cos_t2) = circular[9];
-        let t3 = gamma_dot * gamma_dot;
-        let t4 = Theta_dot + beta_dot;
+        let (sin_beta, cos_beta) = circular[0];
+        let (sin_gamma, cos_gamma) = circular[1];
+        let (sin_delta, cos_delta) = circular[2];
+        let (sin_t0, cos_t0) = circular[3];
+        let (sin_epsilon, cos_epsilon) = circular[4];
+        let (sin_t1, cos_t1) = circular[5];
+        let (sin_t2, cos_t2) = circular[6];
+        let t3 = beta_dot + Theta_dot;
+        let t4 = beta_dot * beta_dot;
         let t5 = delta_dot + Phi_dot;
         let t6 = epsilon_dot + Omega_dot;
-        let t7 = t4 * t4;
-        let t8 = beta_dot * (n(p.rr) * beta_dot);
-        let t9 = t5 * t5;
-        let t10 = t6 * t6;
-        let t11 = delta_dot * (n(p.zt) * delta_dot);
-        let t12 = epsilon_dot * (n(p.u) * epsilon_dot);
-        let t13 = cos_Theta * n(p.da);
-        let t14 = sin_Theta * n(p.k4);
-        let t15 = cos_gamma * n(p.ss);
-        let t16 = sin_Phi * n(p.k0);
-        let t17 = cos_Phi * n(p.k6);
-        let t18 = n(p.rr) - t13;
-        let t19 = sin_t0 * n(p.d);
-        let t20 = cos_t0 * n(p.d);
-        let t21 = n(p.k34) * t15;
-        let t22 = sin_gamma * n(p.ss);
-        let t23 = t16 + n(p.zt);
-        let t24 = sin_Theta.mul_add(t14, n(p.I2));
-        let t25 = t18.neg_mul_add(cos_Theta * n(p.k20), t24);
-        let t26 = n(p.rr).mul_sub(sin_beta, t19);
-        let t27 = n(p.rr).mul_sub(cos_beta, t20);
-        let t28 = n(p.k34) * t22;
-        let t29 = cos_gamma.mul_add(n(p.sd), n(p.xb));
-        let t30 = n(p.k22).mul_add(sin_Phi, n(p.k7));
-        let t31 = cos_t1 * n(p.e);
-        let t32 = cos_Phi.mul_add(t17, n(p.I4));
-        let t33 = sin_Omega * n(p.k1);
-        let t34 = sin_gamma.mul_add(n(p.sd), n(p.yb));
-        let t35 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t29);
-        let t36 = t18.mul_add(n(p.k21), n(p.k2)) + (t25 + n(p.I1));
-        let t37 = cos_Omega * n(p.k8);
-        let t38 = n(p.k35) * t30;
-        let t39 = n(p.k35) * t31;
-        let t40 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t34);
-        let t41 = N::ONE / t36;
-        let t42 = sin_t1 * n(p.e);
-        let t43 = n(p.u) - t33;
-        let t44 = t23.mul_add(sin_Phi * n(p.k23), t32) + n(p.I5);
-        let t45 = t23.mul_add(n(p.k24), n(p.k25)) + t44;
-        let t46 = t30.mul_add(t39, n(p.zt).mul_sub(sin_delta, t31));
-        let t47 = n(p.k35) * t42;
-        let t48 = cos_gamma * t3;
-        let t49 = t30.neg_mul_add(t38, t45);
-        let t50 = t40.mul_add(t40, t35 * t35).sqrt();
-        let t51 = n(p.k26).neg_mul_add(sin_Omega, n(p.k9));
-        let t52 = cos_Omega.mul_add(t37, n(p.I6));
-        let t53 = sin_gamma * t3;
-        let t54 = t30.neg_mul_add(t47, n(p.zt).mul_add(cos_delta, t42));
-        let t55 = N::ONE / t49;
-        let t56 = n(p.k36) * t51;
-        let t57 = t25 * t41;
-        let t58 = t41 * t26;
-        let t59 = t41 * t27;
-        let t60 = t53.mul_add(n(p.sa), n(p.sb) * t48);
-        let t61 = t43.neg_mul_add(sin_Omega * n(p.k27), t52) + n(p.I7);
-        let t62 = t43.mul_add(n(p.k28), n(p.k29)) + t61;
-        let t63 = t48.mul_sub(n(p.sa), t53 * n(p.sb));
-        let t64 = t25.neg_mul_add(t57, n(p.k5));
-        let t65 = t25.mul_add(t58, t19);
-        let t66 = t25.mul_add(t59, t20);
-        let t67 = t51.neg_mul_add(t56, t62);
-        let t68 = N::ONE / t64;
-        let t69 = sin_t2 * n(p.zf);
-        let t70 = t55 * t46;
-        let t71 = t55 * t54;
-        let t72 = N::ONE / t67;
-        let t73 = t13.neg_mul_add(t7, t8);
-        let t74 = t73.mul_add(sin_Theta * n(p.k20), t14 * (cos_Theta * t7));
-        let t75 = t46.mul_add(t70, t31 * t39);
-        let t76 = t54.mul_add(t71, t42 * t47);
-        let t77 = n(p.k36) * t69;
-        let t78 = t74 + sin_Theta.neg_mul_add(t7 * n(p.k30), n(p.mom));
-        let t79 = t51.mul_add(t77, n(p.u).mul_sub(cos_epsilon, t69));
-        let t80 = t68 * t65;
-        let t81 = t68 * t66;
-        let t82 = t19.neg_mul_add(t7, sin_beta * t8);
-        let t83 = t20.neg_mul_add(t7, cos_beta * t8);
-        let t84 = t57.neg_mul_add(t78, t74);
-        let t85 = t72 * t79;
-        let t86 = t65.mul_add(t80, t26 * t58);
-        let t87 = t81.mul_add(t65, t59 * t26);
-        let t88 = t66.mul_add(t81, t27 * t59);
-        let t89 = t66.mul_add(t80, t27 * t58);
-        let t90 = N::ONE / t50 * (n(p.l0) - t50);
-        let t91 = t81.neg_mul_add(t84, t59 * t78);
-        let t92 = t80.neg_mul_add(t84, t58 * t78);
-        let t93 = t15.mul_add(t21, t86);
-        let t94 = t28.mul_sub(t15, t87);
-        let t95 = t22.mul_add(t28, t88);
-        let t96 = t40 * t90;
-        let t97 = t35 * t90;
-        let t98 = cos_t2 * n(p.zf);
-        let t99 = t79.mul_add(t85, t69 * t77);
-        let t100 = N::ONE / t93;
-        let t101 = t63.mul_sub(n(p.k11), n(p.k10) * t60);
-        let t102 = n(p.k10).mul_add(t63, n(p.k11) * t60);
-        let t103 = n(p.k36) * t98;
-        let t104 = t17 * (sin_Phi * t9);
-        let t105 = t16.mul_add(t9, t11).mul_sub(cos_Phi * n(p.k23), t104);
-        let t106 = t97.mul_add(n(p.k12), n(p.k13).mul_add(t96, t101));
-        let t107 = t33.neg_mul_add(t10, t12);
-        let t108 = t37 * (sin_Omega * t10);
-        let t109 = t107.mul_add(cos_Omega * n(p.k27), t108);
-        let t110 = t51.neg_mul_add(t103, n(p.u).mul_add(sin_epsilon, t98));
-        let t111 = t100 * t94;
-        let t112 = t86 * t100;
-        let t113 = t100 * t87;
-        let t114 = t97.neg_mul_add(n(p.k13), t96.mul_add(n(p.k12), t102));
-        let t115 = sin_gamma.mul_add(t114, cos_gamma * t106);
-        let t116 = t94.neg_mul_add(t111, t95);
-        let t117 = t94.mul_add(t112, t89);
-        let t118 = t94.mul_add(t113, t88);
-        let t119 = N::ONE / t116;
-        let t120 = t21.neg_mul_add(t115, t92 + n(p.ss).neg_mul_add(t53, t83));
-        let t121 = t72 * t110;
-        let t122 = cos_Phi.neg_mul_add(n(p.k22) * t9, t105);
-        let t123 = t38.neg_mul_add(t105, t122);
-        let t124 = t28.neg_mul_add(t115, n(p.ss).mul_add(t48, t82) - t91);
-        let t125 = t111.neg_mul_add(t120, t124);
-        let t126 = t82 - t31.neg_mul_add(t9, sin_delta * t11);
-        let t127 = cos_Omega.neg_mul_add(n(p.k26) * t10, t109);
-        let t128 = t56.neg_mul_add(t109, t127);
-        let t129 = t83 - t98.mul_add(t10, sin_epsilon * t12);
-        let t130 = t82 + t69.neg_mul_add(t10, cos_epsilon * t12);
-        let t131 = t39.mul_add(t105, t83 - t42.mul_add(t9, cos_delta * t11));
-        let t132 = t110.mul_add(t121, t98 * t103);
-        let t133 = t119 * t117;
-        let t134 = t119 * t118;
-        let t135 = t117.neg_mul_add(t133, t86.neg_mul_add(t112, t86));
-        let t136 = t134.neg_mul_add(t117, t86.neg_mul_add(t113, t87));
-        let t137 = t135 + t75;
-        let t138 = t71.neg_mul_add(t46, t47 * t31) - t136;
-        let t139 = t88 - t118.mul_add(t134, t87 * t113);
-        let t140 = t91 - t134.neg_mul_add(t125, t113 * t120);
-        let t141 = t92 - t133.neg_mul_add(t125, t112 * t120);
-        let t142 = N::ONE / t137;
-        let t143 = t141 + t70.neg_mul_add(t123, t131);
-        let t144 = t121.neg_mul_add(t128, t103.neg_mul_add(t109, t130));
-        let t145 = t142 * t138;
-        let t146 = t135 * t142;
-        let t147 = t142 * t136;
-        let t148 = t138.neg_mul_add(t145, t139 + t76);
-        let t149 = t118.neg_mul_add(t133, t87.neg_mul_add(t112, t89));
-        let t150 = t138.mul_add(t146, t149);
-        let t151 = t138.mul_add(t147, t139);
-        let t152 = t136 + t121.neg_mul_add(t79, t103 * t69);
-        let t153 = t71.mul_add(t123, t47.mul_add(t105, t126)) - t140;
-        let t154 = t145.neg_mul_add(t143, t153);
-        let t155 = t141 + t85.neg_mul_add(t128, t77.mul_add(t109, t129));
-        let t156 = N::ONE / t148;
-        let t157 = t156 * t150;
-        let t158 = t156 * t151;
-        let t159 = t150.neg_mul_add(t157, t135.neg_mul_add(t146, t99 + t135));
-        let t160 = t150.neg_mul_add(t158, t135.neg_mul_add(t147, t152));
-        let t161 = t157.mul_add(t154, t146.neg_mul_add(t143, t155));
-        let t162 = t136.neg_mul_add(t147, t132 + t139);
-        let t163 = N::ONE / t159;
-        let t164 = t163 * t160;
-        let t165 = t158.neg_mul_add(t154, t147.mul_add(t143, t144 - t140));
-        let t166 = t160.neg_mul_add(t164, t151.neg_mul_add(t158, t162));
-        let t167 = t164.mul_add(t161, t165) / t166;
-        let t168 = t164.mul_add(t167, t163 * t161);
-        let t169 = t157.mul_add(t168, t158.neg_mul_add(t167, t156 * t154));
-        let t170 = t85.mul_add(t168, t121.mul_add(t167, t72 * t128));
-        let t171 = t146.neg_mul_add(t168, t147.mul_add(t167, t142 * t143));
-        let t172 = t145.neg_mul_add(t169, t171);
-        let t173 = t133.mul_add(t168, t134.neg_mul_add(t167, t119 * t125));
-        let t174 = t58.neg_mul_add(t168, t59.mul_add(t167, t41 * t78));
-        let t175 = t112.neg_mul_add(t168, t113.mul_add(t167, t100 * t120));
-        let t176 = t80.mul_add(t168, t81.neg_mul_add(t167, t68 * t84));
-        let t177 = t77.mul_sub(t168, t103.mul_add(t167, n(p.k36) * t109));
-        let t178 = t133.mul_add(t172, t134.neg_mul_add(t169, t173));
-        let delta_ddot = t70.mul_add(t172, t71.neg_mul_add(t169, t55 * t123));
-        let t179 = t58.neg_mul_add(t172, t59.mul_add(t169, t174));
-        let t180 = t112.neg_mul_add(t172, t113.mul_add(t169, t175));
-        let t181 = t111.neg_mul_add(t178, t180);
-        let t182 = t80.mul_add(t172, t81.neg_mul_add(t169, t176));
-        let t183 = t39.mul_add(t172, t47.mul_sub(t169, n(p.k35) * t105));
-        let Theta_ddot = t80.mul_add(t181, t81.neg_mul_add(t178, t182));
-        let t184 = t58.neg_mul_add(t181, t59.mul_add(t178, t179));
-        let beta_ddot = t57.neg_mul_add(Theta_ddot, t184);
-        let gamma_ddot = -t21.mul_add(t181, t28.mul_add(t178, n(p.k34) * t115));
-        let Phi_ddot = -t38.mul_add(delta_ddot, t183);
-        let Omega_ddot = t56.mul_add(t170, t177);
-        let epsilon_ddot = -t170;
-        let t185 = t86 + t75;
-        let t186 = t88 + t76;
-        let t187 = t86 + t99;
-        let t188 = t132 + t88;
-        let sound = t49.exceeds(N::from_f64(1.1546319456101628e-14) * t45)
-            & t67.exceeds(N::from_f64(1.1546319456101628e-14) * t62)
-            & t36.exceeds(N::from_f64(1.1546319456101628e-14) * t36)
-            & t64.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k5))
-            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t93)
-            & t116.exceeds(N::from_f64(1.1546319456101628e-14) * t95)
-            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t185)
-            & t148.exceeds(N::from_f64(1.1546319456101628e-14) * t186)
-            & t159.exceeds(N::from_f64(1.1546319456101628e-14) * t187)
-            & t166.exceeds(N::from_f64(1.1546319456101628e-14) * t188)
+        let t7 = delta_dot * delta_dot;
+        let t8 = t3 * t3;
+        let t9 = epsilon_dot * epsilon_dot;
+        let t10 = t5 * t5;
+        let t11 = gamma_dot * gamma_dot;
+        let t12 = t6 * t6;
+        let t13 = t8 * n(p.da);
+        let t14 = t10 * n(p.k0);
+        let t15 = t12 * n(p.k1);
+        let t16 = cos_beta * n(p.rr);
+        let t17 = sin_beta * n(p.rr);
+        let t18 = cos_gamma * n(p.ss);
+        let t19 = sin_delta * n(p.zt);
+        let t20 = sin_gamma * n(p.ss);
+        let t21 = cos_delta * n(p.zt);
+        let t22 = sin_t0 * n(p.d);
+        let t23 = cos_t0 * n(p.d);
+        let t24 = t18 * n(p.k53);
+        let t25 = cos_t1 * n(p.e);
+        let t26 = n(p.k53) * t20;
+        let t27 = sin_t1 * n(p.e);
+        let t28 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
+        let t29 = t17 - t22;
+        let t30 = t16 - t23;
+        let t31 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
+        let t32 = t19 - t25;
+        let t33 = t28 * n(p.k51);
+        let t34 = n(p.k50) * t31;
+        let t35 = t28.neg_mul_add(t28 * n(p.k41), n(p.k42));
+        let t36 = cos_gamma.mul_add(n(p.sd), n(p.xb));
+        let t37 = t31.neg_mul_add(t31 * n(p.k37), n(p.k38));
+        let t38 = t27 + t21;
+        let t39 = N::ONE / t35;
+        let t40 = sin_gamma.mul_add(n(p.sd), n(p.yb));
+        let t41 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t36);
+        let t42 = t4 * t16;
+        let t43 = N::ONE / t37;
+        let t44 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
+        let t45 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t40);
+        let t46 = cos_epsilon * n(p.u);
+        let t47 = sin_t2 * n(p.zf);
+        let t48 = t4 * t17;
+        let t49 = cos_t0.neg_mul_add(t13, t42);
+        let t50 = n(p.k49) * t44;
+        let t51 = sin_epsilon * n(p.u);
+        let t52 = t46 - t47;
+        let t53 = sin_t0.neg_mul_add(t13, t48);
+        let t54 = t21 * t7;
+        let t55 = t44.neg_mul_add(t44 * n(p.k34), n(p.k35));
+        let t56 = t46 * t9;
+        let t57 = t39 * t33.neg_mul_add(t22, t22 + t29);
+        let t58 = t39 * t23.neg_mul_add(t33, t23 + t30);
+        let t59 = t45.mul_add(t45, t41 * t41).sqrt();
+        let t60 = t43 * t25.mul_add(t34, t25 + t32);
+        let t61 = t43 * t34.neg_mul_add(t27, t38 - t27);
+        let t62 = N::ONE / t55;
+        let t63 = t57 + t33.neg_mul_add(t57, t22 * n(p.k52));
+        let t64 = t58 + t33.neg_mul_add(t58, t23 * n(p.k52));
+        let t65 = t60 + t34.mul_add(t60, t25 * n(p.k48));
+        let t66 = cos_beta.mul_sub(t53, sin_beta * t49);
+        let t67 = t22.mul_add(t63, t29 * t57);
+        let t68 = t23.mul_add(t63, t30 * t57);
+        let t69 = t23.mul_add(t64, t30 * t58);
+        let t70 = t22.mul_add(t64, t58 * t29);
+        let t71 = t61 - t34.neg_mul_add(t61, n(p.k48) * t27);
+        let t72 = cos_t0.mul_sub(t53, sin_t0 * t49);
+        let t73 = t18.mul_add(t24, t67);
+        let t74 = t24.neg_mul_add(t20, t68);
+        let t75 = t20.mul_add(t26, t69);
+        let t76 = t67 + t25.mul_add(t65, t32 * t60);
+        let t77 = N::ONE / t73;
+        let t78 = t19 * t7;
+        let t79 = t51 * t9;
+        let t80 = t69 + t27.neg_mul_add(t71, t38 * t61);
+        let t81 = t62 * t47.neg_mul_add(t50, t47 + t52);
+        let t82 = cos_t2 * n(p.zf);
+        let t83 = t66.mul_add(n(p.k21), n(p.mom));
+        let t84 = t82 + t51;
+        let t85 = t39 * t72.neg_mul_add(t28 * n(p.k40), t83);
+        let t86 = t77 * t74;
+        let t87 = t67 * t77;
+        let t88 = t77 * t68;
+        let t89 = cos_t1 * sin_t1.mul_add(t14, t54);
+        let t90 = sin_t1.mul_add(cos_t1.neg_mul_add(t14, t78), t89);
+        let t91 = cos_t2 * sin_t2.neg_mul_add(t15, t56);
+        let t92 = sin_t2.mul_add(cos_t2.mul_add(t15, t79), t91);
+        let t93 = t74.neg_mul_add(t86, t75);
+        let t94 = t74.neg_mul_add(t87, t70);
+        let t95 = t74.neg_mul_add(t88, t69);
+        let t96 = N::ONE / t93;
+        let t97 = t81 + t50.neg_mul_add(t81, t47 * n(p.k47));
+        let t98 = cos_gamma * n(p.sc).mul_add(t41, n(p.sd) * t45);
+        let t99 = n(p.sc).mul_sub(t45, n(p.sd) * t41);
+        let t100 = t10 * sin_t1.mul_add(sin_delta, cos_t1 * cos_delta);
+        let t101 = t12 * cos_t2.mul_add(cos_epsilon, sin_t2 * sin_epsilon);
+        let t102 = n(p.k44).mul_add(t85.neg_mul_add(t28 * n(p.rr), t72), t85);
+        let t103 = t8.neg_mul_add(t23, t42);
+        let t104 = t8.neg_mul_add(t22, t48);
+        let t105 = t43 * t90.mul_add(t31 * n(p.k39), t100);
+        let t106 = t62 * t92.neg_mul_add(t44 * n(p.k36), t101);
+        let t107 = t67 + t47.mul_add(t97, t52 * t81);
+        let t108 = t22.mul_add(t102, t85 * t29);
+        let t109 = sin_gamma.mul_add(t99, t98) * (n(p.l0) - t59);
+        let t110 = N::ONE / t59 * t109;
+        let t111 = t96 * t94;
+        let t112 = t96 * t95;
+        let t113 = t23.mul_add(t102, t85 * t30);
+        let t114 = t94.mul_add(t111, t67 * t87);
+        let t115 = t112.mul_add(t94, t67 * t88);
+        let t116 = t95.mul_add(t112, t68 * t88);
+        let t117 = t76 - t114;
+        let t118 = t68 + t65.neg_mul_add(t27, t60 * t38) - t115;
+        let t119 = t67 - t114;
+        let t120 = t62 * t50.mul_add(t82, t84 - t82);
+        let t121 = N::ONE / t117;
+        let t122 = t110 * n(p.k54);
+        let t123 = t105.mul_add(t31 * n(p.k45), t90);
+        let t124 = n(p.k48).mul_add(t123, n(p.zt) * t105);
+        let t125 = t105 * n(p.k22);
+        let t126 = t106.neg_mul_add(t44 * n(p.k46), t92);
+        let t127 = n(p.k47).mul_add(t126, n(p.u) * t106);
+        let t128 = t106 * n(p.k26);
+        let t129 = t68 - t115;
+        let t130 = t108 + t20.neg_mul_add(t11, t103);
+        let t131 = cos_gamma.neg_mul_add(t122, t130);
+        let t132 = n(p.k55) * t124;
+        let t133 = n(p.k56) * t127;
+        let t134 = t120 - t50.mul_add(t120, n(p.k47) * t82);
+        let t135 = t121 * t118;
+        let t136 = t121 * t119;
+        let t137 = t121 * t129;
+        let t138 = sin_gamma.neg_mul_add(t122, t18.mul_add(t11, t104) - t113);
+        let t139 = t86.mul_add(t131, t138);
+        let t140 = t32.mul_add(t125, t103 - t27.mul_add(t10, t54));
+        let t141 = t118.neg_mul_add(t135, t80 - t116);
+        let t142 = t95.neg_mul_add(t111, t68.neg_mul_add(t87, t70));
+        let t143 = t118.neg_mul_add(t136, t142);
+        let t144 = t38.neg_mul_add(t125, t104 - t25.neg_mul_add(t10, t78));
+        let t145 = t52.mul_add(t128, t103 - t82.mul_add(t12, t79));
+        let t146 = t84.mul_add(t128, t104 + t47.neg_mul_add(t12, t56));
+        let t147 = t118.neg_mul_add(t137, t69 - t116);
+        let t148 = N::ONE / t141;
+        let t149 = t111.neg_mul_add(t139, t87 * t131);
+        let t150 = t112.neg_mul_add(t139, t88 * t131);
+        let t151 = t69 + t82.neg_mul_add(t134, t84 * t120);
+        let t152 = t68 + t97.mul_sub(t82, t81 * t84) - t115;
+        let t153 = t108 + cos_t1.mul_add(t132, t140) - t149;
+        let t154 = t150 + (sin_t1.mul_add(t132, t144) - t113);
+        let t155 = t135.mul_add(t153, t154);
+        let t156 = t108 + sin_t2.mul_add(t133, t145) - t149;
+        let t157 = t150 + (cos_t2.neg_mul_add(t133, t146) - t113);
+        let t158 = t148 * t143;
+        let t159 = t148 * t147;
+        let t160 = t119.neg_mul_add(t136, t107 - t114);
+        let t161 = t143.neg_mul_add(t158, t160);
+        let t162 = t143.neg_mul_add(t159, t119.neg_mul_add(t137, t152));
+        let t163 = t158.mul_add(t155, t136.neg_mul_add(t153, t156));
+        let t164 = t129.neg_mul_add(t137, t151 - t116);
+        let t165 = N::ONE / t161;
+        let t166 = t165 * t162;
+        let t167 = t159.neg_mul_add(t155, t137.mul_add(t153, t157));
+        let t168 = t162.neg_mul_add(t166, t147.neg_mul_add(t159, t164));
+        let t169 = t166.mul_add(t163, t167) / t168;
+        let t170 = t166.mul_add(t169, t165 * t163);
+        let t171 = t158.mul_add(t170, t159.neg_mul_add(t169, t148 * t155));
+        let t172 = t169 + t171;
+        let t173 = t136.neg_mul_add(t170, t137.mul_add(t169, t121 * t153));
+        let t174 = t135.mul_add(t171, t173);
+        let t175 = t170 + t174;
+        let t176 = t111.mul_add(t175, t112.neg_mul_add(t172, t96 * t139));
+        let t177 = t87.neg_mul_add(t175, t88.mul_add(t172, t77 * t131));
+        let t178 = t86.mul_add(t176, t177);
+        let t179 = t172 + t176;
+        let t180 = t175 + t178;
+        let beta_ddot = t57.neg_mul_add(t180, t58.mul_add(t179, t85));
+        let Theta_ddot = t63.mul_sub(t180, t64.mul_add(t179, t102));
+        let gamma_ddot = -t24.mul_add(t178, t26.mul_add(t176, t110 * n(p.k43)));
+        let Phi_ddot = t65.neg_mul_add(t174, t71.mul_add(t171, t124 * n(p.k23)));
+        let delta_ddot = t60.mul_sub(t174, t61.mul_add(t171, t125));
+        let Omega_ddot = t97.mul_add(t170, t134.mul_sub(t169, t127 * n(p.k27)));
+        let epsilon_ddot = -t81.mul_add(t170, t120.mul_sub(t169, t128));
+        let sound = t55.exceeds(N::from_f64(1.1546319456101628e-14) * t55)
+            & t37.exceeds(N::from_f64(1.1546319456101628e-14) * t37)
+            & t35.exceeds(N::from_f64(1.1546319456101628e-14) * t35)
+            & t73.exceeds(N::from_f64(1.1546319456101628e-14) * t73)
+            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t75)
+            & t117.exceeds(N::from_f64(1.1546319456101628e-14) * t76)
+            & t141.exceeds(N::from_f64(1.1546319456101628e-14) * t80)
+            & t161.exceeds(N::from_f64(1.1546319456101628e-14) * t107)
+            & t168.exceeds(N::from_f64(1.1546319456101628e-14) * t151)
             & gamma_ddot.is_finite();
         if !sound {
-            check(t49, t45, 1.1546319456101628e-14, 4)?;
-            check(t67, t62, 1.1546319456101628e-14, 6)?;
-            check(t36, t36, 1.1546319456101628e-14, 0)?;
-            check(t64, n(p.k5), 1.1546319456101628e-14, 1)?;
-            check(t93, t93, 1.1546319456101628e-14, 7)?;
-            check(t116, t95, 1.1546319456101628e-14, 8)?;
-            check(t137, t185, 1.1546319456101628e-14, 9)?;
-            check(t148, t186, 1.1546319456101628e-14, 10)?;
-            check(t159, t187, 1.1546319456101628e-14, 11)?;
-            check(t166, t188, 1.1546319456101628e-14, 12)?;
+            check(t55, t55, 1.1546319456101628e-14, 6)?;
+            check(t37, t37, 1.1546319456101628e-14, 4)?;
+            check(t35, t35, 1.1546319456101628e-14, 0)?;
+            check(t73, t73, 1.1546319456101628e-14, 7)?;
+            check(t93, t75, 1.1546319456101628e-14, 8)?;
+            check(t117, t76, 1.1546319456101628e-14, 9)?;
+            check(t141, t80, 1.1546319456101628e-14, 10)?;
+            check(t161, t107, 1.1546319456101628e-14, 11)?;
+            check(t168, t151, 1.1546319456101628e-14, 12)?;
         }
         let accelerations = [
             beta_ddot.store(),
@@ -1329,226 +1400,219 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let Omega_dot = n(v[5]);
         let epsilon_dot = n(v[6]);
         let t0 = Theta + beta;
-        let t1 = Phi + delta;
-        let t2 = Omega + epsilon;
-        let angles = [Theta, beta, gamma, Phi, t0, delta, Omega, t1, epsilon, t2];
+        let t1 = delta + Phi;
+        let t2 = epsilon + Omega;
+        let angles = [beta, gamma, delta, t0, epsilon, t1, t2];
         let circular = N::sin_cos_all(angles);
-        let (sin_Theta, cos_Theta) = circular[0];
-        let (sin_beta, cos_beta) = circular[1];
-        let (sin_gamma, cos_gamma) = circular[2];
-        let (sin_Phi, cos_Phi) = circular[3];
-        let (sin_t0, cos_t0) = circular[4];
-        let (sin_delta, cos_delta) = circular[5];
-        let (sin_Omega, cos_Omega) = circular[6];
-        let (sin_t1, cos_t1) = circular[7];
-        let (sin_epsilon, cos_epsilon) = circular[8];
-        let (sin_t2, cos_t2) = circular[9];
-        let t3 = gamma_dot * gamma_dot;
-        let t4 = Theta_dot + beta_dot;
+        let (sin_beta, cos_beta) = circular[0];
+        let (sin_gamma, cos_gamma) = circular[1];
+        let (sin_delta, cos_delta) = circular[2];
+        let (sin_t0, cos_t0) = circular[3];
+        let (sin_epsilon, cos_epsilon) = circular[4];
+        let (sin_t1, cos_t1) = circular[5];
+        let (sin_t2, cos_t2) = circular[6];
+        let t3 = beta_dot + Theta_dot;
+        let t4 = beta_dot * beta_dot;
         let t5 = delta_dot + Phi_dot;
         let t6 = epsilon_dot + Omega_dot;
-        let t7 = t4 * t4;
-        let t8 = beta_dot * (n(p.rr) * beta_dot);
-        let t9 = t5 * t5;
-        let t10 = t6 * t6;
-        let t11 = delta_dot * (n(p.zt) * delta_dot);
-        let t12 = epsilon_dot * (n(p.u) * epsilon_dot);
-        let t13 = cos_Theta * n(p.da);
-        let t14 = sin_Theta * n(p.k4);
-        let t15 = cos_gamma * n(p.ss);
-        let t16 = sin_Phi * n(p.k0);
-        let t17 = cos_Phi * n(p.k6);
-        let t18 = n(p.rr) - t13;
-        let t19 = sin_t0 * n(p.d);
-        let t20 = cos_t0 * n(p.d);
-        let t21 = n(p.k34) * t15;
-        let t22 = sin_gamma * n(p.ss);
-        let t23 = t16 + n(p.zt);
-        let t24 = sin_Theta.mul_add(t14, n(p.I2));
-        let t25 = t18.neg_mul_add(cos_Theta * n(p.k20), t24);
-        let t26 = n(p.rr).mul_sub(sin_beta, t19);
-        let t27 = n(p.rr).mul_sub(cos_beta, t20);
-        let t28 = n(p.k34) * t22;
-        let t29 = cos_gamma.mul_add(n(p.sd), n(p.xb));
-        let t30 = n(p.k22).mul_add(sin_Phi, n(p.k7));
-        let t31 = cos_t1 * n(p.e);
-        let t32 = cos_Phi.mul_add(t17, n(p.I4));
-        let t33 = sin_Omega * n(p.k1);
-        let t34 = sin_gamma.mul_add(n(p.sd), n(p.yb));
-        let t35 = n(p.xc) - sin_gamma.mul_add(n(p.sc), t29);
-        let t36 = t18.mul_add(n(p.k21), n(p.k2)) + (t25 + n(p.I1));
-        let t37 = cos_Omega * n(p.k8);
-        let t38 = n(p.k35) * t30;
-        let t39 = n(p.k35) * t31;
-        let t40 = n(p.yc) - cos_gamma.neg_mul_add(n(p.sc), t34);
-        let t41 = N::ONE / t36;
-        let t42 = sin_t1 * n(p.e);
-        let t43 = n(p.u) - t33;
-        let t44 = t23.mul_add(sin_Phi * n(p.k23), t32) + n(p.I5);
-        let t45 = t23.mul_add(n(p.k24), n(p.k25)) + t44;
-        let t46 = t30.mul_add(t39, n(p.zt).mul_sub(sin_delta, t31));
-        let t47 = n(p.k35) * t42;
-        let t48 = cos_gamma * t3;
-        let t49 = t30.neg_mul_add(t38, t45);
-        let t50 = t40.mul_add(t40, t35 * t35).sqrt();
-        let t51 = n(p.k26).neg_mul_add(sin_Omega, n(p.k9));
-        let t52 = cos_Omega.mul_add(t37, n(p.I6));
-        let t53 = sin_gamma * t3;
-        let t54 = t30.neg_mul_add(t47, n(p.zt).mul_add(cos_delta, t42));
-        let t55 = N::ONE / t49;
-        let t56 = n(p.k36) * t51;
-        let t57 = t25 * t41;
-        let t58 = t41 * t26;
-        let t59 = t41 * t27;
-        let t60 = t53.mul_add(n(p.sa), n(p.sb) * t48);
-        let t61 = t43.neg_mul_add(sin_Omega * n(p.k27), t52) + n(p.I7);
-        let t62 = t43.mul_add(n(p.k28), n(p.k29)) + t61;
-        let t63 = t48.mul_sub(n(p.sa), t53 * n(p.sb));
-        let t64 = t25.neg_mul_add(t57, n(p.k5));
-        let t65 = t25.mul_add(t58, t19);
-        let t66 = t25.mul_add(t59, t20);
-        let t67 = t51.neg_mul_add(t56, t62);
-        let t68 = N::ONE / t64;
-        let t69 = sin_t2 * n(p.zf);
-        let t70 = t55 * t46;
-        let t71 = t55 * t54;
-        let t72 = N::ONE / t67;
-        let t73 = t13.neg_mul_add(t7, t8);
-        let t74 = t73.mul_add(sin_Theta * n(p.k20), t14 * (cos_Theta * t7));
-        let t75 = t46.mul_add(t70, t31 * t39);
-        let t76 = t54.mul_add(t71, t42 * t47);
-        let t77 = n(p.k36) * t69;
-        let t78 = t74 + sin_Theta.neg_mul_add(t7 * n(p.k30), n(p.mom));
-        let t79 = t51.mul_add(t77, n(p.u).mul_sub(cos_epsilon, t69));
-        let t80 = t68 * t65;
-        let t81 = t68 * t66;
-        let t82 = t19.neg_mul_add(t7, sin_beta * t8);
-        let t83 = t20.neg_mul_add(t7, cos_beta * t8);
-        let t84 = t57.neg_mul_add(t78, t74);
-        let t85 = t72 * t79;
-        let t86 = t65.mul_add(t80, t26 * t58);
-        let t87 = t81.mul_add(t65, t59 * t26);
-        let t88 = t66.mul_add(t81, t27 * t59);
-        let t89 = t66.mul_add(t80, t27 * t58);
-        let t90 = N::ONE / t50 * (n(p.l0) - t50);
-        let t91 = t81.neg_mul_add(t84, t59 * t78);
-        let t92 = t80.neg_mul_add(t84, t58 * t78);
-        let t93 = t15.mul_add(t21, t86);
-        let t94 = t28.mul_sub(t15, t87);
-        let t95 = t22.mul_add(t28, t88);
-        let t96 = t40 * t90;
-        let t97 = t35 * t90;
-        let t98 = cos_t2 * n(p.zf);
-        let t99 = t79.mul_add(t85, t69 * t77);
-        let t100 = N::ONE / t93;
-        let t101 = t63.mul_sub(n(p.k11), n(p.k10) * t60);
-        let t102 = n(p.k10).mul_add(t63, n(p.k11) * t60);
-        let t103 = n(p.k36) * t98;
-        let t104 = t17 * (sin_Phi * t9);
-        let t105 = t16.mul_add(t9, t11).mul_sub(cos_Phi * n(p.k23), t104);
-        let t106 = t97.mul_add(n(p.k12), n(p.k13).mul_add(t96, t101));
-        let t107 = t33.neg_mul_add(t10, t12);
-        let t108 = t37 * (sin_Omega * t10);
-        let t109 = t107.mul_add(cos_Omega * n(p.k27), t108);
-        let t110 = t51.neg_mul_add(t103, n(p.u).mul_add(sin_epsilon, t98));
-        let t111 = t100 * t94;
-        let t112 = t86 * t100;
-        let t113 = t100 * t87;
-        let t114 = t97.neg_mul_add(n(p.k13), t96.mul_add(n(p.k12), t102));
-        let t115 = sin_gamma.mul_add(t114, cos_gamma * t106);
-        let t116 = t94.neg_mul_add(t111, t95);
-        let t117 = t94.mul_add(t112, t89);
-        let t118 = t94.mul_add(t113, t88);
-        let t119 = N::ONE / t116;
-        let t120 = t21.neg_mul_add(t115, t92 + n(p.ss).neg_mul_add(t53, t83));
-        let t121 = t72 * t110;
-        let t122 = cos_Phi.neg_mul_add(n(p.k22) * t9, t105);
-        let t123 = t38.neg_mul_add(t105, t122);
-        let t124 = t28.neg_mul_add(t115, n(p.ss).mul_add(t48, t82) - t91);
-        let t125 = t111.neg_mul_add(t120, t124);
-        let t126 = t82 - t31.neg_mul_add(t9, sin_delta * t11);
-        let t127 = cos_Omega.neg_mul_add(n(p.k26) * t10, t109);
-        let t128 = t56.neg_mul_add(t109, t127);
-        let t129 = t83 - t98.mul_add(t10, sin_epsilon * t12);
-        let t130 = t82 + t69.neg_mul_add(t10, cos_epsilon * t12);
-        let t131 = t39.mul_add(t105, t83 - t42.mul_add(t9, cos_delta * t11));
-        let t132 = t110.mul_add(t121, t98 * t103);
-        let t133 = t119 * t117;
-        let t134 = t119 * t118;
-        let t135 = t117.neg_mul_add(t133, t86.neg_mul_add(t112, t86));
-        let t136 = t134.neg_mul_add(t117, t86.neg_mul_add(t113, t87));
-        let t137 = t135 + t75;
-        let t138 = t71.neg_mul_add(t46, t47 * t31) - t136;
-        let t139 = t88 - t118.mul_add(t134, t87 * t113);
-        let t140 = t91 - t134.neg_mul_add(t125, t113 * t120);
-        let t141 = t92 - t133.neg_mul_add(t125, t112 * t120);
-        let t142 = N::ONE / t137;
-        let t143 = t141 + t70.neg_mul_add(t123, t131);
-        let t144 = t121.neg_mul_add(t128, t103.neg_mul_add(t109, t130));
-        let t145 = t142 * t138;
-        let t146 = t135 * t142;
-        let t147 = t142 * t136;
-        let t148 = t138.neg_mul_add(t145, t139 + t76);
-        let t149 = t118.neg_mul_add(t133, t87.neg_mul_add(t112, t89));
-        let t150 = t138.mul_add(t146, t149);
-        let t151 = t138.mul_add(t147, t139);
-        let t152 = t136 + t121.neg_mul_add(t79, t103 * t69);
-        let t153 = t71.mul_add(t123, t47.mul_add(t105, t126)) - t140;
-        let t154 = t145.neg_mul_add(t143, t153);
-        let t155 = t141 + t85.neg_mul_add(t128, t77.mul_add(t109, t129));
-        let t156 = N::ONE / t148;
-        let t157 = t156 * t150;
-        let t158 = t156 * t151;
-        let t159 = t150.neg_mul_add(t157, t135.neg_mul_add(t146, t99 + t135));
-        let t160 = t150.neg_mul_add(t158, t135.neg_mul_add(t147, t152));
-        let t161 = t157.mul_add(t154, t146.neg_mul_add(t143, t155));
-        let t162 = t136.neg_mul_add(t147, t132 + t139);
-        let t163 = N::ONE / t159;
-        let t164 = t163 * t160;
-        let t165 = t158.neg_mul_add(t154, t147.mul_add(t143, t144 - t140));
-        let t166 = t160.neg_mul_add(t164, t151.neg_mul_add(t158, t162));
-        let t167 = t164.mul_add(t161, t165) / t166;
-        let t168 = t164.mul_add(t167, t163 * t161);
-        let t169 = t157.mul_add(t168, t158.neg_mul_add(t167, t156 * t154));
-        let t170 = t146.neg_mul_add(t168, t147.mul_add(t167, t142 * t143));
-        let t171 = t145 * t169;
-        let t172 = t133.mul_add(t168, t134.neg_mul_add(t167, t119 * t125));
-        let t173 = t112.neg_mul_add(t168, t113.mul_add(t167, t100 * t120));
-        let t174 = t170 - t171;
-        let t175 = t133.mul_add(t174, t134.neg_mul_add(t169, t172));
-        let t176 = t112.neg_mul_add(t174, t113.mul_add(t169, t173));
-        let lambda1 = t111.mul_sub(t175, t176);
-        let lambda2 = -t175;
-        let lambda3 = t171 - t170;
-        let lambda4 = -t169;
-        let lambda5 = -t168;
-        let lambda6 = -t167;
-        let t177 = t86 + t75;
-        let t178 = t88 + t76;
-        let t179 = t86 + t99;
-        let t180 = t132 + t88;
-        let sound = t49.exceeds(N::from_f64(1.1546319456101628e-14) * t45)
-            & t67.exceeds(N::from_f64(1.1546319456101628e-14) * t62)
-            & t36.exceeds(N::from_f64(1.1546319456101628e-14) * t36)
-            & t64.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k5))
-            & t93.exceeds(N::from_f64(1.1546319456101628e-14) * t93)
-            & t116.exceeds(N::from_f64(1.1546319456101628e-14) * t95)
-            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t177)
-            & t148.exceeds(N::from_f64(1.1546319456101628e-14) * t178)
-            & t159.exceeds(N::from_f64(1.1546319456101628e-14) * t179)
-            & t166.exceeds(N::from_f64(1.1546319456101628e-14) * t180)
-            & lambda2.is_finite();
+        let t7 = delta_dot * delta_dot;
+        let t8 = t3 * t3;
+        let t9 = epsilon_dot * epsilon_dot;
+        let t10 = t5 * t5;
+        let t11 = gamma_dot * gamma_dot;
+        let t12 = t6 * t6;
+        let t13 = t8 * n(p.da);
+        let t14 = cos_beta * n(p.rr);
+        let t15 = sin_beta * n(p.rr);
+        let t16 = cos_gamma * n(p.ss);
+        let t17 = sin_delta * n(p.zt);
+        let t18 = cos_gamma * n(p.sd);
+        let t19 = sin_gamma * n(p.ss);
+        let t20 = sin_gamma * n(p.sd);
+        let t21 = sin_t0 * n(p.d);
+        let t22 = cos_t0 * n(p.d);
+        let t23 = t16 * n(p.k53);
+        let t24 = cos_t1 * n(p.e);
+        let t25 = sin_gamma * n(p.sc);
+        let t26 = sin_t0.mul_add(sin_beta, cos_t0 * cos_beta);
+        let t27 = t15 - t21;
+        let t28 = t14 - t22;
+        let t29 = sin_t1.mul_sub(cos_delta, cos_t1 * sin_delta);
+        let t30 = t17 - t24;
+        let t31 = n(p.k51) * t26;
+        let t32 = n(p.k50) * t29;
+        let t33 = t26.neg_mul_add(t26 * n(p.k41), n(p.k42));
+        let t34 = cos_gamma * n(p.sc);
+        let t35 = t29.neg_mul_add(t29 * n(p.k37), n(p.k38));
+        let t36 = N::ONE / t33;
+        let t37 = sin_t1 * n(p.e);
+        let t38 = cos_delta * n(p.zt);
+        let t39 = N::ONE / t35;
+        let t40 = n(p.xc) - (t25 + (t18 + n(p.xb)));
+        let t41 = cos_epsilon * n(p.u);
+        let t42 = n(p.yc) - (t20 + n(p.yb) - t34);
+        let t43 = sin_t2 * n(p.zf);
+        let t44 = t37 + t38;
+        let t45 = t15 * t4;
+        let t46 = sin_t2.mul_sub(cos_epsilon, cos_t2 * sin_epsilon);
+        let t47 = t14 * t4;
+        let t48 = t41 - t43;
+        let t49 = sin_epsilon * n(p.u);
+        let t50 = sin_t0.neg_mul_add(t13, t45);
+        let t51 = cos_t0.neg_mul_add(t13, t47);
+        let t52 = n(p.k49) * t46;
+        let t53 = t36 * t21.neg_mul_add(t31, t21 + t27);
+        let t54 = t36 * t31.neg_mul_add(t22, t22 + t28);
+        let t55 = t42.mul_add(t42, t40 * t40).sqrt();
+        let t56 = t39 * t24.mul_add(t32, t24 + t30);
+        let t57 = t46.neg_mul_add(t46 * n(p.k34), n(p.k35));
+        let t58 = t53 + t31.neg_mul_add(t53, t21 * n(p.k52));
+        let t59 = t39 * t32.neg_mul_add(t37, t44 - t37);
+        let t60 = t54 + t31.neg_mul_add(t54, n(p.k52) * t22);
+        let t61 = N::ONE / t57;
+        let t62 = t38 * t7;
+        let t63 = t56 + t32.mul_add(t56, t24 * n(p.k48));
+        let t64 = sin_t1 * t10;
+        let t65 = t21.mul_add(t58, t27 * t53);
+        let t66 = t58.mul_add(t22, t53 * t28);
+        let t67 = t22.mul_add(t60, t28 * t54);
+        let t68 = t21.mul_add(t60, t27 * t54);
+        let t69 = t16.mul_add(t23, t65);
+        let t70 = t23.neg_mul_add(t19, t66);
+        let t71 = t19.mul_add(n(p.k53) * t19, t67);
+        let t72 = t41 * t9;
+        let t73 = sin_t2 * t12;
+        let t74 = t65 + t24.mul_add(t63, t30 * t56);
+        let t75 = N::ONE / t55;
+        let t76 = N::ONE / t69;
+        let t77 = t50.mul_add(cos_beta * n(p.k21), n(p.mom));
+        let t78 = t59 - t32.neg_mul_add(t59, n(p.k48) * t37);
+        let t79 = cos_t0.mul_sub(t50, sin_t0 * t51);
+        let t80 = t17 * t7;
+        let t81 = cos_t1 * t10;
+        let t82 = t49 * t9;
+        let t83 = cos_t2 * t12;
+        let t84 = t67 + t37.neg_mul_add(t78, t44 * t59);
+        let t85 = t61 * t43.neg_mul_add(t52, t43 + t48);
+        let t86 = cos_t2 * n(p.zf);
+        let t87 = t51.neg_mul_add(sin_beta * n(p.k21), t77);
+        let t88 = t86 + t49;
+        let t89 = t76 * t70;
+        let t90 = t65 * t76;
+        let t91 = t76 * t66;
+        let t92 = t36 * t79.neg_mul_add(t26 * n(p.k40), t87);
+        let t93 = t42 * t75;
+        let t94 = t40 * t75;
+        let t95 = cos_t1 * n(p.k0).mul_add(t64, t62);
+        let t96 = sin_t1.mul_add(t81.neg_mul_add(n(p.k0), t80), t95);
+        let t97 = t70.neg_mul_add(t89, t71);
+        let t98 = t70.neg_mul_add(t90, t68);
+        let t99 = t70.neg_mul_add(t91, t67);
+        let t100 = N::ONE / t97;
+        let t101 = cos_t2 * n(p.k1).neg_mul_add(t73, t72);
+        let t102 = sin_t2.mul_add(t83.mul_add(n(p.k1), t82), t101);
+        let t103 = t85 + t52.neg_mul_add(t85, t43 * n(p.k47));
+        let t104 = sin_delta.mul_add(t64, cos_delta * t81);
+        let t105 = cos_epsilon.mul_add(t83, sin_epsilon * t73);
+        let t106 = n(p.k44).mul_add(t92.neg_mul_add(t26 * n(p.rr), t79), t92);
+        let t107 = t22.neg_mul_add(t8, t47);
+        let t108 = t21.neg_mul_add(t8, t45);
+        let t109 = t39 * t96.mul_add(t29 * n(p.k39), t104);
+        let t110 = t61 * t102.neg_mul_add(t46 * n(p.k36), t105);
+        let t111 = t100 * t98;
+        let t112 = t100 * t99;
+        let t113 = t65 + t43.mul_add(t103, t48 * t85);
+        let t114 = t21.mul_add(t106, t27 * t92);
+        let t115 = t98.mul_add(t111, t65 * t90);
+        let t116 = t112.mul_add(t98, t65 * t91);
+        let t117 = t99.mul_add(t112, t66 * t91);
+        let t118 = t22.mul_add(t106, t28 * t92);
+        let t119 = t74 - t115;
+        let t120 = t66 + t63.neg_mul_add(t37, t56 * t44) - t116;
+        let t121 = t65 - t115;
+        let t122 = N::ONE / t119;
+        let t123 = t61 * t52.mul_add(t86, t88 - t86);
+        let t124 = t18.mul_add(t93, t25 * t93) + t34.mul_sub(t94, t20 * t94);
+        let t125 = t124 * ((n(p.l0) - t55) * n(p.k54));
+        let t126 = t109.mul_add(t29 * n(p.k45), t96);
+        let t127 = t109 * n(p.k22);
+        let t128 = t110.neg_mul_add(t46 * n(p.k46), t102);
+        let t129 = t110 * n(p.k26);
+        let t130 = t66 - t116;
+        let t131 = t114 + t19.neg_mul_add(t11, t107);
+        let t132 = cos_gamma.neg_mul_add(t125, t131);
+        let t133 = n(p.k55) * n(p.k48).mul_add(t126, n(p.zt) * t109);
+        let t134 = t122 * t120;
+        let t135 = t122 * t121;
+        let t136 = n(p.k56) * n(p.k47).mul_add(t128, n(p.u) * t110);
+        let t137 = t122 * t130;
+        let t138 = t120.neg_mul_add(t134, t84 - t117);
+        let t139 = t99.neg_mul_add(t111, t66.neg_mul_add(t90, t68));
+        let t140 = t120.neg_mul_add(t135, t139);
+        let t141 = sin_gamma.neg_mul_add(t125, t16.mul_add(t11, t108) - t118);
+        let t142 = t89.mul_add(t132, t141);
+        let t143 = t30.mul_add(t127, t107 - t37.mul_add(t10, t62));
+        let t144 = N::ONE / t138;
+        let t145 = t44.neg_mul_add(t127, t108 - t24.neg_mul_add(t10, t80));
+        let t146 = t48.mul_add(t129, t107 - t86.mul_add(t12, t82));
+        let t147 = t88.mul_add(t129, t108 + t43.neg_mul_add(t12, t72));
+        let t148 = t123 - t52.mul_add(t123, n(p.k47) * t86);
+        let t149 = t120.neg_mul_add(t137, t67 - t117);
+        let t150 = t111.neg_mul_add(t142, t90 * t132);
+        let t151 = t112.neg_mul_add(t142, t91 * t132);
+        let t152 = t67 + t86.neg_mul_add(t148, t88 * t123);
+        let t153 = t66 + t103.mul_sub(t86, t85 * t88) - t116;
+        let t154 = t114 + cos_t1.mul_add(t133, t143) - t150;
+        let t155 = t144 * t140;
+        let t156 = t144 * t149;
+        let t157 = t151 + (sin_t1.mul_add(t133, t145) - t118);
+        let t158 = t134.mul_add(t154, t157);
+        let t159 = t114 + sin_t2.mul_add(t136, t146) - t150;
+        let t160 = t151 + (cos_t2.neg_mul_add(t136, t147) - t118);
+        let t161 = t121.neg_mul_add(t135, t113 - t115);
+        let t162 = t140.neg_mul_add(t155, t161);
+        let t163 = t140.neg_mul_add(t156, t121.neg_mul_add(t137, t153));
+        let t164 = t155.mul_add(t158, t135.neg_mul_add(t154, t159));
+        let t165 = t130.neg_mul_add(t137, t152 - t117);
+        let t166 = N::ONE / t162;
+        let t167 = t166 * t163;
+        let t168 = t156.neg_mul_add(t158, t137.mul_add(t154, t160));
+        let t169 = t163.neg_mul_add(t167, t149.neg_mul_add(t156, t165));
+        let t170 = t167.mul_add(t164, t168) / t169;
+        let t171 = t167.mul_add(t170, t166 * t164);
+        let t172 = t155.mul_add(t171, t156.neg_mul_add(t170, t144 * t158));
+        let t173 = t135.neg_mul_add(t171, t137.mul_add(t170, t122 * t154));
+        let t174 = t134.mul_add(t172, t173);
+        let t175 = t111.mul_add(t171, t112.neg_mul_add(t170, t100 * t142));
+        let t176 = t90.neg_mul_add(t171, t91.mul_add(t170, t76 * t132));
+        let t177 = t111.mul_add(t174, t112.neg_mul_add(t172, t175));
+        let t178 = t90.neg_mul_add(t174, t91.mul_add(t172, t176));
+        let lambda1 = -t89.mul_add(t177, t178);
+        let lambda2 = -t177;
+        let lambda3 = -t174;
+        let lambda4 = -t172;
+        let lambda5 = -t171;
+        let lambda6 = -t170;
+        let sound = t57.exceeds(N::from_f64(1.1546319456101628e-14) * t57)
+            & t35.exceeds(N::from_f64(1.1546319456101628e-14) * t35)
+            & t33.exceeds(N::from_f64(1.1546319456101628e-14) * t33)
+            & t69.exceeds(N::from_f64(1.1546319456101628e-14) * t69)
+            & t97.exceeds(N::from_f64(1.1546319456101628e-14) * t71)
+            & t119.exceeds(N::from_f64(1.1546319456101628e-14) * t74)
+            & t138.exceeds(N::from_f64(1.1546319456101628e-14) * t84)
+            & t162.exceeds(N::from_f64(1.1546319456101628e-14) * t113)
+            & t169.exceeds(N::from_f64(1.1546319456101628e-14) * t152)
+            & lambda1.is_finite();
         if !sound {
-            check(t49, t45, 1.1546319456101628e-14, 4)?;
-            check(t67, t62, 1.1546319456101628e-14, 6)?;
-            check(t36, t36, 1.1546319456101628e-14, 0)?;
-            check(t64, n(p.k5), 1.1546319456101628e-14, 1)?;
-            check(t93, t93, 1.1546319456101628e-14, 7)?;
-            check(t116, t95, 1.1546319456101628e-14, 8)?;
-            check(t137, t177, 1.1546319456101628e-14, 9)?;
-            check(t148, t178, 1.1546319456101628e-14, 10)?;
-            check(t159, t179, 1.1546319456101628e-14, 11)?;
-            check(t166, t180, 1.1546319456101628e-14, 12)?;
+            check(t57, t57, 1.1546319456101628e-14, 6)?;
+            check(t35, t35, 1.1546319456101628e-14, 4)?;
+            check(t33, t33, 1.1546319456101628e-14, 0)?;
+            check(t69, t69, 1.1546319456101628e-14, 7)?;
+            check(t97, t71, 1.1546319456101628e-14, 8)?;
+            check(t119, t74, 1.1546319456101628e-14, 9)?;
+            check(t138, t84, 1.1546319456101628e-14, 10)?;
+            check(t162, t113, 1.1546319456101628e-14, 11)?;
+            check(t169, t152, 1.1546319456101628e-14, 12)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -1955,6 +2019,26 @@ where
             k34: lanes(|p| p.k34),
             k35: lanes(|p| p.k35),
             k36: lanes(|p| p.k36),
+            k37: lanes(|p| p.k37),
+            k38: lanes(|p| p.k38),
+            k39: lanes(|p| p.k39),
+            k40: lanes(|p| p.k40),
+            k41: lanes(|p| p.k41),
+            k42: lanes(|p| p.k42),
+            k43: lanes(|p| p.k43),
+            k44: lanes(|p| p.k44),
+            k45: lanes(|p| p.k45),
+            k46: lanes(|p| p.k46),
+            k47: lanes(|p| p.k47),
+            k48: lanes(|p| p.k48),
+            k49: lanes(|p| p.k49),
+            k50: lanes(|p| p.k50),
+            k51: lanes(|p| p.k51),
+            k52: lanes(|p| p.k52),
+            k53: lanes(|p| p.k53),
+            k54: lanes(|p| p.k54),
+            k55: lanes(|p| p.k55),
+            k56: lanes(|p| p.k56),
             singular: None,
         }
     }

@@ -16,8 +16,8 @@
 //! | `constraint_rates` | 31 | 17 | 0 | 2 | 0 | 52 |
 //! | `constraint_matrix` | 31 | 6 | 0 | 2 | 0 | 41 |
 //! | `constraint_drift` | 67 | 40 | 0 | 2 | 0 | 111 |
-//! | `accelerations` | 182 | 101 | 4 | 2 | 0 | 291 |
-//! | `multipliers` | 164 | 85 | 4 | 2 | 0 | 257 |
+//! | `accelerations` | 182 | 102 | 4 | 2 | 0 | 292 |
+//! | `multipliers` | 164 | 86 | 4 | 2 | 0 | 258 |
 //! | `kinetic_energy` | 15 | 8 | 0 | 1 | 0 | 25 |
 //! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `work_rate` | 19 | 13 | 0 | 1 | 0 | 34 |
@@ -101,8 +101,8 @@ impl<S: ::lagrangian::Scalar> BallInBowl<S> {
         let k11 = -k5;
         let k12 = -k3;
         let k13 = -k7;
-        let k14 = S::ONE / self.m;
-        let k15 = S::ONE / self.J;
+        let k14 = S::ONE / self.J;
+        let k15 = S::ONE / self.m;
         let singular = if vanishes(self.m, self.m, 7.993605777301127e-15) {
             Some(singular(2, self.m, self.m))
         } else if vanishes(self.J, self.J, 7.993605777301127e-15) {
@@ -249,9 +249,9 @@ pub struct Prepared<S = f64> {
     k12: S,
     /// `-r/(r - R)^3`
     k13: S,
-    /// `1/m`
-    k14: S,
     /// `1/J`
+    k14: S,
+    /// `1/m`
     k15: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
@@ -546,25 +546,25 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t3 = z * n(p.k0);
         let t4 = z * y;
         let t5 = b_dot * a_dot;
-        let t6 = n(p.k14) * t0;
+        let t6 = n(p.k15) * t0;
         let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.k14) * t1;
+        let t8 = n(p.k15) * t1;
         let t9 = t2 * n(p.k5);
-        let t10 = n(p.k14) * t3;
+        let t10 = n(p.k15) * t3;
         let t11 = n(p.k3) * t2;
         let t12 = t4 * n(p.k3);
         let t13 = n(p.k3) * t7;
-        let t14 = n(p.k15) * t9;
-        let t15 = n(p.k14) * t11;
-        let t16 = n(p.k14) * t12;
+        let t14 = n(p.k14) * t9;
+        let t15 = n(p.k15) * t11;
+        let t16 = n(p.k15) * t12;
         let t17 = y.mul_add(t7, z * t4);
         let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.k14) * t13;
+        let t19 = n(p.k15) * t13;
         let t20 = x.mul_add(t7, z * t2);
         let t21 = n(p.k7) * t17;
         let t22 = t3.mul_add(t10, t18);
         let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.k15) * t21;
+        let t24 = n(p.k14) * t21;
         let t25 = N::ONE / t22;
         let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
         let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
@@ -576,7 +576,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t33 = cos_b * c_dot;
         let t34 = sin_b * c_dot;
         let t35 = sin_a_ * cos_b;
-        let t36 = n(p.k15) * t32;
+        let t36 = n(p.k14) * t32;
         let t37 = t33 * a_dot;
         let t38 = b_dot * t34;
         let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
@@ -590,7 +590,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t47 = t33 * b_dot;
         let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
         let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.k15) * t43;
+        let t50 = n(p.k14) * t43;
         let t51 = y.neg_mul_add(n(p.k2), x_dot);
         let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
         let t53 = cos_a_ * (t20 * n(p.k7));
@@ -602,7 +602,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
         let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
         let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.k15);
+        let t62 = t53 * n(p.k14);
         let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
         let t64 = n(p.J) * t47;
         let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
@@ -617,7 +617,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
         let t75 = y.mul_add(t47, y_dot * t42) - t69;
         let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.mul_sub(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.k6)));
         let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
         let t79 = t68.neg_mul_add(t46, t78);
         let t80 = y.neg_mul_add(t59, y_dot * t52);
@@ -628,20 +628,20 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t85 = x.mul_add(t61, x_dot * t57) - t80;
         let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
         let t87 = t71 * t79;
-        let t88 = t68.mul_add(t73, t24.mul_add(t64, t77));
-        let t89 = t75.mul_sub(t7 * n(p.k1), t74) + t82;
+        let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
+        let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
         let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
-        let t91 = t87.mul_add(t86, n(p.k3).neg_mul_add(t89, t88)) / t90;
-        let t92 = t87.mul_add(t91, t71 * t86);
-        let t93 = t68.neg_mul_add(t91, t44 * t73);
-        let t94 = t29.mul_add(t92, t30.neg_mul_add(t91, t25 * t28));
+        let t91 = t87.neg_mul_add(t86, t89) / t90;
+        let t92 = t87.neg_mul_add(t91, t71 * t86);
+        let t93 = t68.mul_add(t91, t44 * t73);
+        let t94 = t29.mul_add(t92, t30.mul_add(t91, t25 * t28));
         let t95 = t54 * t92;
-        let t96 = t14.neg_mul_add(t92, t24.mul_sub(t91, n(p.k15) * t64));
-        let x_ddot = t6.neg_mul_add(t94, t8.mul_add(t92, t15 * t91));
-        let y_ddot = -t8.mul_add(t94, t6.mul_sub(t92, t16 * t91));
-        let z_ddot = -t10.mul_add(t94, t19.mul_add(t91, n(p.g)));
-        let a_ddot = t36.mul_add(t93 - t95, t96);
-        let b_ddot = t50.mul_add(t92, t62.neg_mul_add(t91, n(p.k15) * t66));
+        let t96 = t14.mul_add(t92, t24.mul_add(t91, n(p.k14) * t64));
+        let x_ddot = -t6.mul_add(t94, t8.neg_mul_add(t92, t15 * t91));
+        let y_ddot = -t8.mul_add(t94, t6.mul_add(t92, t16 * t91));
+        let z_ddot = -t10.mul_add(t94, t19.neg_mul_add(t91, n(p.g)));
+        let a_ddot = t36.mul_sub(t93 - t95, t96);
+        let b_ddot = t50.mul_add(t92, t62.mul_add(t91, n(p.k14) * t66));
         let c_ddot = t95 - t93;
         let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
             & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
@@ -718,25 +718,25 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t3 = z * n(p.k0);
         let t4 = z * y;
         let t5 = b_dot * a_dot;
-        let t6 = n(p.k14) * t0;
+        let t6 = n(p.k15) * t0;
         let t7 = y.mul_add(y, x * x);
-        let t8 = n(p.k14) * t1;
+        let t8 = n(p.k15) * t1;
         let t9 = t2 * n(p.k5);
-        let t10 = n(p.k14) * t3;
+        let t10 = n(p.k15) * t3;
         let t11 = n(p.k3) * t2;
         let t12 = t4 * n(p.k3);
         let t13 = n(p.k3) * t7;
-        let t14 = n(p.k15) * t9;
-        let t15 = n(p.k14) * t11;
-        let t16 = n(p.k14) * t12;
+        let t14 = n(p.k14) * t9;
+        let t15 = n(p.k15) * t11;
+        let t16 = n(p.k15) * t12;
         let t17 = y.mul_add(t7, z * t4);
         let t18 = t1.mul_add(t8, t0 * t6);
-        let t19 = n(p.k14) * t13;
+        let t19 = n(p.k15) * t13;
         let t20 = x.mul_add(t7, z * t2);
         let t21 = n(p.k7) * t17;
         let t22 = t3.mul_add(t10, t18);
         let t23 = t8.mul_sub(t0, t1 * t6);
-        let t24 = n(p.k15) * t21;
+        let t24 = n(p.k14) * t21;
         let t25 = N::ONE / t22;
         let t26 = t19.mul_sub(t3, t16.mul_add(t1, t15 * t0));
         let t27 = z_dot.mul_add(z_dot, y_dot.mul_add(y_dot, x_dot * x_dot));
@@ -748,7 +748,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t33 = cos_b * c_dot;
         let t34 = sin_b * c_dot;
         let t35 = sin_a_ * cos_b;
-        let t36 = n(p.k15) * t32;
+        let t36 = n(p.k14) * t32;
         let t37 = t33 * a_dot;
         let t38 = b_dot * t34;
         let t39 = sin_a_.neg_mul_add(t33, cos_a_ * b_dot);
@@ -762,7 +762,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t47 = t33 * b_dot;
         let t48 = cos_a_.mul_sub(t5, cos_a_.mul_add(t38, sin_a_ * t37));
         let t49 = sin_a_.mul_add(t5, cos_a_.mul_sub(t37, sin_a_ * t38));
-        let t50 = n(p.k15) * t43;
+        let t50 = n(p.k14) * t43;
         let t51 = y.neg_mul_add(n(p.k2), x_dot);
         let t52 = n(p.k1).neg_mul_add(z.mul_sub(t39, y * t41), t51);
         let t53 = cos_a_ * (t20 * n(p.k7));
@@ -774,7 +774,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t59 = n(p.k1).mul_add(t58, y_dot * n(p.k2));
         let t60 = x.mul_add(t48, x_dot * t41) - z.mul_add(t47, z_dot * t42);
         let t61 = n(p.k1).neg_mul_add(t60, x_dot * n(p.k2));
-        let t62 = t53 * n(p.k15);
+        let t62 = t53 * n(p.k14);
         let t63 = n(p.k7).mul_sub(t20.mul_add(t35, sin_b * t17), t32 * t24);
         let t64 = n(p.J) * t47;
         let t65 = t46.mul_add(t54, t18) + t43.mul_add(t50, t9 * t14);
@@ -789,7 +789,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t74 = t70 * (y.mul_add(y_dot, x * x_dot) * N::from_f64(2.0));
         let t75 = y.mul_add(t47, y_dot * t42) - t69;
         let t76 = y.mul_add(t61, y_dot * t57) + t72;
-        let t77 = t62.mul_sub(t66, t30.mul_add(t28, t19 * n(p.k6)));
+        let t77 = t62.neg_mul_add(t66, t30.mul_add(t28, t19 * n(p.k6)));
         let t78 = t62.mul_add(t43, t23.neg_mul_add(t30, t31));
         let t79 = t68.neg_mul_add(t46, t78);
         let t80 = y.neg_mul_add(t59, y_dot * t52);
@@ -800,12 +800,13 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t85 = x.mul_add(t61, x_dot * t57) - t80;
         let t86 = n(p.k0).mul_add(t85, t54.mul_add(t73, t81));
         let t87 = t71 * t79;
-        let t88 = t68.mul_add(t73, t24.mul_add(t64, t77));
-        let t89 = t75.mul_sub(t7 * n(p.k1), t74) + t82;
+        let t88 = t68.neg_mul_add(t73, t24.neg_mul_add(t64, t77));
+        let t89 = n(p.k3).mul_add(t75.mul_sub(t7 * n(p.k1), t74) + t82, t88);
         let t90 = t79.neg_mul_add(t87, t26.neg_mul_add(t30, t84));
-        let lambda3 = t87.mul_add(t86, n(p.k3).neg_mul_add(t89, t88)) / t90;
-        let lambda2 = t87.mul_add(lambda3, t71 * t86);
-        let lambda1 = t29.mul_add(lambda2, t30.neg_mul_add(lambda3, t25 * t28));
+        let t91 = t87.neg_mul_add(t86, t89) / t90;
+        let lambda2 = t87.neg_mul_add(t91, t71 * t86);
+        let lambda1 = t29.mul_add(lambda2, t30.mul_add(t91, t25 * t28));
+        let lambda3 = -t91;
         let sound = t22.exceeds(N::from_f64(7.993605777301127e-15) * t22)
             & t40.exceeds(N::from_f64(7.993605777301127e-15) * n(p.J))
             & t67.exceeds(N::from_f64(7.993605777301127e-15) * t65)

@@ -324,8 +324,8 @@ pub struct Prepared<S = f64> {
 /// M[q[2], q[2]] = …
 /// M[q[3], q[1]] = …
 /// M[q[3], q[2]] = …
-/// M[q[3], q[3]] = 1/12*(4*l^2 - w^2)*m*cos(q[4])^2*cos(q[5])^2 - 1/6*(10*l^2 - w^2)*m*cos(q[4])^2
-///     + l^2*m*sin(q[4])^2*sin(q[5]) + l^2*m*sin(q[4])*sin(q[5]) + 3*l^2*m*sin(q[4]) + 4*l^2*m
+/// M[q[3], q[3]] = l^2*m*sin(q[4])^2*sin(q[5]) - 1/12*(w^2 - 4*l^2)*m*cos(q[4])^2*cos(q[5])^2
+///     - 1/6*(10*l^2 - w^2)*m*cos(q[4])^2 + l^2*m*sin(q[4])*sin(q[5]) + 3*l^2*m*sin(q[4]) + 4*l^2*m
 ///     + 1/4*w^2*m
 /// M[q[4], q[1]] = l^2*m*cos(q[2])*cos(q[3])*sin(q[5])
 ///     - 1/12*(4*l^2 - w^2)*m*cos(q[2])*cos(q[3])*cos(q[5])^2
@@ -343,7 +343,7 @@ pub struct Prepared<S = f64> {
 ///     - 1/2*l^2*m*sin(q[4])*cos(q[3] + q[5]) + 3/2*l^2*m*sin(q[4])
 /// M[q[4], q[3]] = 1/12*(4*l^2 - w^2)*m*cos(q[4])*cos(q[5])*sin(q[5])
 ///     + 1/2*l^2*m*cos(q[4])*cos(q[5])
-/// M[q[4], q[4]] = l^2*m*sin(q[5]) - 1/12*(4*l^2 - w^2)*m*cos(q[5])^2 + 5/3*l^2*m + 1/6*w^2*m
+/// M[q[4], q[4]] = 1/12*(w^2 - 4*l^2)*m*cos(q[5])^2 + l^2*m*sin(q[5]) + 5/3*l^2*m + 1/6*w^2*m
 /// M[q[5], q[1]] = (1/4*l^2*m + 1/12*(l^2 + w^2)*m)*(sin(q[2])*sin(q[4]) -
 ///     cos(q[2])*sin(q[3])*cos(q[4])) - 1/2*l*m*(cos(q[5])*(l*cos(q[2])*cos(q[3])*cos(q[4]) -
 ///     cos(q[3])*sin(q[4])*(-l*sin(q[2]) - l)) + sin(q[5])*((sin(q[3])*(-l*sin(q[2]) - l) -
@@ -1270,8 +1270,8 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t124 = sin_q_4.neg_mul_add(t119, t11 * cos_q_1);
         let t125 = cos_q_3.mul_sub(t110, sin_q_3 * sin_q_1);
         let t126 = n(p.l) * cos_q_5.mul_sub(t124, sin_q_5 * t125);
-        let t127 = t89.mul_add(t114, t21.mul_sub(t108, t126));
-        let t128 = t93.neg_mul_add(t123, t91.neg_mul_add(t118, t127));
+        let t127 = t89.neg_mul_add(t114, t21.neg_mul_add(t108, t126));
+        let t128 = t93.mul_add(t123, t91.mul_add(t118, t127));
         let t129 = t97 * t128;
         let t130 = t117.mul_add(t118, t113.mul_add(t114, t107 * t108));
         let t131 = t128.mul_add(t129, t122.mul_add(t123, t130));
@@ -1287,7 +1287,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t141 = t93.neg_mul_add(t139, t140);
         let t142 = t97 * t141;
         let t143 = t139.mul_add(t122, t137.mul_add(t117, t135 * t113));
-        let t144 = t142.mul_add(t128, t143);
+        let t144 = t142.neg_mul_add(t128, t143);
         let t145 = t132 * t144;
         let t146 = t136.mul_add(t137, t134 * t135);
         let t147 = t141.mul_add(t142, t138 * t139) + t146;
@@ -1315,7 +1315,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t169 = t93.neg_mul_add(t164, t91.mul_add(t159, t168));
         let t170 = t97 * t169;
         let t171 = t159.mul_add(t117, t155.mul_add(t113, t151 * t107));
-        let t172 = t170.neg_mul_add(t128, t164.neg_mul_add(t122, t171));
+        let t172 = t170.mul_add(t128, t164.neg_mul_add(t122, t171));
         let t173 = t132 * t172;
         let t174 = t164.neg_mul_add(t138, t159.mul_add(t136, t155 * t134));
         let t175 = t144.neg_mul_add(t173, t170.neg_mul_add(t141, t174));
@@ -1337,7 +1337,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t191 = t93.neg_mul_add(t188, t91.neg_mul_add(t185, t190));
         let t192 = t97 * t191;
         let t193 = t188.mul_add(t122, t185.mul_add(t117, t183 * t113));
-        let t194 = t192.mul_add(t128, t193);
+        let t194 = t192.neg_mul_add(t128, t193);
         let t195 = t132 * t194;
         let t196 = t188.mul_add(t138, t185.mul_add(t136, t183 * t134));
         let t197 = t144.neg_mul_add(t195, t192.mul_add(t141, t196));
@@ -1369,7 +1369,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t223 = t97 * t222;
         let t224 = t211.neg_mul_add(t113, t209 * t107);
         let t225 = t219.mul_add(t122, t216.neg_mul_add(t117, t224));
-        let t226 = t223.neg_mul_add(t128, t225);
+        let t226 = t223.mul_add(t128, t225);
         let t227 = t132 * t226;
         let t228 = t219.neg_mul_add(t138, t216.mul_add(t136, t211 * t134));
         let t229 = t144.mul_add(t227, t223.mul_add(t141, t228));
@@ -1388,7 +1388,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t242 = t240.mul_add(t240, q_2_dot * q_2_dot);
         let t243 = n(p.l).mul_add(t242, t240.mul_add(t241, cos_q_2 * n(p.g)));
         let t244 = cos_q_2 * q_2_dot;
-        let t245 = t244 * q_1_dot;
+        let t245 = q_1_dot * t244;
         let t246 = t245 * n(p.k16);
         let t247 = cos_q_3.mul_sub(t243, sin_q_3 * t246);
         let t248 = cos_q_2 * q_1_dot;
@@ -1397,12 +1397,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t251 = t249 * t250;
         let t252 = t245 - t251;
         let t253 = n(p.l).neg_mul_add(t252, t247);
-        let t254 = q_3_dot + t240;
+        let t254 = t240 + q_3_dot;
         let t255 = cos_q_4.mul_sub(t254, sin_q_4 * t249);
         let t256 = q_2_dot * t240;
         let t257 = sin_q_3.mul_sub(t256, q_3_dot * t250);
         let t258 = cos_q_4.mul_add(t257, sin_q_4 * t245);
-        let t259 = q_4_dot.mul_add(t255, t258);
+        let t259 = t255.mul_add(q_4_dot, t258);
         let t260 = q_4_dot + t250;
         let t261 = t255 * t260;
         let t262 = t259 + t261;
@@ -1410,9 +1410,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t264 = cos_q_3.mul_add(t246, sin_q_3 * t243);
         let t265 = n(p.l).mul_add(t263, t264);
         let t266 = t248.neg_mul_add(t241, sin_q_2 * n(p.g));
-        let t267 = t240 * t248;
+        let t267 = t248 * t240;
         let t268 = n(p.l).neg_mul_add(t267, t266);
-        let t269 = cos_q_3.mul_sub(t256, q_3_dot * t249);
+        let t269 = cos_q_3.mul_sub(t256, t249 * q_3_dot);
         let t270 = t249 * t254;
         let t271 = t269 - t270;
         let t272 = n(p.l).neg_mul_add(t271, t268);
@@ -1427,7 +1427,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t281 = n(p.k3).mul_sub(t259, n(p.k5) * t279);
         let t282 = n(p.k25).neg_mul_add(t280, t281);
         let t283 = t259 - t279;
-        let t284 = q_5_dot + t273;
+        let t284 = t273 + q_5_dot;
         let t285 = t284.mul_add(t284, t278 * t278);
         let t286 = sin_q_5.mul_add(t283, cos_q_5 * t285);
         let t287 = n(p.k7).mul_add(t259, n(p.k6) * t261);
@@ -1442,7 +1442,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t296 = sin_q_4.neg_mul_add(t257, cos_q_4 * t245);
         let t297 = q_4_dot.neg_mul_add(t273, t296);
         let t298 = cos_q_5.mul_sub(t297, sin_q_5 * t269);
-        let t299 = q_5_dot.mul_add(t277, t298);
+        let t299 = t277.mul_add(q_5_dot, t298);
         let t300 = t277 * t284;
         let t301 = n(p.k5).mul_add(t299, n(p.k3) * t300);
         let t302 = n(p.k25).neg_mul_add(n(p.l).mul_add(t295, t293), t301);
@@ -1510,14 +1510,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t364 = sin_q_4 * q_4_dot;
         let t365 = q_4_dot * t364;
         let t366 = cos_q_4 * cos_q_1;
-        let t367 = t366 * t256;
+        let t367 = t256 * t366;
         let t368 = cos_q_4 * sin_q_1;
         let t369 = q_2_dot * t244;
         let t370 = t346 * t364;
         let t371 = sin_q_1 * t370;
         let t372 = q_1_dot * t336;
         let t373 = t0 * q_4_dot;
-        let t374 = t373 * t339;
+        let t374 = t339 * t373;
         let t375 = t368.mul_add(t369, t367) - t371;
         let t376 = t11 * q_4_dot;
         let t377 = q_4_dot * t376;
@@ -1534,7 +1534,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t388 = q_5_dot * t387;
         let t389 = sin_q_5.neg_mul_add(t380, t386);
         let t390 = t350 * t344;
-        let t391 = t342 * t350;
+        let t391 = t350 * t342;
         let t392 = cos_q_3 * t244;
         let t393 = t339 * t392;
         let t394 = cos_q_3.mul_add(t337, t391) - t393;
@@ -1571,7 +1571,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t425 = t362 * t424;
         let t426 = sin_q_4.neg_mul_add(t422, t425);
         let t427 = t256 * t368;
-        let t428 = t336 * t373;
+        let t428 = t373 * t336;
         let t429 = cos_q_1 * t370;
         let t430 = t366.neg_mul_add(t369, t429 + t427);
         let t431 = cos_q_1.neg_mul_add(t377, t429 + t428);
@@ -1581,7 +1581,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t435 = t385 * (t434 + cos_q_1.mul_add(t382, t11 * t336));
         let t436 = t350 * t412;
         let t437 = t336 * t392;
-        let t438 = t350 * t416;
+        let t438 = t416 * t350;
         let t439 = cos_q_3.mul_add(t415, t437) - t438;
         let t440 = cos_q_3.mul_add(t414, t436 + t437) + t439;
         let t441 = t341 * t339;
@@ -1597,7 +1597,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t451 = t125.neg_mul_add(t403, t445) + t447 - t448 + t450;
         let t452 = t114.mul_add(t332, t108.mul_add(t328, n(p.l) * t451));
         let t453 = t123.neg_mul_add(t335, t118.mul_add(t333, t452));
-        let t454 = t129.mul_add(t409, t453);
+        let t454 = t129.neg_mul_add(t409, t453);
         let t455 = sin_q_4 * t341;
         let t456 = t346 * t455;
         let t457 = t341 * t376;
@@ -1642,7 +1642,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t496 = t192.mul_add(t409, t188.neg_mul_add(t335, t495));
         let t497 = t198.neg_mul_add(t484, t195.neg_mul_add(t454, t496));
         let t498 = t202.neg_mul_add(t486, t497);
-        let t499 = t384 * t387;
+        let t499 = t387 * t384;
         let t500 = t385 * t401;
         let t501 = sin_q_5.neg_mul_add(t398, t500);
         let t502 = t165.mul_add(t403, t499) + cos_q_5.mul_add(t380, t499);
@@ -1657,36 +1657,35 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t511 = t238.neg_mul_add(t239, t234.neg_mul_add(t235, t510));
         let t512 = t239.mul_add(t498, t507) / t511;
         let t513 = t239.mul_add(t512, t207 * t498);
-        let t514 = t235.neg_mul_add(t512, t180 * t486);
-        let t515 = t202.neg_mul_add(t513, t514);
-        let t516 = t192.neg_mul_add(t513, t223.mul_add(t512, t97 * t409));
+        let t514 = t227.neg_mul_add(t512, t132 * t454);
+        let t515 = t235.neg_mul_add(t512, t180 * t486);
+        let t516 = t202.neg_mul_add(t513, t515);
         let t517 = t198.neg_mul_add(t513, t230.mul_add(t512, t149 * t484));
-        let t518 = t176.neg_mul_add(t515, t517);
-        let t519 = t142.neg_mul_add(t518, t170.mul_add(t515, t516));
-        let t520 = t227.neg_mul_add(t512, t132 * t454);
-        let t521 = t173.neg_mul_add(t515, t195.neg_mul_add(t513, t520));
-        let t522 = t145.neg_mul_add(t518, t521);
-        let t523 = t129 * t522;
-        let t524 = t519 - t523;
-        let t525 = t188.mul_add(t513, t219.mul_add(t512, t87 * t335));
-        let t526 = t139.mul_add(t518, t164.neg_mul_add(t515, t525));
-        let q_4_ddot = t94.mul_add(t524, t123.mul_add(t522, t526));
-        let t527 = t183.neg_mul_add(t513, t211.mul_add(t512, t66 * t332));
-        let t528 = t135.neg_mul_add(t518, t155.neg_mul_add(t515, t527));
-        let t529 = t90.mul_add(t524, t114.neg_mul_add(t522, t528));
-        let t530 = t80.mul_add(q_4_ddot, t529);
-        let t531 = t185.neg_mul_add(t513, t216.mul_add(t512, t77 * t333));
-        let t532 = t137.neg_mul_add(t518, t159.neg_mul_add(t515, t531));
-        let t533 = t92.neg_mul_add(t524, t118.neg_mul_add(t522, t532));
-        let t534 = t83.mul_add(q_4_ddot, t533);
-        let t535 = t70 * t534;
-        let t536 = t151.neg_mul_add(t515, t209.neg_mul_add(t512, t42 * t328));
-        let t537 = t88.mul_add(t524, t108.neg_mul_add(t522, t536));
-        let t538 = t67.neg_mul_add(t534, t78.mul_add(q_4_ddot, t537));
-        let q_1_ddot = -t45.mul_add(t530 - t535, t538);
-        let q_2_ddot = t535 - t530;
-        let q_3_ddot = -t534;
-        let q_5_ddot = t523 - t519;
+        let t518 = t176.neg_mul_add(t516, t517);
+        let t519 = t173.neg_mul_add(t516, t195.neg_mul_add(t513, t514));
+        let t520 = t145.neg_mul_add(t518, t519);
+        let t521 = t192.neg_mul_add(t513, t223.mul_add(t512, t97 * t409));
+        let t522 = t142.neg_mul_add(t518, t170.mul_add(t516, t521));
+        let t523 = t129.mul_add(t520, t522);
+        let t524 = t188.mul_add(t513, t219.mul_add(t512, t87 * t335));
+        let t525 = t139.mul_add(t518, t164.neg_mul_add(t516, t524));
+        let q_4_ddot = t94.mul_add(t523, t123.mul_add(t520, t525));
+        let t526 = t183.neg_mul_add(t513, t211.mul_add(t512, t66 * t332));
+        let t527 = t135.neg_mul_add(t518, t155.neg_mul_add(t516, t526));
+        let t528 = t90.mul_add(t523, t114.neg_mul_add(t520, t527));
+        let t529 = t80.mul_add(q_4_ddot, t528);
+        let t530 = t185.neg_mul_add(t513, t216.mul_add(t512, t77 * t333));
+        let t531 = t137.neg_mul_add(t518, t159.neg_mul_add(t516, t530));
+        let t532 = t92.neg_mul_add(t523, t118.neg_mul_add(t520, t531));
+        let t533 = t83.mul_add(q_4_ddot, t532);
+        let t534 = t70 * t533;
+        let t535 = t151.neg_mul_add(t516, t209.neg_mul_add(t512, t42 * t328));
+        let t536 = t88.mul_add(t523, t108.neg_mul_add(t520, t535));
+        let t537 = t67.neg_mul_add(t533, t78.mul_add(q_4_ddot, t536));
+        let q_1_ddot = -t45.mul_add(t529 - t534, t537);
+        let q_2_ddot = t534 - t529;
+        let q_3_ddot = -t533;
+        let q_5_ddot = -t523;
         let sound = t41.exceeds(N::from_f64(8.881784197001252e-15) * t41)
             & t65.exceeds(N::from_f64(8.881784197001252e-15) * t64)
             & t76.exceeds(N::from_f64(8.881784197001252e-15) * t75)
@@ -1893,8 +1892,8 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t124 = sin_q_4.neg_mul_add(t119, t11 * cos_q_1);
         let t125 = cos_q_3.mul_sub(t110, sin_q_3 * sin_q_1);
         let t126 = n(p.l) * cos_q_5.mul_sub(t124, sin_q_5 * t125);
-        let t127 = t89.mul_add(t114, t21.mul_sub(t108, t126));
-        let t128 = t93.neg_mul_add(t123, t91.neg_mul_add(t118, t127));
+        let t127 = t89.neg_mul_add(t114, t21.neg_mul_add(t108, t126));
+        let t128 = t93.mul_add(t123, t91.mul_add(t118, t127));
         let t129 = t97 * t128;
         let t130 = t117.mul_add(t118, t113.mul_add(t114, t107 * t108));
         let t131 = t128.mul_add(t129, t122.mul_add(t123, t130));
@@ -1910,7 +1909,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t141 = t93.neg_mul_add(t139, t140);
         let t142 = t97 * t141;
         let t143 = t139.mul_add(t122, t137.mul_add(t117, t135 * t113));
-        let t144 = t142.mul_add(t128, t143);
+        let t144 = t142.neg_mul_add(t128, t143);
         let t145 = t132 * t144;
         let t146 = t136.mul_add(t137, t134 * t135);
         let t147 = t141.mul_add(t142, t138 * t139) + t146;
@@ -1938,7 +1937,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t169 = t93.neg_mul_add(t164, t91.mul_add(t159, t168));
         let t170 = t97 * t169;
         let t171 = t159.mul_add(t117, t155.mul_add(t113, t151 * t107));
-        let t172 = t170.neg_mul_add(t128, t164.neg_mul_add(t122, t171));
+        let t172 = t170.mul_add(t128, t164.neg_mul_add(t122, t171));
         let t173 = t132 * t172;
         let t174 = t164.neg_mul_add(t138, t159.mul_add(t136, t155 * t134));
         let t175 = t144.neg_mul_add(t173, t170.neg_mul_add(t141, t174));
@@ -1960,7 +1959,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t191 = t93.neg_mul_add(t188, t91.neg_mul_add(t185, t190));
         let t192 = t97 * t191;
         let t193 = t188.mul_add(t122, t185.mul_add(t117, t183 * t113));
-        let t194 = t192.mul_add(t128, t193);
+        let t194 = t192.neg_mul_add(t128, t193);
         let t195 = t132 * t194;
         let t196 = t188.mul_add(t138, t185.mul_add(t136, t183 * t134));
         let t197 = t144.neg_mul_add(t195, t192.mul_add(t141, t196));
@@ -1992,7 +1991,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t223 = t97 * t222;
         let t224 = t211.neg_mul_add(t113, t209 * t107);
         let t225 = t219.mul_add(t122, t216.neg_mul_add(t117, t224));
-        let t226 = t223.neg_mul_add(t128, t225);
+        let t226 = t223.mul_add(t128, t225);
         let t227 = t132 * t226;
         let t228 = t219.neg_mul_add(t138, t216.mul_add(t136, t211 * t134));
         let t229 = t144.mul_add(t227, t223.mul_add(t141, t228));
@@ -2011,7 +2010,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t242 = t240.mul_add(t240, q_2_dot * q_2_dot);
         let t243 = n(p.l).mul_add(t242, t240.mul_add(t241, cos_q_2 * n(p.g)));
         let t244 = cos_q_2 * q_2_dot;
-        let t245 = t244 * q_1_dot;
+        let t245 = q_1_dot * t244;
         let t246 = t245 * n(p.k16);
         let t247 = cos_q_3.mul_sub(t243, sin_q_3 * t246);
         let t248 = cos_q_2 * q_1_dot;
@@ -2020,12 +2019,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t251 = t249 * t250;
         let t252 = t245 - t251;
         let t253 = n(p.l).neg_mul_add(t252, t247);
-        let t254 = q_3_dot + t240;
+        let t254 = t240 + q_3_dot;
         let t255 = cos_q_4.mul_sub(t254, sin_q_4 * t249);
         let t256 = q_2_dot * t240;
         let t257 = sin_q_3.mul_sub(t256, q_3_dot * t250);
         let t258 = cos_q_4.mul_add(t257, sin_q_4 * t245);
-        let t259 = q_4_dot.mul_add(t255, t258);
+        let t259 = t255.mul_add(q_4_dot, t258);
         let t260 = q_4_dot + t250;
         let t261 = t255 * t260;
         let t262 = t259 + t261;
@@ -2033,9 +2032,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t264 = cos_q_3.mul_add(t246, sin_q_3 * t243);
         let t265 = n(p.l).mul_add(t263, t264);
         let t266 = t248.neg_mul_add(t241, sin_q_2 * n(p.g));
-        let t267 = t240 * t248;
+        let t267 = t248 * t240;
         let t268 = n(p.l).neg_mul_add(t267, t266);
-        let t269 = cos_q_3.mul_sub(t256, q_3_dot * t249);
+        let t269 = cos_q_3.mul_sub(t256, t249 * q_3_dot);
         let t270 = t249 * t254;
         let t271 = t269 - t270;
         let t272 = n(p.l).neg_mul_add(t271, t268);
@@ -2050,7 +2049,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t281 = n(p.k3).mul_sub(t259, n(p.k5) * t279);
         let t282 = n(p.k25).neg_mul_add(t280, t281);
         let t283 = t259 - t279;
-        let t284 = q_5_dot + t273;
+        let t284 = t273 + q_5_dot;
         let t285 = t284.mul_add(t284, t278 * t278);
         let t286 = sin_q_5.mul_add(t283, cos_q_5 * t285);
         let t287 = n(p.k7).mul_add(t259, n(p.k6) * t261);
@@ -2065,7 +2064,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t296 = sin_q_4.neg_mul_add(t257, cos_q_4 * t245);
         let t297 = q_4_dot.neg_mul_add(t273, t296);
         let t298 = cos_q_5.mul_sub(t297, sin_q_5 * t269);
-        let t299 = q_5_dot.mul_add(t277, t298);
+        let t299 = t277.mul_add(q_5_dot, t298);
         let t300 = t277 * t284;
         let t301 = n(p.k5).mul_add(t299, n(p.k3) * t300);
         let t302 = n(p.k25).neg_mul_add(n(p.l).mul_add(t295, t293), t301);
@@ -2133,14 +2132,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t364 = sin_q_4 * q_4_dot;
         let t365 = q_4_dot * t364;
         let t366 = cos_q_4 * cos_q_1;
-        let t367 = t366 * t256;
+        let t367 = t256 * t366;
         let t368 = cos_q_4 * sin_q_1;
         let t369 = q_2_dot * t244;
         let t370 = t346 * t364;
         let t371 = sin_q_1 * t370;
         let t372 = q_1_dot * t336;
         let t373 = t0 * q_4_dot;
-        let t374 = t373 * t339;
+        let t374 = t339 * t373;
         let t375 = t368.mul_add(t369, t367) - t371;
         let t376 = t11 * q_4_dot;
         let t377 = q_4_dot * t376;
@@ -2157,7 +2156,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t388 = q_5_dot * t387;
         let t389 = sin_q_5.neg_mul_add(t380, t386);
         let t390 = t350 * t344;
-        let t391 = t342 * t350;
+        let t391 = t350 * t342;
         let t392 = cos_q_3 * t244;
         let t393 = t339 * t392;
         let t394 = cos_q_3.mul_add(t337, t391) - t393;
@@ -2194,7 +2193,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t425 = t362 * t424;
         let t426 = sin_q_4.neg_mul_add(t422, t425);
         let t427 = t256 * t368;
-        let t428 = t336 * t373;
+        let t428 = t373 * t336;
         let t429 = cos_q_1 * t370;
         let t430 = t366.neg_mul_add(t369, t429 + t427);
         let t431 = cos_q_1.neg_mul_add(t377, t429 + t428);
@@ -2204,7 +2203,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t435 = t385 * (t434 + cos_q_1.mul_add(t382, t11 * t336));
         let t436 = t350 * t412;
         let t437 = t336 * t392;
-        let t438 = t350 * t416;
+        let t438 = t416 * t350;
         let t439 = cos_q_3.mul_add(t415, t437) - t438;
         let t440 = cos_q_3.mul_add(t414, t436 + t437) + t439;
         let t441 = t341 * t339;
@@ -2220,7 +2219,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t451 = t125.neg_mul_add(t403, t445) + t447 - t448 + t450;
         let t452 = t114.mul_add(t332, t108.mul_add(t328, n(p.l) * t451));
         let t453 = t123.neg_mul_add(t335, t118.mul_add(t333, t452));
-        let t454 = t129.mul_add(t409, t453);
+        let t454 = t129.neg_mul_add(t409, t453);
         let t455 = sin_q_4 * t341;
         let t456 = t346 * t455;
         let t457 = t341 * t376;
@@ -2265,7 +2264,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t496 = t192.mul_add(t409, t188.neg_mul_add(t335, t495));
         let t497 = t198.neg_mul_add(t484, t195.neg_mul_add(t454, t496));
         let t498 = t202.neg_mul_add(t486, t497);
-        let t499 = t384 * t387;
+        let t499 = t387 * t384;
         let t500 = t385 * t401;
         let t501 = sin_q_5.neg_mul_add(t398, t500);
         let t502 = t165.mul_add(t403, t499) + cos_q_5.mul_add(t380, t499);

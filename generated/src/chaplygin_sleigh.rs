@@ -8,15 +8,15 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 2 | 2 | 1 | 0 | 0 | 5 |
+//! | `prepare` | 2 | 2 | 2 | 0 | 0 | 6 |
 //! | `mass_matrix` | 2 | 0 | 0 | 1 | 0 | 4 |
 //! | `bias` | 4 | 0 | 0 | 1 | 0 | 6 |
 //! | `forces` | 4 | 0 | 0 | 1 | 0 | 6 |
 //! | `constraint_rates` | 2 | 1 | 0 | 1 | 0 | 5 |
 //! | `constraint_matrix` | 0 | 1 | 0 | 1 | 0 | 3 |
 //! | `constraint_drift` | 4 | 1 | 0 | 1 | 0 | 7 |
-//! | `accelerations` | 33 | 15 | 2 | 1 | 0 | 52 |
-//! | `multipliers` | 24 | 10 | 2 | 1 | 0 | 38 |
+//! | `accelerations` | 22 | 8 | 1 | 1 | 0 | 33 |
+//! | `multipliers` | 10 | 4 | 1 | 1 | 0 | 17 |
 //! | `kinetic_energy` | 9 | 4 | 0 | 1 | 0 | 15 |
 //! | `output_along` | 2 | 1 | 0 | 1 | 0 | 5 |
 //!
@@ -76,10 +76,13 @@ impl<S: ::lagrangian::Scalar> ChaplyginSleigh<S> {
         let k1 = self.J + self.a * k0;
         let k2 = -k0;
         let k3 = S::ONE / self.m;
+        let k4 = S::ONE / self.J;
         let singular = if vanishes(self.m, self.m, 3.552713678800501e-15) {
             Some(singular(0, self.m, self.m))
         } else if vanishes(self.m, self.m, 3.552713678800501e-15) {
             Some(singular(1, self.m, self.m))
+        } else if vanishes(self.J, k1, 3.552713678800501e-15) {
+            Some(singular(2, self.J, k1))
         } else {
             None
         };
@@ -91,6 +94,7 @@ impl<S: ::lagrangian::Scalar> ChaplyginSleigh<S> {
             k1,
             k2,
             k3,
+            k4,
             singular,
         }
     }
@@ -173,6 +177,8 @@ pub struct Prepared<S = f64> {
     k2: S,
     /// `1/m`
     k3: S,
+    /// `1/J`
+    k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -267,8 +273,8 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 
     [gamma1]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
-/// factored.
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
+/// machine.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -305,32 +311,21 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let phi_dot = n(v[2]);
         let (sin_phi, cos_phi) = phi.sin_cos();
         let t0 = phi_dot * phi_dot;
-        let t1 = n(p.k0) * sin_phi;
-        let t2 = n(p.k0) * cos_phi;
-        let t3 = n(p.k3) * sin_phi;
-        let t4 = n(p.k3) * cos_phi;
-        let t5 = n(p.k3) * t1;
-        let t6 = n(p.k3) * t2;
-        let t7 = t0 * t2;
-        let t8 = t0 * t1;
-        let t9 = t2.mul_add(t4, t1 * t3);
-        let t10 = t2.neg_mul_add(t6, t1.neg_mul_add(t5, n(p.k1)));
-        let t11 = phi_dot * cos_phi.mul_add(x_dot, sin_phi * y_dot);
-        let t12 = t7.mul_sub(t5, t6 * t8);
-        let t13 = N::ONE / t10;
-        let t14 = t13 * t9;
-        let t15 = t9.mul_add(t14, cos_phi.mul_add(t4, sin_phi * t3));
-        let t16 = t14.mul_add(t12, t4.neg_mul_add(t8, t7.mul_add(t3, t11)));
-        let t17 = t16 / t15;
-        let phi_ddot = t14.neg_mul_add(t17, t13 * t12);
-        let x_ddot = t5.mul_add(phi_ddot, t3.neg_mul_add(t17, n(p.k3) * t7));
-        let y_ddot = t6.neg_mul_add(phi_ddot, t4.mul_add(t17, n(p.k3) * t8));
-        let sound = t10.exceeds(N::from_f64(3.552713678800501e-15) * n(p.k1))
-            & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
-            & y_ddot.is_finite();
+        let t1 = sin_phi * n(p.a);
+        let t2 = cos_phi * n(p.a);
+        let t3 = sin_phi * (phi_dot * y_dot);
+        let t4 = n(p.a) * sin_phi.mul_add(sin_phi, cos_phi * cos_phi);
+        let t5 = t4 * n(p.k4);
+        let t6 = t5.mul_add(t1, sin_phi * n(p.k3));
+        let t7 = t2.mul_add(t5, cos_phi * n(p.k3));
+        let t8 = cos_phi.mul_add(t7, sin_phi * t6);
+        let t9 = cos_phi.mul_add(phi_dot * x_dot, t3) / t8;
+        let x_ddot = t6.neg_mul_add(t9, t0 * t2);
+        let y_ddot = t7.mul_add(t9, t0 * t1);
+        let phi_ddot = -(t5 * t9);
+        let sound = t8.exceeds(N::from_f64(3.552713678800501e-15) * t8) & phi_ddot.is_finite();
         if !sound {
-            check(t10, n(p.k1), 3.552713678800501e-15, 2)?;
-            check(t15, t15, 3.552713678800501e-15, 3)?;
+            check(t8, t8, 3.552713678800501e-15, 3)?;
         }
         let accelerations = [x_ddot.store(), y_ddot.store(), phi_ddot.store()];
         Ok(accelerations)
@@ -373,28 +368,14 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let y_dot = n(v[1]);
         let phi_dot = n(v[2]);
         let (sin_phi, cos_phi) = phi.sin_cos();
-        let t0 = phi_dot * phi_dot;
-        let t1 = n(p.k0) * sin_phi;
-        let t2 = n(p.k0) * cos_phi;
-        let t3 = n(p.k3) * sin_phi;
-        let t4 = n(p.k3) * cos_phi;
-        let t5 = n(p.k3) * t1;
-        let t6 = n(p.k3) * t2;
-        let t7 = t2 * t0;
-        let t8 = t1 * t0;
-        let t9 = t2.mul_add(t4, t1 * t3);
-        let t10 = t2.neg_mul_add(t6, t1.neg_mul_add(t5, n(p.k1)));
-        let t11 = phi_dot * cos_phi.mul_add(x_dot, sin_phi * y_dot);
-        let t12 = t9 / t10;
-        let t13 = t4.neg_mul_add(t8, t3.mul_add(t7, t11));
-        let t14 = t9.mul_add(t12, cos_phi.mul_add(t4, sin_phi * t3));
-        let lambda1 = t12.mul_add(t5.mul_sub(t7, t6 * t8), t13) / t14;
-        let sound = t10.exceeds(N::from_f64(3.552713678800501e-15) * n(p.k1))
-            & t14.exceeds(N::from_f64(3.552713678800501e-15) * t14)
-            & lambda1.is_finite();
+        let t0 = sin_phi * sin_phi;
+        let t1 = cos_phi * cos_phi;
+        let t2 = n(p.a).mul_add(n(p.a) * (t0 + t1) * n(p.k4), n(p.k3));
+        let t3 = t1.mul_add(t2, t0 * t2);
+        let lambda1 = cos_phi.mul_add(x_dot, sin_phi * y_dot) * phi_dot / t3;
+        let sound = t3.exceeds(N::from_f64(3.552713678800501e-15) * t3) & lambda1.is_finite();
         if !sound {
-            check(t10, n(p.k1), 3.552713678800501e-15, 2)?;
-            check(t14, t14, 3.552713678800501e-15, 3)?;
+            check(t3, t3, 3.552713678800501e-15, 3)?;
         }
         let multipliers = [lambda1.store()];
         Ok(multipliers)
@@ -639,6 +620,7 @@ where
             k1: lanes(|p| p.k1),
             k2: lanes(|p| p.k2),
             k3: lanes(|p| p.k3),
+            k4: lanes(|p| p.k4),
             singular: None,
         }
     }

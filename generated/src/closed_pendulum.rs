@@ -7,7 +7,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 24 | 12 | 1 | 0 | 0 | 37 |
+//! | `prepare` | 32 | 13 | 2 | 0 | 0 | 47 |
 //! | `start` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `mass_matrix` | 30 | 10 | 0 | 5 | 0 | 50 |
 //! | `bias` | 42 | 27 | 0 | 5 | 0 | 79 |
@@ -17,7 +17,7 @@
 //! | `constraint_rates` | 12 | 8 | 0 | 5 | 0 | 30 |
 //! | `constraint_matrix` | 10 | 0 | 0 | 5 | 0 | 20 |
 //! | `constraint_drift` | 17 | 8 | 0 | 5 | 0 | 35 |
-//! | `accelerations` | 230 | 146 | 6 | 5 | 0 | 392 |
+//! | `accelerations` | 285 | 179 | 6 | 5 | 0 | 480 |
 //! | `multipliers` | 205 | 125 | 6 | 5 | 0 | 346 |
 //! | `kinetic_energy` | 52 | 26 | 0 | 5 | 0 | 88 |
 //! | `potential_energy` | 10 | 11 | 0 | 5 | 0 | 26 |
@@ -82,38 +82,49 @@ impl<S> ClosedPendulum<S> {
 impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let t0 = self.l * self.m;
-        let t1 = self.l * t0;
-        let t2 = self.g * t0;
-        let k8 = self.J + t1 * S::from_f64(4.25);
+        let k3 = self.l * self.m;
+        let t0 = self.l * self.l;
+        let t1 = self.l * k3;
+        let t2 = self.g * k3;
+        let k16 = S::from_f64(0.5) * k3;
+        let k32 = S::from_f64(0.25) * t0;
+        let t3 = t1 * S::from_f64(0.25);
+        let k9 = self.J + t1 * S::from_f64(4.25);
         let k2 = S::from_f64(0.5) * t2;
-        let k16 = t2 * S::from_f64(1.5);
-        let k17 = t2 * S::from_f64(2.5);
-        let k18 = t2 * S::from_f64(3.5);
-        let k19 = t2 * S::from_f64(4.5);
+        let k5 = S::from_f64(0.5) * t1;
+        let k17 = t2 * S::from_f64(1.5);
+        let k18 = t2 * S::from_f64(2.5);
+        let k19 = t2 * S::from_f64(3.5);
+        let k13 = self.J + t3;
+        let k20 = t2 * S::from_f64(4.5);
+        let k34 = S::ONE / k13;
         let k0 = self.l * S::from_f64(0.5);
         let k1 = self.m * self.g;
-        let k3 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
-        let k4 = S::from_f64(0.5) * t1;
-        let k5 = t1 * S::from_f64(1.5);
-        let k6 = t1 * S::from_f64(2.5);
-        let k7 = t1 * S::from_f64(3.5);
-        let k9 = self.J + t1 * S::from_f64(3.25);
-        let k10 = self.J + t1 * S::from_f64(2.25);
-        let k11 = self.J + t1 * S::from_f64(1.25);
-        let k12 = self.J + t1 * S::from_f64(0.25);
-        let k13 = self.m * S::from_f64(0.5);
-        let k14 = t0 * S::from_f64(0.25);
-        let k15 = S::from_f64(0.5) * t0;
-        let k20 = -self.l;
-        let k21 = -k19;
-        let k22 = -k18;
-        let k23 = -k17;
-        let k24 = -k16;
-        let k25 = -k2;
-        let k26 = S::ONE / k8;
-        let singular = if vanishes(k8, k8, 6.217248937900877e-15) {
-            Some(singular(0, k8, k8))
+        let k4 = S::from_f64(0.125) * (self.J * S::from_f64(4.0) + t1);
+        let k6 = t1 * S::from_f64(1.5);
+        let k7 = t1 * S::from_f64(2.5);
+        let k8 = t1 * S::from_f64(3.5);
+        let k10 = self.J + t1 * S::from_f64(3.25);
+        let k11 = self.J + t1 * S::from_f64(2.25);
+        let k12 = self.J + t1 * S::from_f64(1.25);
+        let k14 = self.m * S::from_f64(0.5);
+        let k15 = k3 * S::from_f64(0.25);
+        let k21 = -self.l;
+        let k22 = -k20;
+        let k23 = -k19;
+        let k24 = -k18;
+        let k25 = -k17;
+        let k26 = -k2;
+        let k27 = t3 * k34;
+        let k28 = self.J - t3;
+        let k29 = k34 * k32;
+        let k30 = S::from_f64(0.5) * t0;
+        let k31 = self.m * self.m;
+        let k33 = k16 * k34;
+        let k35 = k5 * k34;
+        let k36 = S::ONE / k9;
+        let singular = if vanishes(k13, k13, 6.217248937900877e-15) {
+            Some(singular(4, k13, k13))
         } else {
             None
         };
@@ -150,6 +161,16 @@ impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
             k24,
             k25,
             k26,
+            k27,
+            k28,
+            k29,
+            k30,
+            k31,
+            k32,
+            k33,
+            k34,
+            k35,
+            k36,
             singular,
         }
     }
@@ -224,54 +245,74 @@ pub struct Prepared<S = f64> {
     k1: S,
     /// `0.5*l*m*g`
     k2: S,
-    /// `0.125*(l^2*m + 4*J)`
+    /// `l*m`
     k3: S,
-    /// `0.5*l^2*m`
+    /// `0.125*(l^2*m + 4*J)`
     k4: S,
-    /// `1.5*l^2*m`
+    /// `0.5*l^2*m`
     k5: S,
-    /// `2.5*l^2*m`
+    /// `1.5*l^2*m`
     k6: S,
-    /// `3.5*l^2*m`
+    /// `2.5*l^2*m`
     k7: S,
-    /// `J + 4.25*l^2*m`
+    /// `3.5*l^2*m`
     k8: S,
-    /// `J + 3.25*l^2*m`
+    /// `J + 4.25*l^2*m`
     k9: S,
-    /// `J + 2.25*l^2*m`
+    /// `J + 3.25*l^2*m`
     k10: S,
-    /// `J + 1.25*l^2*m`
+    /// `J + 2.25*l^2*m`
     k11: S,
-    /// `J + 0.25*l^2*m`
+    /// `J + 1.25*l^2*m`
     k12: S,
-    /// `0.5*m`
+    /// `J + 0.25*l^2*m`
     k13: S,
-    /// `0.25*l*m`
+    /// `0.5*m`
     k14: S,
-    /// `0.5*l*m`
+    /// `0.25*l*m`
     k15: S,
-    /// `1.5*l*m*g`
+    /// `0.5*l*m`
     k16: S,
-    /// `2.5*l*m*g`
+    /// `1.5*l*m*g`
     k17: S,
-    /// `3.5*l*m*g`
+    /// `2.5*l*m*g`
     k18: S,
-    /// `4.5*l*m*g`
+    /// `3.5*l*m*g`
     k19: S,
-    /// `-l`
+    /// `4.5*l*m*g`
     k20: S,
-    /// `-4.5*l*m*g`
+    /// `-l`
     k21: S,
-    /// `-3.5*l*m*g`
+    /// `-4.5*l*m*g`
     k22: S,
-    /// `-2.5*l*m*g`
+    /// `-3.5*l*m*g`
     k23: S,
-    /// `-1.5*l*m*g`
+    /// `-2.5*l*m*g`
     k24: S,
-    /// `-0.5*l*m*g`
+    /// `-1.5*l*m*g`
     k25: S,
-    /// `1/(J + 4.25*l^2*m)`
+    /// `-0.5*l*m*g`
     k26: S,
+    /// `0.25*l^2*m/(J + 0.25*l^2*m)`
+    k27: S,
+    /// `J - 0.25*l^2*m`
+    k28: S,
+    /// `0.25*l^2/(J + 0.25*l^2*m)`
+    k29: S,
+    /// `0.5*l^2`
+    k30: S,
+    /// `m^2`
+    k31: S,
+    /// `0.25*l^2`
+    k32: S,
+    /// `0.5*l*m/(J + 0.25*l^2*m)`
+    k33: S,
+    /// `1/(J + 0.25*l^2*m)`
+    k34: S,
+    /// `0.5*l^2*m/(J + 0.25*l^2*m)`
+    k35: S,
+    /// `1/(J + 4.25*l^2*m)`
+    k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -306,22 +347,22 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S;
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let m21 = (sin_q_2 * sin_q_1 + cos_q_2 * cos_q_1) * p.k7;
-    let m31 = p.k6 * (sin_q_1 * sin_q_3 + cos_q_1 * cos_q_3);
-    let m32 = p.k6 * (sin_q_2 * sin_q_3 + cos_q_2 * cos_q_3);
-    let m41 = p.k5 * (sin_q_1 * sin_q_4 + cos_q_1 * cos_q_4);
-    let m42 = p.k5 * (sin_q_2 * sin_q_4 + cos_q_2 * cos_q_4);
-    let m43 = p.k5 * (sin_q_3 * sin_q_4 + cos_q_3 * cos_q_4);
-    let m51 = p.k4 * (sin_q_1 * sin_q_5 + cos_q_1 * cos_q_5);
-    let m52 = p.k4 * (sin_q_2 * sin_q_5 + cos_q_2 * cos_q_5);
-    let m53 = p.k4 * (sin_q_3 * sin_q_5 + cos_q_3 * cos_q_5);
-    let m54 = p.k4 * (sin_q_4 * sin_q_5 + cos_q_4 * cos_q_5);
+    let m21 = (sin_q_2 * sin_q_1 + cos_q_2 * cos_q_1) * p.k8;
+    let m31 = p.k7 * (sin_q_1 * sin_q_3 + cos_q_1 * cos_q_3);
+    let m32 = p.k7 * (sin_q_2 * sin_q_3 + cos_q_2 * cos_q_3);
+    let m41 = p.k6 * (sin_q_1 * sin_q_4 + cos_q_1 * cos_q_4);
+    let m42 = p.k6 * (sin_q_2 * sin_q_4 + cos_q_2 * cos_q_4);
+    let m43 = p.k6 * (sin_q_3 * sin_q_4 + cos_q_3 * cos_q_4);
+    let m51 = p.k5 * (sin_q_1 * sin_q_5 + cos_q_1 * cos_q_5);
+    let m52 = p.k5 * (sin_q_2 * sin_q_5 + cos_q_2 * cos_q_5);
+    let m53 = p.k5 * (sin_q_3 * sin_q_5 + cos_q_3 * cos_q_5);
+    let m54 = p.k5 * (sin_q_4 * sin_q_5 + cos_q_4 * cos_q_5);
     [
-        [p.k8, m21, m31, m41, m51],
-        [m21, p.k9, m32, m42, m52],
-        [m31, m32, p.k10, m43, m53],
-        [m41, m42, m43, p.k11, m54],
-        [m51, m52, m53, m54, p.k12],
+        [p.k9, m21, m31, m41, m51],
+        [m21, p.k10, m32, m42, m52],
+        [m31, m32, p.k11, m43, m53],
+        [m41, m42, m43, p.k12, m54],
+        [m51, m52, m53, m54, p.k13],
     ]
 }
 
@@ -356,29 +397,29 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) ->
     let t1 = q_3_dot * q_3_dot;
     let t2 = q_2_dot * q_2_dot;
     let t3 = q_1_dot * q_1_dot;
-    let t4 = t0 * p.k5;
-    let t5 = q_5_dot * (q_5_dot * p.k4);
+    let t4 = t0 * p.k6;
+    let t5 = q_5_dot * (q_5_dot * p.k5);
     let t6 = t1 * sin_q_3;
     let t7 = t2 * sin_q_2;
     let t8 = sin_q_1 * t3;
     let t9 = t1 * cos_q_3;
     let t10 = t2 * cos_q_2;
     let t11 = cos_q_1 * t3;
-    let t12 = p.k6 * t6;
+    let t12 = p.k7 * t6;
     let t13 = t7 + t8;
-    let t14 = t9 * p.k6;
+    let t14 = t9 * p.k7;
     let t15 = t5 * sin_q_5 + t4 * sin_q_4;
     let t16 = t10 + t11;
     let t17 = t5 * cos_q_5 + t4 * cos_q_4;
     let t18 = cos_q_5 * (t13 + (t6 + t0 * sin_q_4));
-    let t19 = sin_q_1 * (t17 + (t14 + t10 * p.k7));
-    let t20 = sin_q_2 * (t17 + (t14 + p.k7 * t11));
-    let t21 = p.k5 * (sin_q_4 * (t9 + t16) - cos_q_4 * (t6 + t13));
-    let h_q_1 = t19 - cos_q_1 * (t15 + (t12 + p.k7 * t7));
-    let h_q_2 = t20 - cos_q_2 * (t15 + (t12 + p.k7 * t8));
-    let h_q_3 = sin_q_3 * (t17 + p.k6 * t16) - cos_q_3 * (t15 + p.k6 * t13);
+    let t19 = sin_q_1 * (t17 + (t14 + t10 * p.k8));
+    let t20 = sin_q_2 * (t17 + (t14 + p.k8 * t11));
+    let t21 = p.k6 * (sin_q_4 * (t9 + t16) - cos_q_4 * (t6 + t13));
+    let h_q_1 = t19 - cos_q_1 * (t15 + (t12 + p.k8 * t7));
+    let h_q_2 = t20 - cos_q_2 * (t15 + (t12 + p.k8 * t8));
+    let h_q_3 = sin_q_3 * (t17 + p.k7 * t16) - cos_q_3 * (t15 + p.k7 * t13);
     let h_q_4 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + t21;
-    let h_q_5 = p.k4 * (sin_q_5 * (t16 + (t9 + t0 * cos_q_4)) - t18);
+    let h_q_5 = p.k5 * (sin_q_5 * (t16 + (t9 + t0 * cos_q_4)) - t18);
     [h_q_1, h_q_2, h_q_3, h_q_4, h_q_5]
 }
 
@@ -402,11 +443,11 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
     let cos_q_3 = q_3.cos();
     let cos_q_4 = q_4.cos();
     let cos_q_5 = q_5.cos();
-    let q_q_1 = p.k21 * cos_q_1;
-    let q_q_2 = p.k22 * cos_q_2;
-    let q_q_3 = p.k23 * cos_q_3;
-    let q_q_4 = p.k24 * cos_q_4;
-    let q_q_5 = p.k25 * cos_q_5;
+    let q_q_1 = p.k22 * cos_q_1;
+    let q_q_2 = p.k23 * cos_q_2;
+    let q_q_3 = p.k24 * cos_q_3;
+    let q_q_4 = p.k25 * cos_q_4;
+    let q_q_5 = p.k26 * cos_q_5;
     [q_q_1, q_q_2, q_q_3, q_q_4, q_q_5]
 }
 
@@ -431,8 +472,8 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
     let t1 = q_2_dot * q_2_dot;
     let t2 = q_3_dot * q_3_dot;
     let t3 = q_1_dot * q_1_dot;
-    let t4 = t0 * p.k5;
-    let t5 = q_5_dot * (q_5_dot * p.k4);
+    let t4 = t0 * p.k6;
+    let t5 = q_5_dot * (q_5_dot * p.k5);
     let t6 = t1 * sin_q_2;
     let t7 = t2 * sin_q_3;
     let t8 = t4 * sin_q_4;
@@ -440,22 +481,22 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
     let t10 = t5 * sin_q_5;
     let t11 = t1 * cos_q_2;
     let t12 = t2 * cos_q_3;
-    let t13 = p.k6 * t7;
+    let t13 = p.k7 * t7;
     let t14 = cos_q_1 * t3;
     let t15 = t6 + t9;
     let t16 = t5 * cos_q_5 + t4 * cos_q_4;
-    let t17 = t12 * p.k6;
+    let t17 = t12 * p.k7;
     let t18 = t11 + t14;
     let t19 = sin_q_5 * (t18 + (t12 + t0 * cos_q_4));
-    let t20 = cos_q_2 * (p.k18 - t8 - t13 - (t10 + p.k7 * t9));
-    let t21 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + cos_q_4 * p.k16;
-    let t22 = cos_q_1 * (t10 + p.k7 * t6 + (t13 + (t8 - p.k19)));
-    let t23 = sin_q_3 * (t16 + p.k6 * t18) + cos_q_3 * (p.k17 - t8 - t10 - p.k6 * t15);
-    let f_q_1 = t22 - sin_q_1 * (t16 + (t17 + t11 * p.k7));
-    let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k7 * t14)) + t20);
+    let t20 = cos_q_2 * (p.k19 - t8 - t13 - (t10 + p.k8 * t9));
+    let t21 = t5 * (cos_q_5 * sin_q_4 - sin_q_5 * cos_q_4) + cos_q_4 * p.k17;
+    let t22 = cos_q_1 * (t10 + p.k8 * t6 + (t13 + (t8 - p.k20)));
+    let t23 = sin_q_3 * (t16 + p.k7 * t18) + cos_q_3 * (p.k18 - t8 - t10 - p.k7 * t15);
+    let f_q_1 = t22 - sin_q_1 * (t16 + (t17 + t11 * p.k8));
+    let f_q_2 = -(sin_q_2 * (t16 + (t17 + p.k8 * t14)) + t20);
     let f_q_3 = -t23;
-    let f_q_4 = -(p.k5 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
-    let f_q_5 = -(p.k4 * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4))) + cos_q_5 * p.k2);
+    let f_q_4 = -(p.k6 * (sin_q_4 * (t12 + t18) - cos_q_4 * (t7 + t15)) + t21);
+    let f_q_5 = -(p.k5 * (t19 - cos_q_5 * (t15 + (t7 + t0 * sin_q_4))) + cos_q_5 * p.k2);
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
 
@@ -511,7 +552,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
     let t0 = q_3_dot * sin_q_3 + (q_2_dot * sin_q_2 + q_1_dot * sin_q_1);
     let t1 = q_3_dot * cos_q_3 + (q_2_dot * cos_q_2 + q_1_dot * cos_q_1);
-    let phi1 = p.k20 * (q_5_dot * sin_q_5 + (q_4_dot * sin_q_4 + t0));
+    let phi1 = p.k21 * (q_5_dot * sin_q_5 + (q_4_dot * sin_q_4 + t0));
     let phi2 = (q_5_dot * cos_q_5 + (q_4_dot * cos_q_4 + t1)) * p.l;
     [phi1, phi2]
 }
@@ -541,11 +582,11 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -
     let (sin_q_3, cos_q_3) = q_3.sin_cos();
     let (sin_q_4, cos_q_4) = q_4.sin_cos();
     let (sin_q_5, cos_q_5) = q_5.sin_cos();
-    let g1_1 = p.k20 * sin_q_1;
-    let g1_2 = p.k20 * sin_q_2;
-    let g1_3 = p.k20 * sin_q_3;
-    let g1_4 = p.k20 * sin_q_4;
-    let g1_5 = p.k20 * sin_q_5;
+    let g1_1 = p.k21 * sin_q_1;
+    let g1_2 = p.k21 * sin_q_2;
+    let g1_3 = p.k21 * sin_q_3;
+    let g1_4 = p.k21 * sin_q_4;
+    let g1_5 = p.k21 * sin_q_5;
     let g2_1 = cos_q_1 * p.l;
     let g2_2 = cos_q_2 * p.l;
     let g2_3 = cos_q_3 * p.l;
@@ -594,7 +635,8 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix.
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
+/// machine.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -635,168 +677,205 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let q_3_dot = n(v[2]);
         let q_4_dot = n(v[3]);
         let q_5_dot = n(v[4]);
-        let angles = [q_1, q_2, q_3, q_4, q_5];
+        let angles = [q_5, q_4, q_3, q_2, q_1];
         let circular = N::sin_cos_all(angles);
-        let (sin_q_1, cos_q_1) = circular[0];
-        let (sin_q_2, cos_q_2) = circular[1];
+        let (sin_q_5, cos_q_5) = circular[0];
+        let (sin_q_4, cos_q_4) = circular[1];
         let (sin_q_3, cos_q_3) = circular[2];
-        let (sin_q_4, cos_q_4) = circular[3];
-        let (sin_q_5, cos_q_5) = circular[4];
-        let t0 = q_2_dot * q_2_dot;
-        let t1 = q_1_dot * q_1_dot;
+        let (sin_q_2, cos_q_2) = circular[3];
+        let (sin_q_1, cos_q_1) = circular[4];
+        let t0 = q_5_dot * q_5_dot;
+        let t1 = q_4_dot * q_4_dot;
         let t2 = q_3_dot * q_3_dot;
-        let t3 = q_4_dot * q_4_dot;
-        let t4 = q_5_dot * q_5_dot;
-        let t5 = t0 * cos_q_2;
-        let t6 = t0 * sin_q_2;
-        let t7 = sin_q_1 * t1;
-        let t8 = sin_q_1.mul_add(sin_q_2, cos_q_1 * cos_q_2) * n(p.k7);
-        let t9 = n(p.k6) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
-        let t10 = n(p.k5) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
-        let t11 = n(p.k26) * t8;
-        let t12 = n(p.k4) * sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
-        let t13 = n(p.k26) * t9;
-        let t14 = n(p.k26) * t10;
-        let t15 = t8.neg_mul_add(t11, n(p.k9));
-        let t16 = cos_q_1 * t1;
-        let t17 = n(p.k26) * t12;
-        let t18 = n(p.k6) * sin_q_3.mul_add(sin_q_2, cos_q_3 * cos_q_2);
-        let t19 = t8.neg_mul_add(t13, t18);
-        let t20 = n(p.k5) * sin_q_4.mul_add(sin_q_2, cos_q_4 * cos_q_2);
-        let t21 = t8.neg_mul_add(t14, t20);
-        let t22 = n(p.k5) * sin_q_4.mul_add(sin_q_3, cos_q_4 * cos_q_3);
-        let t23 = N::ONE / t15;
-        let t24 = n(p.k4) * sin_q_5.mul_add(sin_q_2, cos_q_5 * cos_q_2);
-        let t25 = t8.neg_mul_add(t17, t24);
-        let t26 = t6 + t7;
-        let t27 = t2 * sin_q_3;
-        let t28 = t5 + t16;
-        let t29 = t2 * cos_q_3;
-        let t30 = n(p.l) * sin_q_1;
-        let t31 = n(p.k4) * sin_q_5.mul_add(sin_q_3, cos_q_5 * cos_q_3);
-        let t32 = t3 * sin_q_4;
-        let t33 = t4 * sin_q_5;
-        let t34 = t27 + t26;
-        let t35 = t3 * cos_q_4;
-        let t36 = t29 + t28;
-        let t37 = t4 * cos_q_5;
-        let t38 = n(p.k26) * t30;
-        let t39 = n(p.k4) * sin_q_5.mul_add(sin_q_4, cos_q_5 * cos_q_4);
-        let t40 = t32 + t34;
-        let t41 = t35 + t36;
-        let t42 = t23 * t19;
-        let t43 = t23 * t21;
-        let t44 = t23 * t25;
-        let t45 = t8.mul_sub(t38, n(p.l) * sin_q_2);
-        let t46 = t19.neg_mul_add(t42, t9.neg_mul_add(t13, n(p.k10)));
-        let t47 = t19.neg_mul_add(t43, t9.neg_mul_add(t14, t22));
-        let t48 = t19.neg_mul_add(t44, t9.neg_mul_add(t17, t31));
-        let t49 = n(p.l).mul_add(t41, n(p.k0) * t37);
-        let t50 = N::ONE / t46;
-        let t51 = n(p.l).mul_add(t36, n(p.k0) * t35);
-        let t52 = t23 * t45;
-        let t53 = n(p.l) * cos_q_1;
-        let t54 = n(p.g) - n(p.l).mul_add(t40, t33 * n(p.k0));
-        let t55 = n(p.g) - n(p.l).mul_add(t34, n(p.k0) * t32);
-        let t56 = t49 + t51;
-        let t57 = n(p.l).mul_add(t28, n(p.k0) * t29);
-        let t58 = t19.neg_mul_add(t52, t9.mul_sub(t38, n(p.l) * sin_q_3));
-        let t59 = n(p.k26) * t53;
-        let t60 = t54 + t55;
-        let t61 = n(p.g) - n(p.l).mul_add(t26, n(p.k0) * t27);
-        let t62 = n(p.k0).mul_add(t5, n(p.l) * t16);
-        let t63 = t50 * t47;
-        let t64 = t50 * t48;
-        let t65 = t50 * t58;
-        let t66 = t8.neg_mul_add(t59, n(p.l) * cos_q_2);
-        let t67 = t21.neg_mul_add(t43, t10.neg_mul_add(t14, n(p.k11)));
-        let t68 = t47.neg_mul_add(t63, t67);
-        let t69 = t21.neg_mul_add(t44, t10.neg_mul_add(t17, t39));
-        let t70 = t47.neg_mul_add(t64, t69);
-        let t71 = t25.neg_mul_add(t44, t12.neg_mul_add(t17, n(p.k12)));
-        let t72 = n(p.g) - n(p.k0).mul_add(t6, n(p.l) * t7);
-        let t73 = n(p.m) * (t56 + t57);
-        let t74 = N::ONE / t68;
-        let t75 = t21.neg_mul_add(t52, t10.mul_sub(t38, n(p.l) * sin_q_4));
-        let t76 = t47.neg_mul_add(t65, t75);
-        let t77 = t23 * t66;
-        let t78 = n(p.m) * (t60 + t61);
-        let t79 = n(p.k13) * n(p.k0).neg_mul_add(t7, n(p.g));
-        let t80 = t25.neg_mul_add(t52, t12.mul_sub(t38, n(p.l) * sin_q_5));
-        let t81 = t59.neg_mul_add(t9, n(p.l) * cos_q_3);
-        let t82 = t77.neg_mul_add(t19, t81);
-        let t83 = t74 * t70;
-        let t84 = t74 * t76;
-        let t85 = t70.neg_mul_add(t83, t48.neg_mul_add(t64, t71));
-        let t86 = t70.neg_mul_add(t84, t48.neg_mul_add(t65, t80));
-        let t87 = t50 * t82;
-        let t88 = t59.neg_mul_add(t10, n(p.l) * cos_q_4);
-        let t89 = sin_q_1 * (t73 + n(p.m).mul_add(t62, t16 * n(p.k14)));
-        let t90 = sin_q_4 * n(p.m).mul_add(t49, n(p.k13) * t51);
-        let t91 = sin_q_2 * n(p.k13).mul_add(t62, t73);
-        let t92 = N::ONE / t85;
-        let t93 = sin_q_3 * n(p.m).mul_add(t56, n(p.k13) * t57);
-        let t94 = t58.mul_add(t65, t45.mul_add(t52, t30 * t38));
-        let t95 = t47.neg_mul_add(t87, t77.neg_mul_add(t21, t88));
-        let t96 = t59.neg_mul_add(t12, n(p.l) * cos_q_5);
-        let t97 = cos_q_1.mul_add(t78 + n(p.m).mul_add(t72, t79), t89);
-        let t98 = n(p.l) * t97;
-        let t99 = cos_q_4.mul_add(n(p.m).mul_add(t54, t55 * n(p.k13)), t90);
-        let t100 = cos_q_3.mul_add(n(p.m).mul_add(t60, t61 * n(p.k13)), t93);
-        let t101 = t74 * t95;
-        let t102 = n(p.l) * cos_q_2.mul_add(t72.mul_add(n(p.k13), t78), t91);
-        let t103 = t98.mul_sub(t11, t102);
-        let t104 = cos_q_5.mul_add(t54, sin_q_5 * t49) * n(p.k15);
-        let t105 = t48.neg_mul_add(t87, t77.neg_mul_add(t25, t96));
-        let t106 = t70.neg_mul_add(t101, t105);
-        let t107 = t92 * t86;
-        let t108 = t42.neg_mul_add(t103, t98.mul_sub(t13, n(p.l) * t100));
-        let t109 = t98.neg_mul_add(t38, n(p.l) * (t37 + t41));
-        let t110 = t98.mul_add(t59, n(p.l) * (t33 + t40));
-        let t111 = t86.mul_add(t107, t76.mul_add(t84, t94));
-        let t112 = t92 * t106;
-        let t113 = t87.neg_mul_add(t58, t77.neg_mul_add(t45, t59 * t30));
-        let t114 = t43.neg_mul_add(t103, t98.mul_sub(t14, n(p.l) * t99));
-        let t115 = t63.neg_mul_add(t108, t114);
-        let t116 = t44.neg_mul_add(t103, t98.mul_sub(t17, t104));
-        let t117 = N::ONE / t111;
-        let t118 = t112.neg_mul_add(t86, t101.neg_mul_add(t76, t113));
-        let t119 = t83.neg_mul_add(t115, t64.neg_mul_add(t108, t116));
-        let t120 = t65.neg_mul_add(t108, t52.neg_mul_add(t103, t109));
-        let t121 = t87.neg_mul_add(t108, t77.neg_mul_add(t103, t110));
-        let t122 = t107.neg_mul_add(t119, t84.neg_mul_add(t115, t120));
-        let t123 = t106.mul_add(t112, t66.mul_add(t77, t53 * t59));
-        let t124 = t123 + t95.mul_add(t101, t82 * t87);
-        let t125 = t117 * t118;
-        let t126 = t112.neg_mul_add(t119, t101.neg_mul_add(t115, t121));
-        let t127 = t118.neg_mul_add(t125, t124);
-        let t128 = t125.mul_add(t122, t126) / t127;
-        let t129 = t125.mul_add(t128, t117 * t122);
-        let q_5_ddot = t107.mul_add(t129, t112.mul_add(t128, t92 * t119));
-        let t130 = t52.mul_add(t129, t77.mul_add(t128, t23 * t103));
-        let t131 = t84.mul_add(t129, t101.mul_add(t128, t74 * t115));
-        let q_4_ddot = t83.neg_mul_add(q_5_ddot, t131);
-        let t132 = t65.mul_add(t129, t87.mul_add(t128, t50 * t108));
-        let t133 = t38.mul_add(t129, t59.neg_mul_add(t128, t98 * n(p.k26)));
-        let q_3_ddot = t63.neg_mul_add(q_4_ddot, t64.neg_mul_add(q_5_ddot, t132));
-        let t134 = t43.neg_mul_add(q_4_ddot, t44.neg_mul_add(q_5_ddot, t130));
-        let q_2_ddot = t42.neg_mul_add(q_3_ddot, t134);
-        let t135 = t14.mul_add(q_4_ddot, t17.mul_add(q_5_ddot, t133));
-        let q_1_ddot = -t11.mul_add(q_2_ddot, t13.mul_add(q_3_ddot, t135));
-        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
-            & t46.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
-            & t68.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
-            & t85.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
-            & t111.exceeds(N::from_f64(6.217248937900877e-15) * t111)
-            & t127.exceeds(N::from_f64(6.217248937900877e-15) * t124)
-            & q_1_ddot.is_finite();
+        let t3 = q_1_dot * q_1_dot;
+        let t4 = q_2_dot * q_2_dot;
+        let t5 = sin_q_5 * cos_q_5;
+        let t6 = sin_q_4 * n(p.l);
+        let t7 = cos_q_4 * n(p.l);
+        let t8 = n(p.l) * sin_q_3;
+        let t9 = n(p.l) * cos_q_3;
+        let t10 = cos_q_5 * t0;
+        let t11 = t5 * n(p.k27);
+        let t12 = cos_q_5.neg_mul_add(cos_q_5 * n(p.k27), N::from_f64(1.5));
+        let t13 = sin_q_5.neg_mul_add(sin_q_5 * n(p.k27), N::from_f64(1.5));
+        let t14 = t6 * t1;
+        let t15 = sin_q_5 * t0;
+        let t16 = t7 * t1;
+        let t17 = t7.mul_sub(t12, t11 * t6);
+        let t18 = t13.mul_sub(t6, t11 * t7);
+        let t19 = n(p.l) * sin_q_2;
+        let t20 = n(p.l) * cos_q_2;
+        let t21 = sin_q_5 * n(p.l);
+        let t22 = cos_q_5 * n(p.k33);
+        let t23 = t8 * t2;
+        let t24 = t13.mul_add(t16, t11.mul_add(t14, n(p.k0) * t10));
+        let t25 = t17.mul_add(t7 * n(p.m), n(p.k28));
+        let t26 = t18.mul_add(t6 * n(p.m), t25);
+        let t27 = t21 * t22;
+        let t28 = sin_q_5 * n(p.k33);
+        let t29 = t12.mul_add(t14, t11.mul_add(t16, n(p.k0) * t15));
+        let t30 = t9 * t2;
+        let t31 = N::ONE / t26;
+        let t32 = n(p.l) * sin_q_1;
+        let t33 = n(p.l) * cos_q_1;
+        let t34 = cos_q_2 * (n(p.k30) * cos_q_1);
+        let t35 = t28 * t21;
+        let t36 = t7.mul_sub(t29, t6 * t24);
+        let t37 = sin_q_1 * t3;
+        let t38 = sin_q_2 * n(p.k0);
+        let t39 = cos_q_2 * n(p.k0);
+        let t40 = t33 * t3;
+        let t41 = t6.neg_mul_add(t35, t7.neg_mul_add(t27, t6));
+        let t42 = cos_q_5 * n(p.l);
+        let t43 = t20.mul_add(t4, t40);
+        let t44 = sin_q_2.mul_add(t4, t37);
+        let t45 = t39.mul_add(t4, t40);
+        let t46 = t22 * t42;
+        let t47 = t31.mul_add(t18 * t17, t5 * n(p.k29));
+        let t48 = n(p.m) * t31;
+        let t49 = n(p.l).neg_mul_add(t44, n(p.g));
+        let t50 = n(p.g) - t38.mul_add(t4, n(p.l) * t37);
+        let t51 = t28 * t42;
+        let t52 = n(p.m) * t47;
+        let t53 = t17 * t48;
+        let t54 = t18 * t48;
+        let t55 = t37.neg_mul_add(n(p.k0), n(p.g)) * (cos_q_1 * n(p.k0));
+        let t56 = t6.neg_mul_add(t51, t7.neg_mul_add(t46, t7));
+        let t57 = t17.neg_mul_add(t53, t12 + N::ONE);
+        let t58 = t18.neg_mul_add(t54, t13 + N::ONE);
+        let t59 = t53.mul_add(t41, t27);
+        let t60 = t54.mul_add(t41, t35);
+        let t61 = t9.mul_sub(t57, t52 * t8);
+        let t62 = t58.mul_sub(t8, t52 * t9);
+        let t63 = t32.mul_add(t45, t37 * (cos_q_1 * n(p.k32)));
+        let t64 = t53.mul_add(t56, t46);
+        let t65 = t54.mul_add(t56, t51);
+        let t66 = t58.mul_add(t30, t52.mul_add(t23, t54.mul_add(t36, t24)));
+        let t67 = t52.mul_add(t30, t53.neg_mul_add(t36, t29));
+        let t68 = t57.mul_add(t23, t67);
+        let t69 = t8.neg_mul_add(t60, t9.neg_mul_add(t59, t8));
+        let t70 = t61.mul_add(n(p.m) * t9, n(p.k28));
+        let t71 = t62.mul_add(n(p.m) * t8, t70);
+        let t72 = N::ONE / t71;
+        let t73 = t8.neg_mul_add(t65, t9.neg_mul_add(t64, t9));
+        let t74 = t9.mul_sub(t68, t8 * t66);
+        let t75 = cos_q_3.mul_add(t2, cos_q_2.mul_add(t4, cos_q_1 * t3));
+        let t76 = t15 + sin_q_4.mul_add(t1, sin_q_3.mul_add(t2, t44));
+        let t77 = n(p.m) * t72;
+        let t78 = n(p.m) * t72.mul_add(t62 * t61, t47);
+        let t79 = t61 * t77;
+        let t80 = t62 * t77;
+        let t81 = t61.neg_mul_add(t79, t57 + N::from_f64(0.5));
+        let t82 = t62.neg_mul_add(t80, t58 + N::from_f64(0.5));
+        let t83 = t20.mul_sub(t81, t78 * t19);
+        let t84 = t79.mul_add(t69, t59);
+        let t85 = t82.mul_sub(t19, t78 * t20);
+        let t86 = t80.mul_add(t69, t60);
+        let t87 = t81.mul_sub(t33, t78 * t32);
+        let t88 = t79.mul_add(t73, t64);
+        let t89 = t78.mul_add(t43, t79.neg_mul_add(t74, t68));
+        let t90 = t81.neg_mul_add(t49, t89);
+        let t91 = t78.neg_mul_add(t49, t80.mul_add(t74, t66));
+        let t92 = t82.mul_add(t43, t91);
+        let t93 = t83.mul_add(n(p.m) * t20, n(p.k13));
+        let t94 = t85.mul_add(n(p.m) * t19, t93);
+        let t95 = t83.mul_add(t33, sin_q_2.mul_add(n(p.k30) * sin_q_1, t34));
+        let t96 = t85.mul_add(t32, t95);
+        let t97 = t19.neg_mul_add(t86, t20.neg_mul_add(t84, t19));
+        let t98 = t87.mul_add(n(p.m) * t33, n(p.k12));
+        let t99 = N::ONE / t94;
+        let t100 = t80.mul_add(t73, t65);
+        let t101 = t20.mul_sub(t90, t39.mul_add(t50, t38 * t45));
+        let t102 = t19.neg_mul_add(t92, t101);
+        let t103 = t33.mul_sub(t90, t63 + t33.mul_add(t50, t55));
+        let t104 = t19.neg_mul_add(t100, t20.neg_mul_add(t88, t20));
+        let t105 = t82.mul_sub(t32, t78 * t33).mul_add(n(p.m) * t32, t98);
+        let t106 = t99.neg_mul_add(t96 * (t96 * n(p.k31)), t105);
+        let t107 = n(p.m) * t99;
+        let t108 = N::ONE / t106;
+        let t109 = t96 * t107;
+        let t110 = t32.neg_mul_add(t86, t33.neg_mul_add(t84, t32));
+        let t111 = t32.neg_mul_add(t100, t33.neg_mul_add(t88, t33));
+        let t112 = t108 * t109.neg_mul_add(t97, t110);
+        let t113 = t108 * t109.neg_mul_add(t102, t32.neg_mul_add(t92, t103));
+        let t114 = t108 * t109.neg_mul_add(t104, t111);
+        let t115 = t109.neg_mul_add(t112, t99 * t97);
+        let t116 = n(p.m) * t113;
+        let t117 = t109.neg_mul_add(t114, t99 * t104);
+        let t118 = t19.mul_add(t115, t32 * t112);
+        let t119 = t96.neg_mul_add(t116, t102);
+        let t120 = t20.mul_add(t115, t33 * t112);
+        let t121 = t19.mul_add(t117, t32 * t114);
+        let t122 = t20.mul_add(t117, t33 * t114);
+        let t123 = t107 * t119;
+        let t124 = t113 * n(p.k3);
+        let t125 = t119 * (t99 * n(p.k3));
+        let t126 = t79.neg_mul_add(t120, t80.neg_mul_add(t118, t72 * t69));
+        let t127 = t19.mul_add(t123, t32.mul_add(t116, t43));
+        let t128 = t20.mul_add(t123, t33.mul_add(t116, t49));
+        let t129 = n(p.l) * (t10 + cos_q_4.mul_add(t1, t75));
+        let t130 = t79.neg_mul_add(t122, t80.neg_mul_add(t121, t72 * t73));
+        let t131 = t8.mul_add(t126, t118);
+        let t132 = t9.mul_add(t126, t120);
+        let t133 = sin_q_2.mul_add(t115, sin_q_1 * t112);
+        let t134 = t8.mul_add(t130, t121);
+        let t135 = t9.mul_add(t130, t122);
+        let t136 = cos_q_2.mul_add(t115, cos_q_1 * t112);
+        let t137 = t61.neg_mul_add(t128, t62.neg_mul_add(t127, t74));
+        let t138 = cos_q_1.neg_mul_add(t124, n(p.l) * t76);
+        let t139 = cos_q_2.mul_add(t117, cos_q_1 * t114);
+        let t140 = t53.neg_mul_add(t132, t54.neg_mul_add(t131, t31 * t41));
+        let t141 = t77 * t137;
+        let t142 = t137 * (t72 * n(p.k3));
+        let t143 = t53.neg_mul_add(t135, t54.neg_mul_add(t134, t31 * t56));
+        let t144 = t9.neg_mul_add(t141, t23 - t128);
+        let t145 = t8.mul_add(t141, t30 + t127);
+        let t146 = sin_q_2.mul_add(t125, sin_q_1.mul_add(t124, t129));
+        let t147 = t28.neg_mul_add(t6.mul_add(t140, t131), t21 * n(p.k34));
+        let t148 = t22.neg_mul_add(t7.mul_add(t140, t132), t147);
+        let t149 = t18.neg_mul_add(t145, t17.mul_add(t144, t36));
+        let t150 = t28.neg_mul_add(t6.mul_add(t143, t134), n(p.k34) * t42);
+        let t151 = t22.neg_mul_add(t7.mul_add(t143, t135), t150);
+        let t152 = sin_q_4.mul_add(t140, sin_q_3.mul_add(t126, t133));
+        let t153 = cos_q_4.mul_add(t140, cos_q_3.mul_add(t126, t136));
+        let t154 = t48 * t149;
+        let t155 = t149 * (t31 * n(p.k3));
+        let t156 = cos_q_4.mul_add(t143, cos_q_3.mul_add(t130, t139));
+        let t157 = n(p.l) * sin_q_5.mul_add(t148, t152);
+        let t158 = n(p.l) * cos_q_5.mul_add(t148, t153);
+        let t159 = cos_q_3.neg_mul_add(t142, cos_q_2.neg_mul_add(t125, t138));
+        let t160 = n(p.l) * cos_q_5.mul_add(t151, t156);
+        let t161 = N::ONE / t157;
+        let t162 = cos_q_5 * t7.neg_mul_add(t154, t14 + t144);
+        let t163 = sin_q_5.mul_sub(t6.mul_add(t154, t16 + t145), t162);
+        let t164 = n(p.k35) * t163;
+        let t165 = t161 * t158;
+        let t166 = sin_q_4.mul_add(t155, sin_q_3.mul_add(t142, t146));
+        let t167 = sin_q_5.neg_mul_add(t164, t166);
+        let t168 = t158.neg_mul_add(t165, t160);
+        let t169 = cos_q_5.mul_add(t164, cos_q_4.neg_mul_add(t155, t159));
+        let t170 = t165.mul_add(t167, t169) / t168;
+        let t171 = t165.mul_add(t170, t161 * t167);
+        let t172 = t151.neg_mul_add(t170, n(p.k33) * t163);
+        let q_1_ddot = t112.neg_mul_add(t171, t114.mul_add(t170, t116));
+        let q_2_ddot = t115.neg_mul_add(t171, t117.mul_add(t170, t123));
+        let q_3_ddot = t126.neg_mul_add(t171, t130.mul_add(t170, t141));
+        let q_4_ddot = t140.neg_mul_add(t171, t143.mul_add(t170, t154));
+        let q_5_ddot = -t148.mul_add(t171, t172);
+        let sound = t26.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
+            & t71.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
+            & t94.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
+            & t106.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
+            & t157.exceeds(N::from_f64(6.217248937900877e-15) * t157)
+            & t168.exceeds(N::from_f64(6.217248937900877e-15) * t160)
+            & q_5_ddot.is_finite();
         if !sound {
-            check(t15, n(p.k9), 6.217248937900877e-15, 1)?;
-            check(t46, n(p.k10), 6.217248937900877e-15, 2)?;
-            check(t68, n(p.k11), 6.217248937900877e-15, 3)?;
-            check(t85, n(p.k12), 6.217248937900877e-15, 4)?;
-            check(t111, t111, 6.217248937900877e-15, 5)?;
-            check(t127, t124, 6.217248937900877e-15, 6)?;
+            check(t26, n(p.k12), 6.217248937900877e-15, 3)?;
+            check(t71, n(p.k11), 6.217248937900877e-15, 2)?;
+            check(t94, n(p.k10), 6.217248937900877e-15, 1)?;
+            check(t106, n(p.k9), 6.217248937900877e-15, 0)?;
+            check(t157, t157, 6.217248937900877e-15, 5)?;
+            check(t168, t160, 6.217248937900877e-15, 6)?;
         }
         let accelerations = [
             q_1_ddot.store(),
@@ -865,45 +944,45 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t5 = cos_q_2 * t0;
         let t6 = sin_q_2 * t0;
         let t7 = sin_q_1 * t1;
-        let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k7);
-        let t9 = n(p.k6) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
-        let t10 = n(p.k5) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
-        let t11 = n(p.k26) * t8;
-        let t12 = n(p.k4) * sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
-        let t13 = n(p.k26) * t9;
-        let t14 = n(p.k26) * t10;
-        let t15 = t8.neg_mul_add(t11, n(p.k9));
+        let t8 = sin_q_2.mul_add(sin_q_1, cos_q_2 * cos_q_1) * n(p.k8);
+        let t9 = n(p.k7) * sin_q_1.mul_add(sin_q_3, cos_q_1 * cos_q_3);
+        let t10 = n(p.k6) * sin_q_1.mul_add(sin_q_4, cos_q_1 * cos_q_4);
+        let t11 = n(p.k36) * t8;
+        let t12 = n(p.k5) * sin_q_1.mul_add(sin_q_5, cos_q_1 * cos_q_5);
+        let t13 = n(p.k36) * t9;
+        let t14 = n(p.k36) * t10;
+        let t15 = t8.neg_mul_add(t11, n(p.k10));
         let t16 = cos_q_1 * t1;
-        let t17 = n(p.k26) * t12;
-        let t18 = n(p.k6) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
+        let t17 = n(p.k36) * t12;
+        let t18 = n(p.k7) * sin_q_2.mul_add(sin_q_3, cos_q_2 * cos_q_3);
         let t19 = t8.neg_mul_add(t13, t18);
-        let t20 = n(p.k5) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
+        let t20 = n(p.k6) * sin_q_2.mul_add(sin_q_4, cos_q_2 * cos_q_4);
         let t21 = t8.neg_mul_add(t14, t20);
-        let t22 = n(p.k5) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
+        let t22 = n(p.k6) * sin_q_3.mul_add(sin_q_4, cos_q_3 * cos_q_4);
         let t23 = N::ONE / t15;
-        let t24 = n(p.k4) * sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
+        let t24 = n(p.k5) * sin_q_2.mul_add(sin_q_5, cos_q_2 * cos_q_5);
         let t25 = t8.neg_mul_add(t17, t24);
         let t26 = t6 + t7;
         let t27 = sin_q_3 * t2;
         let t28 = t5 + t16;
         let t29 = cos_q_3 * t2;
         let t30 = sin_q_1 * n(p.l);
-        let t31 = n(p.k4) * sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
+        let t31 = n(p.k5) * sin_q_3.mul_add(sin_q_5, cos_q_3 * cos_q_5);
         let t32 = sin_q_4 * t3;
         let t33 = sin_q_5 * t4;
         let t34 = t27 + t26;
         let t35 = cos_q_4 * t3;
         let t36 = t29 + t28;
         let t37 = cos_q_5 * t4;
-        let t38 = n(p.k26) * t30;
-        let t39 = n(p.k4) * sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
+        let t38 = n(p.k36) * t30;
+        let t39 = n(p.k5) * sin_q_4.mul_add(sin_q_5, cos_q_4 * cos_q_5);
         let t40 = t32 + t34;
         let t41 = t35 + t36;
         let t42 = t23 * t19;
         let t43 = t23 * t21;
         let t44 = t23 * t25;
-        let t45 = t8.mul_sub(t38, sin_q_2 * n(p.l));
-        let t46 = t19.neg_mul_add(t42, t9.neg_mul_add(t13, n(p.k10)));
+        let t45 = t8.neg_mul_add(t38, sin_q_2 * n(p.l));
+        let t46 = t19.neg_mul_add(t42, t9.neg_mul_add(t13, n(p.k11)));
         let t47 = t19.neg_mul_add(t43, t9.neg_mul_add(t14, t22));
         let t48 = t19.neg_mul_add(t44, t9.neg_mul_add(t17, t31));
         let t49 = n(p.l).mul_add(t41, n(p.k0) * t37);
@@ -915,92 +994,96 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t55 = n(p.g) - n(p.l).mul_add(t34, n(p.k0) * t32);
         let t56 = t49 + t51;
         let t57 = n(p.l).mul_add(t28, n(p.k0) * t29);
-        let t58 = t19.neg_mul_add(t52, t9.mul_sub(t38, sin_q_3 * n(p.l)));
-        let t59 = n(p.k26) * t53;
-        let t60 = t54 + t55;
-        let t61 = n(p.g) - n(p.l).mul_add(t26, n(p.k0) * t27);
-        let t62 = n(p.k0).mul_add(t5, n(p.l) * t16);
-        let t63 = t50 * t47;
-        let t64 = t50 * t48;
-        let t65 = t50 * t58;
-        let t66 = t8.neg_mul_add(t59, cos_q_2 * n(p.l));
-        let t67 = t21.neg_mul_add(t43, t10.neg_mul_add(t14, n(p.k11)));
-        let t68 = t47.neg_mul_add(t63, t67);
-        let t69 = t21.neg_mul_add(t44, t10.neg_mul_add(t17, t39));
+        let t58 = t9.neg_mul_add(t38, sin_q_3 * n(p.l));
+        let t59 = t19.neg_mul_add(t52, t58);
+        let t60 = n(p.k36) * t53;
+        let t61 = t54 + t55;
+        let t62 = n(p.g) - n(p.l).mul_add(t26, n(p.k0) * t27);
+        let t63 = n(p.k0).mul_add(t5, n(p.l) * t16);
+        let t64 = t50 * t47;
+        let t65 = t50 * t48;
+        let t66 = t50 * t59;
+        let t67 = t10.neg_mul_add(t38, sin_q_4 * n(p.l));
+        let t68 = t8.neg_mul_add(t60, cos_q_2 * n(p.l));
+        let t69 = t21.neg_mul_add(t43, t10.neg_mul_add(t14, n(p.k12)));
         let t70 = t47.neg_mul_add(t64, t69);
-        let t71 = t25.neg_mul_add(t44, t12.neg_mul_add(t17, n(p.k12)));
-        let t72 = n(p.g) - n(p.k0).mul_add(t6, n(p.l) * t7);
-        let t73 = n(p.m) * (t56 + t57);
-        let t74 = N::ONE / t68;
-        let t75 = t21.neg_mul_add(t52, t10.mul_sub(t38, sin_q_4 * n(p.l)));
-        let t76 = t47.neg_mul_add(t65, t75);
-        let t77 = t23 * t66;
-        let t78 = n(p.m) * (t60 + t61);
-        let t79 = n(p.k13) * n(p.k0).neg_mul_add(t7, n(p.g));
-        let t80 = t25.neg_mul_add(t52, t12.mul_sub(t38, sin_q_5 * n(p.l)));
-        let t81 = t9.neg_mul_add(t59, cos_q_3 * n(p.l));
-        let t82 = t19.neg_mul_add(t77, t81);
-        let t83 = t74 * t70;
-        let t84 = t74 * t76;
-        let t85 = t70.neg_mul_add(t83, t48.neg_mul_add(t64, t71));
-        let t86 = t70.neg_mul_add(t84, t48.neg_mul_add(t65, t80));
-        let t87 = t50 * t82;
-        let t88 = t10.neg_mul_add(t59, cos_q_4 * n(p.l));
-        let t89 = sin_q_1 * (t73 + n(p.m).mul_add(t62, t16 * n(p.k14)));
-        let t90 = sin_q_4 * t49.mul_add(n(p.m), n(p.k13) * t51);
-        let t91 = sin_q_2 * n(p.k13).mul_add(t62, t73);
-        let t92 = N::ONE / t85;
-        let t93 = sin_q_3 * n(p.m).mul_add(t56, n(p.k13) * t57);
-        let t94 = t58.mul_add(t65, t45.mul_add(t52, t30 * t38));
-        let t95 = t47.neg_mul_add(t87, t21.neg_mul_add(t77, t88));
-        let t96 = t12.neg_mul_add(t59, cos_q_5 * n(p.l));
-        let t97 = cos_q_1.mul_add(t78 + n(p.m).mul_add(t72, t79), t89);
-        let t98 = n(p.l) * t97;
-        let t99 = cos_q_4.mul_add(t54.mul_add(n(p.m), n(p.k13) * t55), t90);
-        let t100 = cos_q_3.mul_add(n(p.m).mul_add(t60, n(p.k13) * t61), t93);
-        let t101 = t74 * t95;
-        let t102 = n(p.l) * cos_q_2.mul_add(n(p.k13).mul_add(t72, t78), t91);
-        let t103 = t11.mul_sub(t98, t102);
-        let t104 = cos_q_5.mul_add(t54, sin_q_5 * t49) * n(p.k15);
-        let t105 = t48.neg_mul_add(t87, t25.neg_mul_add(t77, t96));
-        let t106 = t70.neg_mul_add(t101, t105);
-        let t107 = t92 * t86;
-        let t108 = t42.neg_mul_add(t103, t13.mul_sub(t98, n(p.l) * t100));
-        let t109 = t38.neg_mul_add(t98, n(p.l) * (t37 + t41));
-        let t110 = t59.mul_add(t98, n(p.l) * (t33 + t40));
-        let t111 = t86.mul_add(t107, t76.mul_add(t84, t94));
-        let t112 = t92 * t106;
-        let t113 = t58.neg_mul_add(t87, t45.neg_mul_add(t77, t30 * t59));
-        let t114 = t43.neg_mul_add(t103, t14.mul_sub(t98, n(p.l) * t99));
-        let t115 = t63.neg_mul_add(t108, t114);
-        let t116 = t44.neg_mul_add(t103, t17.mul_sub(t98, t104));
-        let t117 = N::ONE / t111;
-        let t118 = t86.neg_mul_add(t112, t76.neg_mul_add(t101, t113));
-        let t119 = t83.neg_mul_add(t115, t64.neg_mul_add(t108, t116));
-        let t120 = t65.neg_mul_add(t108, t52.neg_mul_add(t103, t109));
-        let t121 = t87.neg_mul_add(t108, t77.neg_mul_add(t103, t110));
-        let t122 = t107.neg_mul_add(t119, t84.neg_mul_add(t115, t120));
-        let t123 = t106.mul_add(t112, t66.mul_add(t77, t53 * t59));
-        let t124 = t123 + t95.mul_add(t101, t82 * t87);
-        let t125 = t117 * t118;
-        let t126 = t112.neg_mul_add(t119, t101.neg_mul_add(t115, t121));
-        let t127 = t118.neg_mul_add(t125, t124);
-        let lambda2 = t125.mul_add(t122, t126) / t127;
-        let lambda1 = t125.mul_add(lambda2, t117 * t122);
-        let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
-            & t46.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
-            & t68.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
-            & t85.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
-            & t111.exceeds(N::from_f64(6.217248937900877e-15) * t111)
-            & t127.exceeds(N::from_f64(6.217248937900877e-15) * t124)
+        let t71 = t21.neg_mul_add(t44, t10.neg_mul_add(t17, t39));
+        let t72 = t47.neg_mul_add(t65, t71);
+        let t73 = t25.neg_mul_add(t44, t12.neg_mul_add(t17, n(p.k13)));
+        let t74 = n(p.g) - n(p.k0).mul_add(t6, n(p.l) * t7);
+        let t75 = n(p.m) * (t56 + t57);
+        let t76 = N::ONE / t70;
+        let t77 = t47.neg_mul_add(t66, t21.neg_mul_add(t52, t67));
+        let t78 = t12.neg_mul_add(t38, sin_q_5 * n(p.l));
+        let t79 = t23 * t68;
+        let t80 = n(p.m) * (t61 + t62);
+        let t81 = n(p.k14) * n(p.k0).neg_mul_add(t7, n(p.g));
+        let t82 = t9.neg_mul_add(t60, cos_q_3 * n(p.l));
+        let t83 = t19.neg_mul_add(t79, t82);
+        let t84 = t76 * t72;
+        let t85 = t76 * t77;
+        let t86 = t72.neg_mul_add(t84, t48.neg_mul_add(t65, t73));
+        let t87 = t48.neg_mul_add(t66, t25.neg_mul_add(t52, t78));
+        let t88 = t72.neg_mul_add(t85, t87);
+        let t89 = t50 * t83;
+        let t90 = t10.neg_mul_add(t60, cos_q_4 * n(p.l));
+        let t91 = sin_q_1 * (t75 + n(p.m).mul_add(t63, t16 * n(p.k15)));
+        let t92 = sin_q_4 * t49.mul_add(n(p.m), n(p.k14) * t51);
+        let t93 = sin_q_2 * n(p.k14).mul_add(t63, t75);
+        let t94 = N::ONE / t86;
+        let t95 = sin_q_3 * n(p.m).mul_add(t56, n(p.k14) * t57);
+        let t96 = t59.mul_add(t66, t45.mul_add(t52, t30 * t38));
+        let t97 = t47.neg_mul_add(t89, t21.neg_mul_add(t79, t90));
+        let t98 = t12.neg_mul_add(t60, cos_q_5 * n(p.l));
+        let t99 = cos_q_1.mul_add(t80 + n(p.m).mul_add(t74, t81), t91);
+        let t100 = n(p.l) * t99;
+        let t101 = cos_q_4.mul_add(t54.mul_add(n(p.m), n(p.k14) * t55), t92);
+        let t102 = cos_q_3.mul_add(n(p.m).mul_add(t61, n(p.k14) * t62), t95);
+        let t103 = t76 * t97;
+        let t104 = n(p.l) * cos_q_2.mul_add(n(p.k14).mul_add(t74, t80), t93);
+        let t105 = t11.mul_sub(t100, t104);
+        let t106 = cos_q_5.mul_add(t54, sin_q_5 * t49) * n(p.k16);
+        let t107 = t48.neg_mul_add(t89, t25.neg_mul_add(t79, t98));
+        let t108 = t72.neg_mul_add(t103, t107);
+        let t109 = t94 * t88;
+        let t110 = t42.neg_mul_add(t105, t13.mul_sub(t100, n(p.l) * t102));
+        let t111 = t38.neg_mul_add(t100, n(p.l) * (t37 + t41));
+        let t112 = t60.mul_add(t100, n(p.l) * (t33 + t40));
+        let t113 = t88.mul_add(t109, t77.mul_add(t85, t96));
+        let t114 = t94 * t108;
+        let t115 = t59.mul_add(t89, t45.mul_add(t79, t30 * t60));
+        let t116 = t43.neg_mul_add(t105, t14.mul_sub(t100, n(p.l) * t101));
+        let t117 = t64.neg_mul_add(t110, t116);
+        let t118 = t44.neg_mul_add(t105, t17.mul_sub(t100, t106));
+        let t119 = N::ONE / t113;
+        let t120 = t88.mul_add(t114, t77.mul_add(t103, t115));
+        let t121 = t84.neg_mul_add(t117, t65.neg_mul_add(t110, t118));
+        let t122 = t66.mul_add(t110, t52.mul_add(t105, t111));
+        let t123 = t89.neg_mul_add(t110, t79.neg_mul_add(t105, t112));
+        let t124 = t109.mul_add(t121, t85.mul_add(t117, t122));
+        let t125 = t108.mul_add(t114, t68.mul_add(t79, t53 * t60));
+        let t126 = t125 + t97.mul_add(t103, t83 * t89);
+        let t127 = t119 * t120;
+        let t128 = t114.neg_mul_add(t121, t103.neg_mul_add(t117, t123));
+        let t129 = t120.neg_mul_add(t127, t126);
+        let lambda2 = t127.mul_add(t124, t128) / t129;
+        let lambda1 = t127.mul_add(lambda2, t119 * t124);
+        let sound = n(p.k9).exceeds(N::from_f64(6.217248937900877e-15) * n(p.k9))
+            & t15.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k10))
+            & t46.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k11))
+            & t70.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k12))
+            & t86.exceeds(N::from_f64(6.217248937900877e-15) * n(p.k13))
+            & t113.exceeds(N::from_f64(6.217248937900877e-15) * t113)
+            & t129.exceeds(N::from_f64(6.217248937900877e-15) * t126)
             & lambda1.is_finite();
         if !sound {
-            check(t15, n(p.k9), 6.217248937900877e-15, 1)?;
-            check(t46, n(p.k10), 6.217248937900877e-15, 2)?;
-            check(t68, n(p.k11), 6.217248937900877e-15, 3)?;
-            check(t85, n(p.k12), 6.217248937900877e-15, 4)?;
-            check(t111, t111, 6.217248937900877e-15, 5)?;
-            check(t127, t124, 6.217248937900877e-15, 6)?;
+            check(n(p.k9), n(p.k9), 6.217248937900877e-15, 0)?;
+            check(t15, n(p.k10), 6.217248937900877e-15, 1)?;
+            check(t46, n(p.k11), 6.217248937900877e-15, 2)?;
+            check(t70, n(p.k12), 6.217248937900877e-15, 3)?;
+            check(t86, n(p.k13), 6.217248937900877e-15, 4)?;
+            check(t113, t113, 6.217248937900877e-15, 5)?;
+            check(t129, t126, 6.217248937900877e-15, 6)?;
         }
         let multipliers = [lambda1.store(), lambda2.store()];
         Ok(multipliers)
@@ -1050,7 +1133,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &
     let t19 = t1 * cos_q_5 + p.l * (t7 + t14);
     let t20 = p.m * (t11 * t11 + t9 * t9) + q_2_dot * (q_2_dot * p.J);
     let t21 = p.m * (t15 * t15 + t13 * t13) + q_3_dot * (q_3_dot * p.J);
-    let t22 = S::from_f64(0.5) * t20 + q_1_dot * (q_1_dot * p.k3);
+    let t22 = S::from_f64(0.5) * t20 + q_1_dot * (q_1_dot * p.k4);
     let t23 = p.m * (t17 * t17 + t16 * t16) + q_4_dot * (q_4_dot * p.J);
     let t24 = p.m * (t19 * t19 + t18 * t18) + q_5_dot * (q_5_dot * p.J);
     let t25 = S::from_f64(0.5) * t23 + (S::from_f64(0.5) * t21 + t22);
@@ -1318,6 +1401,16 @@ where
             k24: lanes(|p| p.k24),
             k25: lanes(|p| p.k25),
             k26: lanes(|p| p.k26),
+            k27: lanes(|p| p.k27),
+            k28: lanes(|p| p.k28),
+            k29: lanes(|p| p.k29),
+            k30: lanes(|p| p.k30),
+            k31: lanes(|p| p.k31),
+            k32: lanes(|p| p.k32),
+            k33: lanes(|p| p.k33),
+            k34: lanes(|p| p.k34),
+            k35: lanes(|p| p.k35),
+            k36: lanes(|p| p.k36),
             singular: None,
         }
     }

@@ -8,7 +8,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 49 | 20 | 7 | 0 | 0 | 76 |
+//! | `prepare` | 54 | 21 | 9 | 0 | 0 | 84 |
 //! | `start` | 4 | 6 | 2 | 0 | 0 | 12 |
 //! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
@@ -18,7 +18,7 @@
 //! | `constraint_rates` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `constraint_drift` | 2 | 2 | 0 | 0 | 0 | 4 |
 //! | `accelerations` | 117 | 81 | 3 | 4 | 0 | 209 |
-//! | `multipliers` | 248 | 165 | 8 | 4 | 0 | 429 |
+//! | `multipliers` | 204 | 131 | 6 | 4 | 0 | 349 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
 //! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
@@ -170,30 +170,32 @@ impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
         let k8 = self.m1 + self.m2;
         let k9 = self.m0 * self.y0;
         let k10 = self.m0 * self.x0;
-        let k11 = k8 + (self.m + self.m0);
+        let k20 = self.m + self.m0;
+        let k11 = k8 + k20;
         let k12 = self.R - self.r1;
         let k13 = k0 - self.r2;
         let k15 = self.J + (self.y0 * k9 + self.x0 * k10);
+        let k25 = S::ONE / k20;
+        let k22 = k15 - k25 * (k9 * k9) - k25 * (k10 * k10);
+        let k23 = S::ONE / k22;
+        let pivot_10 = self.r1 * self.r1;
         let t0 = S::ONE / self.J1;
         let t1 = k0 * t0;
-        let k21 = S::ONE / k15;
-        let k22 = self.R * k21;
-        let pivot_10 = self.r1 * self.r1;
         let pivot_12 = self.r2 * self.r2;
         let t2 = S::ONE / self.r1;
-        let k26 = self.R * t2;
-        let k27 = k12 * t2;
+        let k32 = self.R * t2;
+        let k33 = k12 * t2;
         let t3 = S::ONE / self.r2;
         let t4 = k0 * t2 * t3;
-        let k28 = self.R * t4;
-        let k29 = k12 * t4;
-        let k30 = k13 * t3;
-        let k32 = self.m2 * k13;
-        let k33 = k8 * k12;
+        let k34 = self.R * t4;
+        let k35 = k12 * t4;
+        let k36 = k13 * t3;
+        let k38 = self.m2 * k13;
+        let k39 = k8 * k12;
         let t5 = self.J2 * t4;
         let t6 = self.R * t5;
         let t7 = k12 * t5;
-        let t8 = self.J1 * k26;
+        let t8 = self.J1 * k32;
         let k2 = self.omega * (self.omega * self.J0);
         let k3 = self.cx * S::from_f64(0.5);
         let k4 = self.cy * S::from_f64(0.5);
@@ -205,19 +207,23 @@ impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
         let k17 = -self.m2;
         let k18 = -self.R;
         let k19 = self.delta - self.rho;
-        let k20 = self.r1 * t1;
-        let k23 = S::ONE / k8;
-        let k24 = self.R * k22 + t0 * pivot_10;
-        let k25 = k0 * t1 + pivot_12 / self.J2;
-        let k31 = self.m1 * k12;
-        let k34 = k30 * t6;
-        let k35 = k27 * t8 + k28 * t7;
-        let k36 = k30 * t7;
-        let k37 = k12 * k32;
-        let k38 = k29 * t7 + (k12 * k33 + k27 * (self.J1 * k27));
-        let k39 = k13 * k32 + k30 * (self.J2 * k30);
-        let k40 = k28 * t6 + (k15 + k26 * t8);
-        let k41 = S::ONE / k11;
+        let k21 = self.m0 * k25;
+        let k24 = self.m0 * k23;
+        let k26 = S::ONE / self.m2;
+        let k27 = S::ONE / self.m1;
+        let k28 = pivot_10 * t0;
+        let k29 = self.R * k23;
+        let k30 = self.r1 * t1;
+        let k31 = pivot_12 / self.J2 + k0 * t1;
+        let k37 = self.m1 * k12;
+        let k40 = k36 * t6;
+        let k41 = k33 * t8 + k34 * t7;
+        let k42 = k36 * t7;
+        let k43 = k12 * k38;
+        let k44 = k35 * t7 + (k12 * k39 + k33 * (self.J1 * k33));
+        let k45 = k13 * k38 + k36 * (self.J2 * k36);
+        let k46 = k34 * t6 + (k15 + k32 * t8);
+        let k47 = S::ONE / k11;
         let one = S::ONE;
         let singular = if vanishes(k11, k11, 1.1546319456101628e-14) {
             Some(singular(0, k11, k11))
@@ -296,6 +302,12 @@ impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
             k39,
             k40,
             k41,
+            k42,
+            k43,
+            k44,
+            k45,
+            k46,
+            k47,
             singular,
         }
     }
@@ -499,50 +511,62 @@ pub struct Prepared<S = f64> {
     k18: S,
     /// `-(rho - delta)`
     k19: S,
-    /// `r1*(rho - delta)/J1`
+    /// `m + m0`
     k20: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0/(m + m0)`
     k21: S,
-    /// `R/(J + m0*x0^2 + m0*y0^2)`
+    /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
     k22: S,
-    /// `1/(m1 + m2)`
+    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k23: S,
-    /// `r1^2/J1 + R^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k24: S,
-    /// `r2^2/J2 + (rho - delta)^2/J1`
+    /// `1/(m + m0)`
     k25: S,
-    /// `R/r1`
+    /// `1/m2`
     k26: S,
-    /// `(R - r1)/r1`
+    /// `1/m1`
     k27: S,
-    /// `R*(rho - delta)/r1/r2`
+    /// `r1^2/J1`
     k28: S,
-    /// `(rho - delta)*(R - r1)/r1/r2`
+    /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k29: S,
-    /// `(rho - r2 - delta)/r2`
+    /// `r1*(rho - delta)/J1`
     k30: S,
-    /// `m1*(R - r1)`
+    /// `(rho - delta)^2/J1 + r2^2/J2`
     k31: S,
-    /// `m2*(rho - r2 - delta)`
+    /// `R/r1`
     k32: S,
-    /// `(m1 + m2)*(R - r1)`
+    /// `(R - r1)/r1`
     k33: S,
-    /// `J2*R*(rho - delta)*(rho - r2 - delta)/r1/r2^2`
+    /// `R*(rho - delta)/r1/r2`
     k34: S,
-    /// `J2*R*(rho - delta)^2*(R - r1)/r1^2/r2^2 + J1*R*(R - r1)/r1^2`
+    /// `(rho - delta)*(R - r1)/r1/r2`
     k35: S,
-    /// `J2*(rho - delta)*(R - r1)*(rho - r2 - delta)/r1/r2^2`
+    /// `(rho - r2 - delta)/r2`
     k36: S,
-    /// `m2*(R - r1)*(rho - r2 - delta)`
+    /// `m1*(R - r1)`
     k37: S,
-    /// `J2*(rho - delta)^2*(R - r1)^2/r1^2/r2^2 + J1*(R - r1)^2/r1^2 + (m1 + m2)*(R - r1)^2`
+    /// `m2*(rho - r2 - delta)`
     k38: S,
-    /// `J2*(rho - r2 - delta)^2/r2^2 + m2*(rho - r2 - delta)^2`
+    /// `(m1 + m2)*(R - r1)`
     k39: S,
-    /// `J + m0*x0^2 + m0*y0^2 + J2*R^2*(rho - delta)^2/r1^2/r2^2 + J1*R^2/r1^2`
+    /// `J2*R*(rho - delta)*(rho - r2 - delta)/r1/r2^2`
     k40: S,
-    /// `1/(m + m0 + m1 + m2)`
+    /// `J2*R*(rho - delta)^2*(R - r1)/r1^2/r2^2 + J1*R*(R - r1)/r1^2`
     k41: S,
+    /// `J2*(rho - delta)*(R - r1)*(rho - r2 - delta)/r1/r2^2`
+    k42: S,
+    /// `m2*(R - r1)*(rho - r2 - delta)`
+    k43: S,
+    /// `J2*(rho - delta)^2*(R - r1)^2/r1^2/r2^2 + J1*(R - r1)^2/r1^2 + (m1 + m2)*(R - r1)^2`
+    k44: S,
+    /// `J2*(rho - r2 - delta)^2/r2^2 + m2*(rho - r2 - delta)^2`
+    k45: S,
+    /// `J + m0*x0^2 + m0*y0^2 + J2*R^2*(rho - delta)^2/r1^2/r2^2 + J1*R^2/r1^2`
+    k46: S,
+    /// `1/(m + m0 + m1 + m2)`
+    k47: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -958,77 +982,77 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
         let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
         let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k33);
-        let t14 = cos_phi1 * n(p.k33);
+        let t13 = sin_phi1 * n(p.k39);
+        let t14 = cos_phi1 * n(p.k39);
         let t15 = t6 * cos_phi1;
         let t16 = sin_theta.mul_add(n(p.k10), cos_theta * n(p.k9));
         let t17 = cos_theta.mul_sub(n(p.k10), sin_theta * n(p.k9));
-        let t18 = n(p.k41) * t13;
-        let t19 = n(p.k41) * t14;
-        let t20 = n(p.k41) * t16;
-        let t21 = n(p.k41) * t17;
+        let t18 = n(p.k47) * t13;
+        let t19 = n(p.k47) * t14;
+        let t20 = n(p.k47) * t16;
+        let t21 = n(p.k47) * t17;
         let t22 = t6 * sin_phi1;
         let t23 = t15.mul_add(n(p.k12), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k35)));
+        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k41)));
         let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
         let t26 = n(p.k7).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
         let t27 = n(p.k12).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k31));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k40)));
-        let t30 = sin_phi2 * n(p.k32);
+        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k37));
+        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k46)));
+        let t30 = sin_phi2 * n(p.k38);
         let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
         let t32 = n(p.k7).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k32);
-        let t34 = n(p.m2).mul_add(t27, n(p.k31) * t22);
+        let t33 = cos_phi2 * n(p.k38);
+        let t34 = n(p.m2).mul_add(t27, n(p.k37) * t22);
         let t35 = N::ONE / t29;
-        let t36 = n(p.k41) * t30;
+        let t36 = n(p.k47) * t30;
         let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k41) * t33;
+        let t38 = n(p.k47) * t33;
         let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
         let t40 = t32.mul_sub(n(p.k9), n(p.k10) * t26);
         let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k34)));
+        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k40)));
         let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
         let t44 = n(p.k9).mul_add(t26, t32 * n(p.k10));
         let t45 = t35 * t24;
         let t46 = t35 * t42;
-        let t47 = n(p.k32) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+        let t47 = n(p.k38) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
         let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k37), n(p.k36));
+        let t49 = t43.mul_add(n(p.k43), n(p.k42));
         let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
         let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k38)));
+        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k44)));
         let t53 = t24.neg_mul_add(t45, t52);
         let t54 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
         let t55 = N::ONE / t53;
         let t56 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
         let t57 = t19.neg_mul_add(t41, n(p.k12).mul_add(t48, t37 * t18));
         let t58 = t45.neg_mul_add(t51, t57);
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k39)));
+        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k45)));
         let t60 = t55 * t54;
         let t61 = t54.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
         let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t56)) / t61;
         let phi1_ddot = t60.neg_mul_add(phi2_ddot, t55 * t58);
         let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
         let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k41) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k41) * t41);
+        let t64 = t36.mul_add(phi2_ddot, n(p.k47) * t37);
+        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k47) * t41);
         let t66 = t62 - t63;
-        let t67 = phi1_ddot.mul_add(n(p.k29), phi2_ddot * n(p.k30));
+        let t67 = phi1_ddot.mul_add(n(p.k35), phi2_ddot * n(p.k36));
         let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
         let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
         let theta_ddot = t63 - t62;
         let zero = N::ZERO;
-        let theta1_ddot = -t66.mul_add(n(p.k26), phi1_ddot * n(p.k27));
-        let theta2_ddot = -t66.mul_add(n(p.k28), t67);
-        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k40))
-            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k38))
-            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k39))
+        let theta1_ddot = -t66.mul_add(n(p.k32), phi1_ddot * n(p.k33));
+        let theta2_ddot = -t66.mul_add(n(p.k34), t67);
+        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k46))
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k44))
+            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k45))
             & theta2_ddot.is_finite();
         if !sound {
-            check(t29, n(p.k40), 7.993605777301127e-15, 2)?;
-            check(t53, n(p.k38), 7.993605777301127e-15, 4)?;
-            check(t61, n(p.k39), 7.993605777301127e-15, 7)?;
+            check(t29, n(p.k46), 7.993605777301127e-15, 2)?;
+            check(t53, n(p.k44), 7.993605777301127e-15, 4)?;
+            check(t61, n(p.k45), 7.993605777301127e-15, 7)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1100,192 +1124,161 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let (sin_phi1, cos_phi1) = circular[1];
         let (sin_phi2, cos_phi2) = circular[2];
         let (sin_t0, cos_t0) = circular[3];
-        let t1 = s1 * n(p.k8);
-        let t2 = s1 * n(p.m2);
-        let t3 = s2 * n(p.m2);
-        let t4 = phi1_dot * s1;
-        let t5 = N::from_f64(2.0) * s1_dot;
-        let t6 = theta * n(p.yc);
-        let t7 = theta * n(p.xc);
-        let t8 = s1 * t1;
-        let t9 = s2 * t3;
-        let t10 = phi2_dot * s2;
-        let t11 = N::from_f64(2.0) * s2_dot;
-        let t12 = n(p.yc) * theta_dot;
-        let t13 = theta_dot * n(p.xc);
-        let t14 = n(p.omega).product_error(n(t));
-        let t15 = theta_dot * theta_dot;
-        let t16 = n(p.bx).mul_add(t12 + x_dot, n(p.cx) * (t6 + x));
-        let t17 = n(p.bx).mul_add(x_dot - t12, n(p.cx) * (x - t6));
-        let t18 = n(p.by).mul_add(t13 + y_dot, n(p.cy) * (t7 + y));
-        let t19 = n(p.by).mul_add(y_dot - t13, n(p.cy) * (y - t7));
-        let t20 = cos_phi1 * n(p.k8);
-        let t21 = sin_phi1 * n(p.k8);
-        let t22 = sin_phi1 * t1;
-        let t23 = n(p.k10).mul_add(sin_theta, cos_theta * n(p.k9));
-        let t24 = n(p.k23) * t20;
-        let t25 = n(p.k10).mul_sub(cos_theta, sin_theta * n(p.k9));
-        let t26 = n(p.k23) * t21;
-        let t27 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t28 = cos_phi2 * sin_phi1;
-        let t29 = sin_phi2 * cos_phi1;
-        let t30 = n(p.k21) * t23;
-        let t31 = n(p.k8) * t24;
-        let t32 = n(p.k21) * t25;
-        let t33 = n(p.k8) * t26;
-        let t34 = n(p.m2) * t27;
-        let t35 = n(p.k23) * t34;
-        let t36 = (t28 - t29) * t3;
-        let t37 = t24.mul_add(t31 - t20, t23.neg_mul_add(t30, n(p.k11)));
-        let t38 = t33.mul_add(t24, t23.mul_sub(t32, t26 * t20));
-        let t39 = n(p.k8) * t35;
-        let t40 = N::ONE / t37;
-        let t41 = n(p.k23) * t36;
-        let t42 = t23 * n(p.k22);
-        let t43 = t39.mul_add(t24, t35.neg_mul_add(t20, cos_phi2 * n(p.m2)));
-        let t44 = n(p.k8) * t41;
-        let t45 = t44.neg_mul_add(t24, t41.mul_add(t20, sin_phi2 * t3));
-        let t46 = t40 * t38;
-        let t47 = t40 * t22;
-        let t48 = t40 * t43;
-        let t49 = t40 * t45;
-        let t50 = t40 * t42;
-        let t51 = phi1_dot * sin_phi1.mul_sub(t4, t5 * cos_phi1);
-        let t52 = t26.mul_add(t33 - t21, t25.neg_mul_add(t32, n(p.k11)));
-        let t53 = t38.neg_mul_add(t46, t52);
-        let t54 = t38.mul_add(t47, cos_phi1 * t1);
-        let t55 = t39.mul_add(t26, t35.neg_mul_add(t21, sin_phi2 * n(p.m2)));
-        let t56 = t38.neg_mul_add(t48, t55);
-        let t57 = t44.mul_add(t26, t41.neg_mul_add(t21, cos_phi2 * t3));
-        let t58 = t38.mul_add(t49, t57);
-        let t59 = N::ONE / t53;
-        let t60 = t38.mul_add(t50, t25 * n(p.k22));
-        let t61 = phi1_dot * t5.mul_add(sin_phi1, cos_phi1 * t4);
-        let t62 = sin_phi2.mul_sub(t10, t11 * cos_phi2);
-        let t63 = phi2_dot.mul_add(t62, t51);
-        let t64 = t11.mul_add(sin_phi2, cos_phi2 * t10);
-        let t65 = phi2_dot.mul_add(t64, t61);
-        let t66 = t15 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t67 = n(p.k7).mul_add(t14.mul_add(cos_t0, sin_t0), t66);
-        let t68 = n(p.m2).mul_add(t63, n(p.m1) * t51);
-        let t69 = t65.mul_add(n(p.m2), t61 * n(p.m1));
-        let t70 = t15 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t71 = n(p.k7).mul_add(t14.neg_mul_add(sin_t0, cos_t0), t70);
-        let t72 = t59 * t54;
-        let t73 = t59 * t56;
-        let t74 = t59 * t58;
-        let t75 = t59 * t60;
-        let t76 = t54.neg_mul_add(t72, t22.neg_mul_add(t47, t8));
-        let t77 = t54.neg_mul_add(t73, t22.mul_add(t48, (t29 - t28) * t2));
-        let t78 = t43.neg_mul_add(t48, t35.mul_add(t39 - t34, n(p.m2)));
-        let t79 = t22.neg_mul_add(t49, t27 * (s2 * t2));
-        let t80 = t54.neg_mul_add(t74, t79);
-        let t81 = t43.neg_mul_add(t49, t44.neg_mul_add(t35, t41 * t34));
-        let t82 = t45.neg_mul_add(t49, t41.mul_add(t44 - t36, t9));
-        let t83 = t54.neg_mul_add(t75, t22.neg_mul_add(t50, s1));
-        let t84 = N::ONE / t76;
-        let t85 = cos_phi1.mul_add(t69, sin_phi1 * t68);
-        let t86 = n(p.yc).mul_add(t16 - t17, n(p.xc) * (t18 - t19));
-        let t87 = n(p.k9).mul_sub(t71, n(p.k10) * t67);
-        let t88 = t67.mul_add(n(p.m0), t68 - (t19 + t18));
-        let t89 = n(p.k23) * t85;
-        let t90 = t71.mul_add(n(p.m0), t69 - (t17 + t16));
-        let t91 = n(p.k9).mul_add(t67, n(p.k10) * t71);
-        let t92 = sin_theta.mul_add(t91, cos_theta.mul_add(t87, t86));
-        let t93 = n(p.m2) * cos_phi2.mul_add(t65, sin_phi2 * t63);
-        let t94 = t3 * cos_phi2.mul_sub(t63, sin_phi2 * t65);
-        let t95 = t84 * t77;
-        let t96 = t84 * t80;
-        let t97 = t84 * t83;
-        let t98 = t89.mul_add(t33, t85.neg_mul_add(t26, t88));
-        let t99 = t89.mul_add(t31, t85.neg_mul_add(t24, t90));
-        let t100 = t30.neg_mul_add(t92, t99);
-        let t101 = t77.neg_mul_add(t95, t56.neg_mul_add(t73, t78));
-        let t102 = t77.mul_add(t96, t56.mul_add(t74, t81));
-        let t103 = t77.neg_mul_add(t97, t56.neg_mul_add(t75, t43 * t50));
-        let t104 = t46.neg_mul_add(t100, t32.mul_add(t92, t98));
-        let t105 = N::ONE / t101;
-        let t106 = t89.mul_add(t39, t85.neg_mul_add(t35, t93));
-        let t107 = s1 * cos_phi1.mul_sub(t68, sin_phi1 * t69);
-        let t108 = t89.mul_add(t44, t85.neg_mul_add(t41, t94));
-        let t109 = n(p.k22).mul_add(t92, phi1_dot * s1_dot);
-        let t110 = t72.neg_mul_add(t104, t47.mul_add(t100, t107));
-        let t111 = t73.neg_mul_add(t104, t48.neg_mul_add(t100, t106));
-        let t112 = t95.neg_mul_add(t110, t111);
-        let t113 = t74.neg_mul_add(t104, t49.mul_add(t100, t108));
-        let t114 = t75.mul_add(t104, t50.neg_mul_add(t100, t109));
-        let t115 = N::ONE / t105;
-        let t116 = t105 * t102;
-        let t117 = t105 * t103;
-        let t118 = t105 * t112;
-        let t119 = t80.neg_mul_add(t96, t58.neg_mul_add(t74, t82));
-        let t120 = t80.mul_add(t97, t58.mul_add(t75, t45 * t50));
-        let t121 = t103.mul_add(t117, t83 * t97);
-        let t122 = t115 * t116;
-        let t123 = t115 * t117;
-        let t124 = t116.mul_add(t122, t102.neg_mul_add(t116, t119));
-        let t125 = t116.mul_add(t123, t102.neg_mul_add(t117, t120));
-        let t126 = t116.mul_add(t112, t96.neg_mul_add(t110, t113));
-        let t127 = t122.neg_mul_add(t118, t126);
-        let t128 = t117.mul_add(t112, t97.mul_add(t110, t114));
-        let t129 = N::ONE / t124;
-        let t130 = t129 * t125;
-        let t131 = s2 * t129;
-        let t132 = t131.mul_add(t125, n(p.k20));
-        let t133 = t130.neg_mul_add(t127, t123.neg_mul_add(t118, t128));
-        let t134 = s2.mul_add(t131, n(p.k25));
-        let t135 = t121 + t60.mul_add(t75, t42 * t50);
-        let t136 = t135 + t125.mul_add(t130, n(p.k24));
-        let t137 = t117.neg_mul_add(t123, t136);
-        let t138 = N::ONE / t137;
-        let t139 = t138 * t132;
-        let t140 = t132.neg_mul_add(t139, t134);
-        let t141 = t139.mul_add(t133, t131.mul_add(t127, phi2_dot * s2_dot));
-        let t142 = t141 / t140;
-        let t143 = t139.mul_add(t142, t138 * t133);
-        let t144 = t130.mul_add(t143, t131.neg_mul_add(t142, t129 * t127));
-        let lambda3 = t122.mul_add(t144, t123.neg_mul_add(t143, t115 * t118));
-        let t145 = t116.mul_add(t144, t117.neg_mul_add(t143, t118));
-        let t146 = t105.neg_mul_add(lambda3, t145);
-        let t147 = t96.neg_mul_add(t144, t97.neg_mul_add(t143, t84 * t110));
-        let t148 = t95.neg_mul_add(t146, t147);
-        let t149 = t49.mul_add(t144, t50.mul_add(t143, t40 * t100));
-        let t150 = t74.neg_mul_add(t144, t75.neg_mul_add(t143, t59 * t104));
-        let t151 = t72.neg_mul_add(t148, t73.neg_mul_add(t146, t150));
-        let t152 = t47.mul_add(t148, t48.neg_mul_add(t146, t149));
-        let t153 = t39.mul_add(t146, t44.mul_sub(t144, t89 * n(p.k8)));
-        let t154 = t46.neg_mul_add(t151, t152);
-        let lambda1 = -t31.mul_add(t154, t33.mul_add(t151, t153));
-        let lambda2 = -t143;
-        let lambda4 = -t142;
-        let sound = n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
-            & n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
-            & n(p.k15).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k15))
-            & n(p.k8).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k8))
-            & n(p.k23).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k23))
-            & t37.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
-            & t53.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
-            & t76.exceeds(N::from_f64(1.1546319456101628e-14) * t8)
-            & t101.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
-            & t105.exceeds(N::from_f64(1.1546319456101628e-14) * t105)
-            & t124.exceeds(N::from_f64(1.1546319456101628e-14) * t9)
-            & t137.exceeds(N::from_f64(1.1546319456101628e-14) * t136)
-            & t140.exceeds(N::from_f64(1.1546319456101628e-14) * t134)
-            & lambda1.is_finite();
+        let t1 = N::ONE / s1;
+        let t2 = theta * n(p.xc);
+        let t3 = theta * n(p.yc);
+        let t4 = theta_dot * n(p.xc);
+        let t5 = theta_dot * n(p.yc);
+        let t6 = theta_dot * theta_dot;
+        let t7 = n(p.omega).product_error(n(t));
+        let t8 = N::ONE / s2;
+        let t9 = phi1_dot * s1_dot;
+        let t10 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
+        let t11 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
+        let t12 = n(p.bx).mul_add(t5 + x_dot, n(p.cx) * (t3 + x));
+        let t13 = n(p.bx).mul_add(x_dot - t5, n(p.cx) * (x - t3));
+        let t14 = t1 * (n(p.k27) * t1);
+        let t15 = s2 * (s2 * n(p.m2));
+        let t16 = s1 * (s1 * n(p.m1));
+        let t17 = n(p.yc).mul_add(t13, n(p.xc) * t11);
+        let t18 = sin_theta * n(p.x0);
+        let t19 = cos_theta * n(p.y0);
+        let t20 = cos_theta * n(p.x0);
+        let t21 = sin_theta * n(p.y0);
+        let t22 = sin_phi1 * s1;
+        let t23 = cos_phi1 * s1;
+        let t24 = sin_phi1 * t1;
+        let t25 = t18 + t19;
+        let t26 = n(p.k25) * cos_phi1;
+        let t27 = t20 - t21;
+        let t28 = cos_phi1 * t1;
+        let t29 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t30 = n(p.k25) * sin_phi1;
+        let t31 = n(p.k21) * t25;
+        let t32 = n(p.k21) * t27;
+        let t33 = t23.mul_sub(sin_phi2, cos_phi2 * t22);
+        let t34 = sin_phi1.mul_sub(cos_phi2, cos_phi1 * sin_phi2);
+        let t35 = sin_phi2.mul_add(t22, t23 * cos_phi2);
+        let t36 = t24.mul_add(t33, cos_phi1.neg_mul_add(t29, cos_phi2));
+        let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t29, sin_phi2));
+        let t38 = cos_phi1.neg_mul_add(t32, n(p.R));
+        let t39 = t28.neg_mul_add(t35, sin_phi1.neg_mul_add(t34, cos_phi2));
+        let t40 = n(p.k21) * sin_phi1.mul_sub(t27, cos_phi1 * t25);
+        let t41 = n(p.k23) * t40;
+        let t42 = t24.neg_mul_add(t35, cos_phi1.mul_add(t34, sin_phi2));
+        let t43 = n(p.k23) * sin_phi1.neg_mul_add(t31, t38);
+        let t44 = t41.neg_mul_add(t31, t26);
+        let t45 = t32.mul_add(t41, t30);
+        let t46 = t31.neg_mul_add(t43, t30);
+        let t47 = t32.neg_mul_add(t43, t26);
+        let t48 = n(p.k23) * (n(p.k21) * t27.mul_sub(t37, t25 * t36));
+        let t49 = t7.neg_mul_add(sin_t0, cos_t0);
+        let t50 = sin_phi1.mul_add(t45, cos_phi1.mul_add(t44, n(p.k27)));
+        let t51 = t44.mul_sub(t24, t45 * t28);
+        let t52 = t28.mul_add(t47, t24.mul_add(t46, s1 * t14));
+        let t53 = cos_phi1.mul_sub(t46, sin_phi1 * t47);
+        let t54 = t31.neg_mul_add(t48, n(p.k25) * t36);
+        let t55 = t32.mul_add(t48, n(p.k25) * t37);
+        let t56 = t7.mul_add(cos_t0, sin_t0);
+        let t57 = N::ONE / t50;
+        let t58 = s1.mul_add(t51, t41 * n(p.R));
+        let t59 = s1.mul_add(t52, n(p.R).mul_add(t43, n(p.k28)));
+        let t60 = n(p.k7).mul_add(t49, t20.mul_sub(t6, t21 * t6)) * n(p.m0);
+        let t61 = n(p.m0) * n(p.k7).mul_add(t56, t18.mul_add(t6, t19 * t6));
+        let t62 = cos_phi1.neg_mul_add(t50, t51.neg_mul_add(t22, t44));
+        let t63 = n(p.k23) * (n(p.k21) * t25.mul_add(t42, t27 * t39));
+        let t64 = cos_phi1.mul_sub(t54, n(p.k27) * t29);
+        let t65 = sin_phi1.mul_add(t55, t64);
+        let t66 = t28.neg_mul_add(t55, t24.mul_add(t54, t14 * t33));
+        let t67 = sin_phi1.neg_mul_add(t50, t51.mul_add(t23, t45));
+        let t68 = t52.neg_mul_add(t23, sin_phi1.mul_add(t53, t47));
+        let t69 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t17;
+        let t70 = t11 + t10 - t61;
+        let t71 = t13 + t12 - t60;
+        let t72 = t31.mul_add(t63, n(p.k25) * t42);
+        let t73 = t57 * t58;
+        let t74 = t22.neg_mul_add(t66, cos_phi1.neg_mul_add(t65, t54));
+        let t75 = t67.mul_add(sin_phi2, cos_phi2 * t62);
+        let t76 = t52.neg_mul_add(t22, cos_phi1.neg_mul_add(t53, t46));
+        let t77 = cos_phi2 * t8;
+        let t78 = t58.neg_mul_add(t73, t59);
+        let t79 = t32.mul_add(t63, n(p.k25) * t39);
+        let t80 = sin_phi1.neg_mul_add(t65, t23.mul_add(t66, t55));
+        let t81 = N::ONE / t78;
+        let t82 = t57 * t75;
+        let t83 = sin_phi2 * t8;
+        let t84 = t32.neg_mul_add(t70, t25.mul_add(t60, t69));
+        let t85 = t31.mul_sub(t71, t27 * t61) + t84;
+        let t86 = t28.neg_mul_add(t79, t24.neg_mul_add(t72, t14 * t35));
+        let t87 = sin_phi2.mul_add(t80, cos_phi2.mul_add(t74, n(p.k26)));
+        let t88 = cos_phi2.mul_sub(t76, sin_phi2 * t68);
+        let t89 = t58.neg_mul_add(t82, t88);
+        let t90 = n(p.k24) * t85;
+        let t91 = cos_phi1.mul_add(t72, n(p.k27) * t34);
+        let t92 = sin_phi1.neg_mul_add(t79, t91);
+        let t93 = s2 * t62.mul_sub(t83, t67 * t77);
+        let t94 = t25.mul_add(t90, t71);
+        let t95 = t27.neg_mul_add(t90, t70);
+        let t96 = t81 * t89;
+        let t97 = t57 * t93;
+        let t98 = cos_phi1.neg_mul_add(t92, t22.mul_add(t86, t72));
+        let t99 = t89.neg_mul_add(t96, t75.neg_mul_add(t82, t87));
+        let t100 = s2.neg_mul_add(t68.mul_add(t77, t76 * t83), n(p.k30));
+        let t101 = t58.mul_add(t97, t100);
+        let t102 = t30.mul_add(t94, t9 * N::from_f64(2.0));
+        let t103 = t83.mul_add(t98, s2 * (t8 * (n(p.k26) * t8)));
+        let t104 = t23.mul_add(t86, sin_phi1.mul_add(t92, t79));
+        let t105 = t26.mul_add(t94, phi1_dot * (s1 * phi1_dot));
+        let t106 = t30.mul_add(t95, t105);
+        let t107 = N::ONE / t99;
+        let t108 = t81 * t101;
+        let t109 = s2.mul_add(t77.mul_add(t104, t103), n(p.k31));
+        let t110 = s2.mul_sub(t74.mul_sub(t83, t80 * t77), t75 * t97);
+        let t111 = t89.mul_add(t108, t110);
+        let t112 = t85.mul_add(n(p.k29), t9) - t26.neg_mul_add(t95, t102);
+        let t113 = t73.mul_add(t106, t112);
+        let t114 = t82.neg_mul_add(t106, phi2_dot * (s2 * phi2_dot));
+        let t115 = t96.mul_add(t113, t114);
+        let t116 = t97.neg_mul_add(t106, phi2_dot * s2_dot);
+        let t117 = t107 * t111;
+        let t118 = t101.neg_mul_add(t108, t93.neg_mul_add(t97, t109));
+        let t119 = t111.neg_mul_add(t117, t118);
+        let t120 = t117.neg_mul_add(t115, t108.neg_mul_add(t113, t116));
+        let lambda4 = t120 / t119;
+        let lambda3 = t117.neg_mul_add(lambda4, t107 * t115);
+        let t121 = t108.neg_mul_add(lambda4, t81 * t113);
+        let t122 = t96.mul_add(lambda3, t121);
+        let t123 = t97.neg_mul_add(lambda4, t57 * t106);
+        let lambda1 = t73.mul_add(t122, t82.neg_mul_add(lambda3, t123));
+        let lambda2 = -t122;
+        let sound = n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
+            & n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
+            & n(p.m2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
+            & t15.exceeds(N::from_f64(1.1546319456101628e-14) * t15)
+            & n(p.m1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k8))
+            & t16.exceeds(N::from_f64(1.1546319456101628e-14) * t16)
+            & n(p.k20).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
+            & n(p.k20).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k11))
+            & n(p.k22).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k15))
+            & t50.exceeds(N::from_f64(1.1546319456101628e-14) * t50)
+            & t78.exceeds(N::from_f64(1.1546319456101628e-14) * t59)
+            & t99.exceeds(N::from_f64(1.1546319456101628e-14) * t87)
+            & t119.exceeds(N::from_f64(1.1546319456101628e-14) * t109)
+            & lambda2.is_finite();
         if !sound {
-            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
             check(n(p.J1), n(p.J1), 1.1546319456101628e-14, 5)?;
-            check(n(p.k15), n(p.k15), 1.1546319456101628e-14, 2)?;
-            check(n(p.k8), n(p.k8), 1.1546319456101628e-14, 3)?;
-            check(n(p.k23), n(p.k23), 1.1546319456101628e-14, 9)?;
-            check(t37, n(p.k11), 1.1546319456101628e-14, 0)?;
-            check(t53, n(p.k11), 1.1546319456101628e-14, 1)?;
-            check(t76, t8, 1.1546319456101628e-14, 4)?;
-            check(t101, n(p.m2), 1.1546319456101628e-14, 6)?;
-            check(t105, t105, 1.1546319456101628e-14, 11)?;
-            check(t124, t9, 1.1546319456101628e-14, 7)?;
-            check(t137, t136, 1.1546319456101628e-14, 10)?;
-            check(t140, t134, 1.1546319456101628e-14, 12)?;
+            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
+            check(n(p.m2), n(p.m2), 1.1546319456101628e-14, 6)?;
+            check(t15, t15, 1.1546319456101628e-14, 7)?;
+            check(n(p.m1), n(p.k8), 1.1546319456101628e-14, 3)?;
+            check(t16, t16, 1.1546319456101628e-14, 4)?;
+            check(n(p.k20), n(p.k11), 1.1546319456101628e-14, 1)?;
+            check(n(p.k20), n(p.k11), 1.1546319456101628e-14, 0)?;
+            check(n(p.k22), n(p.k15), 1.1546319456101628e-14, 2)?;
+            check(t50, t50, 1.1546319456101628e-14, 9)?;
+            check(t78, t59, 1.1546319456101628e-14, 10)?;
+            check(t99, t87, 1.1546319456101628e-14, 11)?;
+            check(t119, t109, 1.1546319456101628e-14, 12)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -1771,6 +1764,12 @@ where
             k39: lanes(|p| p.k39),
             k40: lanes(|p| p.k40),
             k41: lanes(|p| p.k41),
+            k42: lanes(|p| p.k42),
+            k43: lanes(|p| p.k43),
+            k44: lanes(|p| p.k44),
+            k45: lanes(|p| p.k45),
+            k46: lanes(|p| p.k46),
+            k47: lanes(|p| p.k47),
             singular: None,
         }
     }

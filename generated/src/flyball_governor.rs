@@ -10,7 +10,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 15 | 4 | 3 | 0 | 0 | 22 |
+//! | `prepare` | 18 | 4 | 4 | 0 | 0 | 26 |
 //! | `start` | 7 | 3 | 1 | 1 | 2 | 15 |
 //! | `mass_matrix` | 2 | 1 | 0 | 1 | 0 | 4 |
 //! | `bias` | 6 | 0 | 0 | 1 | 0 | 8 |
@@ -21,7 +21,7 @@
 //! | `constraint_matrix` | 5 | 2 | 0 | 1 | 0 | 9 |
 //! | `constraint_drift` | 13 | 5 | 0 | 1 | 0 | 20 |
 //! | `accelerations` | 36 | 15 | 2 | 1 | 0 | 55 |
-//! | `multipliers` | 28 | 12 | 1 | 1 | 0 | 43 |
+//! | `multipliers` | 31 | 14 | 1 | 1 | 0 | 48 |
 //! | `kinetic_energy` | 8 | 3 | 0 | 1 | 0 | 12 |
 //! | `potential_energy` | 2 | 2 | 0 | 1 | 0 | 5 |
 //! | `work_rate` | 1 | 0 | 0 | 0 | 0 | 1 |
@@ -92,12 +92,15 @@ impl<S> FlyballGovernor<S> {
 impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
-        let k1 = self.l * self.l;
+        let t0 = S::ONE / self.l;
         let k2 = S::ONE / self.b;
-        let k3 = k2 * S::from_f64(0.5);
+        let k1 = self.l * self.l;
+        let k18 = self.l * S::from_f64(2.0);
         let k4 = k1 * self.m;
-        let k6 = self.l * self.m * (self.g * S::from_f64(2.0));
+        let k6 = k18 * (self.g * self.m);
         let k9 = k4 * S::from_f64(2.0);
+        let k19 = S::from_f64(0.5) * t0;
+        let k3 = k2 * S::from_f64(0.5);
         let k0 = self.b * self.b;
         let k5 = self.M * self.g;
         let k7 = self.J * S::from_f64(0.5);
@@ -110,8 +113,9 @@ impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
         let k15 = -k9;
         let k16 = -k6;
         let k17 = -k3;
-        let k18 = S::from_f64(0.5) / k4;
-        let k19 = S::ONE / self.M;
+        let k20 = S::ONE / self.M;
+        let k21 = t0 * k19 / self.m;
+        let k22 = self.g * k2;
         let singular = if vanishes(k9, k9, 3.552713678800501e-15) {
             Some(singular(1, k9, k9))
         } else if vanishes(self.M, self.M, 3.552713678800501e-15) {
@@ -144,6 +148,9 @@ impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
             k17,
             k18,
             k19,
+            k20,
+            k21,
+            k22,
             singular,
         }
     }
@@ -275,10 +282,16 @@ pub struct Prepared<S = f64> {
     k16: S,
     /// `-0.5/b`
     k17: S,
-    /// `0.5/l^2/m`
+    /// `2*l`
     k18: S,
-    /// `1/M`
+    /// `0.5/l`
     k19: S,
+    /// `1/M`
+    k20: S,
+    /// `0.5/l^2/m`
+    k21: S,
+    /// `g/b`
+    k22: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -474,8 +487,8 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t8 = cos_alpha * (phi_dot * n(p.k10));
         let t9 = cos_alpha.neg_mul_add(n(p.k9) * cos_alpha, n(p.k14));
         let t10 = t3.mul_add(n(p.k13), t1 * (sin_alpha * n(p.k12)));
-        let t11 = t5 * n(p.k19);
-        let t12 = n(p.k18) * t10;
+        let t11 = t5 * n(p.k20);
+        let t12 = n(p.k21) * t10;
         let t13 = t1.mul_add(t2 * (alpha_dot * n(p.l)), t4 * t4);
         let t14 = t2.mul_sub(t2, t0 * t0) * n(p.k11);
         let t15 = t10.mul_add(t12, t5 * t11);
@@ -483,7 +496,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t17 = t13.mul_add(N::from_f64(2.0), t14).mul_add(n(p.k3), t16);
         let t18 = t17 / t15;
         let phi_ddot = t0.neg_mul_add(t8, n(u.drive)) / t9;
-        let alpha_ddot = -t12.mul_add(t18, n(p.k18) * t7);
+        let alpha_ddot = -t12.mul_add(t18, n(p.k21) * t7);
         let s_ddot = t11.neg_mul_add(t18, n(p.g));
         let sound = t9.exceeds(N::from_f64(3.552713678800501e-15) * t9)
             & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
@@ -537,26 +550,26 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t0 = alpha_dot * alpha_dot;
         let t1 = cos_alpha * n(p.l);
         let t2 = sin_alpha.mul_add(n(p.l) * alpha_dot, s_dot);
-        let t3 = cos_alpha * cos_alpha;
-        let t4 = phi_dot * (n(p.k9) * phi_dot);
+        let t3 = sin_alpha * sin_alpha;
+        let t4 = t1 * t0;
         let t5 = s - t1;
-        let t6 = n(p.k9).neg_mul_add(t3, n(p.k14));
-        let t7 = t5 * n(p.k2);
-        let t8 = t7 * n(p.k19);
+        let t6 = sin_alpha * (n(p.k18) * phi_dot.mul_add(phi_dot, t0));
+        let t7 = t3.mul_add(n(p.k9), n(p.J));
+        let t8 = n(p.k2) * t5;
         let t9 = sin_alpha * t5.mul_add(n(p.k12), cos_alpha * n(p.k13));
-        let t10 = sin_alpha.neg_mul_add(sin_alpha, t3) * (t0 * n(p.k11));
-        let t11 = t5.mul_add(t1 * t0, t2 * t2);
-        let t12 = t9 * n(p.k18);
-        let t13 = t9.mul_add(t12, t7 * t8);
-        let t14 = t11.mul_add(N::from_f64(2.0), t10) * n(p.k3);
-        let t15 = sin_alpha * cos_alpha.neg_mul_add(t4, n(p.k6));
-        let lambda1 = -(t12.neg_mul_add(t15, t8.mul_add(n(p.k5), t14)) / t13);
-        let sound = t6.exceeds(N::from_f64(3.552713678800501e-15) * t6)
-            & t13.exceeds(N::from_f64(3.552713678800501e-15) * t13)
+        let t10 = cos_alpha.mul_sub(cos_alpha, t3) * (t0 * n(p.k11));
+        let t11 = sin_alpha * N::from_f64(2.0);
+        let t12 = N::from_f64(2.0).mul_add(t5.mul_add(t4, t2 * t2), t10);
+        let t13 = (t4 + n(p.g)).neg_mul_add(t11, cos_alpha * t6);
+        let t14 = t12.mul_add(n(p.k3), t5 * n(p.k22));
+        let t15 = t9.mul_add(t9 * n(p.k21), t8 * (t8 * n(p.k20)));
+        let lambda1 = -(t13.mul_add(t9 * n(p.k19), t14) / t15);
+        let sound = t7.exceeds(N::from_f64(3.552713678800501e-15) * t7)
+            & t15.exceeds(N::from_f64(3.552713678800501e-15) * t15)
             & lambda1.is_finite();
         if !sound {
-            check(t6, t6, 3.552713678800501e-15, 0)?;
-            check(t13, t13, 3.552713678800501e-15, 3)?;
+            check(t7, t7, 3.552713678800501e-15, 0)?;
+            check(t15, t15, 3.552713678800501e-15, 3)?;
         }
         let multipliers = [lambda1.store()];
         Ok(multipliers)
@@ -824,6 +837,9 @@ where
             k17: lanes(|p| p.k17),
             k18: lanes(|p| p.k18),
             k19: lanes(|p| p.k19),
+            k20: lanes(|p| p.k20),
+            k21: lanes(|p| p.k21),
+            k22: lanes(|p| p.k22),
             singular: None,
         }
     }

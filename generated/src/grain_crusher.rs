@@ -9,7 +9,7 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 46 | 20 | 8 | 0 | 0 | 74 |
+//! | `prepare` | 52 | 21 | 10 | 0 | 0 | 83 |
 //! | `start` | 4 | 6 | 2 | 0 | 0 | 12 |
 //! | `mass_matrix` | 28 | 6 | 0 | 3 | 0 | 40 |
 //! | `bias` | 53 | 26 | 0 | 4 | 0 | 87 |
@@ -19,7 +19,7 @@
 //! | `constraint_rates` | 5 | 7 | 0 | 0 | 0 | 12 |
 //! | `constraint_drift` | 1 | 1 | 0 | 0 | 0 | 2 |
 //! | `accelerations` | 116 | 79 | 3 | 4 | 0 | 206 |
-//! | `multipliers` | 247 | 163 | 8 | 4 | 0 | 426 |
+//! | `multipliers` | 192 | 121 | 6 | 4 | 0 | 327 |
 //! | `kinetic_energy` | 41 | 27 | 0 | 4 | 0 | 76 |
 //! | `potential_energy` | 8 | 7 | 0 | 0 | 0 | 15 |
 //! | `dissipation` | 8 | 7 | 0 | 0 | 0 | 15 |
@@ -174,27 +174,29 @@ impl<S: ::lagrangian::Scalar> GrainCrusher<S> {
         let k10 = self.m1 + self.m2;
         let k11 = self.m0 * self.y0;
         let k12 = self.m0 * self.x0;
-        let k13 = k10 + (self.m + self.m0);
+        let k21 = self.m + self.m0;
+        let k13 = k10 + k21;
         let k14 = self.R - self.r1;
         let k16 = self.J + (self.y0 * k11 + self.x0 * k12);
+        let k26 = S::ONE / k21;
+        let k23 = k16 - k26 * (k11 * k11) - k26 * (k12 * k12);
+        let k24 = S::ONE / k23;
+        let pivot_10 = self.r2 * self.r2;
         let t0 = S::ONE / self.J1;
         let t1 = self.rho * t0;
-        let k22 = S::ONE / k16;
-        let k23 = self.R * k22;
-        let pivot_10 = self.r2 * self.r2;
         let pivot_12 = self.r1 * self.r1;
         let t2 = S::ONE / self.r2;
-        let k27 = self.rho * t2;
-        let k28 = k1 * t2;
+        let k34 = self.rho * t2;
+        let k35 = k1 * t2;
         let t3 = S::ONE / self.r1;
-        let k29 = self.R * t3;
-        let k30 = k14 * t3;
-        let k32 = self.m2 * k0;
-        let k33 = k10 * k14;
-        let t4 = self.J2 * k27;
-        let t5 = k27 * t4;
-        let t6 = k29 * t5 + self.J1 * k29;
-        let t7 = k28 * t4;
+        let k36 = self.R * t3;
+        let k37 = k14 * t3;
+        let k39 = self.m2 * k0;
+        let k40 = k10 * k14;
+        let t4 = self.J2 * k34;
+        let t5 = k34 * t4;
+        let t6 = k36 * t5 + self.J1 * k36;
+        let t7 = k35 * t4;
         let k2 = self.rho * S::from_f64(2.0) / self.delta;
         let k4 = self.omega * (self.omega * self.J0);
         let k5 = self.cx * S::from_f64(0.5);
@@ -207,19 +209,24 @@ impl<S: ::lagrangian::Scalar> GrainCrusher<S> {
         let k18 = -self.m2;
         let k19 = -k1;
         let k20 = -self.R;
-        let k21 = self.r1 * t1;
-        let k24 = S::ONE / k10;
-        let k25 = self.rho * t1 + pivot_10 / self.J2;
-        let k26 = self.R * k23 + t0 * pivot_12;
-        let k31 = self.m1 * k14;
-        let k34 = k30 * t6;
-        let k35 = k29 * t7;
-        let k36 = k30 * t7;
-        let k37 = k14 * k32;
-        let k38 = k14 * k33 + k30 * (k30 * t5 + self.J1 * k30);
-        let k39 = k0 * k32 + k28 * (self.J2 * k28);
-        let k40 = k16 + k29 * t6;
-        let k41 = S::ONE / k13;
+        let k22 = self.m0 * k26;
+        let k25 = self.m0 * k24;
+        let k27 = S::ONE / self.m2;
+        let k28 = S::ONE / self.m1;
+        let k29 = pivot_10 / self.J2 + self.rho * t1;
+        let k30 = k1 * S::from_f64(2.0);
+        let k31 = self.r1 * t1;
+        let k32 = t0 * pivot_12;
+        let k33 = self.R * k24;
+        let k38 = self.m1 * k14;
+        let k41 = k37 * t6;
+        let k42 = k36 * t7;
+        let k43 = k37 * t7;
+        let k44 = k14 * k39;
+        let k45 = k14 * k40 + k37 * (k37 * t5 + self.J1 * k37);
+        let k46 = k0 * k39 + k35 * (self.J2 * k35);
+        let k47 = k16 + k36 * t6;
+        let k48 = S::ONE / k13;
         let one = S::ONE;
         let singular = if vanishes(k13, k13, 1.1546319456101628e-14) {
             Some(singular(0, k13, k13))
@@ -299,6 +306,13 @@ impl<S: ::lagrangian::Scalar> GrainCrusher<S> {
             k39,
             k40,
             k41,
+            k42,
+            k43,
+            k44,
+            k45,
+            k46,
+            k47,
+            k48,
             singular,
         }
     }
@@ -508,48 +522,62 @@ pub struct Prepared<S = f64> {
     k19: S,
     /// `-R`
     k20: S,
-    /// `r1*rho/J1`
+    /// `m + m0`
     k21: S,
-    /// `1/(J + m0*x0^2 + m0*y0^2)`
+    /// `m0/(m + m0)`
     k22: S,
-    /// `R/(J + m0*x0^2 + m0*y0^2)`
+    /// `J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0)`
     k23: S,
-    /// `1/(m1 + m2)`
+    /// `1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k24: S,
-    /// `r2^2/J2 + rho^2/J1`
+    /// `m0/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k25: S,
-    /// `r1^2/J1 + R^2/(J + m0*x0^2 + m0*y0^2)`
+    /// `1/(m + m0)`
     k26: S,
-    /// `rho/r2`
+    /// `1/m2`
     k27: S,
-    /// `(rho + r2)/r2`
+    /// `1/m1`
     k28: S,
-    /// `R/r1`
+    /// `rho^2/J1 + r2^2/J2`
     k29: S,
-    /// `(R - r1)/r1`
+    /// `2*(rho + r2)`
     k30: S,
-    /// `m1*(R - r1)`
+    /// `r1*rho/J1`
     k31: S,
-    /// `m2*(rho - r2 - delta)`
+    /// `r1^2/J1`
     k32: S,
-    /// `(m1 + m2)*(R - r1)`
+    /// `R/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k33: S,
-    /// `(R - r1)*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
+    /// `rho/r2`
     k34: S,
-    /// `J2*R*rho*(rho + r2)/r1/r2^2`
+    /// `(rho + r2)/r2`
     k35: S,
-    /// `J2*rho*(rho + r2)*(R - r1)/r1/r2^2`
+    /// `R/r1`
     k36: S,
-    /// `m2*(rho - r2 - delta)*(R - r1)`
+    /// `(R - r1)/r1`
     k37: S,
-    /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (m1 + m2)*(R - r1)^2`
+    /// `m1*(R - r1)`
     k38: S,
-    /// `J2*(rho + r2)^2/r2^2 + m2*(rho - r2 - delta)^2`
+    /// `m2*(rho - r2 - delta)`
     k39: S,
-    /// `J + m0*x0^2 + m0*y0^2 + R*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
+    /// `(m1 + m2)*(R - r1)`
     k40: S,
-    /// `1/(m + m0 + m1 + m2)`
+    /// `(R - r1)*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
     k41: S,
+    /// `J2*R*rho*(rho + r2)/r1/r2^2`
+    k42: S,
+    /// `J2*rho*(rho + r2)*(R - r1)/r1/r2^2`
+    k43: S,
+    /// `m2*(rho - r2 - delta)*(R - r1)`
+    k44: S,
+    /// `(R - r1)*(J1*(R - r1)/r1 + J2*rho^2*(R - r1)/r1/r2^2)/r1 + (m1 + m2)*(R - r1)^2`
+    k45: S,
+    /// `J2*(rho + r2)^2/r2^2 + m2*(rho - r2 - delta)^2`
+    k46: S,
+    /// `J + m0*x0^2 + m0*y0^2 + R*(J1*R/r1 + J2*R*rho^2/r1/r2^2)/r1`
+    k47: S,
+    /// `1/(m + m0 + m1 + m2)`
+    k48: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -959,77 +987,77 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t10 = n(p.bx).mul_add(x_dot - t3, n(p.cx) * (x - t1));
         let t11 = n(p.by).mul_add(t4 + y_dot, n(p.cy) * (t2 + y));
         let t12 = n(p.by).mul_add(y_dot - t4, n(p.cy) * (y - t2));
-        let t13 = sin_phi1 * n(p.k33);
-        let t14 = cos_phi1 * n(p.k33);
+        let t13 = sin_phi1 * n(p.k40);
+        let t14 = cos_phi1 * n(p.k40);
         let t15 = t6 * cos_phi1;
         let t16 = sin_theta.mul_add(n(p.k12), cos_theta * n(p.k11));
         let t17 = cos_theta.mul_sub(n(p.k12), sin_theta * n(p.k11));
-        let t18 = n(p.k41) * t13;
-        let t19 = n(p.k41) * t14;
-        let t20 = n(p.k41) * t16;
-        let t21 = n(p.k41) * t17;
+        let t18 = n(p.k48) * t13;
+        let t19 = n(p.k48) * t14;
+        let t20 = n(p.k48) * t16;
+        let t21 = n(p.k48) * t17;
         let t22 = t6 * sin_phi1;
         let t23 = t15.mul_add(n(p.k14), t5 * cos_phi2);
-        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k34)));
+        let t24 = t17.mul_add(t19, t16.mul_add(t18, n(p.k41)));
         let t25 = t8 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
         let t26 = n(p.k9).mul_add(t7.mul_add(cos_t0, sin_t0), t25);
         let t27 = n(p.k14).mul_add(t22, t5 * sin_phi2);
-        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k31));
-        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k40)));
-        let t30 = sin_phi2 * n(p.k32);
+        let t28 = t23.mul_add(n(p.m2), t15 * n(p.k38));
+        let t29 = t17.neg_mul_add(t21, t16.neg_mul_add(t20, n(p.k47)));
+        let t30 = sin_phi2 * n(p.k39);
         let t31 = t8 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
         let t32 = n(p.k9).mul_add(t7.neg_mul_add(sin_t0, cos_t0), t31);
-        let t33 = cos_phi2 * n(p.k32);
-        let t34 = n(p.m2).mul_add(t27, n(p.k31) * t22);
+        let t33 = cos_phi2 * n(p.k39);
+        let t34 = n(p.m2).mul_add(t27, n(p.k38) * t22);
         let t35 = N::ONE / t29;
-        let t36 = n(p.k41) * t30;
+        let t36 = n(p.k48) * t30;
         let t37 = t32.mul_add(n(p.m0), t28 - (t10 + t9));
-        let t38 = n(p.k41) * t33;
+        let t38 = n(p.k48) * t33;
         let t39 = n(p.yc).mul_add(t9 - t10, n(p.xc) * (t11 - t12));
         let t40 = t32.mul_sub(n(p.k11), n(p.k12) * t26);
         let t41 = n(p.m0).mul_add(t26, t34 - (t12 + t11));
-        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k35)));
+        let t42 = t17.mul_add(t38, t16.mul_add(t36, n(p.k42)));
         let t43 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
         let t44 = n(p.k11).mul_add(t26, t32 * n(p.k12));
         let t45 = t35 * t24;
         let t46 = t35 * t42;
-        let t47 = n(p.k32) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
+        let t47 = n(p.k39) * cos_phi2.mul_sub(t27, sin_phi2 * t23);
         let t48 = cos_phi1.mul_sub(t34, sin_phi1 * t28);
-        let t49 = t43.mul_add(n(p.k37), n(p.k36));
+        let t49 = t43.mul_add(n(p.k44), n(p.k43));
         let t50 = sin_theta.mul_add(t44, cos_theta.mul_add(t40, t39));
         let t51 = t50 + t21.mul_sub(t41, t37 * t20);
-        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k38)));
+        let t52 = t14.neg_mul_add(t19, t13.neg_mul_add(t18, n(p.k45)));
         let t53 = t24.neg_mul_add(t45, t52);
         let t54 = t24.neg_mul_add(t46, t49 - t14.mul_add(t38, t13 * t36));
         let t55 = N::ONE / t53;
         let t56 = t38.neg_mul_add(t41, t37.mul_add(t36, t47));
         let t57 = t19.neg_mul_add(t41, n(p.k14).mul_add(t48, t37 * t18));
         let t58 = t45.neg_mul_add(t51, t57);
-        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k39)));
+        let t59 = t33.neg_mul_add(t38, t30.neg_mul_add(t36, n(p.k46)));
         let t60 = t55 * t54;
         let t61 = t54.neg_mul_add(t60, t42.neg_mul_add(t46, t59));
         let phi2_ddot = t60.neg_mul_add(t58, t46.neg_mul_add(t51, t56)) / t61;
         let phi1_ddot = t60.neg_mul_add(phi2_ddot, t55 * t58);
         let t62 = t46.neg_mul_add(phi2_ddot, t35 * t51);
         let t63 = t45 * phi1_ddot;
-        let t64 = t36.mul_add(phi2_ddot, n(p.k41) * t37);
-        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k41) * t41);
+        let t64 = t36.mul_add(phi2_ddot, n(p.k48) * t37);
+        let t65 = t38.neg_mul_add(phi2_ddot, n(p.k48) * t41);
         let t66 = t62 - t63;
-        let t67 = t66.mul_add(n(p.k29), phi1_ddot * n(p.k30));
+        let t67 = t66.mul_add(n(p.k36), phi1_ddot * n(p.k37));
         let x_ddot = t20.neg_mul_add(t66, t18.mul_add(phi1_ddot, t64));
         let y_ddot = t21.mul_add(t66, t19.neg_mul_add(phi1_ddot, t65));
         let theta_ddot = t63 - t62;
         let zero = N::ZERO;
         let theta1_ddot = -t67;
-        let theta2_ddot = t67.mul_add(n(p.k27), phi2_ddot * n(p.k28));
-        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k40))
-            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k38))
-            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k39))
+        let theta2_ddot = t67.mul_add(n(p.k34), phi2_ddot * n(p.k35));
+        let sound = t29.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k47))
+            & t53.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k45))
+            & t61.exceeds(N::from_f64(7.993605777301127e-15) * n(p.k46))
             & theta2_ddot.is_finite();
         if !sound {
-            check(t29, n(p.k40), 7.993605777301127e-15, 2)?;
-            check(t53, n(p.k38), 7.993605777301127e-15, 4)?;
-            check(t61, n(p.k39), 7.993605777301127e-15, 7)?;
+            check(t29, n(p.k47), 7.993605777301127e-15, 2)?;
+            check(t53, n(p.k45), 7.993605777301127e-15, 4)?;
+            check(t61, n(p.k46), 7.993605777301127e-15, 7)?;
         }
         let accelerations = [
             x_ddot.store(),
@@ -1095,196 +1123,161 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let s2_dot = n(v[6]);
         let phi2_dot = n(v[7]);
         let t0 = n(p.omega) * n(t);
-        let angles = [theta, phi1, phi2, t0];
+        let angles = [phi1, phi2, theta, t0];
         let circular = N::sin_cos_all(angles);
-        let (sin_theta, cos_theta) = circular[0];
-        let (sin_phi1, cos_phi1) = circular[1];
-        let (sin_phi2, cos_phi2) = circular[2];
+        let (sin_phi1, cos_phi1) = circular[0];
+        let (sin_phi2, cos_phi2) = circular[1];
+        let (sin_theta, cos_theta) = circular[2];
         let (sin_t0, cos_t0) = circular[3];
-        let t1 = n(p.k10) * s1;
-        let t2 = n(p.m2) * s1;
-        let t3 = n(p.m2) * s2;
-        let t4 = s1 * phi1_dot;
-        let t5 = N::from_f64(2.0) * s1_dot;
-        let t6 = theta * n(p.yc);
-        let t7 = theta * n(p.xc);
-        let t8 = s1 * t1;
-        let t9 = s2 * t3;
-        let t10 = s2 * phi2_dot;
-        let t11 = N::from_f64(2.0) * s2_dot;
-        let t12 = n(p.yc) * theta_dot;
-        let t13 = theta_dot * n(p.xc);
-        let t14 = n(p.omega).product_error(n(t));
-        let t15 = theta_dot * theta_dot;
-        let t16 = n(p.bx).mul_add(t12 + x_dot, n(p.cx) * (t6 + x));
-        let t17 = n(p.bx).mul_add(x_dot - t12, n(p.cx) * (x - t6));
-        let t18 = n(p.by).mul_add(t13 + y_dot, n(p.cy) * (t7 + y));
-        let t19 = n(p.by).mul_add(y_dot - t13, n(p.cy) * (y - t7));
-        let t20 = cos_phi1 * n(p.k10);
-        let t21 = sin_phi1 * n(p.k10);
-        let t22 = sin_phi1 * t1;
-        let t23 = n(p.k12).mul_add(sin_theta, cos_theta * n(p.k11));
-        let t24 = n(p.k24) * t20;
-        let t25 = n(p.k12).mul_sub(cos_theta, sin_theta * n(p.k11));
-        let t26 = n(p.k24) * t21;
-        let t27 = cos_phi2.mul_add(cos_phi1, sin_phi2 * sin_phi1);
-        let t28 = cos_phi2 * sin_phi1;
-        let t29 = sin_phi2 * cos_phi1;
-        let t30 = n(p.k22) * t23;
-        let t31 = n(p.k10) * t24;
-        let t32 = n(p.k22) * t25;
-        let t33 = n(p.k10) * t26;
-        let t34 = n(p.m2) * t27;
-        let t35 = n(p.k24) * t34;
-        let t36 = (t28 - t29) * t3;
-        let t37 = t24.mul_add(t31 - t20, t23.neg_mul_add(t30, n(p.k13)));
-        let t38 = t33.mul_add(t24, t23.mul_sub(t32, t26 * t20));
-        let t39 = t35 * n(p.k10);
-        let t40 = N::ONE / t37;
-        let t41 = n(p.k24) * t36;
-        let t42 = t39.mul_add(t24, t35.neg_mul_add(t20, n(p.m2) * cos_phi2));
-        let t43 = n(p.k10) * t41;
-        let t44 = t24.neg_mul_add(t43, t20.mul_add(t41, sin_phi2 * t3));
-        let t45 = t23 * n(p.k23);
-        let t46 = t40 * t38;
-        let t47 = t40 * t22;
-        let t48 = t40 * t42;
-        let t49 = t40 * t44;
-        let t50 = phi1_dot * sin_phi1.mul_sub(t4, cos_phi1 * t5);
-        let t51 = phi1_dot * sin_phi1.mul_add(t5, cos_phi1 * t4);
-        let t52 = t26.mul_add(t33 - t21, t25.neg_mul_add(t32, n(p.k13)));
-        let t53 = t38.neg_mul_add(t46, t52);
-        let t54 = t38.mul_add(t47, cos_phi1 * t1);
-        let t55 = t39.mul_add(t26, t35.neg_mul_add(t21, n(p.m2) * sin_phi2));
-        let t56 = t38.neg_mul_add(t48, t55);
-        let t57 = t26.mul_add(t43, t21.neg_mul_add(t41, cos_phi2 * t3));
-        let t58 = t38.mul_add(t49, t57);
-        let t59 = N::ONE / t53;
-        let t60 = t40 * t45;
-        let t61 = sin_phi2.mul_sub(t10, cos_phi2 * t11);
-        let t62 = phi2_dot.mul_add(t61, t50);
-        let t63 = sin_phi2.mul_add(t11, cos_phi2 * t10);
-        let t64 = phi2_dot.mul_add(t63, t51);
-        let t65 = t38.mul_add(t60, t25 * n(p.k23));
-        let t66 = t15 * sin_theta.mul_add(n(p.x0), cos_theta * n(p.y0));
-        let t67 = n(p.k9).mul_add(t14.mul_add(cos_t0, sin_t0), t66);
-        let t68 = n(p.m2).mul_add(t62, n(p.m1) * t50);
-        let t69 = n(p.m2).mul_add(t64, t51 * n(p.m1));
-        let t70 = t15 * cos_theta.mul_sub(n(p.x0), sin_theta * n(p.y0));
-        let t71 = n(p.k9).mul_add(t14.neg_mul_add(sin_t0, cos_t0), t70);
-        let t72 = t59 * t54;
-        let t73 = t59 * t56;
-        let t74 = t59 * t58;
-        let t75 = t59 * t65;
-        let t76 = t54.neg_mul_add(t72, t22.neg_mul_add(t47, t8));
-        let t77 = t54.neg_mul_add(t73, t22.mul_add(t48, (t29 - t28) * t2));
-        let t78 = t42.neg_mul_add(t48, t35.mul_add(t39 - t34, n(p.m2)));
-        let t79 = t22.neg_mul_add(t49, t27 * (t2 * s2));
-        let t80 = t54.neg_mul_add(t74, t79);
-        let t81 = t42.neg_mul_add(t49, t35.neg_mul_add(t43, t34 * t41));
-        let t82 = t44.neg_mul_add(t49, t41.mul_add(t43 - t36, t9));
-        let t83 = t54.neg_mul_add(t75, t22.neg_mul_add(t60, s1));
-        let t84 = cos_phi1.mul_add(t69, sin_phi1 * t68);
-        let t85 = N::ONE / t76;
-        let t86 = n(p.yc).mul_add(t16 - t17, n(p.xc) * (t18 - t19));
-        let t87 = n(p.k11).mul_sub(t71, n(p.k12) * t67);
-        let t88 = t67.mul_add(n(p.m0), t68 - (t19 + t18));
-        let t89 = n(p.k24) * t84;
-        let t90 = t71.mul_add(n(p.m0), t69 - (t17 + t16));
-        let t91 = n(p.k11).mul_add(t67, n(p.k12) * t71);
-        let t92 = sin_theta.mul_add(t91, cos_theta.mul_add(t87, t86));
-        let t93 = n(p.m2) * cos_phi2.mul_add(t64, sin_phi2 * t62);
-        let t94 = t3 * cos_phi2.mul_sub(t62, sin_phi2 * t64);
-        let t95 = t33.mul_add(t89, t26.neg_mul_add(t84, t88));
-        let t96 = t85 * t77;
-        let t97 = t85 * t80;
-        let t98 = t85 * t83;
-        let t99 = t31.mul_add(t89, t24.neg_mul_add(t84, t90));
-        let t100 = t30.neg_mul_add(t92, t99);
-        let t101 = t77.neg_mul_add(t96, t56.neg_mul_add(t73, t78));
-        let t102 = t77.mul_add(t97, t56.mul_add(t74, t81));
-        let t103 = t77.neg_mul_add(t98, t56.neg_mul_add(t75, t42 * t60));
-        let t104 = t46.neg_mul_add(t100, t32.mul_add(t92, t95));
-        let t105 = t39.mul_add(t89, t35.neg_mul_add(t84, t93));
-        let t106 = s1 * cos_phi1.mul_sub(t68, sin_phi1 * t69);
-        let t107 = N::ONE / t101;
-        let t108 = t43.mul_add(t89, t41.neg_mul_add(t84, t94));
-        let t109 = n(p.k23).mul_add(t92, phi1_dot * s1_dot);
-        let t110 = t72.neg_mul_add(t104, t47.mul_add(t100, t106));
-        let t111 = t73.neg_mul_add(t104, t48.neg_mul_add(t100, t105));
-        let t112 = t96.neg_mul_add(t110, t111);
-        let t113 = t74.neg_mul_add(t104, t49.mul_add(t100, t108));
-        let t114 = t75.mul_add(t104, t60.neg_mul_add(t100, t109));
-        let t115 = N::ONE / t107;
-        let t116 = t107 * t102;
-        let t117 = t107 * t103;
-        let t118 = t107 * t112;
-        let t119 = t80.neg_mul_add(t97, t58.neg_mul_add(t74, t82));
-        let t120 = t98.mul_add(t80, t75.mul_add(t58, t60 * t44));
-        let t121 = t103.mul_add(t117, t83 * t98);
-        let t122 = t115 * t116;
-        let t123 = t117 * t115;
-        let t124 = t116.mul_add(t122, t102.neg_mul_add(t116, t119));
-        let t125 = t116.mul_add(t123, t117.neg_mul_add(t102, t120));
-        let t126 = t116.mul_add(t112, t97.neg_mul_add(t110, t113));
-        let t127 = t122.neg_mul_add(t118, t126);
-        let t128 = t117.mul_add(t112, t98.mul_add(t110, t114));
-        let t129 = N::ONE / t124;
-        let t130 = t129 * n(p.k1);
-        let t131 = t129 * t125;
-        let t132 = n(p.k1).mul_add(t130, n(p.k25));
-        let t133 = t131.mul_add(n(p.k1), n(p.k21));
-        let t134 = t130 * t127;
-        let t135 = N::ONE / t132;
-        let t136 = t121 + t65.mul_add(t75, t45 * t60);
-        let t137 = t136 + t125.mul_add(t131, n(p.k26));
-        let t138 = t135 * t133;
-        let t139 = t131.neg_mul_add(t127, t123.neg_mul_add(t118, t128));
-        let t140 = t133.neg_mul_add(t138, t117.neg_mul_add(t123, t137));
-        let t141 = t138.mul_add(t134, t139) / t140;
-        let lambda2 = t138.mul_add(t141, t135 * t134);
-        let t142 = t130.neg_mul_add(lambda2, t131.mul_add(t141, t129 * t127));
-        let lambda1 = t122.mul_add(t142, t123.neg_mul_add(t141, t115 * t118));
-        let t143 = t116.mul_add(t142, t117.neg_mul_add(t141, t118));
-        let t144 = t107.neg_mul_add(lambda1, t143);
-        let t145 = t97.neg_mul_add(t142, t98.neg_mul_add(t141, t85 * t110));
-        let t146 = t96.neg_mul_add(t144, t145);
-        let t147 = t49.mul_add(t142, t60.mul_add(t141, t40 * t100));
-        let t148 = t74.neg_mul_add(t142, t75.neg_mul_add(t141, t59 * t104));
-        let t149 = t72.neg_mul_add(t146, t73.neg_mul_add(t144, t148));
-        let t150 = t47.mul_add(t146, t48.neg_mul_add(t144, t147));
-        let t151 = t39.mul_add(t144, t43.mul_sub(t142, n(p.k10) * t89));
-        let t152 = t46.neg_mul_add(t149, t150);
-        let lambda3 = -t31.mul_add(t152, t33.mul_add(t149, t151));
-        let lambda4 = -t141;
-        let sound = n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
-            & n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
-            & n(p.k16).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k16))
-            & n(p.k10).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k10))
-            & n(p.k24).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k24))
-            & t37.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k13))
-            & t53.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k13))
-            & t76.exceeds(N::from_f64(1.1546319456101628e-14) * t8)
-            & t101.exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
-            & t107.exceeds(N::from_f64(1.1546319456101628e-14) * t107)
-            & t124.exceeds(N::from_f64(1.1546319456101628e-14) * t9)
-            & t132.exceeds(N::from_f64(1.1546319456101628e-14) * t132)
-            & t140.exceeds(N::from_f64(1.1546319456101628e-14) * t137)
-            & lambda3.is_finite();
+        let t1 = N::ONE / s2;
+        let t2 = N::ONE / s1;
+        let t3 = theta * n(p.xc);
+        let t4 = theta * n(p.yc);
+        let t5 = theta_dot * n(p.xc);
+        let t6 = theta_dot * n(p.yc);
+        let t7 = theta_dot * theta_dot;
+        let t8 = n(p.omega).product_error(n(t));
+        let t9 = phi1_dot * s1_dot;
+        let t10 = n(p.by).mul_add(t5 + y_dot, n(p.cy) * (t3 + y));
+        let t11 = n(p.by).mul_add(y_dot - t5, n(p.cy) * (y - t3));
+        let t12 = n(p.bx).mul_add(t6 + x_dot, n(p.cx) * (t4 + x));
+        let t13 = n(p.bx).mul_add(x_dot - t6, n(p.cx) * (x - t4));
+        let t14 = t2 * (t2 * n(p.k28));
+        let t15 = phi2_dot * (s2 * phi2_dot);
+        let t16 = n(p.yc).mul_add(t13, n(p.xc) * t11);
+        let t17 = s2 * (s2 * n(p.m2));
+        let t18 = s1 * (s1 * n(p.m1));
+        let t19 = sin_phi1 * s1;
+        let t20 = cos_phi1 * s1;
+        let t21 = sin_phi2 * t1;
+        let t22 = sin_phi1 * t2;
+        let t23 = sin_theta * n(p.x0);
+        let t24 = cos_theta * n(p.y0);
+        let t25 = cos_phi2 * t1;
+        let t26 = cos_phi1.mul_add(cos_phi2, sin_phi1 * sin_phi2);
+        let t27 = n(p.k1) * t21;
+        let t28 = cos_phi1 * t2;
+        let t29 = cos_theta * n(p.x0);
+        let t30 = sin_theta * n(p.y0);
+        let t31 = t23 + t24;
+        let t32 = n(p.k1) * t25;
+        let t33 = t20.mul_sub(sin_phi2, t19 * cos_phi2);
+        let t34 = t29 - t30;
+        let t35 = n(p.k22) * t31;
+        let t36 = t22.mul_add(t33, cos_phi1.neg_mul_add(t26, cos_phi2));
+        let t37 = t28.neg_mul_add(t33, sin_phi1.neg_mul_add(t26, sin_phi2));
+        let t38 = sin_phi1.mul_sub(t32, cos_phi1 * t27);
+        let t39 = n(p.k22) * t34;
+        let t40 = t19.mul_add(t27, t20 * t32);
+        let t41 = t28.neg_mul_add(t40, sin_phi1.neg_mul_add(t38, t32));
+        let t42 = t22.neg_mul_add(t40, cos_phi1.mul_add(t38, t27));
+        let t43 = cos_phi1 * n(p.k26);
+        let t44 = t8.neg_mul_add(sin_t0, cos_t0);
+        let t45 = t8.mul_add(cos_t0, sin_t0);
+        let t46 = n(p.k24) * (n(p.k22) * t34.mul_sub(t37, t36 * t31));
+        let t47 = sin_phi1 * n(p.k26);
+        let t48 = n(p.k9).mul_add(t44, t29.mul_sub(t7, t30 * t7)) * n(p.m0);
+        let t49 = n(p.m0) * n(p.k9).mul_add(t45, t23.mul_add(t7, t24 * t7));
+        let t50 = n(p.k22) * sin_phi1.mul_sub(t34, cos_phi1 * t31);
+        let t51 = n(p.k24) * t50;
+        let t52 = t46.neg_mul_add(t35, t36 * n(p.k26));
+        let t53 = t39.mul_add(t46, t37 * n(p.k26));
+        let t54 = cos_phi1.neg_mul_add(t39, n(p.R));
+        let t55 = n(p.yc).mul_add(t12, n(p.xc) * t10) - t16;
+        let t56 = t13 + t12 - t48;
+        let t57 = t11 + t10 - t49;
+        let t58 = n(p.k24) * (n(p.k22) * t31.mul_add(t42, t34 * t41));
+        let t59 = t35.neg_mul_add(t51, t43);
+        let t60 = t39.mul_add(t51, t47);
+        let t61 = cos_phi1.mul_sub(t52, t26 * n(p.k28));
+        let t62 = sin_phi1.mul_add(t53, t61);
+        let t63 = t28.neg_mul_add(t53, t22.mul_add(t52, t33 * t14));
+        let t64 = t35.mul_add(t58, n(p.k26) * t42);
+        let t65 = t39.mul_add(t58, n(p.k26) * t41);
+        let t66 = n(p.k24) * sin_phi1.neg_mul_add(t35, t54);
+        let t67 = t39.neg_mul_add(t57, t31.mul_add(t48, t55));
+        let t68 = t35.mul_sub(t56, t34 * t49) + t67;
+        let t69 = sin_phi1.mul_add(t60, cos_phi1.mul_add(t59, n(p.k28)));
+        let t70 = s1.mul_add(t63, t46 * n(p.R));
+        let t71 = n(p.k25) * t68;
+        let t72 = t19.neg_mul_add(t63, cos_phi1.neg_mul_add(t62, t52));
+        let t73 = sin_phi1.neg_mul_add(t62, t20.mul_add(t63, t53));
+        let t74 = t28.neg_mul_add(t65, t22.neg_mul_add(t64, t14 * t40));
+        let t75 = cos_phi1.mul_add(t64, n(p.k28) * t38);
+        let t76 = sin_phi1.neg_mul_add(t65, t75);
+        let t77 = t31.mul_add(t71, t56);
+        let t78 = t34.neg_mul_add(t71, t57);
+        let t79 = sin_phi2.mul_add(t73, cos_phi2.mul_add(t72, n(p.k27)));
+        let t80 = t47.mul_add(t77, t9 * N::from_f64(2.0));
+        let t81 = N::ONE / t79;
+        let t82 = n(p.k1) * t72.mul_sub(t21, t73 * t25);
+        let t83 = cos_phi1.neg_mul_add(t76, t19.mul_add(t74, t64));
+        let t84 = t22.mul_add(t35.neg_mul_add(t66, t47), s1 * t14);
+        let t85 = t43.mul_add(t77, phi1_dot * (s1 * phi1_dot));
+        let t86 = t21.mul_add(t83, n(p.k1) * (t1 * (n(p.k27) * t1)));
+        let t87 = t20.mul_add(t74, sin_phi1.mul_add(t76, t65));
+        let t88 = t28.mul_add(t39.neg_mul_add(t66, t43), t84);
+        let t89 = s1.mul_add(t88, n(p.R).mul_add(t66, n(p.k32)));
+        let t90 = n(p.k1).mul_add(t25.mul_add(t87, t86), n(p.k29));
+        let t91 = t81 * t82;
+        let t92 = t62 * t81;
+        let t93 = t81 * t70;
+        let t94 = t82.neg_mul_add(t91, t90);
+        let t95 = t82.neg_mul_add(t92, t76);
+        let t96 = s1.mul_add(t74, t58.mul_add(n(p.R), n(p.k31)));
+        let t97 = t82.mul_add(t93, t96);
+        let t98 = s1.mul_add(t22.mul_sub(t59, t28 * t60), t51 * n(p.R));
+        let t99 = t1 * (phi2_dot * (n(p.k30) * s2_dot));
+        let t100 = t91.neg_mul_add(t15, t99);
+        let t101 = t68.mul_add(n(p.k33), t9) - t43.neg_mul_add(t78, t80);
+        let t102 = N::ONE / t94;
+        let t103 = t102 * t95;
+        let t104 = t102 * t97;
+        let t105 = t95.neg_mul_add(t103, t62.neg_mul_add(t92, t69));
+        let t106 = t95.mul_add(t104, t62.neg_mul_add(t93, t98));
+        let t107 = t92.neg_mul_add(t15, t47.mul_add(t78, t85));
+        let t108 = t103.neg_mul_add(t100, t107);
+        let t109 = N::ONE / t105;
+        let t110 = t109 * t106;
+        let t111 = t104.neg_mul_add(t100, t93.mul_add(t15, t101));
+        let t112 = t97.neg_mul_add(t104, t70.neg_mul_add(t93, t89));
+        let t113 = t106.neg_mul_add(t110, t112);
+        let t114 = t110.mul_add(t108, t111) / t113;
+        let lambda3 = t110.mul_add(t114, t109 * t108);
+        let t115 = t104.neg_mul_add(t114, t102 * t100);
+        let t116 = t103 * lambda3;
+        let t117 = t92.neg_mul_add(lambda3, t93.mul_add(t114, t81 * t15));
+        let lambda1 = t91.neg_mul_add(t115 - t116, t117);
+        let lambda2 = t116 - t115;
+        let lambda4 = -t114;
+        let sound = n(p.J1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J1))
+            & n(p.J2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.J2))
+            & n(p.m2).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.m2))
+            & t17.exceeds(N::from_f64(1.1546319456101628e-14) * t17)
+            & n(p.m1).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k10))
+            & t18.exceeds(N::from_f64(1.1546319456101628e-14) * t18)
+            & n(p.k21).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k13))
+            & n(p.k21).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k13))
+            & n(p.k23).exceeds(N::from_f64(1.1546319456101628e-14) * n(p.k16))
+            & t79.exceeds(N::from_f64(1.1546319456101628e-14) * t79)
+            & t94.exceeds(N::from_f64(1.1546319456101628e-14) * t90)
+            & t105.exceeds(N::from_f64(1.1546319456101628e-14) * t69)
+            & t113.exceeds(N::from_f64(1.1546319456101628e-14) * t89)
+            & lambda1.is_finite();
         if !sound {
-            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
             check(n(p.J1), n(p.J1), 1.1546319456101628e-14, 5)?;
-            check(n(p.k16), n(p.k16), 1.1546319456101628e-14, 2)?;
-            check(n(p.k10), n(p.k10), 1.1546319456101628e-14, 3)?;
-            check(n(p.k24), n(p.k24), 1.1546319456101628e-14, 11)?;
-            check(t37, n(p.k13), 1.1546319456101628e-14, 0)?;
-            check(t53, n(p.k13), 1.1546319456101628e-14, 1)?;
-            check(t76, t8, 1.1546319456101628e-14, 4)?;
-            check(t101, n(p.m2), 1.1546319456101628e-14, 6)?;
-            check(t107, t107, 1.1546319456101628e-14, 9)?;
-            check(t124, t9, 1.1546319456101628e-14, 7)?;
-            check(t132, t132, 1.1546319456101628e-14, 10)?;
-            check(t140, t137, 1.1546319456101628e-14, 12)?;
+            check(n(p.J2), n(p.J2), 1.1546319456101628e-14, 8)?;
+            check(n(p.m2), n(p.m2), 1.1546319456101628e-14, 6)?;
+            check(t17, t17, 1.1546319456101628e-14, 7)?;
+            check(n(p.m1), n(p.k10), 1.1546319456101628e-14, 3)?;
+            check(t18, t18, 1.1546319456101628e-14, 4)?;
+            check(n(p.k21), n(p.k13), 1.1546319456101628e-14, 1)?;
+            check(n(p.k21), n(p.k13), 1.1546319456101628e-14, 0)?;
+            check(n(p.k23), n(p.k16), 1.1546319456101628e-14, 2)?;
+            check(t79, t79, 1.1546319456101628e-14, 9)?;
+            check(t94, t90, 1.1546319456101628e-14, 10)?;
+            check(t105, t69, 1.1546319456101628e-14, 11)?;
+            check(t113, t89, 1.1546319456101628e-14, 12)?;
         }
         let multipliers = [
             lambda1.store(),
@@ -1789,6 +1782,13 @@ where
             k39: lanes(|p| p.k39),
             k40: lanes(|p| p.k40),
             k41: lanes(|p| p.k41),
+            k42: lanes(|p| p.k42),
+            k43: lanes(|p| p.k43),
+            k44: lanes(|p| p.k44),
+            k45: lanes(|p| p.k45),
+            k46: lanes(|p| p.k46),
+            k47: lanes(|p| p.k47),
+            k48: lanes(|p| p.k48),
             singular: None,
         }
     }

@@ -8,13 +8,13 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 8 | 4 | 4 | 0 | 0 | 16 |
+//! | `prepare` | 9 | 4 | 4 | 0 | 0 | 17 |
 //! | `start` | 3 | 1 | 0 | 1 | 0 | 5 |
 //! | `constraint_positions` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `constraint_rates` | 6 | 6 | 0 | 0 | 0 | 12 |
 //! | `constraint_matrix` | 6 | 2 | 0 | 0 | 0 | 8 |
 //! | `constraint_drift` | 6 | 4 | 0 | 0 | 0 | 10 |
-//! | `accelerations` | 38 | 24 | 2 | 0 | 0 | 64 |
+//! | `accelerations` | 37 | 19 | 2 | 0 | 0 | 58 |
 //! | `multipliers` | 32 | 18 | 2 | 0 | 0 | 52 |
 //! | `kinetic_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `potential_energy` | 2 | 1 | 0 | 0 | 0 | 3 |
@@ -93,16 +93,17 @@ impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
         let k11 = -k7;
         let k12 = -k4;
         let k13 = -k1;
-        let k14 = S::ONE / self.m2;
-        let k15 = S::ONE / self.m1;
-        let singular = if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
-            Some(singular(2, self.m2, self.m2))
-        } else if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
-            Some(singular(3, self.m2, self.m2))
-        } else if vanishes(self.m1, self.m1, 5.329070518200751e-15) {
+        let k14 = S::ONE / self.m1;
+        let k15 = S::ONE / self.m2;
+        let k16 = self.g * k1;
+        let singular = if vanishes(self.m1, self.m1, 5.329070518200751e-15) {
             Some(singular(0, self.m1, self.m1))
         } else if vanishes(self.m1, self.m1, 5.329070518200751e-15) {
             Some(singular(1, self.m1, self.m1))
+        } else if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
+            Some(singular(2, self.m2, self.m2))
+        } else if vanishes(self.m2, self.m2, 5.329070518200751e-15) {
+            Some(singular(3, self.m2, self.m2))
         } else {
             None
         };
@@ -126,6 +127,7 @@ impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
             k13,
             k14,
             k15,
+            k16,
             singular,
         }
     }
@@ -232,10 +234,12 @@ pub struct Prepared<S = f64> {
     k12: S,
     /// `-1/l1`
     k13: S,
-    /// `1/m2`
-    k14: S,
     /// `1/m1`
+    k14: S,
+    /// `1/m2`
     k15: S,
+    /// `g/l1`
+    k16: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -362,7 +366,8 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) ->
     [gamma1, gamma2]
 }
 
-/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma`.
+/// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
+/// machine, factored.
 ///
 /// What is known to be zero is not computed; a pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
@@ -401,40 +406,38 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let y1_dot = n(v[1]);
         let x2_dot = n(v[2]);
         let y2_dot = n(v[3]);
-        let t0 = x1 * n(p.k1);
-        let t1 = y1 * n(p.k1);
+        let t0 = x1 - x2;
+        let t1 = y1 - y2;
         let t2 = x1_dot - x2_dot;
         let t3 = y1_dot - y2_dot;
-        let t4 = n(p.k15) * t0;
-        let t5 = n(p.k15) * t1;
-        let t6 = n(p.k4) * (y1 - y2);
-        let t7 = n(p.k4) * (x1 - x2);
-        let t8 = n(p.k15) * t7;
-        let t9 = t6 * n(p.k14);
-        let t10 = t7 * n(p.k14);
-        let t11 = n(p.k15) * t6;
-        let t12 = t1.mul_add(t5, t0 * t4);
-        let t13 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
-        let t14 = n(p.k1).mul_sub(t13, t5 * n(p.k6));
-        let t15 = N::ONE / t12;
-        let t16 = t11.mul_add(t1, t8 * t0);
-        let t17 = t6.mul_add(t11, t7 * t8) + t6.mul_add(t9, t7 * t10);
-        let t18 = t11.mul_sub(n(p.k6), t9 * n(p.k7));
-        let t19 = t15 * t16;
-        let t20 = t16.neg_mul_add(t19, t17);
-        let t21 = n(p.k4).neg_mul_add(t3.mul_add(t3, t2 * t2), t18);
-        let t22 = t19.mul_add(t14, t21) / t20;
-        let t23 = t19.mul_add(t22, t15 * t14);
-        let x1_ddot = t4.neg_mul_add(t23, t8 * t22);
-        let y1_ddot = -t5.mul_add(t23, t11.neg_mul_add(t22, n(p.g)));
-        let x2_ddot = -(t10 * t22);
-        let y2_ddot = -t9.mul_add(t22, n(p.g));
-        let sound = t12.exceeds(N::from_f64(5.329070518200751e-15) * t12)
-            & t20.exceeds(N::from_f64(5.329070518200751e-15) * t17)
+        let t4 = n(p.k14) * (n(p.k1) * x1);
+        let t5 = n(p.k14) * (n(p.k1) * y1);
+        let t6 = n(p.k4) * t0;
+        let t7 = n(p.k4) * t1;
+        let t8 = n(p.k15) * t6;
+        let t9 = n(p.k14) * t6;
+        let t10 = n(p.k15) * t7;
+        let t11 = n(p.k14) * t7;
+        let t12 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
+        let t13 = n(p.k1).neg_mul_add(t12, y1 * n(p.k16));
+        let t14 = n(p.k1) * y1.mul_add(t5, x1 * t4);
+        let t15 = n(p.k4) * t5.mul_add(t1, t4 * t0);
+        let t16 = N::ONE / t14;
+        let t17 = n(p.k4) * t1.mul_add(t10 + t11, t0 * (t8 + t9));
+        let t18 = t16 * t15;
+        let t19 = t15.neg_mul_add(t18, t17);
+        let t20 = t18.mul_add(t13, n(p.k4) * t3.mul_add(t3, t2 * t2)) / t19;
+        let t21 = t18.mul_add(t20, t16 * t13);
+        let x1_ddot = t4.mul_sub(t21, t9 * t20);
+        let y1_ddot = t5.mul_sub(t21, t11.mul_add(t20, n(p.g)));
+        let x2_ddot = t8 * t20;
+        let y2_ddot = t10.mul_sub(t20, n(p.g));
+        let sound = t14.exceeds(N::from_f64(5.329070518200751e-15) * t14)
+            & t19.exceeds(N::from_f64(5.329070518200751e-15) * t17)
             & y1_ddot.is_finite();
         if !sound {
-            check(t12, t12, 5.329070518200751e-15, 4)?;
-            check(t20, t17, 5.329070518200751e-15, 5)?;
+            check(t14, t14, 5.329070518200751e-15, 4)?;
+            check(t19, t17, 5.329070518200751e-15, 5)?;
         }
         let accelerations = [
             x1_ddot.store(),
@@ -489,28 +492,28 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t1 = n(p.k1) * y1;
         let t2 = x1_dot - x2_dot;
         let t3 = y1_dot - y2_dot;
-        let t4 = n(p.k15) * t1;
-        let t5 = n(p.k4) * (y1 - y2);
-        let t6 = n(p.k4) * (x1 - x2);
-        let t7 = n(p.k15) * t6;
-        let t8 = t5 * n(p.k14);
-        let t9 = n(p.k15) * t5;
-        let t10 = t1.mul_add(t4, t0 * (n(p.k15) * t0));
+        let t4 = n(p.k14) * t1;
+        let t5 = n(p.k4) * (x1 - x2);
+        let t6 = n(p.k4) * (y1 - y2);
+        let t7 = n(p.k14) * t5;
+        let t8 = n(p.k14) * t6;
+        let t9 = t6 * n(p.k15);
+        let t10 = t1.mul_add(t4, t0 * (n(p.k14) * t0));
         let t11 = y1_dot.mul_add(y1_dot, x1_dot * x1_dot);
         let t12 = n(p.k1).mul_sub(t11, t4 * n(p.k6));
         let t13 = N::ONE / t10;
-        let t14 = t1.mul_add(t9, t0 * t7);
-        let t15 = t5.mul_add(t8, t6 * (t6 * n(p.k14)));
-        let t16 = t5.mul_add(t9, t6 * t7) + t15;
-        let t17 = t9.mul_sub(n(p.k6), t8 * n(p.k7));
+        let t14 = t1.mul_add(t8, t0 * t7);
+        let t15 = t6.mul_add(t9, t5 * (t5 * n(p.k15)));
+        let t16 = t6.mul_add(t8, t5 * t7) + t15;
+        let t17 = t9.mul_add(n(p.k7), n(p.k4) * t3.mul_add(t3, t2 * t2));
         let t18 = t13 * t14;
         let t19 = t14.neg_mul_add(t18, t16);
-        let t20 = n(p.k4).neg_mul_add(t3.mul_add(t3, t2 * t2), t17);
-        let lambda2 = t18.mul_add(t12, t20) / t19;
-        let lambda1 = -t18.mul_add(lambda2, t13 * t12);
+        let t20 = t18.neg_mul_add(t12, t8.neg_mul_add(n(p.k6), t17)) / t19;
+        let lambda1 = t18.mul_sub(t20, t13 * t12);
+        let lambda2 = -t20;
         let sound = t10.exceeds(N::from_f64(5.329070518200751e-15) * t10)
             & t19.exceeds(N::from_f64(5.329070518200751e-15) * t16)
-            & lambda1.is_finite();
+            & lambda2.is_finite();
         if !sound {
             check(t10, t10, 5.329070518200751e-15, 4)?;
             check(t19, t16, 5.329070518200751e-15, 5)?;
@@ -763,6 +766,7 @@ where
             k13: lanes(|p| p.k13),
             k14: lanes(|p| p.k14),
             k15: lanes(|p| p.k15),
+            k16: lanes(|p| p.k16),
             singular: None,
         }
     }

@@ -83,20 +83,20 @@ impl<S: ::lagrangian::Scalar> RollingCoin<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k1 = self.m * self.r;
-        let k10 = S::ONE / self.C;
+        let k11 = S::ONE / self.C;
         let t0 = self.r * k1;
         let k3 = self.A + t0;
         let k2 = self.C + t0;
         let k5 = k2 - self.A;
-        let k11 = self.r * k10;
+        let k12 = self.r * k11;
         let k0 = k1 * self.g;
         let k4 = k1 * S::from_f64(2.0);
         let k6 = S::from_f64(2.0) * k5;
         let k7 = -k1;
         let k8 = -self.C;
         let k9 = -self.r;
-        let k12 = self.r * k11;
-        let k13 = S::ONE / k3;
+        let k10 = S::ONE / k3;
+        let k13 = self.r * k12;
         let singular = if vanishes(self.C, self.C, 6.217248937900877e-15) {
             Some(singular(4, self.C, self.C))
         } else if vanishes(k3, k3, 6.217248937900877e-15) {
@@ -227,13 +227,13 @@ pub struct Prepared<S = f64> {
     k8: S,
     /// `-r`
     k9: S,
-    /// `1/C`
-    k10: S,
-    /// `r/C`
-    k11: S,
-    /// `r^2/C`
-    k12: S,
     /// `1/(A + m*r^2)`
+    k10: S,
+    /// `1/C`
+    k11: S,
+    /// `r/C`
+    k12: S,
+    /// `r^2/C`
     k13: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
@@ -469,18 +469,18 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t4 = sin_lean * n(p.k1);
         let t5 = cos_lean * lean_dot;
         let t6 = sin_lean * heading_dot;
-        let t7 = n(p.k10) * t2;
+        let t7 = n(p.k11) * t2;
         let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
         let t9 = sin_heading * t3;
         let t10 = t4 * cos_heading;
         let t11 = cos_heading * t3;
         let t12 = t4 * sin_heading;
-        let t13 = t2 * n(p.k11);
+        let t13 = t2 * n(p.k12);
         let t14 = t5 * n(p.k4);
         let t15 = t2.neg_mul_add(t7, t8);
-        let t16 = n(p.k13) * t9;
+        let t16 = n(p.k10) * t9;
         let t17 = t5 * (n(p.C) * heading_dot);
-        let t18 = n(p.k13) * t11;
+        let t18 = n(p.k10) * t11;
         let t19 = N::ONE / t15;
         let t20 = n(p.k5).mul_add(t6, t1);
         let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
@@ -507,11 +507,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
         let t43 = t31.mul_add(t39, cos_heading);
         let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
-        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k11) * t17));
+        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k12) * t17));
         let t46 = N::ONE / t41;
         let t47 = t46 * t42;
         let t48 = t46 * t43;
-        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k12)));
+        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k13)));
         let t50 = t42.mul_add(t47, t49);
         let t51 = t48.neg_mul_add(t42, t39 * t32);
         let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));
@@ -530,11 +530,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
         let t65 = t27.neg_mul_add(t63, t28.neg_mul_add(t59, t19 * t24));
         let t66 = t62 - t64;
         let t67 = t26 * t66;
-        let t68 = n(p.k11).mul_add(t59, n(p.k10) * t17);
+        let t68 = n(p.k12).mul_add(t59, n(p.k11) * t17);
         let x_ddot = t64 - t62;
         let y_ddot = t61 - t60;
         let heading_ddot = t67 - t65;
-        let lean_ddot = t16.mul_add(t66, t18.neg_mul_add(t63, n(p.k13) * t21));
+        let lean_ddot = t16.mul_add(t66, t18.neg_mul_add(t63, n(p.k10) * t21));
         let roll_ddot = t7.mul_sub(t65 - t67, t68);
         let sound = t15.exceeds(N::from_f64(6.217248937900877e-15) * t8)
             & t30.exceeds(N::from_f64(6.217248937900877e-15) * n(p.m))
@@ -609,18 +609,18 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t4 = sin_lean * n(p.k1);
         let t5 = cos_lean * lean_dot;
         let t6 = sin_lean * heading_dot;
-        let t7 = t2 * n(p.k10);
+        let t7 = t2 * n(p.k11);
         let t8 = cos_lean.neg_mul_add(cos_lean * n(p.k5), n(p.k2));
         let t9 = sin_heading * t3;
         let t10 = t4 * cos_heading;
         let t11 = cos_heading * t3;
         let t12 = t4 * sin_heading;
-        let t13 = t2 * n(p.k11);
+        let t13 = t2 * n(p.k12);
         let t14 = t5 * n(p.k4);
         let t15 = t2.neg_mul_add(t7, t8);
-        let t16 = n(p.k13) * t9;
+        let t16 = n(p.k10) * t9;
         let t17 = t5 * (n(p.C) * heading_dot);
-        let t18 = n(p.k13) * t11;
+        let t18 = n(p.k10) * t11;
         let t19 = N::ONE / t15;
         let t20 = n(p.k5).mul_add(t6, t1);
         let t21 = t20.mul_add(cos_lean * heading_dot, sin_lean * n(p.k0));
@@ -647,11 +647,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
         let t42 = t31.neg_mul_add(t38, t12.neg_mul_add(t28, sin_heading));
         let t43 = t31.mul_add(t39, cos_heading);
         let t44 = t37.neg_mul_add(t34, t27.neg_mul_add(t24, t35));
-        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k11) * t17));
+        let t45 = t28.mul_add(t24, heading_dot.mul_sub(t25, n(p.k12) * t17));
         let t46 = N::ONE / t41;
         let t47 = t46 * t42;
         let t48 = t46 * t43;
-        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k12)));
+        let t49 = t32.mul_add(t38, t13.mul_add(t28, n(p.k13)));
         let t50 = t42.mul_add(t47, t49);
         let t51 = t42.neg_mul_add(t48, t32 * t39);
         let t52 = t47.mul_add(t44, t38.mul_add(t34, t45));

@@ -30,6 +30,32 @@ const SPATIAL: &str = "machine Spatial in space {
     gravity (0, 0, -g);
 }";
 
+/// A chain in the plane that closes, its angles measured from bar to bar or each from the ground.
+fn closed(from_the_ground: bool) -> String {
+    let frames = match from_the_ground {
+        true => "joint[0] = ground, joint[i in 1..N] = joint[i-1].shift(l*cos(q[i]), l*sin(q[i]))",
+        false => "joint[0] = ground, joint[i in 1..N] = joint[i-1].turn(q[i]).shift(l, 0)",
+    };
+    let bar = match from_the_ground {
+        true => "at: joint[i-1].origin + polar(l/2, q[i]), angle: q[i]",
+        false => "frame: joint[i], at: joint[i].point(-l/2, 0)",
+    };
+    format!(
+        "machine Closed in plane {{
+            constants {{ N = 5 }}
+            parameters {{ l: m = 1, m: kg = 1, J: kg*m^2 = 1/12, d: m = 2, g: m/s^2 = 9.81 }}
+            coordinates {{ q[1..N]: rad = 0.3 }}
+            frames {{ {frames} }}
+            bodies {{ bar[i in 1..N] {{ mass: m, inertia: J, {bar} }} }}
+            gravity (0, -g);
+            constraints {{
+                along: dot(joint[N].origin, (1, 0)) = d,
+                across: dot(joint[N].origin, (0, 1)) = 0,
+            }}
+        }}"
+    )
+}
+
 /// A binary tree of bars in the plane: bar `i` hangs from the end of bar `i/2`.
 fn tree(depth: u32) -> String {
     let bars = 2usize.pow(depth) - 1;
@@ -58,6 +84,7 @@ fn tree(depth: u32) -> String {
 /// What a machine takes.
 struct Size {
     accelerations: usize,
+    multipliers: usize,
     mass_matrix: usize,
     /// Nodes of everything that was derived on the way.
     nodes: usize,
@@ -94,6 +121,7 @@ fn size(text: &str, n: i64) -> Size {
         };
         let size = Size {
             accelerations: ops(Role::Accelerations),
+            multipliers: ops(Role::Multipliers),
             mass_matrix: ops(Role::MassMatrix),
             nodes: machine.model.dag.len(),
         };
@@ -151,6 +179,17 @@ fn every_link_of_a_chain_in_space_costs_the_same() {
 }
 
 #[test]
+fn a_chain_that_closes_costs_as_much_per_link_at_any_length() {
+    for text in [closed(true), closed(false)] {
+        let [short, long] = [32, 64].map(|n| size(&text, n));
+        let [a, b] = [short.accelerations, long.accelerations];
+        assert!(100 * b <= 205 * a, "accelerations: {a}, {b}");
+        let [a, b] = [short.multipliers, long.multipliers];
+        assert!(100 * b <= 205 * a, "multipliers: {a}, {b}");
+    }
+}
+
+#[test]
 fn a_tree_costs_as_much_per_bar_at_any_depth() {
     let (small, large) = (size(&tree(5), 0), size(&tree(6), 0));
     assert!(
@@ -170,9 +209,17 @@ fn a_tree_costs_as_much_per_bar_at_any_depth() {
 }
 
 #[test]
-fn the_chain_in_space_and_the_tree_obey_lagranges_equations() {
-    for (text, n) in [(SPATIAL, 1), (SPATIAL, 2), (&tree(2), 0), (&tree(3), 0)] {
-        compiled(text, n, |machine| {
+fn chains_and_trees_obey_lagranges_equations() {
+    let machines = [
+        (SPATIAL.to_owned(), 1),
+        (SPATIAL.to_owned(), 2),
+        (tree(2), 0),
+        (tree(3), 0),
+        (closed(true), 8),
+        (closed(false), 8),
+    ];
+    for (text, n) in machines {
+        compiled(&text, n, |machine| {
             let oracle = Oracle::derive(&machine.model);
             assert_eq!(prove(&machine.program, &machine.model, &oracle), Ok(()));
         });

@@ -95,6 +95,28 @@ macro_rules! for_each_machine {
     };
 }
 
+/// The same with every machine that constraints leave determined accelerations, at any state.
+#[macro_export]
+macro_rules! for_each_constrained_machine {
+    ($do:ident) => {
+        $do!(AndrewsSqueezer, "andrews_squeezer");
+        $do!(BallInBowl, "ball_in_bowl");
+        $do!(CakedCrusher, "caked_crusher");
+        $do!(ChaplyginSleigh, "chaplygin_sleigh");
+        $do!(ClosedPendulum, "closed_pendulum");
+        $do!(CrushingCrusher, "crushing_crusher");
+        $do!(FlyballGovernor, "flyball_governor");
+        $do!(FourBar, "four_bar");
+        $do!(FourBars, "four_bars");
+        $do!(GrainCrusher, "grain_crusher");
+        $do!(ParticlePendulum, "particle_pendulum");
+        $do!(Rattleback, "rattleback");
+        $do!(RollingCoin, "rolling_coin");
+        $do!(RollingCylinder, "rolling_cylinder");
+        $do!(SliderCrank, "slider_crank");
+    };
+}
+
 /// The text of a machine of the library.
 pub fn text(machine: &str) -> String {
     let path = path(machine);

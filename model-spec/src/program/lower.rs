@@ -1,5 +1,6 @@
 //! From expressions to programs.
 
+mod closed;
 mod derivatives;
 mod friction;
 mod stages;
@@ -70,10 +71,14 @@ impl Program {
             expanded: &expanded
                 .map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
             // What runs along a machine that closes would not close.
-            unprojected: match equations.constraints.is_empty() {
-                true => equations.unprojected.as_ref(),
-                false => None,
-            },
+            unprojected: equations
+                .unprojected
+                .as_ref()
+                .filter(|_| is_open(equations)),
+            cut_open: equations
+                .unprojected
+                .as_ref()
+                .filter(|_| !is_open(equations)),
             slopes: &slopes,
             sliding: &equations.sliding,
             multipliers: &multipliers,
@@ -83,10 +88,16 @@ impl Program {
                     model: &reduction.machine.0,
                     quantities,
                     expanded,
-                    unprojected: match reduction.constraints.is_empty() {
-                        true => reduction.equations.unprojected.as_ref(),
-                        false => None,
-                    },
+                    unprojected: reduction
+                        .equations
+                        .unprojected
+                        .as_ref()
+                        .filter(|_| reduction.constraints.is_empty()),
+                    cut_open: reduction
+                        .equations
+                        .unprojected
+                        .as_ref()
+                        .filter(|_| !reduction.constraints.is_empty()),
                     reduction: Some(reduction),
                 }),
         };
@@ -109,6 +120,7 @@ impl Program {
             quantities,
             expanded: &[],
             unprojected: None,
+            cut_open: None,
             slopes: &|_| Vec::new(),
             sliding: &[],
             multipliers: &[],
@@ -270,6 +282,10 @@ impl Program {
     }
 }
 
+fn is_open(equations: &Equations<'_>) -> bool {
+    equations.constraints.is_empty()
+}
+
 fn all_values<'d>(quantities: &[Quantity<'d>]) -> Vec<Expr<'d>> {
     let values = quantities.iter().flat_map(|quantity| &quantity.values);
     values.copied().collect()
@@ -282,6 +298,8 @@ struct Origin<'a, 'd> {
     /// Some of the same quantities, multiplied out.
     expanded: &'a [Quantity<'d>],
     unprojected: Option<&'a Unprojected<'d>>,
+    /// The same of a machine that constraints close.
+    cut_open: Option<&'a Unprojected<'d>>,
     /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
     /// they were derived or multiplied out.
     slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
@@ -300,6 +318,7 @@ struct Set<'a, 'd> {
     quantities: &'a [Quantity<'d>],
     expanded: &'a [Quantity<'d>],
     unprojected: Option<&'a Unprojected<'d>>,
+    cut_open: Option<&'a Unprojected<'d>>,
     /// How its coordinates are among those of the machine, where these are more.
     reduction: Option<&'a Reduction<'d>>,
 }
@@ -312,6 +331,7 @@ impl<'a, 'd> Origin<'a, 'd> {
             quantities: self.quantities,
             expanded: self.expanded,
             unprojected: self.unprojected,
+            cut_open: self.cut_open,
             reduction: None,
         }
     }
@@ -733,6 +753,11 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
             drafts.extend(along_the_machine(lowering, source, matrix, machine, basis));
         }
     }
+    if let Some(machine) = source.cut_open
+        && let Some(solution) = closed::solve(lowering, source.model, &systems[0].1, machine)
+    {
+        drafts.extend(solved(lowering, source, solution, Basis::Along));
+    }
     let shortest = drafts
         .iter()
         .map(|draft| draft.function.counts().ops())
@@ -832,17 +857,33 @@ fn multipliers<'d>(
         return Vec::new();
     };
     let elimination = Elimination::of(&system);
-    let solution = solve::solve(&mut lowering.graph, &system, elimination);
-    let known = &accelerations.known_pivots;
-    let pivots = solution.pivots.into_iter();
-    let planned = Planned {
-        role: Role::Multipliers,
-        shape: Shape::Vector(solution.multipliers.len()),
-        results: solution.multipliers,
-        pivots: pivots.filter(|pivot| !known.contains(pivot)).collect(),
-        rows: system.forces.len(),
+    let work = elimination.multiplications;
+    let along = source.cut_open.and_then(|machine| {
+        let solution = closed::solve(lowering, lowering.model, &system, machine)?;
+        Some((Basis::Along, solution))
+    });
+    let mut drafts = Vec::new();
+    let mut draft = |lowering: &mut Lowering<'_, 'd>, basis, solution: Solution| {
+        let known = &accelerations.known_pivots;
+        let pivots = solution.pivots.into_iter();
+        let planned = Planned {
+            role: Role::Multipliers,
+            shape: Shape::Vector(solution.multipliers.len()),
+            results: solution.multipliers,
+            pivots: pivots.filter(|pivot| !known.contains(pivot)).collect(),
+            rows: system.forces.len(),
+        };
+        let ways = planned.drafts(&mut lowering.graph, basis);
+        let shortest = ways.iter().map(|draft| draft.function.counts().ops()).min();
+        drafts.extend(ways);
+        shortest
     };
-    planned.drafts(&mut lowering.graph, basis)
+    let shortest = along.and_then(|(basis, solution)| draft(lowering, basis, solution));
+    if shortest.is_none_or(|ops| work <= ops) {
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
+        draft(lowering, basis, solution);
+    }
+    drafts
 }
 
 /// The accelerations with their derivatives, if any are asked for: from the equations that the

@@ -83,7 +83,9 @@ fn no_mistake_in_a_sample_from_any_machine_survives() {
             });
         });
     }
-    assert!(50 * idle <= tried, "{idle} of {tried}");
+    // Cut open and closed again, a machine does not feel what acts across its constraints: such mistakes
+    // are only found in the multipliers.
+    assert!(40 * idle <= tried, "{idle} of {tried}");
 }
 
 #[test]

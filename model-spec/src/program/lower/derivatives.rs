@@ -14,6 +14,7 @@ use super::super::solve::{self, Elimination, Pivot, System};
 use super::super::{Basis, Role, Shape};
 use super::{Draft, Lowering, Planned};
 use crate::mechanics::Unprojected;
+use crate::model::Model;
 
 /// One unknown that leaves the equations: `x_of = r_of/pivot + Σ c x_part`, and its load moves on:
 /// `r_part += c r_of`. One without a pivot only gives way to its parts.
@@ -51,7 +52,7 @@ pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_,
     let elimination = Elimination::of(asked.system);
     let along = asked
         .unprojected
-        .and_then(|machine| along_the_machine(lowering, asked, machine));
+        .and_then(|machine| along_the_machine(lowering, lowering.model, asked.system, machine));
     let mut candidates = functions(lowering, asked, along.as_ref());
     // What is certainly longer is not even written down: each column passes through the matrix too.
     let is_shorter = |draft: &Draft| {
@@ -121,15 +122,17 @@ pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solv
     }
 }
 
-fn along_the_machine<'d>(
+/// How the accelerations of an open machine are found along it.
+pub(super) fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
-    asked: &Asked<'_, 'd>,
+    model: &Model<'d>,
+    system: &System,
     machine: &Unprojected<'d>,
 ) -> Option<Solved> {
-    let solution = articulated::solve(lowering.model, machine, Order::Short)?;
+    let solution = articulated::solve(model, machine, Order::Short)?;
     lowering.name(&solution.names);
     lowering.lower(&solution.accelerations);
-    let mut unknowns = asked.system.forces.len();
+    let mut unknowns = system.forces.len();
     let mut numbers = solution.coordinates;
     let mut number = |id| {
         *numbers.entry(id).or_insert_with(|| {
@@ -152,7 +155,7 @@ fn along_the_machine<'d>(
     }
     // A pivot need only be positive where the entry of M that it was left over from is not at hand.
     let scale = |coordinate: usize, pivot: Scaled| {
-        let diagonal = asked.system.matrix[Shape::index(coordinate, coordinate)];
+        let diagonal = system.matrix[Shape::index(coordinate, coordinate)];
         if diagonal.is_known() { diagonal } else { pivot }
     };
     let eliminated = steps.iter().filter_map(|step| step.pivot);
