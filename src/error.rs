@@ -500,7 +500,8 @@ impl Display for Warning {
             ),
             Self::Stiff { t } => write!(
                 f,
-                "the machine is stiff from t = {t} s: steps are held short by stability, not by accuracy"
+                "the machine is stiff from t = {t} s: steps are held short by stability, not by accuracy; the method `radau5` takes \
+                 longer ones"
             ),
         }
     }

@@ -41,7 +41,7 @@
 //!
 //! | feature | |
 //! | --- | --- |
-//! | `std` (default) | simulations, solutions, events; without it the crate allocates nothing and needs no operating system |
+//! | `std` (default) | simulations, solutions, events, the implicit method `radau5`; without it the crate allocates nothing and needs no operating system |
 //! | `macros` (default) | `machine!` |
 //! | `interpreter` | specs that are read while the program runs |
 //! | `strict-libm` | the same bits on every machine: no fused multiply-add, `libm`'s sines |
@@ -57,6 +57,8 @@ pub mod brachistochrone;
 mod compensated;
 mod constraints;
 mod friction;
+#[cfg(feature = "std")]
+mod implicit;
 mod lanes;
 mod math;
 pub mod methods;

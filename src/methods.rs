@@ -1,12 +1,13 @@
-//! Explicit Runge–Kutta methods: what is published of each, and the list of those to choose from.
+//! Runge–Kutta methods: what is published of each, and the list of those to choose from.
 //!
-//! To add a method, write its [`Tableau`] and put one line into the list at the end of [`METHODS`].
+//! To add a method, write its [`Tableau`] and put one line into the list of [`METHODS`].
 //! The same tests then hold it to its orders, its dense output, its events and to allocating
 //! nothing.
 
 mod bogacki_shampine;
 mod dormand_prince_5;
 mod dormand_prince_8;
+mod radau_5;
 mod scheme;
 
 pub(crate) use scheme::{Row, Scheme};
@@ -14,11 +15,12 @@ pub(crate) use scheme::{Row, Scheme};
 /// The most stages that a method may have, those for dense output counted.
 pub const MAX_STAGES: usize = 16;
 
-/// Every method, the default first.
-pub static METHODS: [Method; 3] = [
+/// Every method, the default first: explicit ones for most machines, `radau5` for stiff ones.
+pub static METHODS: [Method; 4] = [
     Method::new(dormand_prince_8::TABLEAU),
     Method::new(dormand_prince_5::TABLEAU),
     Method::new(bogacki_shampine::TABLEAU),
+    Method::new(radau_5::TABLEAU),
 ];
 
 /// A method of integration, ready to run.
@@ -36,7 +38,7 @@ impl Method {
         Self { tableau, scheme }
     }
 
-    /// The method of that short name: `dop853`, `dopri5`, `bs32`.
+    /// The method of that short name: `dop853`, `dopri5`, `bs32`, `radau5`.
     pub fn named(name: &str) -> Option<&'static Self> {
         METHODS.iter().find(|method| method.tableau.name == name)
     }
@@ -48,7 +50,7 @@ impl Default for &'static Method {
     }
 }
 
-/// An explicit Runge–Kutta method as it is published, for `y' = f(t, y)`:
+/// A Runge–Kutta method as it is published, for `y' = f(t, y)`:
 ///
 /// ```text
 /// kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ)
@@ -56,7 +58,9 @@ impl Default for &'static Method {
 ///
 /// `stages` of them make a step, the row of `a` after those holds the weights `b` of the new point,
 /// and its `k` is the first of the next step (first same as last). Rows after that are stages that
-/// only dense output needs.
+/// only dense output needs. In explicit methods a stage depends on those before it; in implicit ones,
+/// which have a [`spectrum`](Self::spectrum), three stages after the first depend on each other, and
+/// the new point is the last of them.
 #[derive(Debug)]
 pub struct Tableau {
     /// The short name by which it is chosen.
@@ -69,11 +73,11 @@ pub struct Tableau {
     pub error_power: u32,
     /// Order of the dense output: its error within a step is `O(h^(dense_order + 1))`.
     pub dense_order: u32,
-    /// Evaluations of one step.
+    /// Evaluations of one step, if the method is explicit.
     pub stages: usize,
     /// Where in the step each stage is.
     pub c: &'static [f64],
-    /// What each stage takes from those before it; row `stages` is the new point.
+    /// What each stage takes from the others; row `stages` is the new point.
     pub a: &'static [&'static [f64]],
     /// Weights `e` of the error estimate `h Σ eⱼ kⱼ`.
     pub error: &'static [f64],
@@ -93,4 +97,30 @@ pub struct Tableau {
     /// Where the region of stability ends on the negative real axis. Not given in methods whose
     /// last stage is not at the end of the step, since they have no cheap test of stiffness.
     pub stability: Option<f64>,
+    /// How the stages of an implicit method are solved for; none in explicit ones. Needs an allocator,
+    /// hence the feature `std`: without it, a run by such a method is refused at its start.
+    pub spectrum: Option<Spectrum>,
+}
+
+/// Eigenvalues `μ` of the matrix `A` of three stages that depend on each other, one real and two
+/// conjugate, with left and right eigenvectors `w A = μ w`, `A u = μ u`, `w u = 1`.
+///
+/// With them the linear systems of Newton's method for all stages fall apart into one for each
+/// eigenvalue: E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., 1996,
+/// section IV.8.
+#[derive(Clone, Copy, Debug)]
+pub struct Spectrum {
+    /// The real eigenvalue. Estimates of the error go through `(I − h μ J)⁻¹` with it, `J` the
+    /// derivatives of `f`: so they are bounded however stiff the machine is.
+    pub real: f64,
+    /// The eigenvalue with the positive imaginary part.
+    pub complex: [f64; 2],
+    /// `w` of the real one.
+    pub left_of_real: [f64; 3],
+    /// `u` of the real one.
+    pub right_of_real: [f64; 3],
+    /// `w` of the complex one.
+    pub left_of_complex: [[f64; 2]; 3],
+    /// `u` of the complex one.
+    pub right_of_complex: [[f64; 2]; 3],
 }

@@ -1,5 +1,8 @@
 //! One step after another: the core that every run goes through. It allocates nothing, and needs no
-//! standard library.
+//! standard library; methods whose stages depend on each other have their room from an allocator.
+
+#[cfg(feature = "std")]
+mod implicitly;
 
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
@@ -7,6 +10,8 @@ use crate::constraints::Constraints;
 #[cfg(feature = "std")]
 use crate::friction::Change;
 use crate::friction::Contacts;
+#[cfg(feature = "std")]
+use crate::implicit::Implicit;
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;
@@ -14,9 +19,11 @@ use crate::methods::{MAX_STAGES, Method, Row};
 use crate::piece::{Ends, Piece, glance};
 use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state};
 use crate::{Singular, System, Vector};
+#[cfg(feature = "std")]
+use std::boxed::Box;
 
 /// Safety factor in the choice of the next step.
-const SAFETY: f64 = 0.9;
+pub(crate) const SAFETY: f64 = 0.9;
 
 /// Relative tolerances below this ask for more digits than `f64` has.
 pub const LEAST_RELATIVE_TOLERANCE: f64 = 10.0 * f64::EPSILON;
@@ -107,7 +114,8 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
-    /// [`System::lend`] lends no room for the work on constraints.
+    /// [`System::lend`] lends no room for the work on constraints; or the method is implicit, and there
+    /// is no allocator (feature `std`).
     NoRoom {
         /// Time, in s.
         t: f64,
@@ -165,6 +173,9 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     error_before: f64,
     work: Work,
     stiffness: Stiffness,
+    /// None in explicit methods.
+    #[cfg(feature = "std")]
+    implicit: Option<Box<Implicit>>,
 }
 
 /// The equations of motion with their inputs.
@@ -202,6 +213,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         (t, q, v): (f64, S::Vector, S::Vector),
         end: f64,
     ) -> Result<Self, StepError> {
+        #[cfg(feature = "std")]
+        let implicit = {
+            let spectrum = method.tableau.spectrum;
+            spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)))
+        };
+        #[cfg(not(feature = "std"))]
+        if method.tableau.spectrum.is_some() {
+            return Err(StepError::NoRoom { t });
+        }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
         let mut constraints = None;
@@ -235,6 +255,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             error_before: 1e-4,
             work: Work::default(),
             stiffness: Stiffness::default(),
+            #[cfg(feature = "std")]
+            implicit,
         };
         let Self {
             model,
@@ -405,6 +427,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.end = end;
         self.step = step;
         self.error_before = 1e-4;
+        if let Some(implicit) = &mut self.implicit {
+            implicit.forget();
+        }
         Ok(())
     }
 
@@ -485,9 +510,16 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             let h = if last { left } else { self.step };
             self.last_step = h;
 
-            let cause = match self.attempt(h, last) {
+            #[cfg(feature = "std")]
+            let tried = match self.implicit {
+                None => self.attempt(h, last),
+                Some(_) => self.attempt_implicitly(h, last, given_up),
+            };
+            #[cfg(not(feature = "std"))]
+            let tried = self.attempt(h, last);
+            let cause = match tried {
                 Ok(error) if error <= 1.0 => {
-                    let factor = self.step_factor(error).clamp(shrink, grow);
+                    let factor = self.growth(h, error, (shrink, grow));
                     // Not longer right after a rejection: what stood in the way is still near.
                     self.step = h * if given_up { factor.min(1.0) } else { factor };
                     self.error_before = error.max(1e-4);
@@ -495,8 +527,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
                     return Ok(());
                 }
                 Ok(error) => {
-                    let factor = SAFETY * rough_power(error, -self.error_exponent());
-                    self.step = h * factor.max(shrink);
+                    self.step = h * self.reduction(error, shrink);
                     None
                 }
                 Err(cause) => {
@@ -693,6 +724,29 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         relative_errors::<B, _>((row, h), &self.before, &self.now, &self.k, tolerance, start)
     }
 
+    /// By how much the next step may be longer than this good one of length `h`.
+    #[inline(always)]
+    fn growth(&mut self, _h: f64, error: f64, (shrink, grow): (f64, f64)) -> f64 {
+        #[cfg(feature = "std")]
+        {
+            let exponent = self.error_exponent();
+            if let Some(implicit) = &mut self.implicit {
+                return implicit.accept(_h, error, exponent, (shrink, grow));
+            }
+        }
+        self.step_factor(error).clamp(shrink, grow)
+    }
+
+    /// By how much the next try is to be shorter than this one, which was not good.
+    fn reduction(&self, error: f64, shrink: f64) -> f64 {
+        let exponent = self.error_exponent();
+        #[cfg(feature = "std")]
+        if let Some(implicit) = &self.implicit {
+            return implicit.reject(error, exponent, shrink);
+        }
+        (SAFETY * rough_power(error, -exponent)).max(shrink)
+    }
+
     /// By how much the next step may be longer than this one, whose error is `error`; see
     /// [`Tableau::smoothing`].
     fn step_factor(&self, error: f64) -> f64 {
@@ -842,6 +896,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             Some(coordinate) => Err(StepError::NotFinite { coordinate, t }),
             None => Ok(()),
         }
+    }
+
+    /// Sets the inputs for a state.
+    #[cfg(feature = "std")]
+    fn set_inputs(&mut self, t: f64, q: &S::Vector, v: &S::Vector) {
+        self.law.set(self.system, t, q, v, &mut self.inputs);
     }
 
     /// The acceleration at the new point.

@@ -141,7 +141,8 @@ fn motions_that_a_method_follows_exactly_are_followed_exactly() {
 
 #[test]
 fn a_step_costs_the_evaluations_that_it_says() {
-    for method in &METHODS {
+    let explicit = |method: &&Method| method.tableau.spectrum.is_none();
+    for method in METHODS.iter().filter(explicit) {
         let oscillator = oscillator();
         let law = InputFunction(|_, _: &[f64; 1], _: &[f64; 1], _: &mut f64| {});
         let mut stepper = stepper(&oscillator, law, method, 0.1);
@@ -158,6 +159,62 @@ fn a_step_costs_the_evaluations_that_it_says() {
         let extra = method.tableau.a.len() - stages - 1;
         assert_eq!(stepper.work().evaluations, work.evaluations + extra);
     }
+}
+
+#[test]
+fn the_eigenvectors_of_implicit_methods_are_those_of_their_stages() {
+    let implicit = METHODS.iter().filter_map(|method| {
+        let spectrum = method.tableau.spectrum?;
+        Some((method.tableau.a, spectrum))
+    });
+    let mut count = 0;
+    for (a, spectrum) in implicit {
+        count += 1;
+        let real = |x: f64| [x, 0.0];
+        let pairs = [
+            (
+                real(spectrum.real),
+                spectrum.left_of_real.map(real),
+                spectrum.right_of_real.map(real),
+            ),
+            (
+                spectrum.complex,
+                spectrum.left_of_complex,
+                spectrum.right_of_complex,
+            ),
+        ];
+        let sum = |terms: &mut dyn Iterator<Item = [f64; 2]>| {
+            terms.fold([0.0; 2], |sum, x| [sum[0] + x[0], sum[1] + x[1]])
+        };
+        let product = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
+        let is = |x: [f64; 2], y: [f64; 2]| {
+            // Sums of three products of rounded numbers up to 5.
+            (x[0] - y[0]).hypot(x[1] - y[1]) <= 3.0 * 3.0 * 5.0 * f64::EPSILON
+        };
+        for (mu, left, right) in pairs {
+            for i in 0..3 {
+                let along = |j: usize| {
+                    (
+                        real(a[j + 1][i + 1]),
+                        real(a[i + 1][j + 1]),
+                        left[j],
+                        right[j],
+                    )
+                };
+                let w = sum(&mut (0..3).map(|j| product(along(j).0, along(j).2)));
+                assert!(is(w, product(mu, left[i])), "{w:?}");
+                let u = sum(&mut (0..3).map(|j| product(along(j).1, along(j).3)));
+                assert!(is(u, product(mu, right[i])), "{u:?}");
+            }
+            let one = sum(&mut (0..3).map(|j| product(left[j], right[j])));
+            assert!(is(one, [1.0, 0.0]), "{one:?}");
+        }
+        // And the vectors of different eigenvalues are at right angles.
+        let other = sum(&mut (0..3)
+            .map(|j| product(real(spectrum.left_of_real[j]), spectrum.right_of_complex[j])));
+        assert!(is(other, [0.0; 2]), "{other:?}");
+    }
+    assert_eq!(count, 1);
 }
 
 #[test]

@@ -145,7 +145,7 @@ pub struct Simulate {
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
     pub tolerance: f64,
-    /// The integration method.
+    /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
     /// Record the motion at this interval, in s; without it, 1000 times.

@@ -27,4 +27,5 @@ pub(super) const TABLEAU: Tableau = Tableau {
     step_change: (0.2, 10.0),
     smoothing: 0.0,
     stability: None,
+    spectrum: None,
 };

@@ -65,4 +65,5 @@ pub(super) const TABLEAU: Tableau = Tableau {
     step_change: (0.2, 10.0),
     smoothing: 0.04,
     stability: Some(3.25),
+    spectrum: None,
 };

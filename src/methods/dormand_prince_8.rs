@@ -298,4 +298,5 @@ pub(super) const TABLEAU: Tableau = Tableau {
     // more work for half of the error.
     smoothing: 0.04,
     stability: Some(6.1),
+    spectrum: None,
 };

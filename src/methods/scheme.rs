@@ -76,11 +76,14 @@ impl Row {
         let mut j = 0;
         while j < weights.len() {
             let (mut sum, mut size) = (0.0, 0.0);
-            let mut i = j + 1;
+            let mut i = 0;
             while i < weights.len() {
-                let product = weights[i] * a[i][j];
-                sum += product;
-                size += product.abs();
+                // A row may leave out the zeros at its end.
+                if j < a[i].len() {
+                    let product = weights[i] * a[i][j];
+                    sum += product;
+                    size += product.abs();
+                }
                 i += 1;
             }
             // A sum of at most 16 rounded products: what is no larger than their roundoff stands

@@ -1,0 +1,146 @@
+//! How accelerations change with the state, by differences.
+
+use crate::math::sqrt;
+use crate::{StepError, System, Vector};
+use std::vec::Vec;
+
+/// A length, or whatever a coordinate measures, in a machine whose numbers of that unit are all 0, and
+/// the same for rates. By far too small it costs digits of a derivative, by far too large its
+/// exactness: neither does harm to more than the speed of convergence.
+const SIZE_OF_NOTHING: f64 = 1e-3;
+
+/// A rate is no larger than this many times the others of its unit, however short the step.
+const LARGEST_RATE: f64 = 1e4;
+
+/// The derivatives `∂a/∂q` and `∂a/∂v`.
+#[derive(Clone, Debug)]
+pub(super) struct Jacobian {
+    n: usize,
+    /// For each coordinate, the first of the same unit.
+    alike: Vec<usize>,
+    is_angle: Vec<bool>,
+    /// Row after row.
+    pub by_coordinates: Vec<f64>,
+    pub by_rates: Vec<f64>,
+    /// What coordinates, then rates are in size.
+    pub sizes: [Vec<f64>; 2],
+    /// Roundoff of each acceleration, in units of the roundoff of 1: `|aᵢ| + Σⱼ |∂aᵢ/∂qⱼ| |qⱼ| + …`.
+    pub noise: Vec<f64>,
+    state: [Vec<f64>; 2],
+}
+
+impl Jacobian {
+    pub fn new<S: System>(system: &S) -> Self {
+        let n = system.coordinates().len();
+        let first = |unit: &str| system.coordinates().position(|other| other.unit == unit);
+        let alike = system.coordinates().enumerate();
+        let zeros = || std::vec![0.0; n];
+        Self {
+            n,
+            alike: alike.map(|(j, one)| first(one.unit).unwrap_or(j)).collect(),
+            is_angle: system.coordinates().map(|one| one.unit == "rad").collect(),
+            by_coordinates: std::vec![0.0; n * n],
+            by_rates: std::vec![0.0; n * n],
+            sizes: [zeros(), zeros()],
+            noise: zeros(),
+            state: [zeros(), zeros()],
+        }
+    }
+
+    /// Finds the derivatives at a state in a step of length `h`, by `1 + 2 n` evaluations; leaves the
+    /// accelerations in `here`. `there` is room.
+    ///
+    /// A difference of `√ε` times the size of a number halves its digits: what is left of roundoff and
+    /// what is left of the second derivative are alike. Rates differ by at least what moves coordinates as
+    /// much within a step, or the roundoff of a stiff spring would hide what a damper does.
+    pub fn find<V: Vector>(
+        &mut self,
+        (t, h): (f64, f64),
+        [q, v, here, there]: [&mut V; 4],
+        accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        accelerations(t, q, v, here)?;
+        self.measure(h, [&*q, &*v, &*here]);
+        let n = self.n;
+        for (noise, a) in self.noise.iter_mut().zip(here.as_slice()) {
+            *noise = a.abs();
+        }
+        for level in 0..2 {
+            for j in 0..n {
+                let size = self.sizes[level][j];
+                let ahead = match level {
+                    0 => h * v.as_slice()[j],
+                    _ => h * here.as_slice()[j],
+                };
+                let by = (sqrt(f64::EPSILON) * size).copysign(ahead);
+                let mut difference = 0.0;
+                // Where the machine cannot be on one side, it is on the other.
+                let mut tried = Ok(());
+                for by in [by, -by] {
+                    let y = match level {
+                        0 => &mut q.as_mut_slice()[j],
+                        _ => &mut v.as_mut_slice()[j],
+                    };
+                    let before = *y;
+                    *y += by;
+                    // As it is rounded.
+                    difference = *y - before;
+                    tried = accelerations(t, q, v, there);
+                    let y = match level {
+                        0 => &mut q.as_mut_slice()[j],
+                        _ => &mut v.as_mut_slice()[j],
+                    };
+                    *y = before;
+                    if tried.is_ok() {
+                        break;
+                    }
+                }
+                tried?;
+                let derivatives = match level {
+                    0 => &mut self.by_coordinates,
+                    _ => &mut self.by_rates,
+                };
+                let pairs = there.as_slice().iter().zip(here.as_slice());
+                for (i, (there, here)) in pairs.enumerate() {
+                    let derivative = (there - here) / difference;
+                    derivatives[i * n + j] = derivative;
+                    self.noise[i] += derivative.abs() * size;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over the derivatives of another.
+    pub fn take(&mut self, other: &Self) {
+        self.by_coordinates.copy_from_slice(&other.by_coordinates);
+        self.by_rates.copy_from_slice(&other.by_rates);
+        self.noise.copy_from_slice(&other.noise);
+        for (sizes, other) in self.sizes.iter_mut().zip(&other.sizes) {
+            sizes.copy_from_slice(other);
+        }
+    }
+
+    /// The sizes of coordinates and rates: the greatest of their unit here, or what a step adds to it. An
+    /// angle counts as 1 rad at least.
+    fn measure<V: Vector>(&mut self, h: f64, state: [&V; 3]) {
+        let [q, v, a] = state.map(V::as_slice);
+        let [greatest_q, greatest_v] = &mut self.state;
+        greatest_q.fill(0.0);
+        greatest_v.fill(0.0);
+        for j in 0..self.n {
+            let (q, dq, dv) = (q[j].abs(), (h * v[j]).abs(), (h * a[j]).abs());
+            let alike = self.alike[j];
+            greatest_q[alike] = greatest_q[alike].max(q).max(dq);
+            greatest_v[alike] = greatest_v[alike].max(v[j].abs()).max(dv);
+        }
+        let or_nothing = |size: f64| if size > 0.0 { size } else { SIZE_OF_NOTHING };
+        for j in 0..self.n {
+            let least = if self.is_angle[j] { 1.0 } else { 0.0 };
+            let size = or_nothing(greatest_q[self.alike[j]].max(least));
+            let rate = or_nothing(greatest_v[self.alike[j]]);
+            self.sizes[0][j] = size;
+            self.sizes[1][j] = rate.max((size / h.abs()).min(LARGEST_RATE * rate));
+        }
+    }
+}

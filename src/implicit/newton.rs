@@ -1,0 +1,342 @@
+//! Newton's method for the stages of a step.
+
+use super::jacobian::Jacobian;
+use super::lu::{Complex, Lu};
+use super::{Implicit, Solved, Task};
+use crate::math::{rough_power, sqrt};
+use crate::methods::MAX_STAGES;
+use crate::stages::stage_state;
+use crate::{StepError, Vector};
+use std::boxed::Box;
+use std::vec::Vec;
+
+/// Newton's method has converged by then, or the step is too long for it.
+pub(super) const ROUNDS: usize = 8;
+
+/// Errors that it leaves, relative to what is tolerable, at coarse tolerances.
+const LEFT: f64 = 0.03;
+
+/// Errors that it leaves if it comes no closer, since rounding hides where it should go.
+const LEFT_BY_ROUNDING: f64 = 0.1;
+
+/// The derivatives of the stages are not made anew while a round leaves no more of the error.
+const CONTRACTS: f64 = 0.05;
+
+/// A round that leaves more of the error than this comes no closer, if those before did.
+const STANDS: f64 = 0.3;
+
+/// They did if no more than this is left of the first change.
+const FAR: f64 = 0.01;
+
+/// The derivatives at each stage, and the matrix of all of them together.
+#[derive(Clone, Debug)]
+pub(super) struct Apart {
+    jacobians: [Jacobian; 3],
+    /// Of the accelerations of the first stage, the second, the third.
+    matrix: Lu<f64>,
+    x: Vec<f64>,
+}
+
+impl Apart {
+    fn new(like: &Jacobian) -> Self {
+        let n = like.noise.len();
+        Self {
+            jacobians: core::array::from_fn(|_| like.clone()),
+            matrix: Lu::new(3 * n),
+            x: std::vec![0.0; 3 * n],
+        }
+    }
+
+    /// The derivatives at the last stage.
+    pub fn last(&self) -> &Jacobian {
+        &self.jacobians[2]
+    }
+
+    /// Factorizes the matrix of blocks `δᵢⱼ I − h aᵢⱼ a_v(i) − h² āᵢⱼ a_q(i)`.
+    fn factor<V>(&mut self, task: &Task<'_, V>) -> bool {
+        let n = self.x.len() / 3;
+        let mut weights = [[[0.0; 2]; 3]; 3];
+        for (weights, row) in weights.iter_mut().zip(&task.method.scheme.rows[1..4]) {
+            for term in row.terms() {
+                weights[term.stage - 1] = [task.h * term.velocity, task.h * task.h * term.position];
+            }
+        }
+        let Self {
+            jacobians, matrix, ..
+        } = self;
+        matrix.factor(|row, column| {
+            let at = (row % n) * n + column % n;
+            let Jacobian {
+                by_coordinates,
+                by_rates,
+                ..
+            } = &jacobians[row / n];
+            let [velocity, position] = weights[row / n][column / n];
+            let one = if row == column { 1.0 } else { 0.0 };
+            one - velocity * by_rates[at] - position * by_coordinates[at]
+        })
+    }
+
+    /// From residuals to changes.
+    fn solve(&mut self, change: &mut [Vec<f64>; 3]) {
+        let n = self.x.len() / 3;
+        for (x, change) in self.x.chunks_exact_mut(n.max(1)).zip(&*change) {
+            x.copy_from_slice(change);
+        }
+        self.matrix.solve(&mut self.x);
+        for (x, change) in self.x.chunks_exact(n.max(1)).zip(change) {
+            change.copy_from_slice(x);
+        }
+    }
+}
+
+impl<V: Vector> Task<'_, V> {
+    /// Puts `q` and `v` where a stage is; says when that is.
+    fn go_to(&self, stage: usize, k: &[V; MAX_STAGES], [q, v]: [&mut V; 2]) -> f64 {
+        let Task {
+            method, before, h, ..
+        } = self;
+        let c = method.tableau.c[stage];
+        let row = &method.scheme.rows[stage];
+        stage_state((row, c, *h), [&before.q, &before.v], k, [q, v]);
+        before.t + (before.t_low + c * h)
+    }
+}
+
+/// `a − k`.
+fn subtract<V: Vector>(a: &V, k: &V, difference: &mut [f64]) {
+    let pairs = a.as_slice().iter().zip(k.as_slice());
+    for (difference, (a, k)) in difference.iter_mut().zip(pairs) {
+        *difference = a - k;
+    }
+}
+
+impl Implicit {
+    /// Where Newton's method begins: on the polynomial through the stages of the last step, continued; at
+    /// the beginning of a run, with the acceleration there.
+    fn predict<V: Vector>(&self, task: &Task<'_, V>, k: &mut [V; MAX_STAGES]) {
+        let (start, stages) = k.split_at_mut(1);
+        let (c, stages) = (&task.method.tableau.c[1..4], &mut stages[..3]);
+        if self.known_length == 0.0 {
+            for stage in stages {
+                stage.clone_from(&start[0]);
+            }
+            return;
+        }
+        let Task { before, h, .. } = task;
+        let since = (before.t - self.known_from.high) + (before.t_low - self.known_from.low);
+        for (stage, c_stage) in stages.iter_mut().zip(c) {
+            let x = (since + c_stage * h) / self.known_length;
+            let weight = |one: usize, two: usize, own: usize| {
+                (x - c[one]) * (x - c[two]) / ((c[own] - c[one]) * (c[own] - c[two]))
+            };
+            let weights = [weight(1, 2, 0), weight(0, 2, 1), weight(0, 1, 2)];
+            for (i, k) in stage.as_mut_slice().iter_mut().enumerate() {
+                *k = (0..3).map(|j| weights[j] * self.known[j][i]).sum();
+            }
+        }
+    }
+
+    /// Newton's method, with the matrices as they are; or with those of the stages, made anew until it
+    /// contracts.
+    pub(super) fn newton<V: Vector>(
+        &mut self,
+        task: &Task<'_, V>,
+        k: &mut [V; MAX_STAGES],
+        room: [&mut V; 2],
+        accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+    ) -> Result<Solved, StepError> {
+        self.predict(task, k);
+        let [q, v] = room;
+        let mut anew = self.steps_apart > 0;
+        // What was known of the contraction is forgotten slowly.
+        self.left = rough_power(self.left.max(f64::EPSILON), 0.8);
+        self.contraction = 0.0;
+        let (mut first, mut size_before) = (0.0, 0.0);
+        for round in 1..=ROUNDS {
+            self.rounds = round;
+            let solved = match self.steps_apart {
+                0 => {
+                    self.residuals(task, k, [q, v], accelerations)?;
+                    self.solve_by_eigenvectors();
+                    true
+                }
+                _ => self.solve_apart(task, k, [q, v], anew, accelerations)?,
+            };
+            let size = self.size_of_change(task);
+            if !solved || !size.is_finite() {
+                return Ok(Solved::Shorter(0.5));
+            }
+            if round > 1 {
+                let now = size / size_before;
+                let far = size > FAR * first;
+                if now > STANDS && !far && size <= self.standing(task) {
+                    return Ok(Solved::Yes);
+                }
+                self.contraction = match round {
+                    2 => now,
+                    _ => sqrt(now * self.contraction),
+                };
+                if self.contraction >= 0.99 {
+                    return Ok(Solved::Shorter(0.5));
+                }
+                self.left = self.contraction / (1.0 - self.contraction);
+                // What will be left after the last round there is, if it goes on like this.
+                let rest = i32::try_from(ROUNDS - round).unwrap_or(0);
+                let at_last = (0..rest).fold(self.left * size, |left, _| left * self.contraction);
+                let helpless = self.steps_apart == 0 || self.contraction <= CONTRACTS;
+                if at_last >= self.standing(task) && helpless {
+                    let exponent = -1.0 / (4.0 + f64::from(rest));
+                    let factor = 0.8 * rough_power(at_last.clamp(1e-4, 20.0), exponent);
+                    return Ok(Solved::Shorter(factor));
+                }
+            }
+            for (k, change) in k[1..4].iter_mut().zip(&self.change) {
+                for (k, change) in k.as_mut_slice().iter_mut().zip(change) {
+                    *k += change;
+                }
+            }
+            if self.left * size <= 1.0 {
+                return Ok(Solved::Yes);
+            }
+            anew = self.steps_apart > 0 && self.left > CONTRACTS;
+            if round == 1 {
+                first = size;
+            }
+            size_before = size;
+        }
+        Ok(Solved::Shorter(0.5))
+    }
+
+    /// What part of the tolerance Newton's method leaves as its error: less where more is asked.
+    fn share<V>(&self, task: &Task<'_, V>) -> f64 {
+        let relative = task.tolerance.relative;
+        LEFT.min(sqrt(relative)).max(10.0 * f64::EPSILON / relative)
+    }
+
+    /// The greatest change of a last round that comes no closer.
+    fn standing<V>(&self, task: &Task<'_, V>) -> f64 {
+        (LEFT_BY_ROUNDING / self.share(task)).max(1.0)
+    }
+
+    /// `a(tᵢ, qᵢ, vᵢ) − kᵢ` of the stages, to `change`.
+    fn residuals<V: Vector>(
+        &mut self,
+        task: &Task<'_, V>,
+        k: &mut [V; MAX_STAGES],
+        [q, v]: [&mut V; 2],
+        accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+    ) -> Result<(), StepError> {
+        for stage in 1..4 {
+            let t = task.go_to(stage, k, [q, v]);
+            let (k, room) = k.split_at_mut(MAX_STAGES - 1);
+            accelerations(t, q, v, &mut room[0])?;
+            subtract(&room[0], &k[stage], &mut self.change[stage - 1]);
+        }
+        Ok(())
+    }
+
+    /// One round with the derivatives of each stage, `anew` or of the round before: residuals and
+    /// changes. Says whether the matrix can be inverted.
+    fn solve_apart<V: Vector>(
+        &mut self,
+        task: &Task<'_, V>,
+        k: &mut [V; MAX_STAGES],
+        [q, v]: [&mut V; 2],
+        anew: bool,
+        accelerations: &mut impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+    ) -> Result<bool, StepError> {
+        let mut apart = match self.apart.take() {
+            Some(apart) => apart,
+            None => Box::new(Apart::new(&self.jacobian)),
+        };
+        let solved = if anew {
+            let found = (1..4).try_for_each(|stage| {
+                let t = task.go_to(stage, k, [q, v]);
+                let [_, k1, k2, k3, .., here, there] = &mut *k;
+                let room = [&mut *q, &mut *v, &mut *here, there];
+                apart.jacobians[stage - 1].find((t, task.h), room, accelerations)?;
+                let k = [k1, k2, k3];
+                subtract(here, k[stage - 1], &mut self.change[stage - 1]);
+                Ok(())
+            });
+            found.map(|()| apart.factor(task))
+        } else {
+            self.residuals(task, k, [q, v], accelerations)
+                .map(|()| true)
+        };
+        if solved == Ok(true) {
+            apart.solve(&mut self.change);
+        }
+        self.apart = Some(apart);
+        solved
+    }
+
+    /// From residuals to changes, by way of the eigenvectors.
+    fn solve_by_eigenvectors(&mut self) {
+        let Self {
+            spectrum,
+            in_real,
+            in_complex,
+            change,
+            ..
+        } = self;
+        for i in 0..self.n {
+            let along = |weights: [f64; 3]| (0..3).map(|s| weights[s] * change[s][i]).sum::<f64>();
+            in_real[i] = along(spectrum.left_of_real);
+            in_complex[i] = Complex {
+                re: along(spectrum.left_of_complex.map(|[re, _]| re)),
+                im: along(spectrum.left_of_complex.map(|[_, im]| im)),
+            };
+        }
+        self.real.solve(in_real);
+        self.complex.solve(in_complex);
+        for (stage, change) in change.iter_mut().enumerate() {
+            let real = spectrum.right_of_real[stage];
+            let [re, im] = spectrum.right_of_complex[stage];
+            for (change, (x, z)) in change.iter_mut().zip(in_real.iter().zip(&*in_complex)) {
+                // With its conjugate, twice the real part.
+                *change = real * x + 2.0 * (re * z.re - im * z.im);
+            }
+        }
+    }
+
+    /// The greatest that positions and velocities of the stages are changed by, in the root mean square
+    /// over all of them; 1 where that is as little as Newton's method shall leave, or roundoff.
+    fn size_of_change<V: Vector>(&self, task: &Task<'_, V>) -> f64 {
+        let &Task {
+            method,
+            before,
+            h,
+            tolerance,
+        } = task;
+        let share = self.share(task);
+        let mut sum = 0.0;
+        for i in 0..self.n {
+            let Jacobian { sizes, noise, .. } = &self.jacobian;
+            let (q, v) = (before.q.as_slice()[i].abs(), before.v.as_slice()[i].abs());
+            // Where the machine is stiff, its forces bring positions no closer to where they should be
+            // than roundoff lets them.
+            let h = h.abs();
+            let of_forces = (sizes[0][i] / h).min(h * noise[i]);
+            let roundoff = 4.0 * f64::EPSILON * of_forces;
+            let absolute = tolerance.absolute.as_slice()[i];
+            let least = |y: f64, roundoff: f64| {
+                let tolerable = share * (absolute + tolerance.relative * y);
+                tolerable.max(4.0 * f64::EPSILON * y + roundoff)
+            };
+            let (least_q, least_v) = (least(q, h * roundoff), least(v, roundoff));
+            for row in &method.scheme.rows[1..4] {
+                let (mut position, mut velocity) = (0.0, 0.0);
+                for term in row.terms() {
+                    let change = self.change[term.stage - 1][i];
+                    position += term.position * change;
+                    velocity += term.velocity * change;
+                }
+                let (q, v) = (h * h * position / least_q, h * velocity / least_v);
+                sum += q * q + v * v;
+            }
+        }
+        sqrt(sum / (6 * self.n.max(1)) as f64)
+    }
+}

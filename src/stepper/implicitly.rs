@@ -1,0 +1,95 @@
+//! A step whose stages depend on each other.
+
+use super::{Stepper, not_finite};
+use crate::balance::Alongside;
+use crate::compensated::two_sum;
+use crate::implicit::Task;
+use crate::stages::{advance_state, stage_state};
+use crate::{InputLaw, StepError, System};
+
+impl<S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'_, S, L, A> {
+    /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just tolerable;
+    /// infinite if its stages could not be found.
+    pub(super) fn attempt_implicitly(
+        &mut self,
+        h: f64,
+        last: bool,
+        given_up: bool,
+    ) -> Result<f64, StepError> {
+        let Self {
+            method,
+            tolerance,
+            model,
+            alongside,
+            before,
+            now,
+            k,
+            stage,
+            work,
+            implicit,
+            ..
+        } = self;
+        let Some(implicit) = implicit else {
+            return Ok(f64::INFINITY);
+        };
+        let task = Task {
+            method,
+            before,
+            h,
+            tolerance,
+        };
+        let (q, v) = (&mut stage.0, &mut stage.1);
+        let found = implicit.solve(&task, k, [q, v], |t, q, v, a| {
+            model.accelerations(t, q, v, a, work)
+        })?;
+        if !found {
+            return Ok(f64::INFINITY);
+        }
+
+        let rows = &method.scheme.rows;
+        let stages = method.tableau.stages;
+        advance_state((&rows[stages], h), before, k, now);
+        (now.t, now.t_low) = if last {
+            (self.end, 0.0)
+        } else {
+            two_sum(before.t, before.t_low + h)
+        };
+        let again = given_up || work.steps == 0;
+        let error = implicit.error_of_step(&task, (k, now), [q, v], again, |t, q, v, a| {
+            model.accelerations(t, q, v, a, work)
+        });
+        if !error.is_finite() {
+            return match not_finite(&now.q, &now.v) {
+                Some(coordinate) => Err(StepError::NotFinite {
+                    coordinate,
+                    t: now.t,
+                }),
+                None => Ok(f64::INFINITY),
+            };
+        }
+        if error > 1.0 {
+            return Ok(error);
+        }
+
+        if alongside.integrals().is_some() {
+            for i in 1..stages {
+                let c = method.tableau.c[i];
+                let t = before.t + (before.t_low + c * h);
+                stage_state((&rows[i], c, h), [&before.q, &before.v], k, [q, v]);
+                model.set_inputs(t, q, v);
+                model.take_rates(alongside, i, (t, q, v, &k[i]));
+            }
+        }
+        // The last stage is the end. Its acceleration is the slope of the polynomial there: an
+        // evaluation would show roundoff of the state times the stiffness of the machine.
+        let (known, end) = k.split_at_mut(stages);
+        end[0].clone_from(&known[stages - 1]);
+        model.set_inputs(now.t, &now.q, &now.v);
+        let moved = model.bring(now)?;
+        Ok(if moved {
+            error.max(self.error_of_move())
+        } else {
+            error
+        })
+    }
+}
