@@ -30,7 +30,8 @@ pub(super) fn solve<'d>(
     if count * n > Elimination::of(system).multiplications {
         return None;
     }
-    let (matrix, below) = system.matrix.split_at(Shape::index(n, 0));
+    let start = Shape::index(n, 0);
+    let (matrix, below) = system.matrix.split_at(start);
     let (forces, drifts) = system.forces.split_at(n);
     let open = System {
         matrix: matrix.to_vec(),
@@ -41,7 +42,6 @@ pub(super) fn solve<'d>(
     if solved.pivots.iter().any(|pivot| pivot.pivot.is_zero()) {
         return None;
     }
-    let start = Shape::index(n, 0);
     let rows: Vec<&[Scaled]> = (n..n + count)
         .map(|row| &below[Shape::index(row, 0) - start..][..n])
         .collect();
@@ -69,7 +69,7 @@ pub(super) fn solve<'d>(
         let by: Vec<Scaled> = columns.iter().map(|column| column[i]).collect();
         with_products(graph, solved.accelerations[i], &by, &held.accelerations)
     });
-    let accelerations = accelerations.collect();
+    let accelerations: Vec<Scaled> = accelerations.collect();
     let of_constraints = held.pivots.into_iter().map(|pivot| Pivot {
         coordinate: n + pivot.coordinate,
         ..pivot
