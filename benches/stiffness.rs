@@ -3,7 +3,7 @@
 //! `cargo bench --bench stiffness` prints a table. It counts and times nothing: the numbers are the same on every
 //! machine, but for what rounding does to a step.
 
-use lagrangian::{Error, METHODS, Machine, Method, Simulation};
+use lagrangian::{Error, METHODS, Method, Simulation};
 
 lagrangian::machine! {
     /// A slider-crank on an elastic shaft: a flywheel drives the crank by a spring and a damper.
