@@ -108,6 +108,9 @@ pub struct Model<'d> {
     pub derivatives: Vec<Variable>,
     /// Which stages of the accelerations are to be computed by themselves.
     pub stages: Stages,
+    /// Where the fastest motion ends, by coordinates; may depend on parameters. Empty where nobody
+    /// says it.
+    pub destination: Vec<Expr<'d>>,
     /// Equations that somebody printed.
     pub published: Vec<Published<'d>>,
     /// The headings of the sections that the machine and its bases have, where each is said first.

@@ -18,8 +18,10 @@
 //! | [`relaxation`] | the same machine with its guides relaxed |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`stages`] | which of their stages are to be computed by themselves |
+//! | [`brachistochrone`] | where the fastest motion ends |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
+mod brachistochrone;
 mod derivatives;
 mod expression;
 mod frames;
@@ -222,6 +224,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             Some(resolver.differentiated_by(member))
         });
         let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
+        let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
 
         coordinates.extend(self.relaxed_coordinates());
@@ -274,6 +277,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 time: stages.iter().any(|stages| stages.time),
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
+            destination,
             published,
             sections: sections_of(layers),
         })

@@ -12,7 +12,7 @@
 //! source      = machine
 //! machine     = "machine" NAME {"in" ("plane" | "space") | "extends" TEXT} "{" {entry} "}"
 //! entry       = quantities | values | records | constraints | assume | approximations
-//!             | derivatives | stages | gravity | published | remove
+//!             | derivatives | stages | brachistochrone | gravity | published | remove
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
@@ -28,6 +28,7 @@
 //! approximations = "approximations" "{" list(declared ":" ("frozen" | "small")) "}"
 //! derivatives = "derivatives" "{" list(declared) "}"
 //! stages      = "stages" "{" list(declared) "}"
+//! brachistochrone = "brachistochrone" "{" list(declared "=" expression) "}"
 //! gravity     = "gravity" expression ";"
 //! published   = "published" TEXT "{" list(print) "}"
 //! print       = ("potential_energy" | "dissipation" | "kinetic_energy" [declared]

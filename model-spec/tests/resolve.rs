@@ -455,6 +455,42 @@ fn a_variant_replaces_rates_and_drops_those_of_what_it_removes() {
 }
 
 #[test]
+fn a_variant_moves_the_end_of_the_fastest_motion_and_forgets_what_it_removes() {
+    let base = "machine Base in plane {
+        parameters { m: kg = 1, l: m = 3 }
+        coordinates { x: m, y: m, s[1..2]: m }
+        bodies { b { mass: m, at: (x, y) }, c[i in 1..2] { mass: m, at: (s[i], 0) } }
+        brachistochrone { x = 1, y = -l, s[i in 1..2] = i*l }
+    }";
+    let ends = |text: &str| {
+        let dag = Dag::new();
+        let mut sources = Sources::new();
+        let mut report = Report::new();
+        let mut files = InMemory::new().with("base.machine", base);
+        let text = format!("machine Test extends \"base.machine\" {{ {text} }}");
+        let name = "test.machine";
+        let model = lagrangian_spec::model(
+            &dag,
+            name,
+            &text,
+            &[],
+            &mut files,
+            &mut sources,
+            &mut report,
+        );
+        let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+        numbers(&dag, &model.destination, &[("l", 3.0)])
+    };
+    assert_eq!(ends("gravity (0, 0);"), [1.0, -3.0, 3.0, 6.0]);
+    assert_eq!(
+        ends("brachistochrone { y = l/3, s[2] = 0 }"),
+        [1.0, 1.0, 3.0, 0.0]
+    );
+    assert_eq!(ends("parameters { x: m = 3 }"), [-3.0, 3.0, 6.0]);
+    assert_eq!(ends("remove brachistochrone;"), [0.0; 0]);
+}
+
+#[test]
 fn the_head_of_a_model_is_that_of_the_variant() {
     let dag = Dag::new();
     let model = sound(

@@ -7,6 +7,9 @@
 //! The letters are those of D. Đurić, *On Brachistochronic Motion of a Multibody System with Real Constraints*:
 //! `b_α = Σ μ ν τ_α` and `d_αβ = Σ μ τ_α ρ_β` belong to the power of friction `−b·v − v·d a`. Whatever constant forces act
 //! besides gravity count as slopes of a potential.
+//!
+//! Outside of these conditions masses, forces and friction may depend on coordinates, and forces on velocities too; then
+//! `−Q_α` includes the inertia forces that velocities make.
 
 use std::fmt;
 
@@ -20,7 +23,7 @@ use crate::model::Model;
 pub struct Brachistochronic<'d> {
     /// `a_αβ`, by rows.
     pub mass: Vec<Vec<Expr<'d>>>,
-    /// `c_α = −Q_α`.
+    /// `c_α = −Q_α`, inertia forces included.
     pub slope: Vec<Expr<'d>>,
     /// The guides that slide.
     pub guides: Vec<Guided<'d>>,
@@ -75,11 +78,27 @@ impl fmt::Display for Unmet {
 }
 
 impl<'d> Brachistochronic<'d> {
-    /// The problem, or every condition that is not met.
+    /// The problem under (17), or every condition that is not met.
     ///
     /// # Errors
     /// The conditions that the machine does not meet, each with the first thing on which a coefficient depends.
     pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
+        Self::within(model, equations, [Reach::Parameters; 2])
+    }
+
+    /// The problem where masses and friction depend on coordinates, and forces and loads on velocities too.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of): constraints, explicit time, inputs, and friction that depends on velocities.
+    pub fn anywhere(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
+        Self::within(model, equations, [Reach::Coordinates, Reach::Rates])
+    }
+
+    fn within(
+        model: &Model<'d>,
+        equations: &Equations<'d>,
+        [of_place, of_motion]: [Reach; 2],
+    ) -> Result<Self, Vec<Unmet>> {
         let mut unmet = Vec::new();
         let n = model.coordinates.len();
         if n == 0 {
@@ -97,7 +116,7 @@ impl<'d> Brachistochronic<'d> {
                     name(i.min(j))
                 );
                 let entry = *equations.mass_matrix.get(i.max(j), i.min(j));
-                constant(model, entry, &what, &mut unmet)
+                checked(model, entry, &what, of_place, &mut unmet)
             });
             entries.collect()
         });
@@ -106,14 +125,14 @@ impl<'d> Brachistochronic<'d> {
             let force = format!("the force on `{}`", name(i));
             // What explicit time or a changing mass adds to the inertia is a force as well.
             let drive = format!("the inertia force on `{}`", name(i));
-            let applied = constant(model, equations.applied[i], &force, &mut unmet);
-            let bias = constant(model, equations.bias[i], &drive, &mut unmet);
+            let applied = checked(model, equations.applied[i], &force, of_motion, &mut unmet);
+            let bias = checked(model, equations.bias[i], &drive, of_motion, &mut unmet);
             bias - applied
         });
         let slope = slope.collect();
         let guides = equations.sliding.iter();
         let guides = guides
-            .map(|sliding| guided(model, sliding, &mut unmet))
+            .map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
             .collect();
         // The matrix is symmetric, and an entry is told once.
         let mut told = Vec::new();
@@ -136,19 +155,23 @@ impl<'d> Brachistochronic<'d> {
 fn guided<'d>(
     model: &Model<'d>,
     sliding: &SlidingEquation<'d>,
+    [of_place, of_motion]: [Reach; 2],
     unmet: &mut Vec<Unmet>,
 ) -> Guided<'d> {
     let name = &sliding.name;
-    let mut of =
-        |value: Expr<'d>, what: &str| constant(model, value, &format!("{what} of `{name}`"), unmet);
+    let mut of = |value: Expr<'d>, what: &str, reach: Reach| {
+        checked(model, value, &format!("{what} of `{name}`"), reach, unmet)
+    };
     let mut each = |list: &[Expr<'d>], what: &str| -> Vec<Expr<'d>> {
-        list.iter().map(|&value| of(value, what)).collect()
+        list.iter()
+            .map(|&value| of(value, what, of_place))
+            .collect()
     };
     let along = each(&sliding.row, "the direction");
     let weights = each(&sliding.by_accelerations, "the reaction to accelerations");
     let by_frictions = each(&sliding.by_frictions, "the reaction to friction");
-    let load = of(sliding.load, "the reaction at rest");
-    let friction = of(sliding.friction, "the coefficient of friction");
+    let load = of(sliding.load, "the reaction at rest", of_motion);
+    let friction = of(sliding.friction, "the coefficient of friction", of_place);
     // What it slides on may be driven.
     let moving = model.coordinates.iter().zip(&sliding.row);
     let moving = model.dag.sum(moving.map(|(c, &row)| row * c.v));
@@ -168,11 +191,20 @@ fn guided<'d>(
     }
 }
 
-/// The coefficient with nothing but parameters in it; told where it is not constant.
-fn constant<'d>(
+/// What a coefficient may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Reach {
+    Parameters,
+    Coordinates,
+    Rates,
+}
+
+/// The coefficient with nothing in it beyond its reach; told where there is.
+fn checked<'d>(
     model: &Model<'d>,
     value: Expr<'d>,
     what: &str,
+    reach: Reach,
     unmet: &mut Vec<Unmet>,
 ) -> Expr<'d> {
     if let Some(settled) = experiment::as_function_of_parameters(value) {
@@ -185,24 +217,22 @@ fn constant<'d>(
                 && experiment::equal(value.diff(symbol), model.dag.zero()) != Some(true)
         })
     };
-    let coordinates = model.coordinates.iter();
+    let coordinates = model.coordinates.iter().map(|c| (c.q, c.name.to_string()));
     let rates = model.coordinates.iter();
+    let rates = rates.map(|c| (c.v, format!("der({})", c.name)));
+    let inputs = model.inputs.iter();
+    let inputs = inputs.map(|input| (input.symbol, input.name.to_string()));
     let named = coordinates
-        .map(|c| (c.q, c.name.to_string()))
-        .chain(rates.map(|c| (c.v, format!("der({})", c.name))))
-        .chain(
-            model
-                .inputs
-                .iter()
-                .map(|input| (input.symbol, input.name.to_string())),
-        )
+        .filter(|_| reach < Reach::Coordinates)
+        .chain(rates.filter(|_| reach < Reach::Rates))
+        .chain(inputs)
         .chain([(model.time, "t".to_owned())]);
-    let mut named = named.filter(|(symbol, _)| changes(symbol));
-    unmet.push(Unmet::Varies {
-        what: what.to_owned(),
-        with: named
-            .next()
-            .map_or_else(|| "the motion".to_owned(), |(_, name)| name),
-    });
+    let found = named.into_iter().find(|(symbol, _)| changes(symbol));
+    if found.is_some() || reach == Reach::Parameters {
+        unmet.push(Unmet::Varies {
+            what: what.to_owned(),
+            with: found.map_or_else(|| "the motion".to_owned(), |(_, name)| name),
+        });
+    }
     value
 }

@@ -1217,58 +1217,61 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Content::Approximation(content) = declaration.content else {
             return Vec::new();
         };
-        let name = &declaration.name.base;
-        let Some(group) = self.find_group(Namespace::Values, &name.text) else {
-            self.unknown_coordinate(name);
+        let kind = match content.value {
+            syntax::Approximation::Frozen => ApproximationKind::Frozen,
+            syntax::Approximation::Small => ApproximationKind::Small,
+        };
+        let span = declaration.name.span;
+        let mut found = Vec::new();
+        for coordinate in self.coordinates_named(member) {
+            if kind == ApproximationKind::Frozen {
+                let why = "`frozen` puts sin θ → 0 and cos θ → 1, which is about angles";
+                self.demand(self.unit_of(coordinate), Unit::RADIAN, span, why);
+            }
+            found.extend(self.ordinal(coordinate).map(|coordinate| Approximation {
+                coordinate,
+                kind,
+                span,
+            }));
+        }
+        found
+    }
+
+    /// The coordinates that bear the name of an item: one, or all of a family.
+    pub fn coordinates_named(&mut self, member: MemberId) -> Vec<MemberId> {
+        let name = self.declaration(member).name;
+        let Some(group) = self.find_group(Namespace::Values, &name.base.text) else {
+            self.unknown_coordinate(&name.base);
             return Vec::new();
         };
         let index = self.members[member].index;
-        let members: Vec<MemberId> = self.groups[group]
+        let mut members: Vec<MemberId> = self.groups[group]
             .members
             .iter()
             .filter(|(other, _)| index.is_none() || **other == index)
             .map(|(_, &member)| member)
             .collect();
         if members.is_empty() && !self.groups[group].broken {
-            let name = Name {
-                base: name.text.clone(),
+            let shown = Name {
+                base: name.base.text.clone(),
                 index,
             };
-            let message = format!("there is no `{name}`");
-            self.error(Code::IndexOutOfRange, declaration.name.span, message);
+            let message = format!("there is no `{shown}`");
+            self.error(Code::IndexOutOfRange, name.span, message);
         }
-        let kind = match content.value {
-            syntax::Approximation::Frozen => ApproximationKind::Frozen,
-            syntax::Approximation::Small => ApproximationKind::Small,
-        };
-        let mut found = Vec::new();
-        for member in members {
+        members.retain(|&member| {
             let section = self.declaration(member).section;
             if section != SectionKind::Coordinates {
                 let message = format!(
                     "a coordinate is expected here, and `{}` is {}",
-                    name.text,
+                    name.base.text,
                     section.item()
                 );
-                self.error(Code::WrongKind, declaration.name.span, message);
-                continue;
+                self.error(Code::WrongKind, name.span, message);
             }
-            if kind == ApproximationKind::Frozen {
-                let why = "`frozen` puts sin θ → 0 and cos θ → 1, which is about angles";
-                self.demand(
-                    self.unit_of(member),
-                    Unit::RADIAN,
-                    declaration.name.span,
-                    why,
-                );
-            }
-            found.extend(self.ordinal(member).map(|coordinate| Approximation {
-                coordinate,
-                kind,
-                span: declaration.name.span,
-            }));
-        }
-        found
+            section == SectionKind::Coordinates
+        });
+        members
     }
 
     /// Reports masses and inertias that are not positive at the defaults of the parameters.

@@ -150,6 +150,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             (Frames, &spec.frames),
             (Potentials, &spec.potentials),
             (Dissipations, &spec.dissipations),
+            (Brachistochrone, &spec.brachistochrone),
         ] {
             self.declare_section(layer, section, items, |content| {
                 Content::Expression(content)

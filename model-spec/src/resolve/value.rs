@@ -168,6 +168,11 @@ pub(super) mod limits {
         "a rate at the start",
         "it is computed once, from parameters and constants",
     );
+    pub static DESTINATION: Limit = limit(
+        stage::PARAMETER,
+        "the end of the fastest motion",
+        "it is computed once, from parameters and constants",
+    );
     pub static DEFINITION: Limit = limit(stage::ACCELERATION, "a definition", "");
     pub static ASSUMPTION: Limit = limit(
         stage::VELOCITY,

@@ -76,6 +76,8 @@ pub struct Spec {
     pub derivatives: Vec<Item<()>>,
     /// `time`, `coordinates`
     pub stages: Vec<Item<()>>,
+    /// `coordinate = expression`
+    pub brachistochrone: Vec<Item<Expression>>,
     /// `left > right`
     pub assume: Vec<Relation>,
     /// `gravity (0, -g);`
@@ -174,6 +176,7 @@ sections! {
     Outputs => "outputs",
     Derivatives => "derivatives",
     Stages => "stages",
+    Brachistochrone => "brachistochrone",
     Published => "published",
 }
 
@@ -250,6 +253,7 @@ impl SectionKind {
             SectionKind::Outputs => "an output",
             SectionKind::Derivatives => "a derivative",
             SectionKind::Stages => "a stage",
+            SectionKind::Brachistochrone => "the end of a coordinate",
             SectionKind::Published => "a published equation",
         }
     }

@@ -256,6 +256,7 @@ impl Parser<'_> {
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),
             SectionKind::Stages => self.words(kind, &mut spec.stages),
+            SectionKind::Brachistochrone => self.values(kind, &mut spec.brachistochrone, '='),
             SectionKind::Assume => self.assume(&mut spec.assume),
             SectionKind::Gravity => self.gravity(spec, heading, docs),
             SectionKind::Published => self.published(spec, heading, docs),

@@ -1,0 +1,100 @@
+//! Where the fastest motion ends: `brachistochrone { x = 8, y = h/2 }`.
+
+use lagrangian_symbolic::Expr;
+
+use super::Resolver;
+use super::names::{Content, Namespace};
+use super::value::{MemberId, limits};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::Coordinate;
+use crate::syntax::{SectionKind, Spec};
+
+/// The most coordinates without an end that a message lists.
+const LISTED: usize = 6;
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// The end of every coordinate; nothing where the machine and its bases say nothing.
+    pub fn destination(
+        &mut self,
+        layers: &'a [Spec],
+        coordinates: &[Coordinate<'d>],
+    ) -> Vec<Expr<'d>> {
+        let mut ends = vec![None; coordinates.len()];
+        let members = self.members_of(SectionKind::Brachistochrone);
+        if members.is_empty() {
+            return Vec::new();
+        }
+        // Who cannot be understood was reported, and is not missed.
+        let mut failed = coordinates.len() != self.members_of(SectionKind::Coordinates).len();
+        for member in members {
+            if self.is_left_over(member) {
+                continue;
+            }
+            let found = self.settle(|resolver| resolver.end(member));
+            failed |= found.as_ref().is_none_or(Vec::is_empty);
+            for (coordinate, end) in found.into_iter().flatten() {
+                if let Some(place) = ends.get_mut(coordinate) {
+                    *place = Some(end);
+                }
+            }
+        }
+        let missing = coordinates
+            .iter()
+            .zip(&ends)
+            .filter(|(_, end)| end.is_none());
+        let missing: Vec<String> = missing.map(|(q, _)| format!("`{}`", q.name)).collect();
+        let heading = layers
+            .iter()
+            .rev()
+            .find_map(|spec| spec.section(SectionKind::Brachistochrone));
+        if let Some(heading) = heading
+            && !missing.is_empty()
+            && !failed
+        {
+            let shown = missing[..missing.len().min(LISTED)].join(", ");
+            let more = if missing.len() > LISTED { ", …" } else { "" };
+            let message = format!("nothing says where {shown}{more} ends");
+            let incomplete = Diagnostic::new(Code::MissingValue, heading, message);
+            let help = "the fastest motion ends at one place: give every coordinate a value";
+            self.push(incomplete.help(help));
+        }
+        ends.into_iter().collect::<Option<_>>().unwrap_or_default()
+    }
+
+    /// Whether a variant took away the coordinate of which its base gives the end.
+    fn is_left_over(&self, member: MemberId) -> bool {
+        let declaration = self.declaration(member);
+        let base = declaration.name.base.text.as_str();
+        let group = self.find_group(Namespace::Values, base);
+        let index = self.members[member].index;
+        let remains = group.is_some_and(|group| {
+            let mut members = self.groups[group].members.iter();
+            members.any(|(other, &member)| {
+                (index.is_none() || *other == index)
+                    && self.declaration(member).section == SectionKind::Coordinates
+            })
+        });
+        let is_inherited = declaration.layer + 1 < self.layer_count;
+        let was_declared = self
+            .declarations
+            .iter()
+            .any(|other| other.section == SectionKind::Coordinates && other.name.base.text == base);
+        is_inherited && was_declared && !remains
+    }
+
+    /// The coordinates that an item is about, each with its end.
+    fn end(&mut self, member: MemberId) -> Option<Vec<(usize, Expr<'d>)>> {
+        let Content::Expression(written) = self.declaration(member).content else {
+            return None;
+        };
+        let mut ends = Vec::new();
+        for coordinate in self.coordinates_named(member) {
+            let scope = self.scope(member, &limits::DESTINATION);
+            let unit = self.unit_of(coordinate)?;
+            let why = "it has the unit of its coordinate";
+            let end = self.scalar_in(written, unit, why, scope)?.expr;
+            ends.extend(self.ordinal(coordinate).map(|coordinate| (coordinate, end)));
+        }
+        Some(ends)
+    }
+}
