@@ -11,6 +11,8 @@
 //! # Ok::<(), lagrangian::brachistochrone::Unsolved>(())
 //! ```
 //!
+//! [`direct`] solves what follows for machines whose coefficients are not constant.
+//!
 //! # What is solved
 //!
 //! A machine with constant mass matrix `a`, potential energy `c·q` and guides that slide ([`Guide`]); so friction has the
@@ -36,6 +38,7 @@
 //! not, a small loop of directions, gone through in no time, multiplies the speed, and no motion is the fastest
 //! ([`Unsolved::LoopsFeed`]).
 
+pub mod direct;
 mod error;
 mod linear;
 pub mod plane;

@@ -21,7 +21,7 @@ const G: f64 = 9.81;
 /// The end (12, 6) in normal coordinates.
 const END: [f64; 2] = [8.0, 4.75];
 
-/// The machine of Figure 1, from (57): reactions `N₂ = (m + M) g − m q̈₂ tan α`, `N₁ cos α = m (g − q̈₁ tan α)`.
+/// The machine of Figure 1, from (57): reactions `N₂ = (m + M) g − m q̈₂ tan α`, `N₁/cos α = m (g − q̈₁ tan α)`.
 fn prisms(friction: [f64; 2]) -> Problem {
     let floor = Guide {
         name: "floor".into(),
@@ -115,7 +115,7 @@ fn the_papers_example_to_thirteen_digits() {
         least.fold(f64::INFINITY, f64::min)
     };
     close("N₂", reactions(0), 22.9868432, 1e-6);
-    close("N₁ cos α", reactions(1), 5.5393470, 1e-6);
+    close("N₁/cos α", reactions(1), 5.5393470, 1e-6);
     assert_eq!(motion.lapses(), vec![]);
 }
 

@@ -215,25 +215,37 @@ impl Brachistochrone {
     /// assumed is not that of Coulomb.
     pub fn lapses(&self) -> Vec<Lapse> {
         let moments = (0..=LOOKS).map(|k| self.after_part(f64::from(k) / f64::from(LOOKS)));
-        let moments: Vec<Moment> = moments.collect();
-        let mut lapses = Vec::new();
-        for (index, guide) in self.problem.guides.iter().enumerate() {
-            for backwards in [true, false] {
-                let value = |moment: &Moment| match backwards {
-                    true => dot(&guide.along, &moment.direction),
-                    false => moment.contacts[index].reaction,
-                };
-                let least = moments.iter().map(value).fold(f64::INFINITY, f64::min);
-                if let Some(moment) = moments.iter().find(|moment| value(moment) < 0.0) {
-                    lapses.push(Lapse {
-                        guide: guide.name.clone(),
-                        time: moment.time,
-                        backwards,
-                        least,
-                    });
-                }
+        let guides = &self.problem.guides;
+        let names: Vec<String> = guides.iter().map(|guide| guide.name.clone()).collect();
+        let slip = |guide: usize, moment: &Moment| dot(&guides[guide].along, &moment.direction);
+        lapses(&names, &moments.collect::<Vec<_>>(), slip)
+    }
+}
+
+/// What guides do at these moments that Coulomb's law does not allow; `slip` is that of a motion with unit
+/// [`Moment::direction`].
+pub(super) fn lapses(
+    guides: &[String],
+    moments: &[Moment],
+    slip: impl Fn(usize, &Moment) -> f64,
+) -> Vec<Lapse> {
+    let mut lapses = Vec::new();
+    for (index, guide) in guides.iter().enumerate() {
+        for backwards in [true, false] {
+            let value = |moment: &Moment| match backwards {
+                true => slip(index, moment),
+                false => moment.contacts[index].reaction,
+            };
+            let least = moments.iter().map(value).fold(f64::INFINITY, f64::min);
+            if let Some(moment) = moments.iter().find(|moment| value(moment) < 0.0) {
+                lapses.push(Lapse {
+                    guide: guide.clone(),
+                    time: moment.time,
+                    backwards,
+                    least,
+                });
             }
         }
-        lapses
     }
+    lapses
 }
