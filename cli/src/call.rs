@@ -185,8 +185,9 @@ pub struct Brachistochrone {
     /// Where it starts, as in `--from q1=0,q2=0`; the spec's start values where left out.
     #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true)]
     pub from: Vec<Assignment>,
-    /// Where it ends, as in `--to q1=8,q2=4.75`; where it starts where left out.
-    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true, required = true)]
+    /// Where it ends, as in `--to q1=8,q2=4.75`; where left out, as the spec says in `brachistochrone { … }`, or else where it
+    /// starts.
+    #[arg(long, value_name = "NAME=VALUE,…", value_delimiter = ',', value_parser = assignment, allow_hyphen_values = true)]
     pub to: Vec<Assignment>,
     /// Take the values of `--from` and `--to` as normal coordinates, in the order of the coordinates.
     #[arg(long)]
@@ -197,6 +198,9 @@ pub struct Brachistochrone {
     /// Draw as SVG the way, the power of friction, and the control forces.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
+    /// Write the motion as a page, beside that of the machine left to itself.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
 }
 
 /// `name` or `name=rate`.

@@ -3,9 +3,10 @@
 use lagrangian::interpreted::{InterpretedMachine, UnknownName};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::model::Model;
+use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::program::Program;
 use lagrangian_spec::source::{Disk, Files, Sources};
+use lagrangian_spec::unit::Unit;
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::call;
@@ -39,6 +40,35 @@ impl Reading {
             sources: Sources::new(),
             report: Report::new(),
         })
+    }
+
+    /// A variant of a spec that has an input for each of its coordinates, a generalized force on it.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub fn controlled(
+        spec: &call::Spec,
+        coordinates: &[Coordinate<'_>],
+    ) -> Result<Reading, Failure> {
+        let (mut inputs, mut forces) = (String::new(), String::new());
+        for (index, coordinate) in coordinates.iter().enumerate() {
+            // Whatever the spec calls its own.
+            let name = format!("control_force_on_coordinate_{index}");
+            let unit = Unit::JOULE.over(coordinate.unit);
+            let on = &coordinate.name;
+            inputs.push_str(&format!("{name}: {unit}, "));
+            forces.push_str(&format!("{name} {{ on: {on}, value: {name} }}, "));
+        }
+        let file = spec.path.file_name().unwrap_or_default();
+        let base = file.to_string_lossy();
+        let base = base.replace('\\', "\\\\").replace('"', "\\\"");
+        let variant = spec.path.with_file_name("controlled.machine");
+        let mut reading = Reading::open(spec)?;
+        reading.name = variant.to_string_lossy().into_owned();
+        reading.text = format!(
+            "machine Controlled extends \"{base}\" {{ inputs {{ {inputs} }} forces {{ {forces} }} }}"
+        );
+        Ok(reading)
     }
 
     /// What the spec means, as far as nothing is wrong; the report says what is.

@@ -5,16 +5,16 @@
 //! coordinates, explicit time included, and the size of the file does not depend on how much is drawn. What draws and plays
 //! is hand-written and stands in the files beside this one, as a browser gets it.
 
-mod html;
+pub mod html;
 mod page;
 mod places;
 mod samples;
 mod scene;
-mod script;
+pub mod script;
 
-use lagrangian::Error;
-use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::Method;
+use lagrangian::{Error, State};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
@@ -23,10 +23,10 @@ use crate::call;
 use crate::contacts::Found;
 use crate::recording::{Column, Kind, Recording, thin};
 use crate::simulate::Run;
-use samples::Samples;
-use scene::Scene;
 
-pub use samples::finer;
+pub use page::{DRAWING, STYLE};
+pub use samples::{Samples, encoded, finer};
+pub use scene::Scene;
 
 /// What the curves may fill that are stored as such, in bytes before they are encoded; and the most points of one.
 const CURVE_BYTES: usize = 320_000;
@@ -58,28 +58,11 @@ impl Report<'_, '_> {
     }
 
     fn scene(&self) -> Scene<'_> {
-        let model = &self.compiled.model;
-        let start = self.run.start();
-        let mut known: Vec<(Symbol, f64)> = Vec::new();
-        let mut know = |symbol: Option<Symbol>, value| known.extend(symbol.map(|s| (s, value)));
-        know(model.time.as_symbol(), start.t);
-        for (parameter, value) in model.parameters.iter().zip(self.machine.parameter_values()) {
-            know(parameter.symbol.as_symbol(), *value);
-        }
-        for (coordinate, value) in model.coordinates.iter().zip(&start.q.values) {
-            know(coordinate.q.as_symbol(), *value);
-        }
-        known.sort_unstable_by_key(|(symbol, _)| *symbol);
-        let value = |symbol: Symbol| {
-            let found = known.binary_search_by_key(&symbol, |(symbol, _)| *symbol);
-            found.map_or(0.0, |place| known[place].1)
-        };
-        Scene::new(model, &value)
+        scene(self.compiled, self.machine, self.run.start())
     }
 
     /// What the scripts read.
     fn data(&self, scene: &Scene<'_>, samples: &Samples) -> Value {
-        let times = &self.recording.times;
         let kinds = [
             Kind::Coordinate,
             Kind::Rate,
@@ -107,21 +90,10 @@ impl Report<'_, '_> {
                 json!({ "label": panel.label(), "unit": panel.unit, "curves": curves })
             })
             .collect();
-        json!({
-            "from": times.first(),
-            "interval": match times.as_slice() {
-                [first, .., _] => times.get(samples.stride).map(|next| next - first),
-                _ => None,
-            },
-            "to": times.last(),
-            "count": samples.count,
-            "coordinates": self.compiled.model.coordinates.len(),
-            "states": samples.states,
-            "parameters": self.machine.parameter_values(),
-            "values": scene.values.len(),
-            "picture": scene.picture,
-            "panels": panels,
-        })
+        let mut data = motion(self.recording, samples, self.machine, scene);
+        data["picture"] = json!(scene.picture);
+        data["panels"] = panels.into();
+        data
     }
 
     /// A curve: of a coordinate or a rate its index, since the states have it; of anything else its points.
@@ -139,4 +111,51 @@ impl Report<'_, '_> {
             }
         }
     }
+}
+
+/// What a machine looks like, that starts in this state.
+pub fn scene<'d>(
+    compiled: &Compiled<'d>,
+    machine: &InterpretedMachine,
+    start: &State<Named>,
+) -> Scene<'d> {
+    let model = &compiled.model;
+    let mut known: Vec<(Symbol, f64)> = Vec::new();
+    let mut know = |symbol: Option<Symbol>, value| known.extend(symbol.map(|s| (s, value)));
+    know(model.time.as_symbol(), start.t);
+    for (parameter, value) in model.parameters.iter().zip(machine.parameter_values()) {
+        know(parameter.symbol.as_symbol(), *value);
+    }
+    for (coordinate, value) in model.coordinates.iter().zip(&start.q.values) {
+        know(coordinate.q.as_symbol(), *value);
+    }
+    known.sort_unstable_by_key(|(symbol, _)| *symbol);
+    let value = |symbol: Symbol| {
+        let found = known.binary_search_by_key(&symbol, |(symbol, _)| *symbol);
+        found.map_or(0.0, |place| known[place].1)
+    };
+    Scene::new(model, &value)
+}
+
+/// A motion as the scripts read it: its states, and what places are computed from beside them.
+pub fn motion(
+    recording: &Recording,
+    samples: &Samples,
+    machine: &InterpretedMachine,
+    scene: &Scene<'_>,
+) -> Value {
+    let times = &recording.times;
+    json!({
+        "from": times.first(),
+        "interval": match times.as_slice() {
+            [first, .., _] => times.get(samples.stride).map(|next| next - first),
+            _ => None,
+        },
+        "to": times.last(),
+        "count": samples.count,
+        "coordinates": recording.of_kind(Kind::Coordinate).count(),
+        "states": samples.states,
+        "parameters": machine.parameter_values(),
+        "values": scene.values.len(),
+    })
 }

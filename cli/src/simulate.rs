@@ -183,7 +183,7 @@ fn write(call: &call::Simulate, name: &str, recording: &Recording) -> Result<(),
 }
 
 /// The samples of a run, with what can be observed at each.
-fn record(run: &Run) -> Recording {
+pub fn record(run: &Run) -> Recording {
     let system = run.system();
     // A run without length has no samples.
     let states = match run.samples() {

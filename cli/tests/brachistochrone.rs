@@ -3,7 +3,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{Scratch, lagrangian};
+use support::{Page, Scratch, floats, lagrangian};
 
 const BEAD: &str = "machine Bead in plane {
     parameters { m: kg = 1, g: m/s^2 = 9.81 }
@@ -68,38 +68,130 @@ fn ends_may_be_normal_coordinates() {
 }
 
 #[test]
-fn the_conditions_that_fail_are_named() {
+fn outside_of_the_conditions_the_direct_method_says_which_fail() {
+    // The bead in polar coordinates: the same motion.
+    let polar = BEAD
+        .replace("(x, y) }", "(x*cos(y), x*sin(y) - 2) }")
+        .replace("x: m, y: m", "x: m = 2, y: rad = pi/2");
+    let (r, angle) = (1.0_f64.hypot(1.0), (1.0_f64).atan2(1.0));
+    let end = format!("x={r},y={angle}");
+    let found = solved(&polar, &["--to", &end]);
+    close(&found["time"], CYCLOID, 1e-12);
+    assert_eq!(found["method"], "direct");
+    let because = found["because"].to_string();
+    assert!(
+        because.contains("the mass a of `y` and `y` depends on `x`"),
+        "{because}"
+    );
+    assert!(found["arrival"].as_f64().expect("a number") < 1e-8);
     let spring = BEAD.replace(
         "gravity",
         "springs { s { stiffness: 3, stretch: x } } gravity",
     );
-    let error = solved(&spring, &["--to", "x=1,y=-1"])["error"].to_string();
-    assert!(error.contains("the force on `x` depends on `x`"), "{error}");
-    assert!(!error.contains("`y`"), "{error}");
-    let polar = BEAD
-        .replace("(x, y) }", "polar(x, y) }")
-        .replace("y: m", "y: rad");
-    let error = solved(&polar, &["--to", "x=1"])["error"].to_string();
+    let found = solved(&spring, &["--to", "x=1,y=-1"]);
+    let because = found["because"].to_string();
     assert!(
-        error.contains("the mass a of `y` and `y` depends on `x`"),
+        because.contains("the force on `x` depends on `x`") && !because.contains("`y`"),
+        "{because}"
+    );
+    // The spring holds back.
+    assert!(found["time"].as_f64().expect("a time") > CYCLOID);
+    let error = solved(&spring, &["--natural", "--to", "x=1,y=-1"])["error"].to_string();
+    assert!(error.contains("there are no normal coordinates"), "{error}");
+}
+
+/// A spring on the wedge, and a floor that gets rougher: the machine itself, simulated with its own law of friction under the
+/// forces that the direct method found, arrives. Its steps are good to 1e-11.
+#[test]
+fn a_machine_with_friction_outside_of_the_conditions_arrives() {
+    let rough = "machine Rough in plane {
+        parameters { m: kg = 1, mu: 1 = 0.1, g: m/s^2 = 9.81, h: m = 1 }
+        coordinates { s: m, q: m }
+        frames { wedge = ground.shift(s, 0), slider = wedge.shift(q, -q) }
+        bodies { wedge { mass: m, frame: wedge }, slider { mass: m, frame: slider } }
+        gravity (0, -g);
+        springs { back { stiffness: 3, stretch: s } }
+        sliding {
+            floor {
+                body: wedge, on: ground, direction: (-1, 0), normal: (0, 1),
+                friction: mu*(1 + (s/h)^2),
+            },
+            incline {
+                body: slider, on: wedge, direction: (sqrt(1/2), -sqrt(1/2)),
+                normal: (sqrt(1/2), sqrt(1/2)), friction: mu,
+            },
+        }
+        brachistochrone { s = -h/2, q = 3/2*h }
+    }";
+    let found = solved(rough, &[]);
+    assert_eq!(found["method"], "direct");
+    assert_eq!(found["warnings"], serde_json::json!([]));
+    assert!(found["arrival"].as_f64().expect("a number") < 1e-9);
+    let because = found["because"].to_string();
+    assert!(
+        because.contains("the coefficient of friction of `floor` depends on `s`"),
+        "{because}"
+    );
+}
+
+#[test]
+fn what_has_no_fastest_motion_says_why() {
+    let error = |spec: &str, to: &str| solved(spec, &["--to", to])["error"].to_string();
+    let found = error(BEAD, "x=1,y=1");
+    assert!(found.contains("cannot be reached from rest"), "{found}");
+    let driven = BEAD
+        .replace("g: m/s^2", "w: rad/s = 1, g: m/s^2")
+        .replace("(0, -g)", "(g*sin(w*t), -g)");
+    let found = error(&driven, "x=1,y=-1");
+    assert!(found.contains("depends on `t`"), "{found}");
+    let held = BEAD.replace("gravity", "constraints { c: x = y } gravity");
+    let found = error(&held, "x=1,y=-1");
+    assert!(found.contains("has constraints"), "{found}");
+    // Outside of the conditions (17).
+    let spring = BEAD.replace(
+        "gravity",
+        "springs { s { stiffness: 3, stretch: x } } gravity",
+    );
+    for (to, why) in [
+        ("x=0,y=0", "start and end are the same"),
+        ("x=1,y=1", "cannot be reached from rest"),
+        ("x=10,y=-1", "cannot be reached from rest"),
+    ] {
+        let found = error(&spring, to);
+        assert!(found.contains(why), "{to}: {found}");
+    }
+}
+
+#[test]
+fn the_end_is_the_specs_the_calls_or_of_both() {
+    let bead = BEAD
+        .replace("gravity", "brachistochrone { x = 2*w, y = -1 } gravity")
+        .replace("m: kg = 1", "m: kg = 1, w: m = 1");
+    let time = |options: &[&str]| solved(&bead, options)["time"].as_f64().expect("a time");
+    assert_eq!(time(&[]), time(&["--to", "x=2,y=-1"]));
+    assert_eq!(time(&["--set", "w=0.5"]), time(&["--to", "x=1"]));
+    assert!((time(&["--to", "x=1"]) / CYCLOID - 1.0).abs() < 1e-13);
+    // Along (1, 1)/√2 and (1, −1)/√2 the end (2, −1) is (1/√2, 3/√2).
+    let second = format!("y={}", 4.5_f64.sqrt());
+    assert!((time(&["--natural", "--to", &second]) / time(&[]) - 1.0).abs() < 1e-13);
+    let error = solved(BEAD, &[])["error"].to_string();
+    assert!(
+        error.contains("nothing says where the motion ends"),
         "{error}"
     );
-    let error = solved(BEAD, &["--to", "x=1,y=1"])["error"].to_string();
-    assert!(error.contains("cannot be reached from rest"), "{error}");
 }
 
 /// The spec's defaults are the paper's example; published to six digits, recomputed to forty elsewhere.
 #[test]
 fn the_prisms_take_the_papers_time() {
-    let arguments = [
-        "machines/prisms.machine",
-        "--json",
-        "--natural",
-        "--to",
-        "q1=12,q2=6",
-    ];
-    let output = lagrangian(&[&["brachistochrone"], &arguments[..]].concat());
-    let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let arguments = ["brachistochrone", "machines/prisms.machine", "--json"];
+    let found = |options: &[&str]| -> Value {
+        let output = lagrangian(&[&arguments[..], options].concat());
+        serde_json::from_slice(&output.stdout).expect("JSON")
+    };
+    let natural = found(&["--natural", "--to", "q1=12,q2=6"]);
+    close(&natural["time"], 1.637369712040567, 1e-13);
+    let found = found(&[]);
     close(&found["time"], 1.637369712040567, 1e-13);
     let parameters = &found["parameters"];
     close(
@@ -112,6 +204,9 @@ fn the_prisms_take_the_papers_time() {
     close(&found["end"]["q"]["q1"], 8.0, 1e-13);
     close(&found["end"]["q"]["q2"], 4.75, 1e-13);
     assert_eq!(found["warnings"], serde_json::json!([]));
+    // The machine itself, with its own law of friction, under the forces that were found; steps are good to 1e-11.
+    assert!(found["arrival"].as_f64().expect("a number") < 1e-9);
+    assert!(found["control_power"].as_f64().expect("a number") < 1e-10);
     for moment in found["path"].as_array().expect("a path") {
         for guide in ["floor", "incline"] {
             assert!(moment["reactions"][guide].as_f64().expect("a number") > 0.0);
@@ -139,4 +234,45 @@ fn tables_and_drawings_are_written() {
     assert!((last[0] - CYCLOID).abs() < 1e-13 && (last[1] - 1.0).abs() < 1e-13);
     let drawing = std::fs::read_to_string(&drawing.0).expect("a drawing");
     assert!(drawing.contains("</svg>") && drawing.contains("control forces"));
+}
+
+#[test]
+fn a_page_shows_the_fastest_motion_beside_that_of_the_machine_left_to_itself() {
+    let page = Scratch::new("fastest.html", "");
+    let arguments = ["brachistochrone", "machines/prisms.machine", "--report"];
+    let output = lagrangian(&[&arguments[..], &[page.path()]].concat());
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let page = Page::read(0, &page);
+    let number = |runner: &str, what: &str| page.data[runner][what].as_f64().expect("a number");
+    for runner in ["fastest", "free"] {
+        close(&page.data[runner]["to"], 1.637369712040567, 1e-13);
+        assert_eq!(number(runner, "coordinates"), 2.0);
+    }
+    let last = |runner: &str| {
+        let states = floats(page.data[runner]["states"].as_str().expect("text"));
+        states[states.len() - 4..].to_vec()
+    };
+    let [fastest, free] = ["fastest", "free"].map(last);
+    assert!((fastest[0] - 8.0).abs() < 1e-5 && (fastest[1] - 4.75).abs() < 1e-5);
+    // Two equations typed in by hand: a q̈ = −c − friction of (57), with both sliding forwards.
+    let (m, w, g) = (32.0 / 13.0, 20.0 / 13.0, 9.81);
+    let a = [[m + w, -m - 0.02 * m], [-m - 0.1 * m, 2.0 * m]];
+    let f = [-0.02 * (m + w) * g, m * g - 0.1 * m * g];
+    let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    let half = 0.5 * 1.637369712040567_f64.powi(2) / det;
+    let q = [
+        half * (a[1][1] * f[0] - a[0][1] * f[1]),
+        half * (a[0][0] * f[1] - a[1][0] * f[0]),
+    ];
+    for (found, q) in free.iter().zip(q) {
+        assert!((f64::from(*found) / q - 1.0).abs() < 1e-6, "{free:?} {q}");
+    }
+    assert_eq!(page.html.matches("{{").count(), 0);
+    assert!(page.html.contains("<svg") && page.html.contains("normal reaction of floor"));
+    let rest = page.html.replace("http://www.w3.org/", "");
+    assert!(!rest.contains("http://") && !rest.contains("https://"));
 }

@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::Found;
+use super::found::Found;
 use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, font, range, short};
 
 /// One figure.
@@ -16,7 +16,7 @@ struct Figure {
 ///
 /// # Errors
 /// What the drawing library says, as a sentence.
-pub fn svg(title: &str, found: &Found) -> Result<String, String> {
+pub fn svg(title: &str, found: &Found<'_, '_>) -> Result<String, String> {
     let figures = figures(found);
     let height = 48 * UNIT + PANEL * figures.len() as u32;
     let mut text = String::new();
@@ -31,13 +31,11 @@ pub fn svg(title: &str, found: &Found) -> Result<String, String> {
     Ok(text.replacen(&drawn, &shown, 1))
 }
 
-fn figures(found: &Found) -> Vec<Figure> {
+fn figures(found: &Found<'_, '_>) -> Vec<Figure> {
     let moments = &found.moments;
     let mut figures = Vec::new();
-    if let Some(angles) = &found.angles {
-        let normal = moments
-            .iter()
-            .map(|moment| found.motion.problem().to_normal(&moment.q));
+    if let (Some(angles), Some(problem)) = (&found.angles, found.motion.problem()) {
+        let normal = moments.iter().map(|moment| problem.to_normal(&moment.q));
         figures.push(Figure {
             across: "normal coordinate 1".into(),
             along: "normal coordinate 2".into(),
@@ -53,6 +51,14 @@ fn figures(found: &Found) -> Vec<Figure> {
                     .map(|(e, moment)| (*e, moment.friction_power))
                     .collect(),
             )],
+        });
+    }
+    if let ([first, second], None) = (found.names.as_slice(), &found.angles) {
+        let way = moments.iter().map(|moment| (moment.q[0], moment.q[1]));
+        figures.push(Figure {
+            across: first.clone(),
+            along: second.clone(),
+            curves: vec![(String::new(), way.collect())],
         });
     }
     let controls = found.names.iter().enumerate().map(|(i, name)| {

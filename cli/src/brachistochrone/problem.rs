@@ -1,6 +1,5 @@
 //! From a compiled machine and its parameters to numbers.
 
-use lagrangian::Machine;
 use lagrangian::brachistochrone::{Guide, Problem, Unsolved};
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_spec::compile::Compiled;
@@ -8,49 +7,78 @@ use lagrangian_spec::mechanics::{Brachistochronic, Guided};
 use lagrangian_symbolic::{Expr, evaluate};
 use nalgebra::DMatrix;
 
+use super::landscape::Landscape;
 use crate::failure::Failure;
+
+/// How the machine depends on its motion.
+pub enum Form<'a, 'd> {
+    /// The conditions (17) hold.
+    Constant(Problem),
+    /// They do not, and why.
+    Varying(Landscape<'a, 'd>, Vec<String>),
+}
 
 /// The problem of the machine's fastest motion, at the parameters of the call.
 ///
 /// # Errors
-/// If the machine does not meet the conditions, or its masses are no masses.
-pub fn problem(compiled: &Compiled, machine: &InterpretedMachine) -> Result<Problem, Failure> {
+/// If the machine has constraints or changes by itself, or its masses are no masses.
+pub fn form<'a, 'd>(
+    compiled: &'a Compiled<'d>,
+    machine: &InterpretedMachine,
+) -> Result<Form<'a, 'd>, Failure> {
     let Compiled {
         model, equations, ..
     } = compiled;
-    let form = Brachistochronic::of(model, equations).map_err(|unmet| {
+    let varies = match Brachistochronic::of(model, equations) {
+        Ok(form) => return problem(compiled, machine, &form).map(Form::Constant),
+        Err(unmet) => unmet,
+    };
+    let form = Brachistochronic::anywhere(model, equations).map_err(|unmet| {
         let list: Vec<String> = unmet.iter().map(|unmet| format!("\n  {unmet}")).collect();
         Failure::Run(format!(
-            "the fastest motion is known for constant masses, constant forces and constant friction only:{}",
+            "the fastest motion is known for machines that change by their motion alone:{}",
             list.concat()
         ))
     })?;
+    let landscape = Landscape::new(model, form, machine.parameter_values());
+    let because = varies.iter().map(ToString::to_string).collect();
+    Ok(Form::Varying(landscape, because))
+}
+
+fn problem<'d>(
+    compiled: &Compiled<'d>,
+    machine: &InterpretedMachine,
+    form: &Brachistochronic<'d>,
+) -> Result<Problem, Failure> {
+    let model = &compiled.model;
     let names: Vec<String> = model
         .coordinates
         .iter()
         .map(|q| q.name.to_string())
         .collect();
-    let values = |expressions: &[Expr]| -> Vec<f64> {
-        evaluate(model.dag, expressions, |symbol| {
-            let parameter = model
-                .parameters
-                .iter()
-                .find(|parameter| parameter.symbol.as_symbol() == Some(symbol));
-            let value = parameter.and_then(|parameter| {
-                let name = parameter.name.to_string();
-                machine
-                    .parameters()
-                    .find(|(quantity, _)| quantity.name == name)
-            });
-            value.map_or(f64::NAN, |(_, value)| value)
-        })
-    };
+    let values = |expressions: &[Expr]| at_parameters(compiled, machine, expressions);
     let mass: Vec<Vec<f64>> = form.mass.iter().map(|row| values(row)).collect();
     let refused = |unsolved: Unsolved| Failure::Run(explained(&unsolved, &names));
     let problem = Problem::new(&mass, &values(&form.slope)).map_err(refused)?;
-    let guides = guides(&form, values)?;
+    let guides = guides(form, values)?;
     let add = |problem: Problem, guide| problem.with_guide(guide);
     guides.into_iter().try_fold(problem, add).map_err(refused)
+}
+
+/// Values of what depends on parameters alone.
+pub fn at_parameters(
+    compiled: &Compiled,
+    machine: &InterpretedMachine,
+    expressions: &[Expr],
+) -> Vec<f64> {
+    let parameters = || compiled.model.parameters.iter();
+    let places = parameters().map(|parameter| parameter.symbol.as_symbol());
+    let values = machine.parameter_values();
+    let known: Vec<_> = places.zip(values).collect();
+    evaluate(compiled.model.dag, expressions, |symbol| {
+        let value = known.iter().find(|(known, _)| *known == Some(symbol));
+        value.map_or(f64::NAN, |(_, value)| **value)
+    })
 }
 
 /// The guides, each reaction by accelerations alone: `(1 + κ μ) N = ν + ρ·a` for all of them.

@@ -14,19 +14,21 @@ use crate::contacts::{Found, other_events};
 use crate::simulate::shortest;
 
 const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
+/// The style of all pages.
+pub const STYLE: &str = include_str!("page.css");
 
 /// What the derivation may fill, in bytes: whole equations of a large machine are megabytes.
 const DERIVATION: usize = 700_000;
 
-/// What plays, draws and plots: one module, whose parts follow each other.
-const SCRIPTS: [&str; 5] = [
+/// What draws and plots: one module, whose parts follow each other. What plays stands behind it.
+pub const DRAWING: [&str; 4] = [
     include_str!("motion.js"),
     include_str!("view.js"),
     include_str!("drawing.js"),
     include_str!("plots.js"),
-    include_str!("page.js"),
 ];
+
+const PLAYER: &str = include_str!("page.js");
 
 /// The page of a report.
 pub fn text(
@@ -53,7 +55,7 @@ pub fn text(
         // The page's own comes last: its colours follow the button, too.
         "style" => [derivation::STYLE, STYLE].concat(),
         "data" => html::json(data),
-        "script" => [kinematics, &SCRIPTS.concat()].join("\n"),
+        "script" => [kinematics, &DRAWING.concat(), PLAYER].join("\n"),
         _ => String::new(),
     })
 }

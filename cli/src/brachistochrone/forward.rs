@@ -1,0 +1,105 @@
+//! The machine itself under the control forces: simulated with its own law of friction, it must arrive.
+
+use std::f64::consts::PI;
+
+use lagrangian::interpreted::Named;
+use lagrangian::{Machine, Simulation};
+use lagrangian_spec::model::Coordinate;
+use lagrangian_symbolic::Dag;
+
+use super::found::Found;
+use crate::call;
+use crate::reading::{self, Reading};
+
+/// Error of a step of the simulation.
+const TOLERANCE: f64 = 1e-11;
+
+/// Control forces are smooth in time: the polynomial through so many of Chebyshev's points has all digits of the run.
+const POINTS: u32 = 48;
+
+/// Where the machine arrives, simulated.
+#[derive(Clone, Debug)]
+pub struct Arrival {
+    /// How far from the end, relative to the way, of the coordinate that is farthest.
+    pub off: f64,
+}
+
+/// Simulates the machine from rest under the control forces for the computed time.
+///
+/// # Errors
+/// Why it does not arrive, as the end of a sentence.
+pub fn arrival(
+    call: &call::Brachistochrone,
+    coordinates: &[Coordinate<'_>],
+    found: &Found<'_, '_>,
+) -> Result<Arrival, String> {
+    let dag = Dag::new();
+    let said = "the machine with inputs for the control forces cannot be derived";
+    let reading = Reading::controlled(&call.spec, coordinates).map_err(|_| said.to_owned())?;
+    let compiled = reading.compile(&dag).map_err(|_| said.to_owned())?;
+    let start = call::Start {
+        parameters: call.parameters.clone(),
+        coordinates: Vec::new(),
+        rates: Vec::new(),
+    };
+    let machine = reading::machine(compiled.program, &start).map_err(|_| said.to_owned())?;
+    let motion = &found.motion;
+    let forces = Chebyshev::new(motion.time(), |t| motion.at(t).control);
+    let [from, to] = [0, found.moments.len() - 1].map(|k| &found.moments[k].q);
+    let mut state = machine.start();
+    state.q.values.clone_from(from);
+    state.v.values.fill(0.0);
+    let run = Simulation::new(&machine)
+        .tolerance(TOLERANCE)
+        .inputs(|t, _: &Named, _: &Named, u: &mut Named| u.values.clone_from(&forces.at(t)))
+        .until(motion.time())
+        .run(state)
+        .map_err(|error| format!("the machine does not arrive: {error}"))?;
+    let pairs = run.end().q.values.iter().zip(to);
+    let far = pairs.map(|(q, to)| (q - to).abs()).fold(0.0, f64::max);
+    let way = from.iter().zip(to).map(|(from, to)| (to - from).abs());
+    let off = far / way.fold(f64::MIN_POSITIVE, f64::max);
+    // What sticks or lifts off is elsewhere altogether.
+    match off < 1e-3 {
+        true => Ok(Arrival { off }),
+        false => Err(format!(
+            "the machine ends beside the end by {off:.1e} of the way"
+        )),
+    }
+}
+
+/// The polynomial through values at Chebyshev's points of the second kind. J.-P. Berrut and L. N. Trefethen, *Barycentric
+/// Lagrange interpolation*, SIAM Review 46 (2004) 501, eq. (5.4).
+struct Chebyshev {
+    values: Vec<(f64, Vec<f64>)>,
+}
+
+impl Chebyshev {
+    fn new(until: f64, value: impl Fn(f64) -> Vec<f64>) -> Chebyshev {
+        let points = (0..=POINTS).map(|k| {
+            let t = until * 0.5 * (1.0 - (PI * f64::from(k) / f64::from(POINTS)).cos());
+            (t, value(t))
+        });
+        Chebyshev {
+            values: points.collect(),
+        }
+    }
+
+    fn at(&self, t: f64) -> Vec<f64> {
+        let last = self.values.len() - 1;
+        let (mut sums, mut whole) = (vec![0.0; self.values[0].1.len()], 0.0);
+        for (k, (point, value)) in self.values.iter().enumerate() {
+            if t == *point {
+                return value.clone();
+            }
+            let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+            let end = if k == 0 || k == last { 0.5 } else { 1.0 };
+            let weight = sign * end / (t - point);
+            whole += weight;
+            for (sum, value) in sums.iter_mut().zip(value) {
+                *sum += weight * value;
+            }
+        }
+        sums.iter().map(|sum| sum / whole).collect()
+    }
+}
