@@ -6,10 +6,13 @@ mod paper;
 #[path = "support/random.rs"]
 #[allow(dead_code, reason = "each test uses some of it")]
 mod random;
+#[path = "brachistochrone/transcription.rs"]
+mod transcription;
 
 use lagrangian::brachistochrone::{Brachistochrone, Guide, Problem, Unsolved};
 use paper::{Machine, Paper, Print, Solved};
 use random::SplitMix;
+use transcription::least_times;
 
 /// The example: prisms of 32/13 and 20/13 kg, an incline of 45°, μ₁ = 0.1, μ₂ = 0.02; g = 9.81 m/s² gives the digits of the
 /// print.
@@ -117,6 +120,28 @@ fn the_papers_example_to_thirteen_digits() {
     close("N₂", reactions(0), 22.9868432, 1e-6);
     close("N₁/cos α", reactions(1), 5.5393470, 1e-6);
     assert_eq!(motion.lapses(), vec![]);
+}
+
+/// A polyline of N pieces is slower than the fastest motion, by a share of N⁻² in the end.
+#[test]
+fn polylines_whose_time_is_made_least_converge_to_the_fastest_motion() {
+    for friction in [MU, [0.0, 0.0], [0.3, 0.2]] {
+        let [incline, floor] = friction;
+        let machine = Machine {
+            b: [G * floor * (M1 + M2), G * M1 * incline],
+            d: [[0.0, -M1 * floor], [-M1 * incline, 0.0]],
+            ..prisms_by_hand()
+        };
+        let motion = prisms(friction).solve(&[0.0, 0.0], &END).unwrap();
+        let slower = least_times(&machine, END, 3).into_iter();
+        let slower: Vec<f64> = slower.map(|time| time - motion.time()).collect();
+        assert!(
+            slower.iter().all(|by| *by > 0.0),
+            "{friction:?}: {slower:?}"
+        );
+        let ratio = slower[2] / slower[3];
+        assert!((3.9..4.1).contains(&ratio), "{friction:?}: {slower:?}");
+    }
 }
 
 #[test]
