@@ -265,6 +265,12 @@ fn motors_of_an_arm_are_read_behind_its_parameters() {
 }
 
 #[test]
+fn machines_that_constraints_close_accelerate_as_these_allow() {
+    check("closed_pendulum", &[], 1, None);
+    check("rolling_coin", &[], 1, None);
+}
+
+#[test]
 fn who_has_no_rustc_is_told() {
     let folder = Folder::new("no-rustc");
     let spec = machine("simple_pendulum");

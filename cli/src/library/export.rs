@@ -66,13 +66,18 @@ numbers! { Lanes<8>: Eight, [f64; 8], lanes::Plain<8>; }
 #[cfg(not(target_feature = "avx512vl"))]
 numbers! { Lanes<8>: TwiceFour, [f64; 8], lanes::Plain<8>; }
 
-/// The mass matrix cannot be inverted.
+/// The mass matrix cannot be inverted, or constraints depend on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singular;
 
 impl Singular {
     #[cold]
     pub fn new(_coordinate: usize, _pivot: f64, _diagonal: f64) -> Self {
+        Singular
+    }
+
+    #[cold]
+    pub fn constraint(_constraint: usize, _pivot: f64, _diagonal: f64) -> Self {
         Singular
     }
 }
