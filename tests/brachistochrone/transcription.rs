@@ -70,26 +70,30 @@ impl Plane {
         let n = offsets.len();
         let mut best = self.time(offsets);
         for _ in 0..30 {
-            let mut at = |moves: &[(usize, f64)]| {
-                let before = offsets.to_vec();
-                moves.iter().for_each(|&(i, by)| offsets[i] += by);
-                let time = self.time(offsets);
-                offsets.copy_from_slice(&before);
-                time
+            let at = |moves: &[(usize, f64)]| {
+                let mut there = offsets.to_vec();
+                moves.iter().for_each(|&(i, by)| there[i] += by);
+                self.time(&there)
             };
-            let mut rows = vec![vec![0.0; n + 1]; n];
-            for i in 0..n {
-                let (up, down) = (at(&[(i, STEP)]), at(&[(i, -STEP)]));
-                rows[i][n] = -(up - down) / (2.0 * STEP);
-                rows[i][i] = (up - 2.0 * best + down) / (STEP * STEP);
-                for j in 0..i {
-                    let mixed = [1.0, -1.0].map(|s| {
-                        at(&[(i, STEP), (j, s * STEP)]) - at(&[(i, -STEP), (j, s * STEP)])
-                    });
-                    rows[i][j] = (mixed[0] - mixed[1]) / (4.0 * STEP * STEP);
-                    rows[j][i] = rows[i][j];
+            let slope = |i: usize| (at(&[(i, STEP)]) - at(&[(i, -STEP)])) / (2.0 * STEP);
+            let second = |i: usize, j: usize| {
+                let [up, down] = [STEP, -STEP].map(|by| {
+                    if i == j {
+                        return (at(&[(i, by)]) - best) / by;
+                    }
+                    (at(&[(i, by), (j, STEP)]) - at(&[(i, by), (j, -STEP)])) / (2.0 * STEP)
+                });
+                match i == j {
+                    true => (up - down) / STEP,
+                    false => (up - down) / (2.0 * STEP),
                 }
-            }
+            };
+            let row = |i: usize| {
+                let mut row: Vec<f64> = (0..n).map(|j| second(i, j)).collect();
+                row.push(-slope(i));
+                row
+            };
+            let rows: Vec<Vec<f64>> = (0..n).map(row).collect();
             let step = eliminated(rows);
             let mut part = 1.0;
             let before = (offsets.to_vec(), best);
