@@ -4,7 +4,7 @@
 //! cargo run --release --example bounce
 //! ```
 
-use lagrangian::{Crossing, Error, Simulation};
+use lagrangian::{Coordinates, Crossing, Ending, Error, Simulation, State};
 
 lagrangian::machine! {
     /// A ball above a floor at y = 0.
@@ -19,19 +19,23 @@ lagrangian::machine! {
 /// When the ball meets the floor, `count` times, in s.
 pub fn bounces(restitution: f64, count: usize) -> Result<Vec<f64>, Error> {
     let ball = Ball::default();
-    let mut state = ball.start();
+    let floor = |state: &State<Coordinates<Ball>>| state.q.y;
+    let mut run = Simulation::new(&ball)
+        .tolerance(1e-12)
+        .until(100.0)
+        .until_event("the floor", Crossing::Falling, floor)
+        .run(ball.start())?;
     let mut times = Vec::new();
-    for _ in 0..count {
-        let run = Simulation::new(&ball)
-            .tolerance(1e-12)
-            .until(state.t + 10.0)
-            .until_event("the floor", Crossing::Falling, |state| state.q.y)
-            .run(state)?;
-        state = *run.end();
+    while times.len() < count && *run.ending() != Ending::End {
+        // The end of the run is the state of the event.
+        let mut state = *run.end();
         times.push(state.t);
-        // The impact: the next run starts where this one ended, with another velocity.
-        state.q.y = 0.0;
+        // The impact: the next run goes on from there, with another velocity. That it starts on the floor is no event.
         state.v.y *= -restitution;
+        let next = run.resume();
+        run = next
+            .until_event("the floor", Crossing::Falling, floor)
+            .run(state)?;
     }
     Ok(times)
 }

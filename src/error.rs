@@ -129,6 +129,12 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The motion within a step was asked for after the inputs were changed at its end
+    /// ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)).
+    InputsChanged {
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time and its error is still too great: the motion has
     /// a jump, a kink or a pole there, or the tolerance is too small.
     StepTooSmall {
@@ -224,6 +230,7 @@ impl Error {
                 t,
             },
             StepError::NoRoom { t } => Self::NoRoomForConstraints { t },
+            StepError::Changed { t } => Self::InputsChanged { t },
             StepError::StepTooSmall {
                 coordinate,
                 t,
@@ -233,6 +240,19 @@ impl Error {
                 step,
                 t,
             },
+        }
+    }
+}
+
+/// A number in a message, in as few digits as it takes: `0.25`, `1e300`.
+struct Short(f64);
+
+impl Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let size = self.0.abs();
+        match size == 0.0 || !size.is_finite() || (1e-4..1e9).contains(&size) {
+            true => write!(f, "{}", self.0),
+            false => write!(f, "{:e}", self.0),
         }
     }
 }
@@ -271,7 +291,11 @@ impl Display for Error {
                 value,
                 needed,
             } => {
-                write!(f, "`{setting}({value})`: must be {needed}")
+                write!(
+                    f,
+                    "`{setting}({value})`: must be {needed}",
+                    value = Short(*value)
+                )
             }
             Self::UnknownCoordinate { name } => write!(f, "no coordinate is named `{name}`"),
             Self::UnknownVariable { name, known } => {
@@ -300,24 +324,29 @@ impl Display for Error {
             Self::ParameterNotFinite { parameter, value } => {
                 write!(
                     f,
-                    "parameter `{parameter}` is {value}; it must be a finite number"
+                    "parameter `{parameter}` is {value}; it must be a finite number",
+                    value = Short(*value)
                 )
             }
             Self::StartNotFinite { name, value } => {
                 write!(
                     f,
-                    "the start value of `{name}` is {value}; it must be a finite number"
+                    "the start value of `{name}` is {value}; it must be a finite number",
+                    value = Short(*value)
                 )
             }
             Self::InputNotFinite { input, value, t } => {
                 write!(
                     f,
-                    "input `{input}` is {value} at t = {t} s; it must be a finite number"
+                    "input `{input}` is {value} at t = {t} s; it must be a finite number",
+                    t = Short(*t),
+                    value = Short(*value)
                 )
             }
             Self::NotFinite { coordinate, t } => write!(
                 f,
-                "the acceleration of `{coordinate}` has no finite value at t = {t} s, and shorter steps do not avoid it"
+                "the acceleration of `{coordinate}` has no finite value at t = {t} s, and shorter steps do not avoid it",
+                t = Short(*t)
             ),
             Self::SingularMassMatrix {
                 coordinate,
@@ -326,7 +355,8 @@ impl Display for Error {
             } => write!(
                 f,
                 "the mass matrix cannot be inverted at t = {t} s: coordinate `{coordinate}` meets no inertia ({ratio:e} \
-                 of what it had is left), and shorter steps do not avoid it"
+                 of what it had is left), and shorter steps do not avoid it",
+                t = Short(*t)
             ),
             Self::FrictionParadox {
                 contact,
@@ -340,7 +370,11 @@ impl Display for Error {
                 } else {
                     "no motion has"
                 };
-                write!(f, "{count} the friction of `{contact}` at t = {t} s")?;
+                write!(
+                    f,
+                    "{count} the friction of `{contact}` at t = {t} s",
+                    t = Short(*t)
+                )?;
                 if !q.is_empty() {
                     write!(f, ", q = {q:?}, v = {v:?}")?;
                 }
@@ -356,7 +390,8 @@ impl Display for Error {
             } => write!(
                 f,
                 "the constraint `{constraint}` depends on others at t = {t} s ({ratio:e} of it is left beside them), and \
-                 shorter steps do not avoid it"
+                 shorter steps do not avoid it",
+                t = Short(*t)
             ),
             Self::InconsistentConstraints {
                 constraint,
@@ -366,7 +401,8 @@ impl Display for Error {
             } if with.is_empty() => write!(
                 f,
                 "the constraint `{constraint}` cannot be met near the state at t = {t} s: {residual:.1e} of its terms' size is \
-                 left"
+                 left",
+                t = Short(*t)
             ),
             Self::InconsistentConstraints {
                 constraint,
@@ -376,7 +412,8 @@ impl Display for Error {
             } => write!(
                 f,
                 "the constraint `{constraint}` contradicts {} at t = {t} s: {residual:.1e} of its terms' size is left",
-                quoted(with)
+                quoted(with),
+                t = Short(*t)
             ),
             Self::Fork {
                 constraint,
@@ -386,11 +423,18 @@ impl Display for Error {
                 f,
                 "the constraint `{constraint}` loses its hold near t = {t} s ({left:.1e} of what it had is left): from there the \
                  machine may go on in more than one way, and rounding hides in which; the longer steps of a coarser tolerance \
-                 may pass over it"
+                 may pass over it",
+                t = Short(*t)
             ),
             Self::NoRoomForConstraints { t } => write!(
                 f,
-                "the machine lends no room for the work on its constraints at t = {t} s"
+                "the machine lends no room for the work on its constraints at t = {t} s",
+                t = Short(*t)
+            ),
+            Self::InputsChanged { t } => write!(
+                f,
+                "the motion before t = {t} s is to be looked at before the inputs are changed there",
+                t = Short(*t)
             ),
             Self::StepTooSmall {
                 coordinate,
@@ -399,28 +443,36 @@ impl Display for Error {
             } => write!(
                 f,
                 "the step shrank to {step:e} s at t = {t} s, and the error of `{coordinate}` is still too great: the \
-                 motion has a jump, a kink or a pole there, or the tolerance is too small"
+                 motion has a jump, a kink or a pole there, or the tolerance is too small",
+                t = Short(*t)
             ),
             Self::TooManySteps { steps, t, until } => write!(
                 f,
-                "{steps} steps reach t = {t} s only, of {until} s: allow more by `max_steps`, or raise the tolerance"
+                "{steps} steps reach t = {t} s only, of {until} s: allow more by `max_steps`, or raise the tolerance",
+                t = Short(*t),
+                until = Short(*until)
             ),
             Self::AssumptionEnded { assumption, t } => {
                 write!(
                     f,
-                    "the machine assumes `{assumption}`, which ends at t = {t} s"
+                    "the machine assumes `{assumption}`, which ends at t = {t} s",
+                    t = Short(*t)
                 )
             }
             Self::EventNotFinite { event, t } => {
                 write!(
                     f,
-                    "the function of event `{event}` is not a number at t = {t} s"
+                    "the function of event `{event}` is not a number at t = {t} s",
+                    t = Short(*t)
                 )
             }
             Self::OutsideRun { t, from, to } => {
                 write!(
                     f,
-                    "t = {t} s is outside of the run, which goes from {from} s to {to} s"
+                    "t = {t} s is outside of the run, which goes from {from} s to {to} s",
+                    t = Short(*t),
+                    from = Short(*from),
+                    to = Short(*to)
                 )
             }
             Self::NoEnergyBalance => {
@@ -496,12 +548,15 @@ impl Display for Warning {
             ),
             Self::StartMoved { name, from, to } => write!(
                 f,
-                "the start was moved onto the constraints: `{name}` from {from} to {to}"
+                "the start was moved onto the constraints: `{name}` from {from} to {to}",
+                from = Short(*from),
+                to = Short(*to)
             ),
             Self::Stiff { t } => write!(
                 f,
                 "the machine is stiff from t = {t} s: steps are held short by stability, not by accuracy; the method `radau5` takes \
-                 longer ones"
+                 longer ones",
+                t = Short(*t)
             ),
         }
     }

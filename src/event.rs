@@ -1,4 +1,16 @@
 //! Events: instants at which a function of the state changes its sign.
+//!
+//! The sign is looked at a few times within each step, along a polynomial that costs no evaluation; where
+//! it changes, the zero is found on the dense output of the step, to the rounding of time. An event that
+//! ends a run is more than that: the step is made again up to there, and its length is corrected until the
+//! function is 0 at the *end of the step*, to rounding. So the end of the run is the state of the event,
+//! and as exact as the end of every other step.
+//!
+//! A function that is 0 at the start of a run, to rounding, has no sign there: whoever goes on from an
+//! event is at its zero, or beside it by rounding. Its sign is the one that it has just after, looked for at
+//! fractions of the first step that grow from the rounding of time on, each four times the one before it. So
+//! the zero at the start is not found again, and a bounce is found however much shorter than the step it
+//! is.
 
 use std::boxed::Box;
 use std::string::String;
@@ -7,10 +19,14 @@ use std::vec::Vec;
 use crate::piece::Piece;
 use crate::run::made;
 use crate::stepper::{InputLaw, Stepper};
-use crate::{Alongside, Coordinates, Error, Machine, State, System};
+use crate::{Alongside, Coordinates, Error, Machine, State, System, Vector};
 
 /// Where in a step the sign is looked at: events that come and go between two of these are missed.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+
+/// What is within so many roundings of zero is zero: those of an event's own time, of the step that
+/// ended there, and of a function of some ten operations.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +46,9 @@ pub struct Event<C> {
     pub name: String,
     /// Which way its function went through zero, forward in time: `Rising` or `Falling`.
     pub crossing: Crossing,
-    /// Time and state, to roundoff of time within the dense output of the step.
+    /// Time and state. The function is 0 here to the rounding of time and state. If the event ended the
+    /// run, this is the run's end, and as exact as the end of any step; else it is on the dense output of
+    /// its step, and its time is as exact as that.
     pub state: State<C>,
 }
 
@@ -45,6 +63,10 @@ pub(crate) struct Watch<'a, M: Machine> {
     pub function: OfState<'a, M, f64>,
     /// The sign that the function has had last, 0 from where it was zero.
     pub side: f64,
+    /// What the function must exceed before its sign counts, after it was zero to rounding.
+    pub leave: f64,
+    /// Whether its sign at the start is known.
+    pub begun: bool,
 }
 
 /// A change of sign within the last step.
@@ -54,9 +76,20 @@ struct Found {
     side_before: f64,
 }
 
+/// An event that ends a run, as it is seen on the dense output.
+pub(crate) struct Terminal {
+    /// Which watch.
+    pub watch: usize,
+    pub crossing: Crossing,
+    /// Time, in s.
+    pub t: f64,
+    /// The rate of the function there, if it is as good as linear near its zero.
+    pub slope: Option<f64>,
+}
+
 impl<M: Machine> Watch<'_, M> {
     /// The function's value, which must be a number.
-    fn value(&mut self, state: &State<Coordinates<M>>) -> Result<f64, Error> {
+    pub fn value(&mut self, state: &State<Coordinates<M>>) -> Result<f64, Error> {
         let value = (self.function)(state);
         if value.is_nan() {
             return Err(Error::EventNotFinite {
@@ -67,9 +100,66 @@ impl<M: Machine> Watch<'_, M> {
         Ok(value)
     }
 
-    /// Looks at the function at the start of a run.
-    pub fn begin(&mut self, state: &State<Coordinates<M>>) -> Result<(), Error> {
-        self.side = sign(self.value(state)?);
+    /// Looks at the function at the start of a run. `at_zero` says that it starts from this very event.
+    pub fn begin(&mut self, state: &State<Coordinates<M>>, at_zero: bool) -> Result<(), Error> {
+        let value = self.value(state)?;
+        self.side = if at_zero { 0.0 } else { sign(value) };
+        self.begun = false;
+        Ok(())
+    }
+
+    /// Whether the function starts from zero to rounding, once the length of the first step is known.
+    ///
+    /// Each number of the state is moved by its own rounding, and by as much as it moves in the rounding
+    /// of time; what that changes is what rounding may have made of a zero. A change that does not grow
+    /// with the move is a jump of the function, which has the right sign on either side.
+    fn settle<L: InputLaw<M::System>, A: Alongside<M::System>>(
+        &mut self,
+        system: &M::System,
+        stepper: &Stepper<'_, M::System, L, A>,
+    ) -> Result<(), Error> {
+        self.begun = true;
+        let (t, q, v) = (stepper.t_before(), stepper.q_before(), stepper.v_before());
+        let a = stepper.a_before();
+        let value = self.value(&state(system, (t, q.clone(), v.clone())))?;
+        let tick = ROUNDING * t.abs().max(stepper.last_step().abs());
+        let n = q.as_slice().len();
+        let (mut smooth, mut jumps) = (0.0, 0.0);
+        for number in 0..=2 * n {
+            let mut by = [1.0, 16.0].map(|times: f64| {
+                let moved = [times, -times].map(|times| {
+                    let (mut t, mut q, mut v) = (t, q.clone(), v.clone());
+                    match number {
+                        0 => t += times * ROUNDING * t.abs(),
+                        i if i <= n => {
+                            let rate = v.as_slice()[i - 1].abs();
+                            let q = &mut q.as_mut_slice()[i - 1];
+                            *q += times * (ROUNDING * q.abs() + rate * tick);
+                        }
+                        i => {
+                            let rate = a.as_slice()[i - n - 1].abs();
+                            let v = &mut v.as_mut_slice()[i - n - 1];
+                            *v += times * (ROUNDING * v.abs() + rate * tick);
+                        }
+                    }
+                    ((self.function)(&state(system, (t, q, v))) - value).abs()
+                });
+                // What is not a number there says nothing.
+                moved[0].max(moved[1])
+            });
+            by = by.map(|by| if by.is_finite() { by } else { 0.0 });
+            match by[1] < 4.0 * by[0] {
+                true => jumps += by[0],
+                false => smooth += by[0],
+            }
+        }
+        if self.side == 0.0 || value.abs() <= smooth + jumps {
+            self.side = 0.0;
+            self.leave = match jumps > 0.0 {
+                true => 0.0,
+                false => 2.0 * smooth.max(value.abs()),
+            };
+        }
         Ok(())
     }
 
@@ -77,13 +167,28 @@ impl<M: Machine> Watch<'_, M> {
     /// step.
     fn changes(
         &mut self,
+        roundoff: f64,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
         mut found: impl FnMut(&mut Self, f64, f64) -> Result<(), Error>,
     ) -> Result<(), Error> {
         let mut side = self.side;
+        let mut leave = self.leave;
         let mut theta_before = 0.0;
-        for theta in LOOKS {
-            let now = sign(value_at(self, theta)?);
+        // Where it starts from zero, it may leave it and be back long before a quarter of the step.
+        let least = match side == 0.0 {
+            true => 16.0 * roundoff,
+            false => LOOKS[0],
+        };
+        let small = core::iter::successors(Some(least), |theta| Some(4.0 * theta));
+        let small = small.take_while(|theta| *theta < LOOKS[0]);
+        for theta in small.chain(LOOKS) {
+            let value = value_at(self, theta)?;
+            let now = if side == 0.0 && value.abs() <= leave {
+                0.0
+            } else {
+                leave = 0.0;
+                sign(value)
+            };
             if side != 0.0 && now != side {
                 self.side = side;
                 found(self, theta_before, theta)?;
@@ -91,28 +196,32 @@ impl<M: Machine> Watch<'_, M> {
             side = now;
             theta_before = theta;
         }
-        self.side = side;
+        (self.side, self.leave) = (side, leave);
         Ok(())
     }
 }
 
-/// Adds the events of the last step to `events`, in the order in which they happened. If one of
-/// them ends the run, it is the last, and the answer is true.
+/// Adds the events of the last step to `events`, in the order in which they happened, up to the first
+/// that ends the run, which is the answer.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     watches: &mut [Watch<'_, M>],
     system: &M::System,
     stepper: &mut Stepper<'_, M::System, L, A>,
     piece: &mut Option<Piece<<M::System as System>::Vector>>,
     events: &mut Vec<Event<Coordinates<M>>>,
-) -> Result<bool, Error> {
+) -> Result<Option<Terminal>, Error> {
     let mut found = Vec::new();
+    let roundoff = theta_roundoff(stepper);
     for (index, watch) in watches.iter_mut().enumerate() {
-        let side = watch.side;
+        if !watch.begun {
+            watch.settle(system, stepper)?;
+        }
+        let before = (watch.side, watch.leave);
         let mut suspected = false;
         let look = |watch: &mut Watch<'_, M>, theta: f64| {
             watch.value(&state(system, glance_at(stepper, theta)))
         };
-        watch.changes(look, |_, _, _| {
+        watch.changes(roundoff, look, |_, _, _| {
             suspected = true;
             Ok(())
         })?;
@@ -121,16 +230,14 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         }
 
         // There may be something: look again, exactly.
-        watch.side = side;
+        (watch.side, watch.leave) = before;
         let piece = made(piece, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
             watch.value(&state(system, state_at(system, stepper, piece, theta)?))
         };
-        watch.changes(exact, |watch, from, to| {
+        watch.changes(roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
-            let theta = root([from, to], theta_roundoff(stepper), |theta| {
-                exact(watch, theta)
-            })?;
+            let theta = root([from, to], roundoff, |theta| exact(watch, theta))?;
             found.push(Found {
                 watch: index,
                 theta,
@@ -148,7 +255,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         side_before,
     } in found
     {
-        let watch = &watches[index];
+        let watch = &mut watches[index];
         let crossing = if (side_before < 0.0) == forward {
             Crossing::Rising
         } else {
@@ -158,17 +265,47 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             continue;
         }
         let Some(piece) = piece else { continue };
-        let state = state(system, state_at(system, stepper, piece, theta)?);
-        events.push(Event {
-            name: watch.name.clone(),
+        let at = |theta| Ok(state(system, state_at(system, stepper, piece, theta)?));
+        if !watch.ends_run {
+            events.push(Event {
+                name: watch.name.clone(),
+                crossing,
+                state: at(theta)?,
+            });
+            continue;
+        }
+        let slope = slope(theta, roundoff, |theta| Ok((watch.function)(&at(theta)?)))?;
+        return Ok(Some(Terminal {
+            watch: index,
             crossing,
-            state,
-        });
-        if watch.ends_run {
-            return Ok(true);
+            t: at(theta)?.t,
+            slope: slope.map(|slope| slope / stepper.last_step()),
+        }));
+    }
+    Ok(None)
+}
+
+/// The slope of a function near its zero at `theta`, if it is as good as linear there.
+fn slope(
+    theta: f64,
+    roundoff: f64,
+    mut f: impl FnMut(f64) -> Result<f64, Error>,
+) -> Result<Option<f64>, Error> {
+    // Wide enough that rounding leaves some digits, and as near as it takes for bends to leave some.
+    let widest = (1e5 * roundoff).clamp(1e-4, 0.1);
+    let reaches = core::iter::successors(Some(widest), |reach| Some(1e-2 * reach));
+    for reach in reaches.take_while(|reach| *reach == widest || *reach > 1e3 * roundoff) {
+        let (from, to) = ((theta - reach).max(0.0), (theta + reach).min(1.0));
+        let half = [0.5 * (from + theta), 0.5 * (theta + to)];
+        let whole = f(to)? - f(from)?;
+        let part = f(half[1])? - f(half[0])?;
+        let is_linear = (part - 0.5 * whole).abs() <= 0.1 * whole.abs();
+        let slope = whole / (to - from);
+        if is_linear && slope.is_finite() && slope != 0.0 {
+            return Ok(Some(slope));
         }
     }
-    Ok(false)
+    Ok(None)
 }
 
 pub(crate) type Triple<V> = (f64, V, V);

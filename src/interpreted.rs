@@ -53,7 +53,7 @@ struct Names {
 }
 
 /// The equations of motion of an [`InterpretedMachine`].
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct InterpretedSystem {
     program: Arc<Program>,
     names: Arc<Names>,

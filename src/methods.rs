@@ -2,14 +2,16 @@
 //!
 //! To add a method, write its [`Tableau`] and put one line into the list of [`METHODS`].
 //! The same tests then hold it to its orders, its dense output, its events and to allocating
-//! nothing.
+//! nothing. A method of one's own is a `Tableau` given to [`Method::try_new`].
 
 mod bogacki_shampine;
+mod check;
 mod dormand_prince_5;
 mod dormand_prince_8;
 mod radau_5;
 mod scheme;
 
+pub use check::{MethodError, Tree, Weights};
 pub(crate) use scheme::{Row, Scheme};
 
 /// The most stages that a method may have, those for dense output counted.
@@ -32,8 +34,70 @@ pub struct Method {
 }
 
 impl Method {
-    /// Prepares a published method for machines, whose positions follow from their velocities.
-    pub const fn new(tableau: Tableau) -> Self {
+    /// Prepares a published method for machines, whose positions follow from their velocities, if its
+    /// tableau is what it says: rows have their lengths and add up to their nodes, and the weights of
+    /// the new point, of the estimates of the error and of dense output meet every order condition up
+    /// to the stated orders, to rounding.
+    ///
+    /// A simulation borrows its method for good: keep it in a `static`, or leak it.
+    ///
+    /// # Errors
+    /// Which row does not meet which condition.
+    ///
+    /// ```
+    /// use lagrangian::methods::{Method, MethodError, Tableau};
+    ///
+    /// /// The classical fourth order, with the third-order weights (1/6, 1/3, 1/3, 0, 1/6) beside it.
+    /// fn classical() -> Tableau {
+    ///     Tableau {
+    ///         name: "rk4",
+    ///         title: "Runge–Kutta 4(3)",
+    ///         order: 4,
+    ///         error_power: 4,
+    ///         dense_order: 3,
+    ///         stages: 4,
+    ///         c: &[0.0, 0.5, 0.5, 1.0, 1.0],
+    ///         a: &[
+    ///             &[],
+    ///             &[0.5],
+    ///             &[0.0, 0.5],
+    ///             &[0.0, 0.0, 1.0],
+    ///             &[1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0],
+    ///         ],
+    ///         error: &[0.0, 0.0, 0.0, 1.0 / 6.0, -1.0 / 6.0],
+    ///         coarse_error: None,
+    ///         dense: &[],
+    ///         step_change: (0.2, 5.0),
+    ///         smoothing: 0.0,
+    ///         stability: None,
+    ///         spectrum: None,
+    ///     }
+    /// }
+    ///
+    /// let method: &'static Method = Box::leak(Box::new(Method::try_new(classical())?));
+    /// assert_eq!(method.tableau.order, 4);
+    ///
+    /// let fifth = Tableau { order: 5, stages: 5, ..classical() };
+    /// assert!(matches!(Method::try_new(fifth), Err(MethodError::Field { field: "a", .. })));
+    /// let slip = Tableau { c: &[0.0, 0.5, 0.6, 1.0, 1.0], ..classical() };
+    /// assert!(matches!(Method::try_new(slip), Err(MethodError::Node { row: 2, .. })));
+    /// # Ok::<(), MethodError>(())
+    /// ```
+    pub fn try_new(tableau: Tableau) -> Result<Self, MethodError> {
+        check::check(&tableau)?;
+        Ok(Self::new(tableau))
+    }
+
+    /// Whether the tableau is what it says: the check of [`try_new`](Self::try_new).
+    ///
+    /// # Errors
+    /// Which row does not meet which condition.
+    pub fn check(&self) -> Result<(), MethodError> {
+        check::check(&self.tableau)
+    }
+
+    /// Prepares a tableau of which tests know that it is what it says.
+    const fn new(tableau: Tableau) -> Self {
         let scheme = Scheme::new(&tableau);
         Self { tableau, scheme }
     }

@@ -7,10 +7,10 @@ use std::vec::Vec;
 use crate::balance::{Alongside, Energies, EnergyBalance};
 use crate::constraints::Constraints;
 use crate::error::constraint_name;
-use crate::event::{self, Crossing, Event, Triple, state};
+use crate::event::{self, Crossing, Event, Terminal, Triple, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::piece::Piece;
-use crate::simulation::{Callbacks, Progress, Settings, Simulation};
+use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
 use crate::stepper::{InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper, Tolerance};
@@ -26,14 +26,20 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
 ) -> Result<(Solution<M, L>, Option<Error>), Error> {
     let clock = Instant::now();
     let Simulation {
-        machine,
+        of,
         law,
         settings,
         mut callbacks,
+        resumed,
     } = simulation;
     let until = settings.check()?;
-    check_parameters(machine)?;
-    let system = machine.prepare();
+    let system = match of {
+        Of::Machine(machine) => {
+            check_parameters(machine)?;
+            machine.prepare()
+        }
+        Of::System(system) => system,
+    };
     if system.contacts().len() != 0 && until < start.t {
         return Err(Error::InvalidSetting {
             setting: "until",
@@ -51,8 +57,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             (state(&system, (start.t, q.clone(), v.clone())), found)
         }
     };
+    let ended = resumed.filter(|resumed| resumed.t == start.t);
+    let ended = ended.and_then(|resumed| resumed.event);
     for watch in &mut callbacks.watches {
-        watch.begin(&start)?;
+        watch.begin(&start, ended.as_ref() == Some(&watch.name))?;
     }
 
     let model = Model {
@@ -89,6 +97,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         callbacks: &mut callbacks,
         start: start.t,
         until,
+        next_step: None,
         record: Record {
             steps: settings.keep_steps.then(|| Steps::new(settings.method)),
             samples: settings.every.map(|_| start.clone()).into_iter().collect(),
@@ -109,7 +118,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     };
 
     let Run {
-        stepper, record, ..
+        stepper,
+        record,
+        next_step,
+        ..
     } = run;
     let Record {
         steps,
@@ -135,9 +147,11 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             rejected: work.rejected,
             evaluations: work.evaluations,
             constraint_residual: stepper.constraint_residual(),
+            stiff_since: stepper.stiff_since(),
             seconds: clock.elapsed().as_secs_f64(),
         },
         warnings: warnings(&settings, &stepper, of_start),
+        next_step: next_step.unwrap_or(stepper.next_step()).abs(),
         constraints: stepper.constraints().clone(),
         contacts,
         start,
@@ -147,6 +161,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         events,
         energies,
         ending,
+        settings,
         law,
         system,
     };
@@ -165,6 +180,8 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> 
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
     until: f64,
+    /// The length of the step that an event ended.
+    next_step: Option<f64>,
     record: Record<M>,
 }
 
@@ -190,7 +207,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     fn go(&mut self) -> Result<Ending, Error> {
         // What will have ended the run, once the end of the stepper is reached.
         let mut ending = Ok(Ending::End);
-        let mut looks_for_events = true;
         // The state of a contact that ends where the stepper is to stop, and the step to go on with.
         let mut pending = None;
         // When contacts have changed last, and how often then.
@@ -228,7 +244,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             // A run ends within a step by taking that step again, up to there: so the end is as
             // exact as every other step's, and so is the balance of energy.
             if ending.is_ok()
-                && looks_for_events
                 && let Some((t, assumption)) = self.assumption_ended(&mut piece)?
             {
                 self.stepper.retreat(t);
@@ -236,12 +251,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                 pending = None;
                 continue;
             }
-            if looks_for_events && let Some((t, event)) = self.find_events(&mut piece)? {
-                self.stepper.retreat(t);
-                ending = Ok(Ending::Event(event));
-                looks_for_events = false;
-                pending = None;
-                continue;
+            if let Some(found) = self.find_events(&mut piece)? {
+                return self.end_at(found);
             }
             self.keep(&mut piece)?;
             if self.shall_stop() {
@@ -405,8 +416,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         Ok(None)
     }
 
-    /// Notes the events of the last step; returns time and name of one that ends the run.
-    fn find_events(&mut self, piece: &mut LastPiece<M>) -> Result<Option<(f64, String)>, Error> {
+    /// Notes the events of the last step; returns the one that ends the run.
+    fn find_events(&mut self, piece: &mut LastPiece<M>) -> Result<Option<Terminal>, Error> {
         let Self {
             model,
             stepper,
@@ -414,18 +425,69 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             record,
             ..
         } = self;
-        let before = record.events.len();
-        let ends = event::find(
+        event::find(
             &mut callbacks.watches,
             model.system,
             stepper,
             piece,
             &mut record.events,
-        )?;
-        Ok(record.events[before..]
-            .last()
-            .filter(|_| ends)
-            .map(|event| (event.state.t, event.name.clone())))
+        )
+    }
+
+    /// Ends the run at an event within the last step, which is made again up to there: so the end is as
+    /// exact as every other step's, and so is the balance of energy. The function is 0 at the end of the
+    /// step, not on its dense output: its length is corrected by Newton's method until rounding of
+    /// time or state is all that is left to correct.
+    fn end_at(&mut self, found: Terminal) -> Result<Ending, Error> {
+        self.next_step = Some(self.stepper.last_step());
+        let to = self.stepper.t();
+        let mut corrected = f64::INFINITY;
+        let mut t = found.t;
+        loop {
+            self.stepper.retreat(t);
+            let mut is_step = false;
+            while !self.stepper.is_done() {
+                if is_step {
+                    self.keep(&mut None)?;
+                }
+                let (q, v) = (self.stepper.q().clone(), self.stepper.v().clone());
+                let step = self.stepper.step();
+                step.map_err(|error| self.model.explain(error, &q, &v))?;
+                is_step = true;
+            }
+            let state = state(
+                self.model.system,
+                (t, self.stepper.q().clone(), self.stepper.v().clone()),
+            );
+            let watch = &mut self.callbacks.watches[found.watch];
+            let correction = match found.slope {
+                Some(slope) if is_step => -watch.value(&state)? / slope,
+                _ => 0.0,
+            };
+            let next = t + correction;
+            let from = self.stepper.t_before();
+            let is_within = (next - from) * (to - next) > 0.0;
+            // What does not halve at least is rounding, or not linear.
+            if next == t || correction.abs() > 0.5 * corrected || !is_within {
+                let name = watch.name.clone();
+                if is_step {
+                    self.keep(&mut None)?;
+                }
+                // What the dense output has put a rounding later was at the same time.
+                let events = self.record.events.iter_mut().rev();
+                for event in events.take_while(|event| (event.state.t - t) * (to - t) > 0.0) {
+                    event.state = state.clone();
+                }
+                self.record.events.push(Event {
+                    name: name.clone(),
+                    crossing: found.crossing,
+                    state,
+                });
+                return Ok(Ending::Event(name));
+            }
+            corrected = correction.abs();
+            t = next;
+        }
     }
 
     /// Keeps what was asked for of the last step.
@@ -442,6 +504,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                 fraction: (t - self.start) / (self.until - self.start),
                 steps: self.stepper.work().steps,
                 step: (t - self.stepper.t_before()).abs(),
+                stiff_since: self.stepper.stiff_since(),
             });
         }
         Ok(())
@@ -724,6 +787,11 @@ impl Settings {
         let positive = |value: f64| value > 0.0 && value.is_finite();
         check("until", until, until.is_finite(), "a finite time")?;
         let is_good = self.relative >= 0.0 && self.relative < 1.0;
+        if self.one_tolerance {
+            let is_good = is_good && positive(self.absolute);
+            let needed = "greater than 0 and less than 1";
+            check("tolerance", self.absolute, is_good, needed)?;
+        }
         check(
             "relative",
             self.relative,

@@ -34,10 +34,29 @@ use crate::{Coordinates, Error, Inputs, Machine, State};
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
 pub struct Simulation<'a, M: Machine, L = DefaultInputs> {
-    pub(crate) machine: &'a M,
+    pub(crate) of: Of<'a, M>,
     pub(crate) law: L,
     pub(crate) settings: Settings,
     pub(crate) callbacks: Callbacks<'a, M>,
+    /// Where it goes on from, if it does.
+    pub(crate) resumed: Option<Resumed>,
+}
+
+/// What is to be run.
+pub(crate) enum Of<'a, M: Machine> {
+    /// A machine, to be prepared.
+    Machine(&'a M),
+    /// The equations of motion of a run that was made.
+    System(M::System),
+}
+
+/// The end of the run that a simulation goes on with.
+#[derive(Clone, Debug)]
+pub(crate) struct Resumed {
+    /// Time, in s.
+    pub t: f64,
+    /// The event that ended it.
+    pub event: Option<String>,
 }
 
 /// What a simulation was told, in numbers.
@@ -54,6 +73,8 @@ pub(crate) struct Settings {
     pub every: Option<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
+    /// Whether both tolerances were given as one.
+    pub one_tolerance: bool,
 }
 
 /// What a simulation was told, in functions.
@@ -61,6 +82,16 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub watches: Vec<Watch<'a, M>>,
     pub progress: Option<Box<dyn FnMut(Progress) + 'a>>,
     pub stop: Option<OfState<'a, M, bool>>,
+}
+
+impl<M: Machine> Default for Callbacks<'_, M> {
+    fn default() -> Self {
+        Self {
+            watches: Vec::new(),
+            progress: None,
+            stop: None,
+        }
+    }
 }
 
 /// How far a run has come.
@@ -74,14 +105,19 @@ pub struct Progress {
     pub steps: usize,
     /// Length of the last of them, in s.
     pub step: f64,
+    /// When the motion was first seen to be stiff, in s: from there on steps are held short by the
+    /// stability of the method, and `radau5` takes longer ones. Seen as soon as an explicit method knows:
+    /// after fifteen signs, by a test that follows every thousandth step.
+    pub stiff_since: Option<f64>,
 }
 
 impl<'a, M: Machine> Simulation<'a, M> {
     /// A run of `machine`, with a tolerance of 10⁻⁹ and the inputs at their defaults.
     pub fn new(machine: &'a M) -> Self {
         Self {
-            machine,
+            of: Of::Machine(machine),
             law: DefaultInputs,
+            resumed: None,
             settings: Settings {
                 method: Default::default(),
                 until: None,
@@ -94,34 +130,36 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 every: None,
                 keep_steps: true,
                 energy_balance: false,
+                one_tolerance: true,
             },
-            callbacks: Callbacks {
-                watches: Vec::new(),
-                progress: None,
-                stop: None,
-            },
+            callbacks: Callbacks::default(),
         }
     }
+}
 
+impl<'a, M: Machine, L> Simulation<'a, M, L> {
     /// Sets the inputs while the machine runs: `|t, q, v, u| u.torque = -5.0 * v.theta`.
     ///
     /// The function must depend on its arguments alone, for it is called out of order in time and
-    /// more than once. It should be smooth; where it jumps, the steps get short.
+    /// more than once. It should be smooth; where it jumps, the steps get short. Where it is to be
+    /// another one from some event on, end the run there and [resume](Solution::resume) it.
     pub fn inputs<F>(self, function: F) -> Simulation<'a, M, InputFunction<F>>
     where
         F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &mut Inputs<M>),
     {
         let Self {
-            machine,
+            of,
             settings,
             callbacks,
+            resumed,
             ..
         } = self;
         Simulation {
-            machine,
+            of,
             law: InputFunction(function),
             settings,
             callbacks,
+            resumed,
         }
     }
 }
@@ -136,18 +174,22 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// How exact the run shall be, relative and absolute: each step keeps its error in a number `y`
     /// below `tolerance · (1 + |y|)`.
     pub fn tolerance(self, tolerance: f64) -> Self {
-        self.relative(tolerance).absolute(tolerance)
+        let mut both = self.relative(tolerance).absolute(tolerance);
+        both.settings.one_tolerance = true;
+        both
     }
 
     /// The tolerance relative to the size of each coordinate and rate.
     pub fn relative(mut self, tolerance: f64) -> Self {
         self.settings.relative = tolerance;
+        self.settings.one_tolerance = false;
         self
     }
 
     /// The tolerance for every coordinate in its own unit, and for its rate.
     pub fn absolute(mut self, tolerance: f64) -> Self {
         self.settings.absolute = tolerance;
+        self.settings.one_tolerance = false;
         self
     }
 
@@ -204,7 +246,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self
     }
 
-    /// Finds the instants at which `function` changes its sign.
+    /// Finds the instants at which `function` changes its sign. A function that is 0 at the start, to
+    /// rounding, counts only after it has left 0, with the sign that it has then.
     pub fn event(
         self,
         name: &str,
@@ -214,7 +257,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self.watch(name, crossing, false, Box::new(function))
     }
 
-    /// Ends the run when `function` changes its sign.
+    /// Ends the run when `function` changes its sign: at the state where it is 0, to the rounding of time
+    /// and state. [`Solution::resume`] goes on from there.
     pub fn until_event(
         self,
         name: &str,
@@ -237,6 +281,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             ends_run,
             function,
             side: 0.0,
+            leave: 0.0,
+            begun: false,
         });
         self
     }

@@ -10,10 +10,11 @@ use crate::event::{Event, state};
 use crate::friction::{ContactForce, Contacts};
 use crate::methods::{MAX_STAGES, Method};
 use crate::piece::{Ends, Piece};
+use crate::simulation::{Callbacks, Of, Resumed, Settings};
 use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, bring};
 use crate::{
-    Alongside, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, State,
-    Stepper, System, Vector, Warning,
+    Alongside, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, Simulation,
+    State, Stepper, System, Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -36,6 +37,9 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) statistics: Statistics,
     pub(crate) warnings: Vec<Warning>,
     pub(crate) ending: Ending,
+    /// What the simulation was told, and the step with which it would have gone on.
+    pub(crate) settings: Settings,
+    pub(crate) next_step: f64,
     pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
     /// The states of the contacts, and since when.
     pub(crate) contacts: Vec<(f64, Contacts)>,
@@ -66,6 +70,9 @@ pub struct Statistics {
     /// The greatest that was left of the constraints after any step, relative to the size of their
     /// terms: see [`Stepper::constraint_residual`].
     pub constraint_residual: f64,
+    /// When the motion was first seen to be stiff, in s: when steps were held short by the stability of
+    /// the method and not by its accuracy. Never, if the method is implicit or has no test for it.
+    pub stiff_since: Option<f64>,
     /// Time on the clock, in s.
     pub seconds: f64,
 }
@@ -280,6 +287,66 @@ impl<M: Machine, L> Solution<M, L> {
     /// The state at the end.
     pub fn end(&self) -> &State<Coordinates<M>> {
         &self.end
+    }
+
+    /// A simulation that goes on with this run: the same machine, inputs, method, tolerances and end, and
+    /// the step that was next. Its start is given to [`run`](Simulation::run): [`end`](Self::end), or what
+    /// an impact makes of it. Events are functions that a run cannot keep, so they are stated again; the
+    /// one that ended this run is known by its name, and is not found again before its function has left
+    /// 0. Other inputs may be set before: a relay that has switched.
+    ///
+    /// Steps from one event to the next get no shorter than time can tell apart: bounces that would take less
+    /// than some 16 roundings of time are none, and the ball goes through the floor. A loop over impacts that
+    /// come to a rest has to end there by itself.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// use lagrangian::{Crossing, Ending, Simulation, State};
+    ///
+    /// // A ball falls from 2 m, and each bounce leaves it four fifths of its speed.
+    /// let ball = by_hand::ball();
+    /// let floor = |state: &State<[f64; 1]>| state.q[0];
+    /// let mut run = Simulation::new(&ball)
+    ///     .until(4.0)
+    ///     .until_event("the floor", Crossing::Falling, floor)
+    ///     .run(ball.start())?;
+    /// let mut bounces = 0;
+    /// while *run.ending() != Ending::End {
+    ///     bounces += 1;
+    ///     let mut start = *run.end();
+    ///     start.v[0] *= -0.8;
+    ///     run = run
+    ///         .resume()
+    ///         .until_event("the floor", Crossing::Falling, floor)
+    ///         .run(start)?;
+    /// }
+    /// // It falls for √(2h/g) = 0.6386 s, and each flight takes four fifths of the one before it.
+    /// assert_eq!((bounces, run.end().t), (6, 4.0));
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn resume<'a>(&self) -> Simulation<'a, M, L>
+    where
+        M::System: Clone,
+        L: Clone,
+    {
+        let mut settings = self.settings.clone();
+        if self.next_step > 0.0 && self.next_step.is_finite() {
+            settings.first_step = Some(self.next_step);
+        }
+        let event = match &self.ending {
+            Ending::Event(name) => Some(name.clone()),
+            _ => None,
+        };
+        Simulation {
+            of: Of::System(self.system.clone()),
+            law: self.law.clone(),
+            settings,
+            callbacks: Callbacks::default(),
+            resumed: Some(Resumed {
+                t: self.end.t,
+                event,
+            }),
+        }
     }
 
     /// How the run ended.

@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 mod implicitly;
 
+use core::fmt::{self, Display};
+
 use crate::balance::{Alongside, NoBalance};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
@@ -33,7 +35,10 @@ const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 
 /// How a machine's inputs are set while it runs.
 ///
-/// Must depend on its arguments alone: a step is tried more than once, and looks ahead.
+/// Must depend on its arguments alone: a step is tried more than once, and looks ahead. A law that
+/// reads a cell may change between steps, if the stepper is told
+/// ([`Stepper::inputs_changed`]): it goes on with the acceleration at the end of the last step, which
+/// is another one then.
 pub trait InputLaw<S: System> {
     /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
     /// before.
@@ -88,6 +93,10 @@ pub struct Tolerance<V> {
 }
 
 /// Why a step could not be taken. Coordinates are given by their index.
+///
+/// A [`Simulation`](crate::Simulation) says the same in the words of the machine
+#[cfg_attr(feature = "std", doc = "([`Error::of_step`](crate::Error::of_step)).")]
+#[cfg_attr(not(feature = "std"), doc = "(with the feature `std`).")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepError {
     /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
@@ -120,6 +129,12 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// The motion within the last step was asked for after [`Stepper::inputs_changed`], and the method
+    /// needs evaluations for it, which would not be those of that step. Ask before.
+    Changed {
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time, and its error is still too great.
     StepTooSmall {
         /// The coordinate with the greatest error.
@@ -130,6 +145,49 @@ pub enum StepError {
         step: f64,
     },
 }
+
+impl Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotFinite { coordinate, t } => write!(
+                f,
+                "the acceleration of coordinate number {} has no finite value at t = {t:e} s",
+                coordinate + 1
+            ),
+            Self::Singular { singular, t } => write!(f, "{singular}, at t = {t:e} s"),
+            Self::Inconsistent {
+                constraint,
+                residual,
+                t,
+            } => write!(
+                f,
+                "constraint number {} cannot be met near the state at t = {t:e} s: its residual is {residual:.1e} of \
+                 the size of its terms",
+                constraint + 1
+            ),
+            Self::NoRoom { t } => write!(
+                f,
+                "there is no room for the work on constraints, or for an implicit method, at t = {t:e} s"
+            ),
+            Self::Changed { t } => write!(
+                f,
+                "the motion before t = {t:e} s is to be looked at before the inputs are changed there"
+            ),
+            Self::StepTooSmall {
+                coordinate,
+                t,
+                step,
+            } => write!(
+                f,
+                "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {} is still too \
+                 great",
+                coordinate + 1
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StepError {}
 
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -173,6 +231,8 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     error_before: f64,
     work: Work,
     stiffness: Stiffness,
+    /// Whether the acceleration now has to be found again, since what it depends on has changed.
+    changed: bool,
     /// None in explicit methods.
     #[cfg(feature = "std")]
     implicit: Option<Box<Implicit>>,
@@ -255,6 +315,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             error_before: 1e-4,
             work: Work::default(),
             stiffness: Stiffness::default(),
+            changed: false,
             #[cfg(feature = "std")]
             implicit,
         };
@@ -469,6 +530,57 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.longest = step;
     }
 
+    /// Says that the accelerations are others from now on, at the same state: because the law of the
+    /// inputs reads a cell that was written, or a system by hand has cells of its own. The next step
+    /// begins with a new evaluation, and forgets the derivatives that an implicit method has kept.
+    ///
+    /// The last step stays what it was: [`glance`](Self::glance), [`a`](Self::a) and
+    /// [`inputs`](Self::inputs) are of before until the next one is taken. A [`piece`](Self::piece) of it has
+    /// to be taken before, if the method needs evaluations for it, and is an error after.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// # use by_hand::Toy;
+    /// use lagrangian::{InputFunction, METHODS, NoBalance, Stepper, Tolerance};
+    /// use std::cell::Cell;
+    ///
+    /// // A mass of 1 kg that a force pushes: x'' = u.
+    /// let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
+    /// let force = Cell::new(1.0);
+    /// let law = InputFunction(|_, _: &[f64; 1], _: &[f64; 1], u: &mut f64| *u = force.get());
+    /// let tolerance = Tolerance { relative: 1e-9, absolute: [1e-9] };
+    /// let start = (0.0, [0.0], [0.0]);
+    /// let mut stepper = Stepper::new(&mass, law, NoBalance, &METHODS[0], tolerance, start, 1.0)?;
+    /// while !stepper.is_done() {
+    ///     stepper.step()?;
+    /// }
+    /// // From 1 s on it is braked; at 2 s it is at rest, 1 m from where it was.
+    /// force.set(-1.0);
+    /// stepper.inputs_changed();
+    /// stepper.set_end(2.0);
+    /// while !stepper.is_done() {
+    ///     stepper.step()?;
+    /// }
+    /// assert!((stepper.q()[0] - 1.0).abs() < 1e-14 && stepper.v()[0].abs() < 1e-14);
+    /// # Ok::<(), lagrangian::StepError>(())
+    /// ```
+    pub fn inputs_changed(&mut self) {
+        self.changed = true;
+    }
+
+    /// Puts another law of the same kind in the place of the one that sets the inputs, from now on; see
+    /// [`inputs_changed`](Self::inputs_changed).
+    pub fn set_law(&mut self, law: L) {
+        self.model.law = law;
+        self.changed = true;
+    }
+
+    /// Goes on to another end, later or earlier than now.
+    pub fn set_end(&mut self, end: f64) {
+        self.end = end;
+        self.step = self.step.abs().copysign(end - self.now.t);
+    }
+
     /// Takes the last step back, and makes `end` the end of the run: to end a run at an event
     /// within that step.
     ///
@@ -480,14 +592,49 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             self.now.copy_from(&self.before);
             self.alongside.retreat(self.method.tableau.a[stages]);
             self.work.steps -= 1;
+            // It was short enough.
+            self.step = self.last_step;
         }
         self.end = end;
+    }
+
+    /// Finds the acceleration now once more, where what it depends on has changed.
+    #[cold]
+    fn look_again(&mut self) -> Result<(), StepError> {
+        let Self {
+            model,
+            alongside,
+            now,
+            k,
+            newest,
+            work,
+            ..
+        } = self;
+        let at = (now.t, &now.q, &now.v);
+        if model.system.contacts().len() != 0 {
+            let Model { law, inputs, .. } = model;
+            law.set(model.system, now.t, &now.q, &now.v, inputs);
+            let contacts = Contacts::begin(model.system, now.t, &now.q, &now.v, inputs)?;
+            model.contacts = Some(contacts);
+        }
+        model.accelerations(at.0, at.1, at.2, &mut k[*newest], work)?;
+        model.take_rates(alongside, 0, (at.0, at.1, at.2, &k[*newest]));
+        self.error_before = 1e-4;
+        #[cfg(feature = "std")]
+        if let Some(implicit) = &mut self.implicit {
+            implicit.forget();
+        }
+        self.changed = false;
+        Ok(())
     }
 
     /// Takes one step. It ends at the end of the run, or short of it.
     pub fn step(&mut self) -> Result<(), StepError> {
         if self.is_done() {
             return Ok(());
+        }
+        if self.changed {
+            self.look_again()?;
         }
         if self.work.steps == 0 && self.step == 0.0 {
             self.step = self.first_step();
@@ -554,6 +701,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     /// others. The polynomials are on constraints at the ends of the step, and between them as
     /// exactly as the method is; [`bring`](Self::bring) does the rest.
     pub fn piece(&mut self) -> Result<Piece<S::Vector>, StepError> {
+        let needs_evaluations = self.method.scheme.length > self.method.tableau.stages + 1;
+        if self.changed && needs_evaluations {
+            return Err(StepError::Changed { t: self.now.t });
+        }
         Piece::new(
             self.method,
             &Ends {

@@ -289,7 +289,8 @@ pub trait System {
 }
 
 /// Equations of motion that know how their accelerations change with the state: what linearization
-/// and implicit methods need.
+/// needs, as about an equilibrium. Implicit methods do without it: they take differences of the
+/// accelerations that a run evaluates, in whatever way constraints and contacts make these.
 ///
 /// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
 /// interpreter for every machine.

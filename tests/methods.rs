@@ -5,7 +5,7 @@
 mod by_hand;
 
 use by_hand::toy::{Toy, oscillator};
-use lagrangian::methods::Tableau;
+use lagrangian::methods::{MethodError, Tableau, Tree as Rooted, Weights};
 use lagrangian::{
     DefaultInputs, InputFunction, InputLaw, METHODS, Method, NoBalance, Simulation, Stepper,
     Tolerance,
@@ -381,4 +381,380 @@ fn dense_weights(tableau: &Tableau, theta: f64) -> Vec<f64> {
 fn there_are_as_many_trees_as_cayley_counted() {
     let counts: Vec<usize> = (1..=8).map(|n| trees(n).len()).collect();
     assert_eq!(counts, [1, 1, 2, 4, 9, 20, 48, 115]);
+}
+
+#[test]
+fn the_trees_of_a_check_are_all_trees() {
+    for vertices in 1..=8 {
+        let counted: Vec<Rooted> = Rooted::of(vertices).collect();
+        let expected = trees(u32::try_from(vertices).unwrap());
+        assert_eq!(counted.len(), expected.len());
+        // As many densities of each value.
+        let mut densities: Vec<f64> = counted.iter().map(Rooted::density).collect();
+        let mut exact: Vec<f64> = expected.iter().map(Tree::density).collect();
+        densities.sort_by(f64::total_cmp);
+        exact.sort_by(f64::total_cmp);
+        assert_eq!(densities, exact);
+        for (i, tree) in counted.iter().enumerate() {
+            assert_eq!(tree.vertices(), vertices);
+            assert!(!counted[..i].contains(tree), "{tree}");
+        }
+    }
+    // A. Cayley's counts go on.
+    assert_eq!([9, 10, 12].map(|n| Rooted::of(n).count()), [286, 719, 4766]);
+    assert_eq!(Rooted::of(0).count() + Rooted::of(17).count(), 0);
+    assert_eq!(
+        Rooted::of(3)
+            .map(|tree| tree.to_string())
+            .collect::<Vec<_>>(),
+        ["[[[]]]", "[[][]]"]
+    );
+}
+
+/// The tableau of a method, to be changed.
+fn copy(tableau: &Tableau) -> Tableau {
+    Tableau {
+        coarse_error: tableau.coarse_error,
+        spectrum: tableau.spectrum,
+        ..*tableau
+    }
+}
+
+/// Why a tableau is refused, if it is.
+fn refused(tableau: Tableau) -> Option<MethodError> {
+    Method::try_new(tableau).err()
+}
+
+fn changed(row: &[f64], entry: usize, by: f64) -> &'static [f64] {
+    let mut row = row.to_vec();
+    row[entry] += by;
+    row.leak()
+}
+
+fn with_row(
+    rows: &[&'static [f64]],
+    index: usize,
+    row: &'static [f64],
+) -> &'static [&'static [f64]] {
+    let mut rows = rows.to_vec();
+    rows[index] = row;
+    rows.leak()
+}
+
+#[test]
+fn every_method_of_the_list_is_what_it_says() {
+    for method in &METHODS {
+        method.check().unwrap();
+        assert!(Method::try_new(copy(&method.tableau)).is_ok());
+    }
+}
+
+#[test]
+fn a_tableau_with_any_one_coefficient_changed_is_refused() {
+    // By 10⁻⁹ of what it is: less than any coefficient is known to, more than rounding.
+    for method in &METHODS {
+        let tableau = &method.tableau;
+        let name = tableau.name;
+        for (i, row) in tableau.a.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate().filter(|(_, entry)| **entry != 0.0) {
+                let by = 1e-9 * entry;
+                let a = with_row(tableau.a, i, changed(row, j, by));
+                let wrong = refused(Tableau { a, ..copy(tableau) });
+                match wrong {
+                    Some(MethodError::Node { row, .. }) => assert_eq!(row, i, "{name}"),
+                    // The copy of the last row in implicit methods.
+                    Some(MethodError::Field { field: "a", .. }) => {}
+                    other => panic!("{name} a[{i}][{j}]: {other:?}"),
+                }
+                // With the row's sum kept only an order condition can tell.
+                let Some(k) = (0..row.len()).find(|k| *k != j && row[*k] != 0.0) else {
+                    continue;
+                };
+                let by = 1e-5 * entry;
+                let a = with_row(tableau.a, i, changed(changed(row, j, by), k, -by));
+                let wrong = refused(Tableau { a, ..copy(tableau) });
+                assert!(
+                    matches!(
+                        wrong,
+                        Some(MethodError::Order { .. } | MethodError::Field { .. })
+                    ),
+                    "{name} a[{i}][{j}], a[{i}][{k}]: {wrong:?}"
+                );
+            }
+        }
+        for (i, node) in tableau.c.iter().enumerate() {
+            let c = changed(tableau.c, i, 1e-9 * node.max(0.1));
+            let wrong = refused(Tableau { c, ..copy(tableau) });
+            let is_refused = matches!(
+                wrong,
+                Some(MethodError::Node { row, .. }) if row == i
+            ) || matches!(
+                wrong,
+                Some(MethodError::Field {
+                    field: "c" | "stability",
+                    ..
+                })
+            );
+            assert!(is_refused, "{name} c[{i}]: {wrong:?}");
+        }
+        let weights = |row: &'static [f64]| {
+            let entries = row.iter().enumerate().filter(|(_, entry)| **entry != 0.0);
+            entries
+                .map(|(j, entry)| changed(row, j, 1e-9 * entry))
+                .collect::<Vec<_>>()
+        };
+        for error in weights(tableau.error) {
+            let wrong = refused(Tableau {
+                error,
+                ..copy(tableau)
+            });
+            let is_refused = matches!(
+                wrong,
+                Some(
+                    MethodError::Order {
+                        weights: Weights::Error,
+                        ..
+                    } | MethodError::ErrorPower { .. }
+                )
+            );
+            assert!(is_refused, "{name}: {wrong:?}");
+        }
+        for coarse in tableau.coarse_error.into_iter().flat_map(weights) {
+            let wrong = refused(Tableau {
+                coarse_error: Some(coarse),
+                ..copy(tableau)
+            });
+            assert!(
+                matches!(wrong, Some(MethodError::ErrorPower { stated: 8, .. })),
+                "{wrong:?}"
+            );
+        }
+        for (i, row) in tableau.dense.iter().enumerate() {
+            for row in weights(row) {
+                let dense = with_row(tableau.dense, i, row);
+                let wrong = refused(Tableau {
+                    dense,
+                    ..copy(tableau)
+                });
+                assert!(
+                    matches!(
+                        wrong,
+                        Some(MethodError::Order {
+                            weights: Weights::Dense(_),
+                            ..
+                        })
+                    ),
+                    "{name}: {wrong:?}"
+                );
+            }
+        }
+        let higher = Tableau {
+            order: tableau.order + 1,
+            ..copy(tableau)
+        };
+        assert!(Method::try_new(higher).is_err(), "{name}");
+        let denser = Tableau {
+            dense_order: tableau.dense_order + 1,
+            ..copy(tableau)
+        };
+        assert!(Method::try_new(denser).is_err(), "{name}");
+    }
+}
+
+#[test]
+fn a_spectrum_that_is_not_that_of_the_stages_is_refused() {
+    let radau = &Method::named("radau5").unwrap().tableau;
+    let spectrum = radau.spectrum.unwrap();
+    let mut wrong = vec![spectrum; 5];
+    wrong[0].real += 1e-9;
+    wrong[1].complex[1] += 1e-9;
+    wrong[2].left_of_real[1] += 1e-9;
+    wrong[3].right_of_complex[0][1] += 1e-9;
+    wrong[4].left_of_complex = spectrum.left_of_complex.map(|w| w.map(|x| 2.0 * x));
+    for spectrum in wrong {
+        let tableau = Tableau {
+            spectrum: Some(spectrum),
+            ..copy(radau)
+        };
+        let refused = refused(tableau);
+        assert!(
+            matches!(refused, Some(MethodError::Spectrum { .. })),
+            "{refused:?}"
+        );
+    }
+}
+
+#[test]
+fn a_tableau_of_a_wrong_shape_is_refused_in_words() {
+    let euler = || Tableau {
+        name: "heun",
+        title: "Heun 2(1)",
+        order: 2,
+        error_power: 2,
+        dense_order: 2,
+        stages: 2,
+        c: &[0.0, 1.0, 1.0],
+        a: &[&[], &[1.0], &[0.5, 0.5]],
+        error: &[-0.5, 0.5],
+        coarse_error: None,
+        dense: &[],
+        step_change: (0.2, 5.0),
+        smoothing: 0.0,
+        stability: None,
+        spectrum: None,
+    };
+    assert!(Method::try_new(euler()).is_ok());
+    let long: &'static [&'static [f64]] = vec![&[0.0_f64; 3] as &[f64]; 20].leak();
+    let cases: Vec<(Tableau, &str)> = vec![
+        // Weights that sum to 2.
+        (
+            Tableau {
+                a: &[&[], &[1.0], &[1.0, 1.0]],
+                ..euler()
+            },
+            "row 2 of `a` adds up to 2, and its node `c` is 1",
+        ),
+        (
+            Tableau {
+                a: &[&[], &[0.5, 0.5], &[0.5, 0.5]],
+                ..euler()
+            },
+            "row 1 of `a`",
+        ),
+        (
+            Tableau {
+                a: &[&[], &[f64::NAN], &[0.5, 0.5]],
+                ..euler()
+            },
+            "row 1 of `a`",
+        ),
+        (
+            Tableau {
+                a: &[&[], &[1.0]],
+                ..euler()
+            },
+            "`a` must be",
+        ),
+        (Tableau { a: &[], ..euler() }, "`a` must be"),
+        (
+            Tableau { a: long, ..euler() },
+            "`a` must be at most 16 rows",
+        ),
+        (
+            Tableau {
+                c: &[0.0, 1.0],
+                ..euler()
+            },
+            "`c` must be as long",
+        ),
+        (
+            Tableau {
+                c: &[0.1, 1.0, 1.0],
+                ..euler()
+            },
+            "`c` must be 0",
+        ),
+        (
+            Tableau {
+                stages: 0,
+                ..euler()
+            },
+            "`stages`",
+        ),
+        (
+            Tableau {
+                stages: usize::MAX,
+                ..euler()
+            },
+            "`a`",
+        ),
+        (
+            Tableau {
+                order: 0,
+                ..euler()
+            },
+            "`order`",
+        ),
+        (
+            Tableau {
+                order: u32::MAX,
+                ..euler()
+            },
+            "`order`",
+        ),
+        (
+            Tableau {
+                dense_order: u32::MAX,
+                ..euler()
+            },
+            "`dense_order`",
+        ),
+        (
+            Tableau {
+                dense_order: 3,
+                ..euler()
+            },
+            "dense output",
+        ),
+        (
+            Tableau {
+                error_power: u32::MAX,
+                ..euler()
+            },
+            "`error`",
+        ),
+        (
+            Tableau {
+                error: &[0.0; 2],
+                ..euler()
+            },
+            "estimates nothing",
+        ),
+        (
+            Tableau {
+                error: &[0.5; 4],
+                ..euler()
+            },
+            "row 0 of `error`",
+        ),
+        (
+            Tableau {
+                dense: &[&[0.0; 4]],
+                ..euler()
+            },
+            "row 0 of `dense`",
+        ),
+        (
+            Tableau {
+                step_change: (1.0, 0.5),
+                ..euler()
+            },
+            "`step_change`",
+        ),
+        (
+            Tableau {
+                smoothing: f64::NAN,
+                ..euler()
+            },
+            "`smoothing`",
+        ),
+        (
+            Tableau {
+                stability: Some(-1.0),
+                ..euler()
+            },
+            "`stability`",
+        ),
+        (
+            Tableau {
+                a: &[&[], &[1.0], &[0.25, 0.75]],
+                ..euler()
+            },
+            "the condition of order 2 with the tree [[]]: Σ b Φ is 0.75, and must be 0.5",
+        ),
+    ];
+    for (tableau, words) in cases {
+        let error = Method::try_new(tableau).unwrap_err().to_string();
+        assert!(error.contains(words), "{error} — {words}");
+    }
 }

@@ -7,9 +7,10 @@ use by_hand::as_list::AsList;
 use by_hand::double_pendulum::DoublePendulum;
 use by_hand::toy::{Toy, oscillator};
 use lagrangian::{
-    DefaultInputs, Ending, Machine, Method, NoBalance, Simulation, Solution, Stepper, System,
-    Tolerance,
+    DefaultInputs, Ending, EnergyIntegrals, InputFunction, METHODS, Machine, Method, NoBalance,
+    Simulation, Singular, Solution, StepError, Stepper, System, Tolerance,
 };
+use std::cell::Cell;
 use std::error::Error;
 
 #[test]
@@ -232,5 +233,131 @@ fn interpreted_vectors_run_like_arrays() {
     assert_eq!(
         (stepper.q()[0], stepper.v()[0]),
         (run.end().q[0], run.end().v[0])
+    );
+}
+
+#[test]
+fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
+    // x'' = u with u = 1, −2, 3, …, each for a tenth of a second: parabolas, exact by every method. The
+    // law reads a cell.
+    let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
+    let mass = Toy {
+        work_rate: |_, _, v, u, _| u * v[0],
+        ..mass
+    };
+    for method in &METHODS {
+        let force = Cell::new(1.0);
+        let law = InputFunction(|_, _: &[f64; 1], _: &[f64; 1], u: &mut f64| *u = force.get());
+        let tolerance = Tolerance {
+            relative: 1e-9,
+            absolute: [1e-9],
+        };
+        let (start, balance) = ((0.0, [0.0], [0.0]), EnergyIntegrals::default());
+        let mut stepper = Stepper::new(&mass, law, balance, method, tolerance, start, 0.0).unwrap();
+        let (mut x, mut v) = (0.0_f64, 0.0_f64);
+        for tenth in 1..=20_i32 {
+            let u = f64::from(tenth) * if tenth % 2 == 0 { -1.0 } else { 1.0 };
+            force.set(u);
+            stepper.inputs_changed();
+            // The last step was made with what was before; who needs evaluations to look into it is told.
+            let piece = stepper.piece();
+            match method.tableau.a.len() > method.tableau.stages + 1 {
+                true => assert!(matches!(piece, Err(StepError::Changed { .. }))),
+                false => assert!(piece.is_ok()),
+            }
+            stepper.set_end(0.1 * f64::from(tenth));
+            let mut t = stepper.t();
+            while !stepper.is_done() {
+                stepper.step().unwrap();
+                let h = stepper.t() - t;
+                (x, v, t) = (x + h * (v + 0.5 * h * u), v + h * u, stepper.t());
+                let name = method.tableau.name;
+                // 20 pieces of up to 20 m/s².
+                let limit = 20.0 * 20.0 * 8.0 * f64::EPSILON;
+                assert!((stepper.q()[0] - x).abs() <= limit, "{name} {t}");
+                assert!((stepper.v()[0] - v).abs() <= limit, "{name} {t}");
+                assert_eq!(stepper.a_before(), &[u], "{name} {t}");
+            }
+        }
+        // Work becomes kinetic energy.
+        let work = stepper.alongside().work();
+        assert!(
+            (work - 0.5 * v * v).abs() <= 1e-11,
+            "{}",
+            method.tableau.name
+        );
+    }
+}
+
+#[test]
+fn a_step_that_is_taken_back_before_a_change_is_taken_with_it() {
+    let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
+    let law =
+        |force: f64| InputFunction(move |_, _: &[f64; 1], _: &[f64; 1], u: &mut f64| *u = force);
+    for method in &METHODS {
+        let tolerance = Tolerance {
+            relative: 1e-9,
+            absolute: [1e-9],
+        };
+        let start = (0.0, [0.0], [0.0]);
+        let mut stepper =
+            Stepper::new(&mass, law(1.0), NoBalance, method, tolerance, start, 1.0).unwrap();
+        stepper.set_first_step(1.0);
+        stepper.step().unwrap();
+        stepper.set_law(law(-4.0));
+        stepper.retreat(1.0);
+        while !stepper.is_done() {
+            stepper.step().unwrap();
+        }
+        let x = stepper.q()[0];
+        let name = method.tableau.name;
+        assert!((x + 2.0).abs() <= 64.0 * f64::EPSILON, "{name} {x}");
+    }
+}
+
+#[test]
+fn errors_are_told_by_the_names_of_what_was_called() {
+    let toy = oscillator();
+    for bad in [0.0, -1.0, f64::NAN, 1.0] {
+        let refused = Simulation::new(&toy)
+            .tolerance(bad)
+            .until(1.0)
+            .run(toy.start());
+        let error = refused.unwrap_err().to_string();
+        assert!(error.starts_with("`tolerance("), "{error}");
+    }
+    let refused = Simulation::new(&toy)
+        .tolerance(-1.0)
+        .relative(1e-6)
+        .until(1.0)
+        .run(toy.start());
+    assert!(
+        refused
+            .unwrap_err()
+            .to_string()
+            .starts_with("`absolute(-1)`")
+    );
+    // In as many digits as it takes.
+    let error = Simulation::new(&toy)
+        .until(1e300)
+        .max_steps(10)
+        .run(toy.start())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("of 1e300 s") && error.len() < 200, "{error}");
+}
+
+#[test]
+fn an_error_of_a_step_is_an_error() {
+    fn fails() -> Result<(), Box<dyn Error>> {
+        Err(StepError::Singular {
+            singular: Singular::new(1, 0.0, 2.0),
+            t: 0.5,
+        })?
+    }
+    let error = fails().unwrap_err().to_string();
+    assert!(
+        error.contains("coordinate number 2") && error.contains("5e-1 s"),
+        "{error}"
     );
 }

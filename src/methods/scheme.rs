@@ -15,7 +15,7 @@
 use super::{MAX_STAGES, Tableau};
 
 /// The most rows that dense output may have beyond its cubic.
-const MAX_DENSE: usize = 4;
+pub(super) const MAX_DENSE: usize = 4;
 
 /// A weighted sum of stages, for velocities and for positions.
 #[derive(Clone, Copy, Debug)]
