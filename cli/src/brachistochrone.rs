@@ -7,7 +7,6 @@ mod landscape;
 mod page;
 mod problem;
 
-use std::path::Path;
 use std::time::Instant;
 
 use lagrangian::brachistochrone::direct;
@@ -18,7 +17,7 @@ use lagrangian_symbolic::Dag;
 
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart, keep_document_apart};
 use crate::reading::{self, Reading};
 use crate::table;
 use found::{Found, Motion};
@@ -29,8 +28,16 @@ use problem::Form;
 /// # Errors
 /// If the spec or the call is at fault, the machine does not meet the conditions, or there is no fastest motion.
 pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
+    let files = [
+        Destination::of("--out", call.out.as_ref(), TABLE)?,
+        Destination::of("--plot", call.plot.as_ref(), SVG)?,
+        Destination::of("--report", call.report.as_ref(), PAGE)?,
+    ];
+    let all = || files.iter().flatten();
+    keep_document_apart(all(), call.spec.json)?;
+    keep_apart(all(), &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, all())?;
     let start = call::Start {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
@@ -69,7 +76,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     let mut found = Found::new(motion, names, units, seconds);
     found.because = because;
     found.arrival = forward::arrival(call, &compiled.model.coordinates, &found);
-    write(call, &compiled, &machine, &found)?;
+    write(&files, &compiled, &machine, &found)?;
     match call.spec.json {
         true => output::line(format_args!("{:#}", found.document())),
         false => found.print(machine.name()),
@@ -79,25 +86,19 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
 
 /// The files that the call asks for.
 fn write(
-    call: &call::Brachistochrone,
+    [out, plot, report]: &[Option<Destination>; 3],
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
     found: &Found<'_, '_>,
 ) -> Result<(), Failure> {
-    let failed = |path: &Path, error: String| {
-        Failure::Call(format!("cannot write {}: {error}", path.display()))
-    };
-    if let Some(path) = &call.out {
-        table::write(&found.recording(), path).map_err(|error| failed(path, error.to_string()))?;
+    if let Some(file) = out {
+        table::write(&found.recording(), file)?;
     }
-    if let Some(path) = &call.plot {
-        let drawn = figures::svg(machine.name(), found)
-            .and_then(|text| std::fs::write(path, text).map_err(|error| error.to_string()));
-        drawn.map_err(|error| failed(path, error))?;
+    if let Some(file) = plot {
+        file.write_text(&figures::svg(machine.name(), found).map_err(Failure::Run)?)?;
     }
-    if let Some(path) = &call.report {
-        let page = page::page(found, compiled, machine)?;
-        std::fs::write(path, page).map_err(|error| failed(path, error.to_string()))?;
+    if let Some(file) = report {
+        file.write_text(&page::page(found, compiled, machine)?)?;
     }
     Ok(())
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use lagrangian::LEAST_RELATIVE_TOLERANCE;
 use lagrangian_symbolic::Rational;
 
 /// Machines written down as specs: their equations, their numbers, their motion.
@@ -31,6 +32,73 @@ pub enum Command {
     Modes(Modes),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
+}
+
+impl Command {
+    /// The spec that it is about.
+    pub fn spec(&self) -> &Spec {
+        match self {
+            Command::Check(call) => &call.spec,
+            Command::Derive(call) => &call.spec,
+            Command::Library(call) => &call.spec,
+            Command::Evaluate(call) => &call.spec,
+            Command::Simulate(call) => &call.spec,
+            Command::Modes(call) => &call.spec,
+            Command::Brachistochrone(call) => &call.spec,
+        }
+    }
+
+    /// Every name that the call gives a value, with the option that does it.
+    fn named<'a>(&'a self) -> Vec<(&'static str, &'a str)> {
+        let mut named = Vec::new();
+        let mut add = |option: &'static str, list: &'a [Assignment]| {
+            named.extend(list.iter().map(|set| (option, set.name.as_str())));
+        };
+        match self {
+            Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
+            Command::Evaluate(Evaluate { start, .. })
+            | Command::Simulate(Simulate { start, .. })
+            | Command::Modes(Modes { start, .. }) => {
+                add("--set", &start.parameters);
+                add("--start", &start.coordinates);
+                add("--rate", &start.rates);
+            }
+            Command::Brachistochrone(call) => {
+                add("--set", &call.parameters);
+                add("--from", &call.from);
+                add("--to", &call.to);
+            }
+        }
+        if let Command::Modes(call) = self {
+            named.extend(call.steady.iter().map(|s| ("--steady", s.name.as_str())));
+        }
+        let constants = self.spec().constants.iter();
+        named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
+        named
+    }
+}
+
+impl Call {
+    /// Whether nothing is said twice: neither of two values would be the one that is meant.
+    ///
+    /// # Errors
+    /// What is.
+    pub fn check(&self) -> Result<(), String> {
+        let mut named = self.command.named();
+        named.sort_unstable();
+        let twice = named.windows(2).find(|pair| pair[0] == pair[1]);
+        if let Some(&[(option, name), _]) = twice {
+            return Err(format!("{option} gives `{name}` a value more than once"));
+        }
+        if let Command::Library(call) = &self.command {
+            let mut lanes = call.lanes.clone();
+            lanes.sort_unstable();
+            if let Some(pair) = lanes.windows(2).find(|pair| pair[0] == pair[1]) {
+                return Err(format!("--lanes names {} more than once", pair[0]));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Which machine, of which size.
@@ -139,19 +207,22 @@ pub struct Simulate {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
-    /// Integrate to this time, in s.
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    /// Integrate to this time, in s; before 0 backward in time.
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
     /// Relative and absolute tolerance of each step.
-    #[arg(long, default_value_t = 1e-9, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
     /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
+    /// How many steps the run may take.
+    #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: usize,
     /// Record the motion at this interval, in s; without it, 1000 times.
-    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SECONDS", value_parser = interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Write the motion to a table: `.parquet`, or comma-separated text.
+    /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw the motion as SVG: coordinates, outputs, energies, and what is left over in their balance.
@@ -192,7 +263,7 @@ pub struct Brachistochrone {
     /// Take the values of `--from` and `--to` as normal coordinates, in the order of the coordinates.
     #[arg(long)]
     pub natural: bool,
-    /// Write the motion to a table: `.parquet`, or comma-separated text.
+    /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Draw as SVG the way, the power of friction, and the control forces.
@@ -231,18 +302,16 @@ pub struct Assignment {
     pub value: f64,
 }
 
-/// Reads `name=value`; the value is a number, or a product or quotient of numbers and `pi`: `50*pi`, `-pi/2`.
+/// Reads `name=value`; for the value see [`number`].
 fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
-    let (name, value) = (name.trim(), value.trim());
+    let name = name.trim();
     if name.is_empty() {
         return Err("expected a name before `=`".into());
     }
-    let value = number(value)
-        .ok_or_else(|| format!("`{value}` is not a number (as in 2.5, 1e-3, 50*pi, -pi/2)"))?;
     Ok(Assignment {
         name: name.into(),
-        value,
+        value: number(value)?,
     })
 }
 
@@ -253,8 +322,12 @@ fn constant(text: &str) -> Result<(String, Rational), String> {
         Some(digits) => (Rational::from(-1), digits),
         None => (Rational::ONE, value.trim()),
     };
+    let name = name.trim();
+    if name.is_empty() {
+        return Err("expected a name before `=`".into());
+    }
     match Rational::parse_decimal(digits) {
-        Some(value) => Ok((name.trim().to_owned(), &value * &sign)),
+        Some(value) => Ok((name.to_owned(), &value * &sign)),
         None => Err(format!("`{value}` is not a number (as in 8, 2.5, 1e-3)")),
     }
 }
@@ -269,8 +342,53 @@ fn lanes(text: &str) -> Result<u8, String> {
     }
 }
 
-fn number(text: &str) -> Option<f64> {
+/// Reads a tolerance: as small as it is, rounding must be smaller.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = number(text)?;
+    let least = LEAST_RELATIVE_TOLERANCE;
+    match tolerance {
+        _ if tolerance <= 0.0 => Err("a tolerance is greater than 0".into()),
+        _ if tolerance < least => Err(format!(
+            "numbers have no more digits than a tolerance of {least:.1e} asks for"
+        )),
+        _ if tolerance >= 1.0 => Err("a tolerance is less than 1".into()),
+        _ => Ok(tolerance),
+    }
+}
+
+/// Reads the time from one record to the next.
+fn interval(text: &str) -> Result<f64, String> {
+    let interval = number(text)?;
+    match interval > 0.0 {
+        true => Ok(interval),
+        false => Err("an interval is greater than 0".into()),
+    }
+}
+
+/// Reads how many steps there may be.
+fn steps(text: &str) -> Result<usize, String> {
+    // `1e8` is as good as all its zeros.
+    let steps = number(text)?;
+    match (1.0..=1e15).contains(&steps) && steps.fract() == 0.0 {
+        true => Ok(steps as usize),
+        false => Err("expected a whole number from 1 to 1e15".into()),
+    }
+}
+
+/// Reads a finite number, or a product or quotient of numbers and `pi`: `50*pi`, `-pi/2`.
+fn number(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let value = product(text)
+        .ok_or_else(|| format!("`{text}` is not a number (as in 2.5, 1e-3, 50*pi, -pi/2)"))?;
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(format!("`{text}` is not a finite number")),
+    }
+}
+
+fn product(text: &str) -> Option<f64> {
     let (sign, mut rest) = match text.strip_prefix('-') {
+        Some(rest) if rest.starts_with('-') => return None,
         Some(rest) => (-1.0, rest),
         None => (1.0, text),
     };
@@ -302,13 +420,78 @@ mod tests {
     #[test]
     fn values_may_hold_pi() {
         let pi = std::f64::consts::PI;
-        assert_eq!(number("50*pi"), Some(50.0 * pi));
-        assert_eq!(number("-pi/2"), Some(-pi / 2.0));
-        assert_eq!(number("2*pi/3"), Some(2.0 * pi / 3.0));
-        assert_eq!(number("1e-3"), Some(1e-3));
-        assert_eq!(number(""), None);
-        assert_eq!(number("2*"), None);
-        assert_eq!(number("two"), None);
+        assert_eq!(number("50*pi"), Ok(50.0 * pi));
+        assert_eq!(number("-pi/2"), Ok(-pi / 2.0));
+        assert_eq!(number("2*pi/3"), Ok(2.0 * pi / 3.0));
+        assert_eq!(number("1e-3"), Ok(1e-3));
+        for text in [
+            "",
+            "2*",
+            "two",
+            "nan",
+            "inf",
+            "-inf",
+            "1e999",
+            "1/0",
+            "0/0",
+            "1e300*1e300",
+            "--1",
+        ] {
+            assert!(number(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn settings_that_make_no_sense_are_refused() {
+        assert_eq!(tolerance("1e-9"), Ok(1e-9));
+        assert_eq!(tolerance("2.3e-15"), Ok(2.3e-15));
+        for text in ["0", "-1e-9", "1", "2", "1e-15", "1e-300", "nan"] {
+            assert!(tolerance(text).is_err(), "{text}");
+        }
+        assert_eq!(interval("0.001"), Ok(0.001));
+        for text in ["0", "-0", "-1", "inf", "nan"] {
+            assert!(interval(text).is_err(), "{text}");
+        }
+        assert_eq!(steps("1e8"), Ok(100_000_000));
+        for text in ["0", "-1", "1.5", "1e16", "nan"] {
+            assert!(steps(text).is_err(), "{text}");
+        }
+    }
+
+    fn checked(arguments: &[&str]) -> Result<(), String> {
+        let call = Call::try_parse_from([&["lagrangian"], arguments].concat());
+        call.map_err(|error| error.to_string())?.check()
+    }
+
+    #[test]
+    fn what_is_said_twice_is_an_error() {
+        let until = ["simulate", "a.machine", "--until", "1"];
+        for (first, second) in [
+            (["--set", "m=1"], ["--set", "m=2"]),
+            (["--set", "m=1"], ["--set", " m =1"]),
+            (["--const", "N=3"], ["--const", "N=4"]),
+            (["--start", "q[2]=3"], ["--start", "q[2]=4"]),
+            (["--rate", "q=3"], ["--rate", "q=4"]),
+            (["--out", "a.csv"], ["--out", "b.csv"]),
+            (["--tolerance", "1e-6"], ["--tolerance", "1e-7"]),
+            (["--max-steps", "6"], ["--max-steps", "7"]),
+        ] {
+            let once = [&until[..], &first].concat();
+            assert_eq!(checked(&once), Ok(()), "{first:?}");
+            let twice = [&once[..], &second].concat();
+            assert!(checked(&twice).is_err(), "{first:?} {second:?}");
+        }
+        // A coordinate and its rate are two things, and so are a family and a member.
+        let both = ["--start", "q=1", "--rate", "q=2", "--start", "q[2]=3"];
+        assert_eq!(checked(&[&until[..], &both].concat()), Ok(()));
+        let steady = ["modes", "a.machine", "--steady", "a=1", "--steady", "a"];
+        assert!(checked(&steady).is_err());
+        for option in ["--from", "--to"] {
+            let call = ["brachistochrone", "a.machine", option, "a=1,b=2,a=3"];
+            assert!(checked(&call).is_err());
+        }
+        let library = ["library", "a.machine", "--out", "a.so", "--lanes", "2,4,2"];
+        assert!(checked(&library).is_err());
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! `lagrangian derive`: the derived equations, or the code.
 
+use clap::ValueEnum;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::emit;
 use lagrangian_spec::emit::document::Document;
@@ -9,7 +10,9 @@ use serde_json::{Map, Value, json};
 
 use crate::call::{self, Form};
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{
+    self, Destination, Endings, PAGE, RUST, ending_is_one_of, keep_apart, keep_document_apart,
+};
 use crate::reading::Reading;
 
 /// Runs the command.
@@ -17,17 +20,17 @@ use crate::reading::Reading;
 /// # Errors
 /// If the spec is wrong or the file cannot be written.
 pub fn run(call: &call::Derive) -> Result<(), Failure> {
+    let out = destination(call)?;
+    keep_document_apart(&out, call.spec.json)?;
+    keep_apart(&out, &[(&call.spec.path, "the spec")])?;
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, &out)?;
     let text = text(&compiled, call);
-    if let Some(path) = &call.out {
-        let written = std::fs::write(path, &text);
-        written
-            .map_err(|error| Failure::Call(format!("cannot write {}: {error}", path.display())))?;
+    if let Some(file) = &out {
+        file.write_text(&text)?;
     }
     if call.spec.json {
-        let form = clap::ValueEnum::to_possible_value(&call.form);
-        let form = form.map_or_else(String::new, |form| form.get_name().to_owned());
+        let form = name(call.form);
         output::line(format_args!(
             "{:#}",
             json!({
@@ -41,6 +44,45 @@ pub fn run(call: &call::Derive) -> Result<(), Failure> {
         output::text(&text);
     }
     Ok(())
+}
+
+/// What `--as` calls a form.
+fn name(form: Form) -> String {
+    let form = clap::ValueEnum::to_possible_value(&form);
+    form.map_or_else(String::new, |form| form.get_name().to_owned())
+}
+
+/// Where the text goes. Its form is said by `--as`, and any ending will do, but for those of another form.
+fn destination(call: &call::Derive) -> Result<Option<Destination>, Failure> {
+    let Some(path) = &call.out else {
+        return Ok(None);
+    };
+    let others = Form::value_variants()
+        .iter()
+        .filter(|form| **form != call.form);
+    let of = |form: &&Form| ending_is_one_of(path, endings(**form));
+    if let Some(other) = others.into_iter().find(of) {
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        return Err(Failure::Call(format!(
+            "--out {}: `.{ending}` is for `--as {}`, and this is `--as {}`",
+            path.display(),
+            name(*other),
+            name(call.form)
+        )));
+    }
+    Destination::new("--out", path, &[]).map(Some)
+}
+
+/// The endings by which the files of a form are known.
+fn endings(form: Form) -> Endings {
+    match form {
+        Form::Markdown => &["md", "markdown"],
+        Form::Latex => &["tex", "latex"],
+        Form::Html => PAGE,
+        Form::Rust => RUST,
+        Form::C => &["c", "h"],
+        Form::Program => &[],
+    }
 }
 
 fn text(compiled: &Compiled, call: &call::Derive) -> String {

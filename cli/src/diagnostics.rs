@@ -8,6 +8,8 @@ use lagrangian_spec::diagnostic::{Diagnostic, Report};
 use lagrangian_spec::source::{Sources, Span};
 use serde::Serialize;
 
+use crate::output;
+
 /// One diagnostic in `check --json`.
 #[derive(Debug, Serialize)]
 pub struct Entry {
@@ -62,12 +64,12 @@ pub fn print(report: &Report, sources: &Sources) {
         Renderer::plain()
     };
     for diagnostic in report.diagnostics() {
-        eprintln!("{}\n", render(diagnostic, sources, &renderer));
+        output::complain(format_args!("{}\n", render(diagnostic, sources, &renderer)));
     }
     match report.diagnostics().len() + report.omitted() {
         0 => {}
-        1 => eprintln!("1 error"),
-        errors => eprintln!("{errors} errors"),
+        1 => output::complain("1 error"),
+        errors => output::complain(format_args!("{errors} errors")),
     }
 }
 

@@ -1,14 +1,15 @@
 //! `lagrangian evaluate`: numbers at given states.
 
-use std::collections::BTreeMap;
+mod points;
+
 use std::io::Read;
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, UnknownName};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
     ContactForce, Error, Machine, Pivot, State, StepError, System, contact_forces,
     least_multipliers,
 };
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::call;
@@ -16,38 +17,8 @@ use crate::contacts;
 use crate::failure::Failure;
 use crate::output;
 use crate::reading;
-
-/// A state at which numbers are asked for; whatever is left out takes its default.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Point {
-    #[serde(default)]
-    t: Option<f64>,
-    #[serde(default)]
-    q: Option<Numbers>,
-    #[serde(default)]
-    v: Option<Numbers>,
-    #[serde(default)]
-    parameters: BTreeMap<String, Entry>,
-    #[serde(default)]
-    inputs: BTreeMap<String, Entry>,
-}
-
-/// Coordinates in their order, or by name.
-#[derive(Debug, Deserialize)]
-#[serde(untagged)]
-enum Numbers {
-    List(Vec<f64>),
-    ByName(BTreeMap<String, Entry>),
-}
-
-/// A number, or those of a family.
-#[derive(Debug, Deserialize)]
-#[serde(untagged)]
-enum Entry {
-    One(f64),
-    Family(Vec<f64>),
-}
+pub use crate::reading::set_start;
+use points::{Entry, Numbers, Point};
 
 /// The numbers at a state.
 #[derive(Debug, Serialize)]
@@ -81,57 +52,34 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
     // A wrong name is a fault of the call, not of each point.
     set_start(&mut machine.start(), &call.start)?;
     let points = match &call.at {
-        None => vec![Value::Object(Map::new())],
+        None => vec![Ok(Point::default())],
         Some(path) => {
-            let text = if path.as_os_str() == "-" {
-                let mut text = String::new();
-                std::io::stdin().read_to_string(&mut text).map(|_| text)
-            } else {
-                std::fs::read_to_string(path)
+            let is_input = path.as_os_str() == "-";
+            let name = match is_input {
+                true => "standard input".to_owned(),
+                false => path.display().to_string(),
             };
-            let text = text.map_err(|error| {
-                Failure::Call(format!("cannot read {}: {error}", path.display()))
-            })?;
-            let points: Result<Vec<Value>, _> = serde_json::from_str(&text);
-            points.map_err(|error| {
-                Failure::Call(format!(
-                    "{} is no JSON list of points: {error}",
-                    path.display()
-                ))
-            })?
+            let text = match is_input {
+                true => {
+                    let mut text = String::new();
+                    std::io::stdin().read_to_string(&mut text).map(|_| text)
+                }
+                false => std::fs::read_to_string(path),
+            };
+            let text =
+                text.map_err(|error| Failure::Call(format!("cannot read {name}: {error}")))?;
+            points::read(&name, &text).map_err(Failure::Call)?
         }
     };
-    let results: Vec<Value> = points
-        .into_iter()
-        .map(|point| match at(&machine, &call.start, point) {
-            Ok(value) => value,
-            Err(error) => serde_json::json!({ "error": error }),
-        })
-        .collect();
-    output::line(format_args!("{:#}", Value::Array(results)));
+    let results = points.into_iter().map(|point| {
+        let result = point.and_then(|point| at(&machine, &call.start, point));
+        result.unwrap_or_else(|error| serde_json::json!({ "error": error }))
+    });
+    output::line(format_args!("{:#}", Value::Array(results.collect())));
     Ok(())
 }
 
-/// Applies `--start` and `--rate`.
-///
-/// # Errors
-/// If one names a coordinate that the machine does not have.
-pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Failure> {
-    for (assignments, numbers) in [
-        (&call.coordinates, &mut start.q),
-        (&call.rates, &mut start.v),
-    ] {
-        for set in assignments {
-            let unknown = |unknown: UnknownName| reading::name_error("coordinate", &unknown);
-            numbers.set(&set.name, set.value).map_err(unknown)?;
-        }
-    }
-    Ok(())
-}
-
-fn at(machine: &InterpretedMachine, start: &call::Start, point: Value) -> Result<Value, String> {
-    let point: Point =
-        serde_json::from_value(point).map_err(|error| format!("not a point: {error}"))?;
+fn at(machine: &InterpretedMachine, start: &call::Start, point: Point) -> Result<Value, String> {
     let mut machine = machine.clone();
     for (name, entry) in point.parameters.iter().chain(&point.inputs) {
         for (name, value) in named(name, entry) {
@@ -251,6 +199,25 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     }
     let mut contacts = contacts::forces(system, &multipliers);
     contacts.extend(sliding(system, (t, q, v, &u)));
+    let kinetic_energy = system.kinetic_energy(t, q, v);
+    let potential_energy = system.potential_energy(t, q, &u);
+    let dissipation = system.dissipation(t, q, v, &u);
+    // JSON has no word for what is greater than any number, and null would be read as nothing.
+    let all: [(&str, &[f64]); 8] = [
+        ("mass matrix", &matrix),
+        ("bias", &bias),
+        ("generalized force that is applied", &applied),
+        ("generalized force", &forces),
+        ("reaction", &reactions),
+        ("kinetic energy", &[kinetic_energy]),
+        ("potential energy", &[potential_energy]),
+        ("dissipation", &[dissipation]),
+    ];
+    for (name, values) in all {
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("the {name} is not finite here: {value}"));
+        }
+    }
     let result = Numbered {
         mass_matrix: matrix.chunks(n.max(1)).map(<[f64]>::to_vec).collect(),
         bias,
@@ -264,9 +231,9 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             .collect(),
         reactions,
         contacts,
-        kinetic_energy: system.kinetic_energy(t, q, v),
-        potential_energy: system.potential_energy(t, q, &u),
-        dissipation: system.dissipation(t, q, v, &u),
+        kinetic_energy,
+        potential_energy,
+        dissipation,
         outputs: outputs
             .iter()
             .map(|(name, value)| (name.to_owned(), value.into()))

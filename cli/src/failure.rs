@@ -1,13 +1,13 @@
 //! Why a command did not do what it was asked.
 
 use std::fmt::Display;
-use std::process::ExitCode;
 
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::Sources;
 use serde_json::json;
 
 use crate::diagnostics;
+use crate::interrupt;
 use crate::output;
 
 /// Why a command did not do what it was asked.
@@ -15,10 +15,12 @@ use crate::output;
 pub enum Failure {
     /// The spec is wrong.
     Spec(Box<(Report, Sources)>),
-    /// The machine or the run is at fault.
+    /// The machine or the run is at fault, or a file cannot be written.
     Run(String),
     /// As [`Failure::Run`], but everything was said already.
     Said,
+    /// The user ended it, and everything was said.
+    Interrupted,
     /// The call is at fault.
     Call(String),
 }
@@ -29,10 +31,20 @@ impl Failure {
         Failure::Run(error.to_string())
     }
 
-    /// Says why: for a reader on standard error, for a program on standard output.
-    pub fn report(self, json: bool) -> ExitCode {
+    /// Why, in one sentence, where that was not said before.
+    pub fn message(self) -> String {
+        match self {
+            Failure::Run(message) | Failure::Call(message) => message,
+            Failure::Spec(_) => "the spec is wrong".to_owned(),
+            Failure::Said | Failure::Interrupted => String::new(),
+        }
+    }
+
+    /// Says why: for a reader on standard error, for a program on standard output. Returns the exit status.
+    pub fn report(self, json: bool) -> u8 {
         let (status, message) = match self {
-            Failure::Said => return ExitCode::from(1),
+            Failure::Said => return 1,
+            Failure::Interrupted => return interrupt::STATUS,
             Failure::Spec(wrong) => {
                 let (report, sources) = *wrong;
                 if json {
@@ -43,7 +55,7 @@ impl Failure {
                     ));
                 }
                 diagnostics::print(&report, &sources);
-                return ExitCode::from(1);
+                return 1;
             }
             Failure::Run(message) => (1, message),
             Failure::Call(message) => (2, message),
@@ -51,7 +63,7 @@ impl Failure {
         if json {
             output::line(format_args!("{:#}", json!({ "error": message })));
         }
-        eprintln!("error: {message}");
-        ExitCode::from(status)
+        output::complain(format_args!("error: {message}"));
+        status
     }
 }

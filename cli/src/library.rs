@@ -3,26 +3,40 @@
 //! One file is compiled, by one call of `rustc` and without dependencies: the module of the machine, the exports
 //! (`library/export.rs`), and the parts of the crates `lagrangian-scalar` and `lagrangian-native` that it needs, as text.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use lagrangian_spec::diagnostic::nearest;
 use lagrangian_spec::emit;
 use lagrangian_spec::program::{LONGEST_SCHEDULED, Program, Slot};
+use lagrangian_symbolic::Dag;
 use serde_json::json;
 
 use crate::call;
 use crate::failure::Failure;
-use crate::output;
-use crate::reading;
+use crate::output::{self, Destination, LIBRARY, RUST, keep_apart, keep_document_apart};
+use crate::progress;
+use crate::reading::Reading;
 
 /// Runs the command.
 ///
 /// # Errors
 /// If the spec is wrong, a file cannot be written, or `rustc` is missing.
 pub fn run(call: &call::Library) -> Result<(), Failure> {
-    let program = reading::program(&call.spec)?;
+    let header = call.out.with_extension("h");
+    let of_library = Destination::new("--out", &call.out, LIBRARY)?;
+    let of_header = Destination::new("the header of --out", &header, &["h"])?;
+    let of_source = Destination::of("--source", call.source.as_ref(), RUST)?;
+    let files = || [&of_library, &of_header].into_iter().chain(&of_source);
+    keep_document_apart(files(), call.spec.json)?;
+    keep_apart(files(), &[(&call.spec.path, "the spec")])?;
+    check_processor(call)?;
+    let dag = Dag::new();
+    let reading = Reading::open(&call.spec)?;
+    let program = reading.compile_beside(&dag, files())?.program;
     if !program.contacts.is_empty() {
         return Err(Failure::run(
             "what sticks and slides has a state that a function of q and v alone does not know: a library of a machine with \
@@ -33,15 +47,14 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     lanes.sort_unstable();
     lanes.dedup();
     let source = source(&program, &lanes, call.straight);
-    if let Some(path) = &call.source {
-        write(path, &source)?;
+    if let Some(file) = &of_source {
+        file.write_text(&source)?;
     }
-    let header = call.out.with_extension("h");
-    write(
-        &header,
-        &self::header(&program, &lanes, &file_name(&call.spec.path)),
-    )?;
-    compile(&source, call)?;
+    progress::now("compiling the library");
+    let library = compile(&source, call)?;
+    of_library.write_executable(&library)?;
+    let text = self::header(&program, &lanes, &file_name(&call.spec.path));
+    of_header.write_text(&text)?;
     let Program {
         coordinates,
         parameters,
@@ -82,11 +95,6 @@ fn count(n: usize, what: &str) -> String {
 fn file_name(path: &Path) -> String {
     path.file_name()
         .map_or_else(String::new, |name| name.to_string_lossy().into_owned())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(path, text)
-        .map_err(|error| Failure::Call(format!("cannot write {}: {error}", path.display())))
 }
 
 /// The exports, and what stands beside them.
@@ -160,10 +168,67 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
     source
 }
 
-/// Calls `rustc`, or what `RUSTC` names.
-fn compile(source: &str, call: &call::Library) -> Result<(), Failure> {
-    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
-    let mut words = Command::new(&rustc);
+/// `rustc`, or what `RUSTC` names.
+fn rustc() -> OsString {
+    std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
+}
+
+fn missing(error: io::Error) -> Failure {
+    Failure::run(format!("cannot run {}: {error}", rustc().to_string_lossy()))
+}
+
+/// Refuses a processor that the compiler does not know: it would say so, and then compile for another.
+fn check_processor(call: &call::Library) -> Result<(), Failure> {
+    let asked = call.target_cpu.as_str();
+    if asked == "native" {
+        return Ok(());
+    }
+    let mut words = Command::new(rustc());
+    let output = words.args(["--print", "target-cpus"]).output();
+    let list = String::from_utf8_lossy(&output.map_err(missing)?.stdout).into_owned();
+    // A line for each, behind a title, with remarks behind some.
+    let lines = list.lines().skip(1);
+    let known: Vec<&str> = lines
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    // A compiler that lists none is not asked.
+    if known.is_empty() || known.contains(&asked) {
+        return Ok(());
+    }
+    let help = match nearest(asked, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? "),
+        None => String::new(),
+    };
+    Err(Failure::Call(format!(
+        "--target-cpu {asked}: rustc knows no processor of this name; {help}`rustc --print target-cpus` lists all, such as {}",
+        examples(&known).join(", ")
+    )))
+}
+
+/// Of the processors that a compiler knows a few that say much: levels of an architecture, where it has them, or the first.
+fn examples<'a>(known: &[&'a str]) -> Vec<&'a str> {
+    let levels = known
+        .iter()
+        .copied()
+        .filter(|name| name.starts_with("x86-64"));
+    let levels: Vec<&str> = std::iter::once("native")
+        .filter(|own| known.contains(own))
+        .chain(levels)
+        .collect();
+    match levels.len() {
+        0 | 1 => known.iter().copied().take(5).collect(),
+        _ => levels,
+    }
+}
+
+/// Calls the compiler; the bytes of the library.
+fn compile(source: &str, call: &call::Library) -> Result<Vec<u8>, Failure> {
+    let unkept =
+        |error: io::Error| Failure::run(format!("cannot keep the library for a while: {error}"));
+    let folder = tempfile::tempdir().map_err(unkept)?;
+    // Under its own name, which some systems write into it.
+    let library = folder.path().join(file_name(&call.out));
+    let mut words = Command::new(rustc());
     words.args([
         "--edition=2024",
         "--crate-type=cdylib",
@@ -181,14 +246,11 @@ fn compile(source: &str, call: &call::Library) -> Result<(), Failure> {
         words.args(["-C", option]);
     }
     words.arg(format!("-Ctarget-cpu={}", call.target_cpu));
-    words.arg("-o").arg(&call.out).arg("-");
+    words.arg("-o").arg(&library).arg("-");
     words
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
         .stderr(Stdio::piped());
-    let missing = |error: std::io::Error| {
-        Failure::run(format!("cannot run {}: {error}", rustc.to_string_lossy()))
-    };
     let mut child = words.spawn().map_err(missing)?;
     if let Some(mut input) = child.stdin.take() {
         // One that stops reading says why.
@@ -196,7 +258,7 @@ fn compile(source: &str, call: &call::Library) -> Result<(), Failure> {
     }
     let output = child.wait_with_output().map_err(missing)?;
     if output.status.success() {
-        return Ok(());
+        return std::fs::read(&library).map_err(unkept);
     }
     let said = String::from_utf8_lossy(&output.stderr);
     Err(Failure::run(format!(

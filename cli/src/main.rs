@@ -1,6 +1,7 @@
 //! The command `lagrangian`: one command for each question about a machine.
 //!
-//! Exit status 0 when all is well, 1 when the machine or the run is at fault, 2 when the call is.
+//! Exit status 0 when all is well, 1 when the machine or the run is at fault or a file cannot be written, 2 when the call is,
+//! 130 when the user ended a run, 141 when nobody reads standard output any more.
 
 mod brachistochrone;
 mod call;
@@ -10,36 +11,78 @@ mod derive;
 mod diagnostics;
 mod evaluate;
 mod failure;
+mod interrupt;
 mod library;
 mod modes;
 mod output;
 mod plot;
+mod progress;
 mod reading;
 mod recording;
 mod report;
 mod simulate;
 mod table;
 
+use std::io;
 use std::process::ExitCode;
 
 use clap::Parser;
 
 use call::{Call, Command};
+use failure::Failure;
+
+/// 128 and the number of SIGPIPE, by which other commands end that write to a closed pipe.
+const CLOSED_PIPE: u8 = 141;
 
 fn main() -> ExitCode {
-    let call = Call::parse();
-    let (json, result) = match &call.command {
-        Command::Check(call) => (call.spec.json, check::run(call)),
-        Command::Derive(call) => (call.spec.json, derive::run(call)),
-        Command::Library(call) => (call.spec.json, library::run(call)),
-        // Its result is JSON in any case.
-        Command::Evaluate(call) => (true, evaluate::run(call)),
-        Command::Simulate(call) => (call.spec.json, simulate::run(call)),
-        Command::Modes(call) => (call.spec.json, modes::run(call)),
-        Command::Brachistochrone(call) => (call.spec.json, brachistochrone::run(call)),
+    let status = match Call::try_parse() {
+        Ok(call) => answer(&call),
+        Err(message) => {
+            let printed = message.print();
+            // Help and version are results.
+            if !message.use_stderr() {
+                output::remember_result(printed);
+            }
+            message.exit_code() as u8 // 2, or 0
+        }
     };
+    progress::end();
+    let status = match output::finish() {
+        Ok(()) => status,
+        // Whoever closes the pipe (`| head`) has seen enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => match status {
+            0 => CLOSED_PIPE,
+            status => status,
+        },
+        Err(error) => {
+            output::complain(format_args!(
+                "error: cannot write to standard output: {error}"
+            ));
+            status.max(1)
+        }
+    };
+    ExitCode::from(status)
+}
+
+/// Does what is asked; the exit status.
+fn answer(call: &Call) -> u8 {
+    let spec = call.command.spec();
+    // The result of `evaluate` is JSON in any case.
+    let json = spec.json || matches!(call.command, Command::Evaluate(_));
+    progress::begin(json);
+    progress::now("deriving the equations");
+    let result = call.check().map_err(Failure::Call);
+    let result = result.and_then(|()| match &call.command {
+        Command::Check(call) => check::run(call),
+        Command::Derive(call) => derive::run(call),
+        Command::Library(call) => library::run(call),
+        Command::Evaluate(call) => evaluate::run(call),
+        Command::Simulate(call) => simulate::run(call),
+        Command::Modes(call) => modes::run(call),
+        Command::Brachistochrone(call) => brachistochrone::run(call),
+    });
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => failure.report(json),
     }
 }

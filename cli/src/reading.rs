@@ -1,16 +1,20 @@
 //! A spec from its file to its machine.
 
-use lagrangian::interpreted::{InterpretedMachine, UnknownName};
+use std::path::Path;
+
+use lagrangian::interpreted::{InterpretedMachine, Named, UnknownName};
+use lagrangian::{Machine, State};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::program::Program;
-use lagrangian_spec::source::{Disk, Files, Sources};
+use lagrangian_spec::source::{Disk, Files, SourceId, Sources};
 use lagrangian_spec::unit::Unit;
 use lagrangian_symbolic::{Dag, Rational};
 
-use crate::call;
+use crate::call::{self, Assignment};
 use crate::failure::Failure;
+use crate::output::{Destination, keep_apart};
 
 /// A spec that was read, and what is wrong with it.
 pub struct Reading {
@@ -87,10 +91,42 @@ impl Reading {
     ///
     /// # Errors
     /// If the spec is wrong.
-    pub fn compile(mut self, dag: &Dag) -> Result<Compiled<'_>, Failure> {
+    pub fn compile(self, dag: &Dag) -> Result<Compiled<'_>, Failure> {
+        self.compile_beside(dag, [])
+    }
+
+    /// The same for a command that writes files, which must not be among those that are read.
+    ///
+    /// # Errors
+    /// If the spec is wrong, or the call.
+    pub fn compile_beside<'d, 'a>(
+        mut self,
+        dag: &'d Dag,
+        destinations: impl IntoIterator<Item = &'a Destination>,
+    ) -> Result<Compiled<'d>, Failure> {
         let model = self.model(dag);
+        self.keep_from(destinations)?;
         let compiled = model.and_then(|model| Compiled::new(model, &mut self.report));
         compiled.ok_or_else(|| self.failure())
+    }
+
+    /// Refuses to write a file that the spec is made from: its own, or one that it extends. To be called when the model was
+    /// made, which reads these.
+    ///
+    /// # Errors
+    /// The call is at fault.
+    pub fn keep_from<'a>(
+        &self,
+        destinations: impl IntoIterator<Item = &'a Destination>,
+    ) -> Result<(), Failure> {
+        let spec = (Path::new(&self.name), "the spec");
+        let files = 0..self.sources.len();
+        let files = files.filter_map(|index| u16::try_from(index).ok());
+        let names = files.map(|index| self.sources.name(SourceId(index)));
+        let bases = names.filter(|name| **name != self.name);
+        let bases = bases.map(|name| (Path::new(name), "which the spec extends"));
+        let read: Vec<_> = std::iter::once(spec).chain(bases).collect();
+        keep_apart(destinations, &read)
     }
 
     /// What is wrong, as a failure.
@@ -111,23 +147,78 @@ pub fn program(spec: &call::Spec) -> Result<Program, Failure> {
 /// The machine with the parameters of a call.
 ///
 /// # Errors
-/// If the call names a parameter that the machine does not have.
+/// If the call names a parameter or a coordinate that the machine does not have.
 pub fn machine(program: Program, start: &call::Start) -> Result<InterpretedMachine, Failure> {
     let mut machine = InterpretedMachine::new(program);
-    for set in &start.parameters {
-        let unknown = |unknown: UnknownName| name_error("parameter or input", &unknown);
-        machine.set(&set.name, set.value).map_err(unknown)?;
+    for set in families_first(&start.parameters) {
+        if let Err(unknown) = machine.set(&set.name, set.value) {
+            let is_coordinate = is_named(&machine.start().q, &set.name);
+            let other = is_coordinate.then_some("it is a coordinate, which --start sets");
+            return Err(unknown_name("parameter or input", &unknown, other));
+        }
+    }
+    for set in start.coordinates.iter().chain(&start.rates) {
+        let mut coordinates = machine.start().q;
+        let Err(unknown) = coordinates.set(&set.name, set.value) else {
+            continue;
+        };
+        let rate = set.name.strip_prefix("der(");
+        let rate = rate.and_then(|name| name.strip_suffix(')'));
+        let is_parameter = machine.set(&set.name, set.value).is_ok();
+        let other = match rate.is_some_and(|name| is_named(&coordinates, name)) {
+            true => Some("--rate sets the rate of a coordinate, under the coordinate's name"),
+            false => is_parameter.then_some("it is a parameter or an input, which --set sets"),
+        };
+        return Err(unknown_name("coordinate", &unknown, other));
     }
     Ok(machine)
 }
 
+/// Applies `--start` and `--rate`.
+///
+/// # Errors
+/// If one names a coordinate that the machine does not have.
+pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Failure> {
+    for (assignments, numbers) in [
+        (&call.coordinates, &mut start.q),
+        (&call.rates, &mut start.v),
+    ] {
+        for set in families_first(assignments) {
+            let unknown = |unknown: UnknownName| name_error("coordinate", &unknown);
+            numbers.set(&set.name, set.value).map_err(unknown)?;
+        }
+    }
+    Ok(())
+}
+
+/// What is set for a whole family comes before what is set for a member, wherever the call says it.
+fn families_first(assignments: &[Assignment]) -> impl Iterator<Item = &Assignment> {
+    let of = |members: bool| {
+        let sets = assignments.iter();
+        sets.filter(move |set| set.name.contains('[') == members)
+    };
+    of(false).chain(of(true))
+}
+
+/// Whether there is a number of this name, or a family.
+fn is_named(numbers: &Named, name: &str) -> bool {
+    numbers.clone().set(name, 0.0).is_ok()
+}
+
 /// A name that does not exist, with the near one or all there are.
 pub fn name_error(what: &str, unknown: &UnknownName) -> Failure {
+    unknown_name(what, unknown, None)
+}
+
+/// The same; or with what is known of the name.
+fn unknown_name(what: &str, unknown: &UnknownName, other: Option<&str>) -> Failure {
+    let name = &unknown.name;
     let known = || unknown.known.iter().map(String::as_str);
-    let help = match lagrangian_spec::diagnostic::nearest(&unknown.name, known()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if unknown.known.is_empty() => "there are none".into(),
-        None => format!("there are: {}", unknown.known.join(", ")),
+    let help = match (other, lagrangian_spec::diagnostic::nearest(name, known())) {
+        (Some(other), _) => other.to_owned(),
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) if unknown.known.is_empty() => "there are none".into(),
+        (None, None) => format!("there are: {}", unknown.known.join(", ")),
     };
-    Failure::Call(format!("no {what} named `{}`; {help}", unknown.name))
+    Failure::Call(format!("no {what} named `{name}`; {help}"))
 }

@@ -1,12 +1,8 @@
 //! `lagrangian simulate`: the motion of a machine.
 
-use std::cell::Cell;
-use std::io::IsTerminal;
-
-use indicatif::{ProgressBar, ProgressStyle};
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{METHODS, Method};
-use lagrangian::{Energies, Error, Machine, Simulation, Solution, System};
+use lagrangian::{Ending, Energies, Error, Machine, Simulation, Solution, System};
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
@@ -15,7 +11,9 @@ use crate::call;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
-use crate::output;
+use crate::interrupt::Interrupt;
+use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
+use crate::progress;
 use crate::reading::{self, Reading};
 use crate::recording::{Column, Kind, Recording};
 use crate::report::{self, Report};
@@ -27,11 +25,70 @@ const SAMPLES: f64 = 1000.0;
 /// More rows than this are a slip of the hand: at nine coordinates they fill a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
 
-/// Ticks of the progress bar.
-const TICKS: u64 = 1000;
-
 /// A run of a machine read from a spec.
 pub type Run = Solution<InterpretedMachine>;
+
+/// The files that a call asks for.
+struct Files {
+    out: Option<Destination>,
+    plot: Option<Destination>,
+    report: Option<Destination>,
+}
+
+impl Files {
+    fn new(call: &call::Simulate) -> Result<Files, Failure> {
+        let files = Files {
+            out: Destination::of("--out", call.out.as_ref(), TABLE)?,
+            plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
+            report: Destination::of("--report", call.report.as_ref(), PAGE)?,
+        };
+        output::keep_document_apart(files.all(), call.spec.json)?;
+        keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
+        Ok(files)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Destination> {
+        [&self.out, &self.plot, &self.report].into_iter().flatten()
+    }
+}
+
+/// How a run ended that did not come to its end, and what could not be written of it.
+#[derive(Default)]
+struct Trouble<'a> {
+    /// What ended it.
+    error: Option<&'a Error>,
+    /// Whether the user did, by Ctrl-C.
+    is_interrupted: bool,
+    /// What is wrong beside that.
+    other: Vec<String>,
+}
+
+impl Trouble<'_> {
+    /// Everything that makes the exit status an error, each as a sentence.
+    fn errors(&self) -> Vec<String> {
+        let error = self.error.map(|error| match error {
+            // The library names its method.
+            Error::TooManySteps { steps, t, until } => format!(
+                "{steps} steps reach t = {t} s only, of {until} s: allow more by --max-steps, or raise the tolerance"
+            ),
+            error => error.to_string(),
+        });
+        error
+            .into_iter()
+            .chain(self.other.iter().cloned())
+            .collect()
+    }
+
+    /// That the user ended the run, in words.
+    fn interruption(&self, run: &Run, until: f64) -> Option<String> {
+        let t = run.end().t;
+        self.is_interrupted.then(|| {
+            format!(
+                "the run was interrupted at t = {t} s, of {until} s; everything here ends there"
+            )
+        })
+    }
+}
 
 /// Runs the command.
 ///
@@ -39,8 +96,9 @@ pub type Run = Solution<InterpretedMachine>;
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let method = method(&call.method)?;
+    let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, files.all())?;
     let machine = reading::machine(compiled.program.clone(), &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
@@ -51,30 +109,28 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
 
-    let recorded = call.out.is_some() || call.plot.is_some() || call.report.is_some();
+    let recorded = files.all().next().is_some();
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
-    let finer = match call.report {
+    let finer = match files.report {
         Some(_) => {
-            let shared = call.out.is_some() || call.plot.is_some();
+            let shared = files.out.is_some() || files.plot.is_some();
             report::finer(start.q.values.len(), call.until, interval, shared)
         }
         None => 1,
     };
     let contacts = Contacts::new(&compiled.model, &machine);
-    let bar = progress_bar(call.spec.json);
-    let shown = Cell::new(0);
+    let interrupt = Interrupt::watch();
+    progress::at(start.t, 0.0, 0);
+    progress::run(call.until);
     let mut simulation = Simulation::new(&machine)
         .tolerance(call.tolerance)
         .method(method)
         .until(call.until)
+        .max_steps(call.max_steps)
         .energy_balance(true)
         .forget_steps()
-        .progress(|progress| {
-            let ticks = (progress.fraction * TICKS as f64) as u64;
-            if ticks > shown.replace(ticks) {
-                bar.set_position(ticks);
-            }
-        });
+        .stop_if(|_| interrupt.came())
+        .progress(|now| progress::at(now.t, now.fraction, now.steps));
     if recorded && call.until != 0.0 {
         if call.until.abs() / interval.abs() > MOST_SAMPLES {
             return Err(Failure::Call(format!(
@@ -85,13 +141,19 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
     let simulation = contacts.watch(simulation);
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
-    bar.finish_and_clear();
+    let mut trouble = Trouble {
+        error: error.as_ref(),
+        is_interrupted: matches!(run.ending(), Ending::Stopped),
+        other: overflow(&run).into_iter().collect(),
+    };
     let contacts = contacts.found(&run);
 
     if recorded {
+        progress::now("writing");
         let recording = record(&run);
-        write(call, machine.name(), &recording.each(finer as usize))?;
-        if let Some(path) = &call.report {
+        let written = write(&files, machine.name(), &recording.each(finer as usize));
+        trouble.other.extend(written);
+        if let Some(file) = &files.report {
             let report = Report {
                 call,
                 compiled: &compiled,
@@ -102,26 +164,57 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
                 recording: &recording,
                 error: error.as_ref(),
             };
-            std::fs::write(path, report.page()).map_err(|error| {
-                Failure::Call(format!("cannot write {}: {error}", path.display()))
-            })?;
+            let written = file.write_text(&report.page());
+            trouble.other.extend(written.err().map(Failure::message));
         }
     }
+    let interruption = trouble.interruption(&run, call.until);
     if call.spec.json {
-        output::line(format_args!(
-            "{:#}",
-            document(&run, &contacts, error.as_ref())
-        ));
+        let document = document(&run, &contacts, &interruption, &trouble.errors());
+        output::line(format_args!("{document:#}"));
     } else {
         print_summary(&machine, method, &run, &contacts);
-    }
-    match error {
-        None => Ok(()),
-        Some(error) => {
-            eprintln!("error: {error}");
-            Err(Failure::Said)
+        if let Some(interruption) = &interruption {
+            output::line(format_args!("  {interruption}"));
         }
     }
+    let errors = trouble.errors();
+    for error in &errors {
+        output::complain(format_args!("error: {error}"));
+    }
+    match (errors.is_empty(), interruption) {
+        (false, _) => Err(Failure::Said),
+        (true, Some(_)) => Err(Failure::Interrupted),
+        (true, None) => Ok(()),
+    }
+}
+
+/// Whether an energy was greater than any number: then nothing is known of their balance.
+fn overflow(run: &Run) -> Option<String> {
+    let mut energies = run.energies().iter();
+    let is_finite = |e: &&Energies| {
+        [e.kinetic, e.potential, e.work, e.dissipated]
+            .iter()
+            .all(|x| x.is_finite())
+    };
+    let overflowed = energies.find(|e| !is_finite(e))?;
+    let Energies {
+        t,
+        kinetic,
+        potential,
+        work,
+        dissipated,
+    } = overflowed;
+    let named = [
+        ("kinetic energy", kinetic),
+        ("potential energy", potential),
+        ("work of drives and forces", work),
+        ("energy dissipated", dissipated),
+    ];
+    let (name, value) = named.into_iter().find(|(_, value)| !value.is_finite())?;
+    Some(format!(
+        "the {name} is not finite at t = {t} s ({value} J), so there is no balance of energy that could vouch for the run"
+    ))
 }
 
 fn method(name: &str) -> Result<&'static Method, Failure> {
@@ -138,6 +231,7 @@ fn method(name: &str) -> Result<&'static Method, Failure> {
 /// Settings are the fault of the call, everything else that of the machine or the run.
 fn cause(error: Error) -> Failure {
     match error {
+        // What the options have let pass.
         Error::InvalidSetting {
             setting,
             value,
@@ -155,31 +249,18 @@ fn cause(error: Error) -> Failure {
     }
 }
 
-fn progress_bar(json: bool) -> ProgressBar {
-    if json || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let style = ProgressStyle::with_template("{bar:50} {percent:>3} %  {elapsed} ({eta} left)");
-    let bar = ProgressBar::new(TICKS);
-    match style {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
-
-fn write(call: &call::Simulate, name: &str, recording: &Recording) -> Result<(), Failure> {
-    if let Some(path) = &call.out {
-        let written = table::write(recording, path);
-        written
-            .map_err(|error| Failure::Call(format!("cannot write {}: {error}", path.display())))?;
-    }
-    if let Some(path) = &call.plot {
+/// Writes table and drawing; what could not be written.
+fn write(files: &Files, name: &str, recording: &Recording) -> Vec<String> {
+    let table = files.out.as_ref().map(|file| table::write(recording, file));
+    let drawing = files.plot.as_ref().map(|file| {
         let svg = plot::svg(name, recording).map_err(Failure::Run)?;
-        let written = std::fs::write(path, svg);
-        written
-            .map_err(|error| Failure::Call(format!("cannot write {}: {error}", path.display())))?;
-    }
-    Ok(())
+        file.write_text(&svg)
+    });
+    let written = [table, drawing].into_iter().flatten();
+    written
+        .filter_map(Result::err)
+        .map(Failure::message)
+        .collect()
 }
 
 /// The samples of a run, with what can be observed at each.
@@ -293,7 +374,12 @@ fn by_name(numbers: &Named) -> Value {
     )
 }
 
-fn document(run: &Run, contacts: &[Found], error: Option<&Error>) -> Value {
+fn document(
+    run: &Run,
+    contacts: &[Found],
+    interruption: &Option<String>,
+    errors: &[String],
+) -> Value {
     let statistics = run.statistics();
     let end = run.end();
     let events: Vec<Value> = contacts::other_events(run, contacts)
@@ -301,6 +387,7 @@ fn document(run: &Run, contacts: &[Found], error: Option<&Error>) -> Value {
         .collect();
     let warnings = run.warnings().iter().map(ToString::to_string);
     let warnings = warnings.chain(contacts.iter().flat_map(Found::warnings));
+    let warnings = warnings.chain(interruption.iter().cloned());
     let warnings: Vec<String> = warnings.collect();
     let mut document = json!({
         "t": end.t,
@@ -320,8 +407,11 @@ fn document(run: &Run, contacts: &[Found], error: Option<&Error>) -> Value {
             let contacts = contacts.iter().map(Found::json);
             fields.insert("contacts".into(), contacts.collect());
         }
-        if let Some(error) = error {
-            fields.insert("error".into(), error.to_string().into());
+        if interruption.is_some() {
+            fields.insert("interrupted".into(), true.into());
+        }
+        if !errors.is_empty() {
+            fields.insert("error".into(), errors.join("; ").into());
         }
     }
     document

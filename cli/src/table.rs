@@ -1,28 +1,24 @@
 //! Tables for other programs: comma-separated text, and Parquet.
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::io::{self, Write};
 
+use crate::failure::Failure;
+use crate::output::Destination;
 use crate::recording::Recording;
 
-/// Writes a recording in the format that the file's ending names: `.parquet`, anything else is comma-separated text.
+/// Writes a recording in the format that the file's ending names.
 ///
 /// # Errors
 /// What the file system says.
-pub fn write(recording: &Recording, path: &Path) -> io::Result<()> {
-    match path.extension().and_then(|ending| ending.to_str()) {
-        Some("parquet") => parquet(recording, path),
-        _ => {
-            let mut file = BufWriter::new(File::create(path)?);
-            csv(recording, &mut file)?;
-            file.flush()
-        }
-    }
+pub fn write(recording: &Recording, to: &Destination) -> Result<(), Failure> {
+    to.write(|file| match to.ending() {
+        "parquet" => parquet(recording, file),
+        _ => csv(recording, file),
+    })
 }
 
 /// One line for each instant. Numbers are in the shortest form that reads back to the same bits.
-fn csv(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
+fn csv(recording: &Recording, to: &mut dyn Write) -> io::Result<()> {
     let headers: Vec<String> = recording.headers().collect();
     writeln!(to, "{}", headers.join(","))?;
     for (row, time) in recording.times.iter().enumerate() {
@@ -40,7 +36,7 @@ fn csv(recording: &Recording, to: &mut impl Write) -> io::Result<()> {
 
 /// One row group, one required column of doubles for each quantity.
 #[cfg(feature = "parquet")]
-fn parquet(recording: &Recording, path: &Path) -> io::Result<()> {
+fn parquet(recording: &Recording, to: &mut (dyn Write + Send)) -> io::Result<()> {
     use std::sync::Arc;
 
     use parquet::basic::{Repetition, Type as Physical};
@@ -63,7 +59,7 @@ fn parquet(recording: &Recording, path: &Path) -> io::Result<()> {
         .with_fields(fields?)
         .build()?;
     let properties = Arc::new(WriterProperties::builder().build());
-    let mut writer = SerializedFileWriter::new(File::create(path)?, Arc::new(schema), properties)?;
+    let mut writer = SerializedFileWriter::new(to, Arc::new(schema), properties)?;
     let mut rows = writer.next_row_group()?;
     let columns = recording.columns.iter().map(|column| &column.values);
     for values in std::iter::once(&recording.times).chain(columns) {
@@ -80,7 +76,7 @@ fn parquet(recording: &Recording, path: &Path) -> io::Result<()> {
 }
 
 #[cfg(not(feature = "parquet"))]
-fn parquet(_: &Recording, _: &Path) -> io::Result<()> {
+fn parquet(_: &Recording, _: &mut (dyn Write + Send)) -> io::Result<()> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,
         "this build of the command has no feature `parquet`",
@@ -121,18 +117,22 @@ mod tests {
     #[cfg(feature = "parquet")]
     #[test]
     fn parquet_reads_back_to_the_same_bits() {
+        use std::fs::File;
+
+        use crate::output::TABLE;
         use parquet::file::reader::{FileReader, SerializedFileReader};
         use parquet::record::RowAccessor;
 
-        let path = std::env::temp_dir().join(format!("lagrangian-{}.parquet", std::process::id()));
-        write(&recording(), &path).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("RUN.PARQUET");
+        let destination = Destination::new("--out", &path, TABLE).unwrap();
+        write(&recording(), &destination).unwrap();
         let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
         let read: Vec<f64> = reader
             .get_row_iter(None)
             .unwrap()
             .map(|row| row.unwrap().get_double(1).unwrap())
             .collect();
-        std::fs::remove_file(&path).unwrap();
         assert_eq!(read, recording().columns[0].values);
     }
 }

@@ -1,6 +1,10 @@
 //! The command as a user calls it: what it prints, where, and with which exit status.
 
+#[path = "command_line/kept.rs"]
+mod kept;
 mod support;
+#[path = "command_line/told.rs"]
+mod told;
 
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
@@ -465,7 +469,7 @@ fn what_is_not_finite_is_named() {
         ("--rate", "x=-inf", "x"),
     ] {
         let output = lagrangian(&["simulate", machine, "--until", "1", option, assignment]);
-        assert_eq!(status(&output), 1, "{assignment}: {}", err(&output));
+        assert_eq!(status(&output), 2, "{assignment}: {}", err(&output));
         assert!(
             err(&output).contains(word),
             "{assignment}: {}",

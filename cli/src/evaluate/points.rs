@@ -1,0 +1,343 @@
+//! The points at which numbers are asked for, from their JSON; with the line and the column of what is wrong.
+//!
+//! The text is taken apart level by level, each value still being a piece of the text, so that its place is known.
+
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::value::RawValue;
+
+/// A state at which numbers are asked for; whatever is left out takes its default.
+#[derive(Debug, Default, PartialEq)]
+pub struct Point {
+    /// The time, in s.
+    pub t: Option<f64>,
+    /// Coordinates.
+    pub q: Option<Numbers>,
+    /// Their rates.
+    pub v: Option<Numbers>,
+    /// Parameters by name.
+    pub parameters: Vec<(String, Entry)>,
+    /// Inputs by name.
+    pub inputs: Vec<(String, Entry)>,
+}
+
+/// Coordinates in their order, or by name.
+#[derive(Debug, PartialEq)]
+pub enum Numbers {
+    /// All of them, in their order.
+    List(Vec<f64>),
+    /// Some of them, in the order of the text.
+    ByName(Vec<(String, Entry)>),
+}
+
+/// A number, or those of a family.
+#[derive(Debug, PartialEq)]
+pub enum Entry {
+    /// One number; under the name of a family that of all its members.
+    One(f64),
+    /// A number for each member.
+    Family(Vec<f64>),
+}
+
+/// The names that a point may have.
+const FIELDS: [&str; 5] = ["t", "q", "v", "parameters", "inputs"];
+
+/// Reads a list of points from a text, whose name is for messages. A point that is wrong does not stop the others.
+///
+/// # Errors
+/// If the text is no list of values.
+pub fn read(name: &str, text: &str) -> Result<Vec<Result<Point, String>>, String> {
+    let reader = Reader { name, text };
+    let list: Vec<&RawValue> = match serde_json::from_str(text) {
+        Ok(list) => list,
+        Err(error) if error.is_data() => {
+            let at = text.len() - text.trim_start().len();
+            return Err(reader.wrong(at, "expected a list of points, `[{\"q\": …}, …]`"));
+        }
+        Err(error) => return Err(reader.no_json(&error)),
+    };
+    let numbered = list.into_iter().enumerate();
+    let points = numbered.map(|(index, value)| {
+        let point = reader.point(value);
+        point.map_err(|(at, what)| {
+            let what = format!("point {}: {what}", index + 1);
+            reader.wrong(at, &what)
+        })
+    });
+    Ok(points.collect())
+}
+
+/// What is wrong, and at which byte.
+type Wrong = (usize, String);
+
+struct Reader<'a> {
+    name: &'a str,
+    text: &'a str,
+}
+
+impl<'a> Reader<'a> {
+    /// The place of a byte, and what is wrong there.
+    fn wrong(&self, at: usize, what: &str) -> String {
+        let before = self.text.get(..at).unwrap_or(self.text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
+        self.placed(line, column, what)
+    }
+
+    fn placed(&self, line: usize, column: usize, what: &str) -> String {
+        format!("{}: line {line}, column {column}: {what}", self.name)
+    }
+
+    /// What hinders the text from being JSON, in the words of those who write it.
+    fn no_json(&self, error: &serde_json::Error) -> String {
+        // A column counts bytes there, and is 0 before the first.
+        let line = self.text.split('\n').nth(error.line().saturating_sub(1));
+        let line = line.unwrap_or("");
+        let at = error.column().saturating_sub(1).min(line.len());
+        let at = (0..=at).rev().find(|at| line.is_char_boundary(*at));
+        let (before, after) = line.split_at(at.unwrap_or(0));
+        let text = error.to_string();
+        let said = text.split(" at line ").next().unwrap_or(&text);
+        let what = match said {
+            _ if error.is_eof() && self.text.trim().is_empty() => "there is nothing in it",
+            _ if error.is_eof() => "the text ends before a bracket or a quotation mark is closed",
+            "expected value" | "expected ident" => {
+                "expected a number, a name in quotation marks, `[` or `{`; JSON has no NaN and no infinity"
+            }
+            "invalid number" => "this is no number of JSON, which are written 0.5, -2 or 1e-3",
+            "number out of range" => "this number is greater than any that can be computed with",
+            "key must be a string" if !after.starts_with('}') => {
+                "expected a name in quotation marks"
+            }
+            "key must be a string" | "trailing comma" => {
+                "there is a comma before the closing bracket"
+            }
+            "trailing characters" => "the list ends before this",
+            "control character (\\u0000-\\u001F) found while parsing a string" => {
+                "a name in quotation marks must end in its line"
+            }
+            "recursion limit exceeded" => "brackets are nested too deep",
+            said => said, // `expected `:``, and the like
+        };
+        self.placed(error.line().max(1), before.chars().count() + 1, what)
+    }
+
+    /// Where a piece of the text stands in it.
+    fn place(&self, piece: &str) -> usize {
+        (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize)
+    }
+
+    fn expected(&self, value: &RawValue, what: &str) -> Wrong {
+        let text = value.get();
+        let found = match text.as_bytes().first() {
+            Some(b'"') => "a text",
+            Some(b'{') => "names with values",
+            Some(b'[') => "a list",
+            Some(b't' | b'f') => "true or false",
+            Some(b'n') => "null",
+            _ => "a number",
+        };
+        (self.place(text), format!("expected {what}, found {found}"))
+    }
+
+    fn point(&self, value: &'a RawValue) -> Result<Point, Wrong> {
+        let mut point = Point::default();
+        for (name, value) in self.pairs(value, "a point, `{\"q\": …}`")? {
+            let in_field = |(at, what)| (at, format!("\"{name}\": {what}"));
+            match name.as_str() {
+                "t" => point.t = Some(self.number(value).map_err(in_field)?),
+                "q" => point.q = Some(self.numbers(value).map_err(in_field)?),
+                "v" => point.v = Some(self.numbers(value).map_err(in_field)?),
+                "parameters" => point.parameters = self.entries(value).map_err(in_field)?,
+                "inputs" => point.inputs = self.entries(value).map_err(in_field)?,
+                _ => {
+                    let near = lagrangian_spec::diagnostic::nearest(&name, FIELDS);
+                    let help = match near {
+                        Some(near) => format!("did you mean \"{near}\"?"),
+                        None => format!("there are: {}", FIELDS.join(", ")),
+                    };
+                    let what = format!("a point has no \"{name}\"; {help}");
+                    return Err((self.place(value.get()), what));
+                }
+            }
+        }
+        Ok(point)
+    }
+
+    /// What stands in an object, in its order; every name once.
+    fn pairs(&self, value: &'a RawValue, what: &str) -> Result<Vec<(String, &'a RawValue)>, Wrong> {
+        let pairs: Result<Pairs, _> = serde_json::from_str(value.get());
+        let Pairs(pairs) = pairs.map_err(|_| self.expected(value, what))?;
+        for (index, (name, value)) in pairs.iter().enumerate() {
+            if pairs[..index].iter().any(|(other, _)| other == name) {
+                let what = format!("\"{name}\" is given more than once");
+                return Err((self.place(value.get()), what));
+            }
+        }
+        Ok(pairs)
+    }
+
+    fn number(&self, value: &RawValue) -> Result<f64, Wrong> {
+        let number: Result<f64, _> = serde_json::from_str(value.get());
+        let is_number = value
+            .get()
+            .starts_with(|c: char| c == '-' || c.is_ascii_digit());
+        match number {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ if is_number => {
+                let what = "this number is greater than any that can be computed with";
+                Err((self.place(value.get()), what.to_owned()))
+            }
+            _ => Err(self.expected(value, "a number")),
+        }
+    }
+
+    fn list(&self, value: &'a RawValue) -> Result<Vec<f64>, Wrong> {
+        let list: Result<Vec<&RawValue>, _> = serde_json::from_str(value.get());
+        let list = list.map_err(|_| self.expected(value, "a list of numbers"))?;
+        list.into_iter().map(|value| self.number(value)).collect()
+    }
+
+    fn numbers(&self, value: &'a RawValue) -> Result<Numbers, Wrong> {
+        match value.get().as_bytes().first() {
+            Some(b'[') => self.list(value).map(Numbers::List),
+            Some(b'{') => self.entries(value).map(Numbers::ByName),
+            _ => Err(self.expected(value, "a list of numbers, or names with numbers")),
+        }
+    }
+
+    fn entries(&self, value: &'a RawValue) -> Result<Vec<(String, Entry)>, Wrong> {
+        let pairs = self.pairs(value, "names with numbers, `{\"name\": 1}`")?;
+        let entry = |(name, value): (String, &'a RawValue)| {
+            let entry = match value.get().as_bytes().first() {
+                Some(b'[') => self.list(value).map(Entry::Family),
+                _ => self.number(value).map(Entry::One),
+            };
+            match entry {
+                Ok(entry) => Ok((name, entry)),
+                Err((at, what)) => Err((at, format!("\"{name}\": {what}"))),
+            }
+        };
+        pairs.into_iter().map(entry).collect()
+    }
+}
+
+/// An object as it is written.
+struct Pairs<'a>(Vec<(String, &'a RawValue)>);
+
+impl<'de> Deserialize<'de> for Pairs<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Collect;
+
+        impl<'de> Visitor<'de> for Collect {
+            type Value = Pairs<'de>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("names with values")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Pairs<'de>, A::Error> {
+                let mut pairs = Vec::new();
+                while let Some(pair) = map.next_entry()? {
+                    pairs.push(pair);
+                }
+                Ok(Pairs(pairs))
+            }
+        }
+
+        deserializer.deserialize_map(Collect)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(text: &str) -> Result<Point, String> {
+        let mut points = read("points.json", text)?;
+        assert_eq!(points.len(), 1, "{text}");
+        points.remove(0)
+    }
+
+    #[test]
+    fn a_point_is_what_it_says() {
+        let text = r#"[{"t": 0.5, "q": [1, -2e-3], "v": {"a": 3, "b": [4, 5]}, "parameters": {"m\u0031": 6}}]"#;
+        let point = Point {
+            t: Some(0.5),
+            q: Some(Numbers::List(vec![1.0, -2e-3])),
+            v: Some(Numbers::ByName(vec![
+                ("a".into(), Entry::One(3.0)),
+                ("b".into(), Entry::Family(vec![4.0, 5.0])),
+            ])),
+            parameters: vec![("m1".into(), Entry::One(6.0))],
+            inputs: Vec::new(),
+        };
+        assert_eq!(one(text), Ok(point));
+        assert_eq!(one("[{}]"), Ok(Point::default()));
+        assert_eq!(read("points.json", " [ ] "), Ok(Vec::new()));
+    }
+
+    /// Line and column of what is wrong, counted by hand, and words that must be there.
+    #[test]
+    fn what_is_wrong_is_told_where_it_is() {
+        for (text, place, words) in [
+            (
+                "[{\"q\": [0, \"x\"]}]",
+                (1, 12),
+                "point 1: \"q\": expected a number, found a text",
+            ),
+            (
+                "[\n {\"v\": {\"ü\": null}}]",
+                (2, 14),
+                "\"v\": \"ü\": expected a number, found null",
+            ),
+            (
+                "[{\"t\": [1]}]",
+                (1, 8),
+                "\"t\": expected a number, found a list",
+            ),
+            (
+                "[{\"q\": 3}]",
+                (1, 8),
+                "expected a list of numbers, or names with numbers, found a number",
+            ),
+            ("[{\"nonsense\": 1}]", (1, 15), "no \"nonsense\""),
+            (
+                "[{\"paramters\": {}}]",
+                (1, 16),
+                "did you mean \"parameters\"?",
+            ),
+            (
+                "[{\"q\": {\"a\": 1, \"a\": 2}}]",
+                (1, 22),
+                "\"a\" is given more than once",
+            ),
+            (
+                "[{\"t\": 1, \"t\": 2}]",
+                (1, 16),
+                "\"t\" is given more than once",
+            ),
+            ("[7]", (1, 2), "point 1: expected a point"),
+            ("\n {}", (2, 2), "expected a list of points"),
+            ("", (1, 1), "there is nothing in it"),
+            ("[{\"q\": [0, 1}]", (1, 13), "expected `,` or `]`"),
+            ("[{\"q\": [0,\n", (2, 1), "ends before"),
+            ("[{\"q\": [NaN]}]", (1, 9), "JSON has no NaN"),
+            ("[{\"ü\": 1,}]", (1, 10), "comma"),
+            ("[{q: 1}]", (1, 3), "in quotation marks"),
+            ("[{}] x", (1, 6), "ends before this"),
+            ("[{\"t\": 1e999}]", (1, 8), "greater than any"),
+        ] {
+            let wrong = match read("points.json", text) {
+                Err(wrong) => wrong,
+                Ok(mut points) => points.remove(0).expect_err(text),
+            };
+            let (line, column) = place;
+            let place = format!("points.json: line {line}, column {column}: ");
+            assert!(wrong.starts_with(&place), "{text}: {wrong}");
+            assert!(wrong.contains(words), "{text}: {wrong}");
+        }
+    }
+}

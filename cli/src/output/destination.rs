@@ -1,0 +1,559 @@
+//! A file that is to be written: looked at before a run, and either whole or as it was after it.
+//!
+//! What is written goes to a temporary file in the same folder, which takes the name when it is complete and on the disk.
+//! Whatever ends the command before, the file of that name is the older one, or there is none.
+
+use std::fs::{self, File, OpenOptions, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use super::ending::{self, Endings};
+use super::{FAILED, IS_TAKEN, Taken};
+use crate::failure::Failure;
+
+/// Symbolic links that lead to each other are followed this often, as Linux does.
+const MOST_LINKS: usize = 40;
+
+/// Where something is to be written.
+#[derive(Debug)]
+pub struct Destination {
+    /// The option that names it.
+    option: &'static str,
+    /// Its path as the call has it.
+    path: PathBuf,
+    ending: &'static str,
+    target: Target,
+    identity: Option<Identity>,
+}
+
+#[derive(Debug)]
+enum Target {
+    /// A file, there already or not, at the end of all links.
+    File(PathBuf),
+    /// A device or a pipe, which is written as it is.
+    Device,
+    /// Standard output, by one of its names.
+    Output,
+    /// Standard error.
+    Error,
+}
+
+/// Two paths lead to one file where these are equal.
+#[derive(Debug, PartialEq, Eq)]
+enum Identity {
+    /// A file that is there: device and inode.
+    #[cfg(unix)]
+    Inode(u64, u64),
+    /// One that is not: the folder's own path, and the name in it.
+    Path(PathBuf),
+    /// Standard output or standard error.
+    Stream(&'static str),
+}
+
+impl Destination {
+    /// Looks at the place that an option names, and whether something can be written there, with an ending that is known.
+    /// Nothing is changed.
+    ///
+    /// # Errors
+    /// The call is at fault if nothing can be written there, or the ending is not among those given.
+    pub fn new(
+        option: &'static str,
+        path: &Path,
+        endings: Endings,
+    ) -> Result<Destination, Failure> {
+        let known = ending::known(path, endings);
+        let (target, identity) = place(path).map_err(|why| refused(option, path, &why))?;
+        let ending = match (known, &target) {
+            (Some(ending), _) => ending,
+            (None, Target::File(_)) if !endings.is_empty() => {
+                return Err(ending::unknown(option, path, endings));
+            }
+            (None, _) => endings.first().copied().unwrap_or(""),
+        };
+        if let Target::File(path_of_file) = &target {
+            try_folder(path_of_file).map_err(|why| refused(option, path, &why))?;
+        }
+        Ok(Destination {
+            option,
+            path: path.to_owned(),
+            ending,
+            target,
+            identity,
+        })
+    }
+
+    /// The same of an option that the call may leave out.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn of(
+        option: &'static str,
+        path: Option<&PathBuf>,
+        endings: Endings,
+    ) -> Result<Option<Destination>, Failure> {
+        path.map(|path| Destination::new(option, path, endings))
+            .transpose()
+    }
+
+    /// The ending, one of those that the option takes.
+    pub fn ending(&self) -> &'static str {
+        self.ending
+    }
+
+    /// Writes a text.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_text(&self, text: &str) -> Result<(), Failure> {
+        self.write(|to| to.write_all(text.as_bytes()))
+    }
+
+    /// Writes what `content` writes. Only when all of it is on the disk, it takes the place of what was there.
+    ///
+    /// # Errors
+    /// What the file system says; what was there is as it was.
+    pub fn write(
+        &self,
+        content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.write_with_mode(0o666, content)
+    }
+
+    /// The same for a file that may be run, as linkers make libraries.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_executable(&self, bytes: &[u8]) -> Result<(), Failure> {
+        self.write_with_mode(0o777, |to| to.write_all(bytes))
+    }
+
+    fn write_with_mode(
+        &self,
+        mode: u32,
+        content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let written = match &self.target {
+            Target::File(path) => replace(path, mode, content),
+            Target::Device => {
+                let device = OpenOptions::new().write(true).open(&self.path);
+                device.and_then(|device| buffered(device, content).map(drop))
+            }
+            Target::Output => {
+                IS_TAKEN.store(true, Ordering::Relaxed);
+                match buffered(Taken, content) {
+                    // Told at the end, once.
+                    Err(_) if FAILED.get().is_some() => Ok(()),
+                    written => written.map(drop),
+                }
+            }
+            Target::Error => buffered(io::stderr(), content).map(drop),
+        };
+        written
+            .map_err(|error| Failure::Run(format!("cannot write {}: {error}", self.path.display())))
+    }
+}
+
+/// Refuses files that two options name, and files that the command reads, each with what it is.
+///
+/// # Errors
+/// The call is at fault.
+pub fn keep_apart<'a>(
+    destinations: impl IntoIterator<Item = &'a Destination>,
+    read: &[(&Path, &str)],
+) -> Result<(), Failure> {
+    let destinations: Vec<&Destination> = destinations.into_iter().collect();
+    for (k, destination) in destinations.iter().enumerate() {
+        let Destination { option, path, .. } = destination;
+        let path = path.display();
+        let Some(identity) = &destination.identity else {
+            continue;
+        };
+        let mut before = destinations.iter().take(k);
+        if let Some(other) = before.find(|other| other.identity.as_ref() == Some(identity)) {
+            return Err(Failure::Call(format!(
+                "{} {} and {option} {path} are one file",
+                other.option,
+                other.path.display(),
+            )));
+        }
+        let is_read = |(read, _): &&(&Path, &str)| identity_of(read).as_ref() == Some(identity);
+        if let Some((read, what)) = read.iter().find(is_read) {
+            return Err(Failure::Call(format!(
+                "{option} {path} would overwrite {}, {what}",
+                read.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a file that is standard output where the result is a JSON document, which stands there alone.
+///
+/// # Errors
+/// The call is at fault.
+pub fn keep_document_apart<'a>(
+    destinations: impl IntoIterator<Item = &'a Destination>,
+    json: bool,
+) -> Result<(), Failure> {
+    let mut destinations = destinations.into_iter();
+    match destinations.find(|destination| json && matches!(destination.target, Target::Output)) {
+        None => Ok(()),
+        Some(Destination { option, path, .. }) => Err(Failure::Call(format!(
+            "{option} {} is standard output, where --json prints its document",
+            path.display()
+        ))),
+    }
+}
+
+fn refused(option: &str, path: &Path, why: &str) -> Failure {
+    Failure::Call(format!("cannot write {option} {}: {why}", path.display()))
+}
+
+/// What stands at a path, or will.
+fn place(path: &Path) -> Result<(Target, Option<Identity>), String> {
+    let end = end_of_links(path);
+    for (name, target) in [("stdout", Target::Output), ("stderr", Target::Error)] {
+        let number = if name == "stdout" { "1" } else { "2" };
+        let names = ["/dev/", "/dev/fd/", "/proc/self/fd/"].into_iter();
+        let mut names = names.zip([name, number, number]);
+        if names.any(|(folder, name)| end == Path::new(&format!("{folder}{name}"))) {
+            return Ok((target, Some(Identity::Stream(name))));
+        }
+    }
+    match fs::metadata(path) {
+        Ok(found) if found.is_dir() => Err("it is a folder".to_owned()),
+        Ok(found) if found.is_file() => {
+            if is_standard_output(&found) {
+                return Err("standard output goes to the same file".to_owned());
+            }
+            let path = path.canonicalize().map_err(|error| error.to_string())?;
+            // What may not be written is not replaced either.
+            let opened = OpenOptions::new().write(true).open(&path);
+            opened.map_err(|error| error.to_string())?;
+            let identity = identity_of(&path);
+            Ok((Target::File(path), identity))
+        }
+        // As much as one likes may go to /dev/null or a terminal; what reads a pipe expects one thing.
+        Ok(found) => Ok((
+            Target::Device,
+            identity_of(path).filter(|_| is_pipe(&found)),
+        )),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            let path = new_file(&end)?;
+            Ok((Target::File(path.clone()), Some(Identity::Path(path))))
+        }
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Where a path leads when its last name is a link, and so on; as far as it leads. Links to open files count as names.
+fn end_of_links(path: &Path) -> PathBuf {
+    let mut path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    for _ in 0..MOST_LINKS {
+        if path.starts_with("/dev/fd") || path.starts_with("/proc/self/fd") {
+            break;
+        }
+        if path == Path::new("/dev/stdout") || path == Path::new("/dev/stderr") {
+            break;
+        }
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = path.parent().unwrap_or(Path::new("")).join(next);
+    }
+    path
+}
+
+/// The path of a file that is not there yet, in the shortest form of its folder.
+fn new_file(path: &Path) -> Result<PathBuf, String> {
+    let is_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/");
+    let name = path.file_name().filter(|_| !is_folder);
+    let name = name.ok_or_else(|| "it names a folder".to_owned())?;
+    let folder = path.parent().unwrap_or(Path::new("/"));
+    let folder = folder.canonicalize().map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => format!("there is no folder {}", folder.display()),
+        _ => error.to_string(),
+    })?;
+    Ok(folder.join(name))
+}
+
+#[cfg(unix)]
+fn is_pipe(found: &fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    found.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &fs::Metadata) -> bool {
+    false
+}
+
+/// What tells a file that is there from every other.
+#[cfg(unix)]
+fn identity_of(path: &Path) -> Option<Identity> {
+    fs::metadata(path).ok().as_ref().map(inode)
+}
+
+#[cfg(unix)]
+fn inode(found: &fs::Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    Identity::Inode(found.dev(), found.ino())
+}
+
+/// What tells a file that is there from every other, but for hard links.
+#[cfg(not(unix))]
+fn identity_of(path: &Path) -> Option<Identity> {
+    path.canonicalize().ok().map(Identity::Path)
+}
+
+#[cfg(unix)]
+fn is_standard_output(found: &fs::Metadata) -> bool {
+    use std::os::fd::AsFd;
+    let own = io::stdout().as_fd().try_clone_to_owned();
+    let own = own.and_then(|own| File::from(own).metadata());
+    own.is_ok_and(|own| inode(&own) == inode(found))
+}
+
+#[cfg(not(unix))]
+fn is_standard_output(_: &fs::Metadata) -> bool {
+    false
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new("/"))
+}
+
+/// Whether a file can be made beside this one.
+fn try_folder(path: &Path) -> Result<(), String> {
+    let folder = folder_of(path);
+    match temporary(folder, 0o600) {
+        Ok(_) => Ok(()), // And it is gone again.
+        Err(error) => Err(format!(
+            "no file can be made in the folder {}: {error}",
+            folder.display()
+        )),
+    }
+}
+
+/// A file with a name of its own, for this time hidden.
+fn temporary(folder: &Path, mode: u32) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".lagrangian-").suffix(".partial");
+    if let Some(permissions) = permissions(mode) {
+        builder.permissions(permissions);
+    }
+    builder.tempfile_in(folder)
+}
+
+/// What a new file may have, as far as the user's mask lets it.
+#[cfg(unix)]
+fn permissions(mode: u32) -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt;
+    Some(Permissions::from_mode(mode))
+}
+
+#[cfg(not(unix))]
+fn permissions(_: u32) -> Option<Permissions> {
+    None
+}
+
+/// Writes a temporary file, and gives it the name when all is on the disk.
+fn replace(
+    path: &Path,
+    mode: u32,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let folder = folder_of(path);
+    let (file, part) = temporary(folder, mode)?.into_parts();
+    let file = buffered(file, content)?;
+    if let Ok(older) = fs::metadata(path) {
+        keep_owner(&file, &older);
+        file.set_permissions(older.permissions())?;
+    }
+    file.sync_all()?;
+    drop(file);
+    if let Err(failed) = part.persist(path) {
+        // Complete, but under another name: it must not be lost for that.
+        let error = failed.error;
+        return match failed.path.keep() {
+            Ok(kept) => Err(io::Error::other(format!(
+                "{error}; it is complete as {}",
+                kept.display()
+            ))),
+            Err(_) => Err(error),
+        };
+    }
+    // The new name, too, is on the disk where the system can promise that.
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    Ok(())
+}
+
+/// Gives a file to whom the older one belongs, as far as the user may.
+#[cfg(unix)]
+fn keep_owner(file: &File, older: &fs::Metadata) {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let own = file.metadata().map(|own| (own.uid(), own.gid()));
+    if own.is_ok_and(|own| own == (older.uid(), older.gid())) {
+        return;
+    }
+    if fchown(file, Some(older.uid()), Some(older.gid())).is_err() {
+        let _ = fchown(file, None, Some(older.gid()));
+    }
+}
+
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &fs::Metadata) {}
+
+/// Writes to a file in large pieces, and gives it back when all was written.
+fn buffered<W: Write + Send>(
+    to: W,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<W> {
+    let mut buffer = BufWriter::with_capacity(1 << 16, to);
+    content(&mut buffer)?;
+    buffer.flush()?;
+    buffer.into_inner().map_err(|error| error.into_error())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    use super::*;
+
+    const ANY: Endings = &["txt"];
+
+    fn folder() -> tempfile::TempDir {
+        tempfile::tempdir().unwrap()
+    }
+
+    fn at(path: &Path) -> Destination {
+        Destination::new("--out", path, ANY).unwrap()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_fails_leaves_the_older_file_and_nothing_else() {
+        let folder = folder();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "older").unwrap();
+        let destination = at(&path);
+        assert_eq!(names(folder.path()), ["a.txt"]); // The trial is gone.
+        let failed = destination.write(|to| {
+            to.write_all(b"half")?;
+            // Whoever looks now sees the older file.
+            assert_eq!(fs::read_to_string(&path).unwrap(), "older");
+            Err(io::Error::from(io::ErrorKind::StorageFull))
+        });
+        assert!(failed.is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "older");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+        destination.write_text("newer").unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "newer");
+        assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    #[test]
+    fn permissions_are_those_of_the_older_file_or_of_a_new_one() {
+        let folder = folder();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o7777;
+        let (plain, new) = (folder.path().join("plain"), folder.path().join("new.txt"));
+        fs::write(&plain, "").unwrap();
+        at(&new).write_text("x").unwrap();
+        assert_eq!(mode(&new), mode(&plain));
+        for kept in [0o600, 0o640, 0o755] {
+            fs::set_permissions(&new, Permissions::from_mode(kept)).unwrap();
+            at(&new).write_text("y").unwrap();
+            assert_eq!(mode(&new), kept);
+        }
+    }
+
+    #[test]
+    fn a_link_stays_a_link() {
+        let folder = folder();
+        let (file, link) = (
+            folder.path().join("file.txt"),
+            folder.path().join("link.txt"),
+        );
+        symlink("file.txt", &link).unwrap();
+        for text in ["first", "second"] {
+            at(&link).write_text(text).unwrap();
+            assert_eq!(fs::read_to_string(&file).unwrap(), text);
+            assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        }
+    }
+
+    #[test]
+    fn one_file_has_many_names() {
+        let folder = folder();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("a.txt"), "").unwrap();
+        fs::hard_link(path("a.txt"), path("hard.txt")).unwrap();
+        symlink("a.txt", path("soft.txt")).unwrap();
+        symlink("later.txt", path("dangling.txt")).unwrap();
+        fs::create_dir(path("sub")).unwrap();
+        let same = [
+            ["a.txt", "a.txt"],
+            ["a.txt", "sub/../a.txt"],
+            ["a.txt", "hard.txt"],
+            ["soft.txt", "hard.txt"],
+            ["new.txt", "./new.txt"],
+            ["new.txt", "sub/../new.txt"],
+            ["dangling.txt", "later.txt"],
+        ];
+        for [one, other] in same {
+            let pair = [at(&path(one)), at(&path(other))];
+            assert!(keep_apart(&pair, &[]).is_err(), "{one} {other}");
+        }
+        for [one, other] in [["a.txt", "b.txt"], ["new.txt", "sub/new.txt"]] {
+            let pair = [at(&path(one)), at(&path(other))];
+            assert!(keep_apart(&pair, &[]).is_ok(), "{one} {other}");
+        }
+        for name in ["a.txt", "hard.txt", "soft.txt"] {
+            let read = path("sub/../a.txt");
+            let read = [(read.as_path(), "the spec")];
+            assert!(keep_apart(&[at(&path(name))], &read).is_err());
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_refused_before() {
+        let folder = folder();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("folder.txt")).unwrap();
+        for name in [
+            "folder.txt",
+            "missing/a.txt",
+            "new.txt/",
+            "",
+            "..",
+            "a.json",
+        ] {
+            assert!(
+                Destination::new("--out", &path(name), ANY).is_err(),
+                "{name}"
+            );
+        }
+        assert_eq!(names(folder.path()), ["folder.txt"]);
+    }
+
+    #[test]
+    fn devices_are_written_as_they_are() {
+        let null = Path::new("/dev/null");
+        let two = [at(null), at(null)];
+        assert!(keep_apart(&two, &[]).is_ok());
+        two[0].write_text("x").unwrap();
+        let full = at(Path::new("/dev/full"));
+        assert!(full.write_text("x").is_err());
+        let output = at(Path::new("/dev/stdout"));
+        assert!(keep_apart(&[at(Path::new("/dev/fd/1")), output], &[]).is_err());
+    }
+}
