@@ -1,6 +1,7 @@
 //! The normal form: what is simplified as soon as it is built (see [`crate::dag`]).
 
 use core::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::arena::{Arena, PARAMETER_FACTOR, SQUARED_SINE};
 use crate::dag::{Function, Id, Node};
@@ -98,34 +99,88 @@ impl Arena {
     }
 
     /// `A·sin²x + A·cos²x = A`, for terms in order; they are in order afterwards.
+    ///
+    /// The pair with the first sine is joined, and then again, until there is none. A term is looked
+    /// at once, and again only when one comes that may be its partner: the work grows with the number
+    /// of terms times the logarithm of that.
     fn join_squares(&mut self, terms: &mut Vec<Term>) -> Result<(), Undefined> {
-        let mut position = 0;
-        while position < terms.len() {
-            let (id, coefficient) = &terms[position];
-            let joined = self.has_flag(*id, SQUARED_SINE).then(|| {
-                self.square_partners(*id).find_map(|(partner, factors)| {
-                    let found = terms.binary_search_by_key(&partner, |term| term.0).ok()?;
-                    (terms[found].1 == *coefficient).then_some((found, factors))
-                })
-            });
-            let Some(Some((partner, mut factors))) = joined else {
-                position += 1;
+        let is_sine = |(id, _): &&Term| self.has_flag(*id, SQUARED_SINE);
+        let mut open: BTreeSet<Id> = terms.iter().filter(is_sine).map(|term| term.0).collect();
+        // Mostly there is none to join, and nothing to be moved.
+        let partner_is_there = |id: &Id| {
+            let of = |id: &Id| terms.binary_search_by_key(id, |term| term.0);
+            let own = of(id).map(|place| &terms[place].1);
+            let mut partners = self.square_partners(*id, [Function::Sin, Function::Cos]);
+            partners.any(|(partner, _)| own == of(&partner).map(|place| &terms[place].1))
+        };
+        if !open.iter().any(partner_is_there) {
+            return Ok(());
+        }
+        let mut left: BTreeMap<Id, Rational> = terms.drain(..).collect();
+        let joined = self.join_open_squares(&mut open, &mut left);
+        terms.extend(left);
+        joined
+    }
+
+    /// The same of terms by their nodes; those of `open` are to be looked at.
+    fn join_open_squares(
+        &mut self,
+        open: &mut BTreeSet<Id>,
+        left: &mut BTreeMap<Id, Rational>,
+    ) -> Result<(), Undefined> {
+        while let Some(id) = open.pop_first() {
+            #[cfg(test)]
+            tests::LOOKED_AT.set(tests::LOOKED_AT.get() + 1);
+            let Some(coefficient) = left.get(&id).cloned() else {
                 continue;
             };
-            let coefficient = coefficient.clone();
-            terms.remove(position.max(partner));
-            terms.remove(position.min(partner));
-            let (inner, id) = self.try_product(&mut factors)?;
-            terms.push((id, inner.checked_mul(&coefficient).ok_or(Undefined)?));
-            self.settle_last(terms)?;
-            position = 0;
+            let mut partners = self.square_partners(id, [Function::Sin, Function::Cos]);
+            let joined = partners.find(|(partner, _)| left.get(partner) == Some(&coefficient));
+            drop(partners);
+            let Some((partner, mut factors)) = joined else {
+                continue;
+            };
+            left.remove(&id);
+            left.remove(&partner);
+            let (inner, result) = self.try_product(&mut factors)?;
+            let coefficient = inner.checked_mul(&coefficient).ok_or(Undefined)?;
+            let (result, coefficient) = match self.node(result) {
+                Node::Sum(inner) if inner.len() == 1 => {
+                    let (id, scale) = &inner[0];
+                    (*id, scale.checked_mul(&coefficient).ok_or(Undefined)?)
+                }
+                _ => (result, coefficient),
+            };
+            let sum = match left.get(&result) {
+                Some(known) => known.checked_add(&coefficient).ok_or(Undefined)?,
+                None => coefficient,
+            };
+            if sum.is_zero() {
+                left.remove(&result);
+                continue;
+            }
+            left.insert(result, sum);
+            if self.has_flag(result, SQUARED_SINE) {
+                open.insert(result);
+            }
+            // It may be the square of the cosine that others have waited for.
+            let sines = self.square_partners(result, [Function::Cos, Function::Sin]);
+            open.extend(
+                sines
+                    .map(|(sine, _)| sine)
+                    .filter(|sine| left.contains_key(sine)),
+            );
         }
         Ok(())
     }
 
     /// For a product `A·sin²x`: the node `A·cos²x`, where it exists, and the factors of `A`; for
-    /// every x in it.
-    fn square_partners(&self, id: Id) -> impl Iterator<Item = (Id, Vec<Factor>)> {
+    /// every x in it. Or with sine and cosine the other way round.
+    fn square_partners(
+        &self,
+        id: Id,
+        [own, other]: [Function; 2],
+    ) -> impl Iterator<Item = (Id, Vec<Factor>)> {
         let factors: &[Factor] = match self.node(id) {
             Node::Product(factors) => factors,
             _ => &[],
@@ -133,18 +188,19 @@ impl Arena {
         factors
             .iter()
             .filter(|(_, power)| *power >= 2)
-            .filter_map(|&(sine, _)| {
-                let Node::Function(Function::Sin, angle) = self.node(sine) else {
-                    return None;
+            .filter_map(move |&(square, _)| {
+                let angle = match self.node(square) {
+                    Node::Function(function, angle) if *function == own => angle[0],
+                    _ => return None,
                 };
-                let cosine = self.find_function(Function::Cos, angle[0])?;
+                let partner = self.find_function(other, angle)?;
                 let with_powers = |changes: &[Factor]| {
                     let mut changed = factors.to_vec();
                     changed.extend_from_slice(changes);
                     merge_factors(&mut changed).ok().map(|()| changed)
                 };
-                let partner = self.find_product(&with_powers(&[(sine, -2), (cosine, 2)])?)?;
-                Some((partner, with_powers(&[(sine, -2)])?))
+                let node = self.find_product(&with_powers(&[(square, -2), (partner, 2)])?)?;
+                Some((node, with_powers(&[(square, -2)])?))
             })
     }
 
@@ -245,17 +301,6 @@ impl Arena {
         }
     }
 
-    /// Brings the last term, possibly a multiple or a constant, in its place among the others.
-    fn settle_last(&mut self, terms: &mut Vec<Term>) -> Result<(), Undefined> {
-        if let Some(last) = terms.last_mut()
-            && let Node::Sum(inner) = self.node(last.0)
-            && let [(id, coefficient)] = &**inner
-        {
-            *last = (*id, coefficient.checked_mul(&last.1).ok_or(Undefined)?);
-        }
-        merge_terms(terms)
-    }
-
     /// `Π factor^power`.
     pub(crate) fn product(&mut self, factors: &[Factor]) -> Id {
         let (coefficient, id) = self.product_parts(factors);
@@ -278,7 +323,7 @@ impl Arena {
         loop {
             self.split_factors(factors, &mut coefficient)?;
             merge_factors(factors)?;
-            if !self.reduce_roots(factors) {
+            if !self.reduce_roots(factors) && !self.cancel_roots(factors, &mut coefficient) {
                 break;
             }
         }
@@ -365,6 +410,45 @@ impl Arena {
             }
         }
         changed
+    }
+
+    /// `x/sqrt(x) = sqrt(x)` in higher powers of `x` too; whether anything changed.
+    ///
+    /// At `x = 0` the left side has no value and the right side has its limit: so the slope of
+    /// `x·sqrt(x)`, which is `sqrt(x) + x/(2 sqrt(x))` by the rules, has a value at rest.
+    fn cancel_roots(&self, factors: &mut Vec<Factor>, coefficient: &mut Rational) -> bool {
+        for position in 0..factors.len() {
+            let (root, -1) = factors[position] else {
+                continue;
+            };
+            let Node::Function(Function::Sqrt, arguments) = self.node(root) else {
+                continue;
+            };
+            let (scale, inner) = match self.node(arguments[0]) {
+                Node::Constant(_) => continue,
+                Node::Sum(terms) if terms.len() == 1 => (terms[0].1.clone(), terms[0].0),
+                _ => (Rational::ONE, arguments[0]),
+            };
+            let Some(scale) = scale.recip() else { continue };
+            let alone = [(inner, 1)];
+            let parts = self.factors(&alone);
+            let has = |&(part, power): &Factor| {
+                let found = factors.binary_search_by_key(&part, |factor| factor.0);
+                let found = found.map_or(0, |place| factors[place].1);
+                found.signum() == power.signum() && found.abs() >= power.abs()
+            };
+            let Some(product) = coefficient.checked_mul(&scale) else {
+                continue;
+            };
+            if parts.iter().all(has) {
+                let taken = parts.iter().map(|&(part, power)| (part, -power));
+                factors.extend(taken);
+                factors[position].1 = 1;
+                *coefficient = product;
+                return true;
+            }
+        }
+        false
     }
 
     /// `coefficient·node`.
@@ -706,4 +790,74 @@ fn merge_factors(factors: &mut Vec<Factor>) -> Result<(), Undefined> {
     factors.truncate(kept);
     factors.retain(|factor| factor.1 != 0);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use crate::{Dag, Expr, Stage};
+
+    thread_local! {
+        /// How many terms were looked at for a square to join with.
+        pub(super) static LOOKED_AT: Cell<usize> = const { Cell::new(0) };
+    }
+
+    /// `Σ aₖ sin²xₖ + aₖ cos²xₖ`, the terms in an order that is not that of their making.
+    fn sum_of_squares(dag: &Dag, pairs: usize) -> (Expr<'_>, Expr<'_>) {
+        let symbol = |name: &str, k: usize, stage| dag.symbol(&format!("{name}{k}"), stage);
+        let mut terms = Vec::new();
+        let mut sum = Vec::new();
+        for k in 0..pairs {
+            let (a, x) = (symbol("a", k, Stage(3)), symbol("x", k, Stage(3)));
+            terms.push((7 * k % pairs, a * x.sin().square()));
+            terms.push((5 * k % pairs, a * x.cos().square()));
+            sum.push(a);
+        }
+        terms.sort_by_key(|(place, _)| *place);
+        LOOKED_AT.set(0);
+        (
+            dag.sum(terms.into_iter().map(|(_, term)| term)),
+            dag.sum(sum),
+        )
+    }
+
+    #[test]
+    fn each_square_of_a_sine_is_looked_at_once() {
+        for pairs in [50, 400] {
+            let dag = Dag::new();
+            let (joined, expected) = sum_of_squares(&dag, pairs);
+            assert_eq!(joined, expected);
+            // Each sum is gone through until nothing changes: twice.
+            assert!(
+                LOOKED_AT.get() <= 2 * pairs,
+                "{} of {pairs}",
+                LOOKED_AT.get()
+            );
+        }
+    }
+
+    #[test]
+    fn squares_that_only_joining_makes_are_joined_too() {
+        // sin²a sin²b + sin²a cos²b + cos²a sin²b + cos²a cos²b, and so on for more angles.
+        let dag = Dag::new();
+        let angles: Vec<Expr<'_>> = (0..6)
+            .map(|k| dag.symbol(&format!("x{k}"), Stage(3)))
+            .collect();
+        let m = dag.symbol("m", Stage(3));
+        let mut terms = vec![m];
+        for x in &angles {
+            let with = |f: Expr<'_>| -> Vec<Expr<'_>> {
+                terms
+                    .iter()
+                    .map(|&term| dag.expr(f.id()) * dag.expr(term.id()))
+                    .collect()
+            };
+            terms = [with(x.sin().square()), with(x.cos().square())].concat();
+        }
+        LOOKED_AT.set(0);
+        assert_eq!(dag.sum(terms.iter().copied()), m);
+        // 64 terms, of which each join leaves one less.
+        assert!(LOOKED_AT.get() <= 4 * terms.len(), "{}", LOOKED_AT.get());
+    }
 }

@@ -257,3 +257,86 @@ fn second_derivatives_are_derivatives_of_derivatives() {
     }
     assert!(decided > 500, "{decided}");
 }
+
+/// `|v|ⁿ` for n = 3, 5, 7 and its slopes `n |v|ⁿ⁻² v` have values at rest, however the power is written.
+#[test]
+fn odd_powers_of_a_length_have_slopes_at_rest() {
+    let dag = Dag::new();
+    let [v, w, c] = ["v", "w", "c"].map(|name| dag.symbol(name, Stage(4)));
+    let symbol = |e: Expr<'_>| e.as_symbol().expect("a symbol");
+    let half = |n: i64| dag.int(n) / 2;
+    for square in [
+        v.square() + w.square(),
+        4 * v.square(),
+        v.square() * c.square(),
+        v.square(),
+    ] {
+        for n in [3, 5, 7] {
+            let root = square.sqrt();
+            let ways = [
+                square.pow(half(n)),
+                root.powi(n as i32),
+                square.powi((n as i32 - 1) / 2) * root,
+                square.powi((n as i32 + 1) / 2) / root,
+            ];
+            for way in ways {
+                let scaled = c * way / 3;
+                let forward = Tangent::new(&dag, &[(symbol(v), dag.one())]).of(scaled);
+                let backward = reverse(&dag, &[(scaled, dag.one())], &[symbol(v), symbol(w)]);
+                for (v_at, w_at, c_at) in [(0.0, 0.0, 1.5), (0.6, -0.8, 2.0), (0.0, 3.0, 0.5)] {
+                    let value = |s| match s {
+                        s if s == symbol(v) => v_at,
+                        s if s == symbol(w) => w_at,
+                        _ => c_at,
+                    };
+                    let roots = [
+                        scaled,
+                        forward,
+                        backward[0],
+                        backward[1],
+                        square.diff(symbol(v)),
+                        square,
+                    ];
+                    let [found, by_v, again, by_w, slope, size]: [f64; 6] =
+                        evaluate(&dag, &roots, value)
+                            .try_into()
+                            .expect("as many as asked for");
+                    let power = |n: i64| size.sqrt().powi(n as i32);
+                    assert!(
+                        (found - c_at * power(n) / 3.0).abs() <= 1e-13 * found.abs(),
+                        "{found}"
+                    );
+                    let expected = c_at / 3.0 * n as f64 / 2.0 * power(n - 2) * slope;
+                    for by_v in [by_v, again] {
+                        assert!(
+                            (by_v - expected).abs() <= 1e-13 * expected.abs(),
+                            "{n}: {by_v} {expected}"
+                        );
+                    }
+                    assert!(by_w.is_finite());
+                }
+            }
+        }
+    }
+}
+
+/// What has no limit keeps none: nothing is cancelled that is not a factor as a whole.
+#[test]
+fn quotients_by_a_root_keep_their_values_elsewhere() {
+    let dag = Dag::new();
+    let [v, w] = ["v", "w"].map(|name| dag.symbol(name, Stage(4)));
+    let square = v.square() + w.square();
+    let expressions = [
+        v / square.sqrt(),
+        v.square() / square.sqrt(),
+        (v * w) / (v * w).sqrt(),
+        v / (v * w).sqrt(),
+    ];
+    let values: Vec<f64> = evaluate(&dag, &expressions, |s| {
+        if Some(s) == v.as_symbol() { 3.0 } else { 4.0 }
+    });
+    let root = 12.0_f64.sqrt();
+    for (found, expected) in values.into_iter().zip([0.6, 1.8, root, 3.0 / root]) {
+        assert!((found - expected).abs() < 1e-15 * 8.0, "{found} {expected}");
+    }
+}
