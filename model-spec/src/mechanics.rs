@@ -115,16 +115,42 @@ pub struct Equations<'d> {
 /// chain's accelerations linear in its length.
 #[derive(Clone, Debug)]
 pub struct Unprojected<'d> {
-    /// `u`, `w` and their weight, every pair once.
-    pub inertia: Vec<[Expr<'d>; 3]>,
+    /// Every pair of velocities with inertia.
+    pub inertia: Vec<InertialPair<'d>>,
     /// `u` and the load on it.
     pub loads: Vec<(Expr<'d>, Expr<'d>)>,
-    /// `u` and the acceleration of free fall along it, where it is not among the loads: the load is
-    /// this times the weight of `u u`.
-    pub gravity: Vec<(Expr<'d>, Expr<'d>)>,
     /// Whether velocities have accelerations where no coordinate has one; if not, these are among
     /// the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
     pub drifts: bool,
+}
+
+/// A term `½ weight u w` of the kinetic energy.
+///
+/// Two bodies may have the same velocity `u`, one along the ground and the other against gravity, so
+/// free fall belongs to the pair, and not to `u`.
+#[derive(Clone, Copy, Debug)]
+pub struct InertialPair<'d> {
+    /// `u`.
+    pub u: Expr<'d>,
+    /// `w`, often `u` again.
+    pub w: Expr<'d>,
+    /// The mass, or moment of inertia; of two different velocities twice the product of inertia.
+    pub weight: Expr<'d>,
+    /// The acceleration of free fall along `u`, of pairs `u u` whose weights are not among the loads:
+    /// the load on `u` is this times `weight`.
+    pub fall: Option<Expr<'d>>,
+}
+
+impl<'d> InertialPair<'d> {
+    /// A pair that gravity does not act on, or whose load by gravity is among the loads.
+    pub(crate) fn weightless(u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) -> InertialPair<'d> {
+        InertialPair {
+            u,
+            w,
+            weight,
+            fall: None,
+        }
+    }
 }
 
 /// What is derived for one body.
@@ -179,8 +205,10 @@ impl<'d> Equations<'d> {
         equations.slopes = slopes;
         equations.sliding = sliding::sliding(model, report)?;
         equations.reduction = reduction::reduction(model, &equations.constraints);
-        let refused = refusal::refuse_undefined(model, &equations, report)
-            || refusal::refuse_massless(model, &equations.mass_matrix, report);
+        let refused = refusal::refuse_undefined(model, &equations, report) || {
+            let (matrix, constraints) = (&equations.mass_matrix, &equations.constraints);
+            refusal::refuse_massless(model, matrix, constraints, report)
+        };
         (!refused).then_some(equations)
     }
 

@@ -14,6 +14,7 @@
 use lagrangian_symbolic::{Expr, normal, substitute};
 
 use super::circles::{self, Contact};
+use super::experiment;
 use super::kinematics::Variables;
 use super::lagrange::gradient;
 use crate::model::{Model, Rolling, stage};
@@ -72,10 +73,20 @@ impl<'d> ConstraintEquation<'d> {
 pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
     let x = Variables::of(model);
     let said = model.constraints.iter().map(|constraint| {
-        let has_rates = x.v.iter().any(|&v| constraint.expression.depends_on(v));
-        let statement = match has_rates {
-            true => Statement::Rate(constraint.expression),
-            false => Statement::Position(constraint.expression),
+        let mut said = constraint.expression;
+        let standing = |said: Expr<'d>| {
+            let rates = x.v.iter().copied().filter(|&v| said.depends_on(v));
+            rates.collect::<Vec<_>>()
+        };
+        let rates = standing(said);
+        if !rates.is_empty() {
+            // A rate that cancels is none, however it is spelled.
+            let gone = experiment::irrelevant(model.dag, &[said], rates);
+            said = experiment::without(model.dag, vec![said], &gone)[0];
+        }
+        let statement = match standing(said).is_empty() {
+            true => Statement::Position(said),
+            false => Statement::Rate(said),
         };
         let name = constraint.name.to_string();
         equation(model, &x, name, statement, constraint.unit)
@@ -116,10 +127,11 @@ fn equation<'d>(
         Statement::Position(g) => (Some(g), coasting.of(g)),
         Statement::Rate(rate) => (None, rate),
     };
-    let row = match position {
+    let mut row = match position {
         Some(g) => gradient(model.dag, g, &x.q),
         None => gradient(model.dag, rate, &x.v),
     };
+    experiment::write_zeros(model.dag, &mut row);
     ConstraintEquation {
         position,
         rate,

@@ -10,7 +10,7 @@
 //!
 //! Points are fixed, so the same machine gives the same equations.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::{
@@ -54,9 +54,149 @@ pub(crate) fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     None
 }
 
+/// Whether an expression is zero, as far as the prime field can tell; `None` where it has a value at
+/// no point.
+pub(crate) fn is_zero(expression: Expr<'_>) -> Option<bool> {
+    match expression.is_zero() {
+        true => Some(true),
+        false => equal(expression, expression.dag().zero()),
+    }
+}
+
+/// Writes 0 for what is zero, however it is spelled: `1 - sin(x)^2 - cos(x)^2`.
+pub(super) fn write_zeros<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
+    // One evaluation of all leaves few to be looked at one by one.
+    let values = evaluate(dag, expressions, |symbol| random(0, symbol));
+    for (expression, value) in expressions.iter_mut().zip(values) {
+        let is_suspect = value == Residue::ZERO || !value.is_finite();
+        if is_suspect && is_zero(*expression) == Some(true) {
+            *expression = dag.zero();
+        }
+    }
+}
+
+/// Whether one may divide by all of these: none is zero at a random point. `names` are symbols in them
+/// with what they stand for, in which there are none of these symbols.
+///
+/// What has a value at no point that is tried is not known to be zero.
+pub(crate) fn are_divisors<'d>(
+    dag: &'d Dag,
+    divisors: &[Expr<'d>],
+    names: &[(Expr<'d>, Expr<'d>)],
+) -> bool {
+    for seed in 0..TRIALS as u64 {
+        let mut known: BTreeMap<Symbol, Residue> = BTreeMap::new();
+        let meanings: Vec<Expr<'d>> = names.iter().map(|(_, meaning)| *meaning).collect();
+        let values = evaluate(dag, &meanings, |symbol| random(seed, symbol));
+        for ((name, _), value) in names.iter().zip(values) {
+            known.extend(name.as_symbol().map(|symbol| (symbol, value)));
+        }
+        let value = |symbol: Symbol| known.get(&symbol).copied();
+        let values = evaluate(dag, divisors, |s| {
+            value(s).unwrap_or_else(|| random(seed, s))
+        });
+        if values.contains(&Residue::ZERO) {
+            return false;
+        }
+        if values.iter().all(|value| value.is_finite()) {
+            return true;
+        }
+    }
+    true
+}
+
 /// Whether an expression is a function of parameters alone, whatever else stands in it.
 pub(crate) fn is_free_of_motion(expression: Expr<'_>) -> bool {
     constants(expression.dag(), &[expression])[0].is_some()
+}
+
+/// The directions that a matrix takes to zero, wherever all entries have a value: one for each of as
+/// many columns as it lacks in rank, with 1 in this column. `None` where they have a value at no point
+/// that is tried.
+pub(super) fn null_space<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> Option<Vec<Vec<Residue>>> {
+    let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
+    let width = rows.first().map_or(0, Vec::len);
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let values = points.find(|values| values.iter().all(|x| x.is_finite()))?;
+    let rows = values.chunks(width.max(1)).map(<[_]>::to_vec);
+    Some(null_space_of(rows.collect(), width))
+}
+
+/// The same of numbers.
+pub(crate) fn null_space_of(mut rows: Vec<Vec<Residue>>, width: usize) -> Vec<Vec<Residue>> {
+    // By Gauß and Jordan: the rows that are left have 1 in a column of their own.
+    let mut pivots: Vec<(usize, Vec<Residue>)> = Vec::new();
+    while let Some(mut row) = rows.pop() {
+        for (column, known) in &pivots {
+            let factor = row[*column];
+            subtract(&mut row, factor, known);
+        }
+        let Some(column) = row.iter().position(|x| *x != Residue::ZERO) else {
+            continue;
+        };
+        let pivot = row[column];
+        row.iter_mut().for_each(|x| *x = *x / pivot);
+        for (_, known) in &mut pivots {
+            let factor = known[column];
+            subtract(known, factor, &row);
+        }
+        pivots.push((column, row));
+    }
+    let is_free = |j: &usize| pivots.iter().all(|(column, _)| column != j);
+    let direction = |j: usize| {
+        let mut direction = vec![Residue::ZERO; width];
+        direction[j] = Residue::ONE;
+        for (column, row) in &pivots {
+            direction[*column] = -row[j];
+        }
+        direction
+    };
+    (0..width).filter(is_free).map(direction).collect()
+}
+
+fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
+    if factor != Residue::ZERO {
+        for (x, y) in row.iter_mut().zip(other) {
+            if *y != Residue::ZERO {
+                *x = *x - factor * *y;
+            }
+        }
+    }
+}
+
+/// The sign of an expression, if it is the same everywhere: that of a number times a square.
+///
+/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point, though
+/// it need not be the sign of the number `c`: this is seen where the expression has a real value.
+pub(super) fn steady_sign(expression: Expr<'_>) -> Option<bool> {
+    let dag = expression.dag();
+    let mut signs = Vec::new();
+    for seed in 0..(TRIALS * EXPERIMENTS_WITH_SIGNS) as u64 {
+        let value = evaluate(dag, &[expression], |symbol| random(seed, symbol))[0];
+        if value.is_finite() && value != Residue::ZERO {
+            signs.push(value.sign());
+        }
+        let is_other = |sign: &Residue| *sign != signs[0];
+        if signs.iter().any(is_other) {
+            return None;
+        }
+        if signs.len() == EXPERIMENTS_WITH_SIGNS {
+            break;
+        }
+    }
+    if signs.len() < EXPERIMENTS_WITH_SIGNS {
+        return None;
+    }
+    /// Far above any rounding.
+    const CLEAR: f64 = 1e-9;
+    let real =
+        (0..TRIALS as u32).map(|point| evaluate(dag, &[expression], |s| number(point, s))[0]);
+    let clear: Vec<f64> = real.filter(|x| x.is_finite() && x.abs() > CLEAR).collect();
+    let positive = *clear.first()? > 0.0;
+    clear
+        .iter()
+        .all(|x| (*x > 0.0) == positive)
+        .then_some(positive)
 }
 
 /// Whether the last of some rows is a combination of the others, wherever all have a value. Of rows
@@ -78,9 +218,7 @@ pub(super) fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
         };
         for other in rows.iter_mut().chain([&mut last]) {
             let factor = other[pivot] / row[pivot];
-            for (to, from) in other.iter_mut().zip(&row) {
-                *to = *to - factor * *from;
-            }
+            subtract(other, factor, &row);
         }
     }
     last.iter().all(|x| *x == Residue::ZERO)
@@ -117,12 +255,23 @@ pub(super) fn cyclic<'d>(
         .iter()
         .filter_map(|&id| dag.expr(id).as_symbol())
         .collect();
-    let mut cyclic: Vec<Symbol> = candidates
+    let suspects = candidates
         .iter()
         .zip(constants(dag, &slopes))
         .filter(|&(symbol, slope)| slope == Some(Residue::ZERO) && standing.contains(symbol))
         .map(|(&symbol, _)| symbol)
         .collect();
+    irrelevant(dag, expressions, suspects)
+}
+
+/// The symbols of a list on which none of the expressions depends: with 0 put in for them all keep
+/// their values.
+pub(super) fn irrelevant<'d>(
+    dag: &'d Dag,
+    expressions: &[Expr<'d>],
+    mut cyclic: Vec<Symbol>,
+) -> Vec<Symbol> {
+    let nodes = reachable(dag, expressions);
     let needed = experiments(dag, expressions);
     if nodes.len().saturating_mul(needed * cyclic.len()) > WORK {
         return Vec::new();
@@ -170,7 +319,9 @@ pub(super) fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
             let varying = symbols.filter(|&symbol| dag.stage_of(symbol) > stage::PARAMETER);
             let zeros: Vec<_> = varying.map(|symbol| (symbol, dag.zero())).collect();
             let settled = substitute(dag, &[*expression], &zeros);
-            if evaluate(dag, &settled, |symbol| varied(dag, 0, symbol)) == [value] {
+            if value == Residue::ZERO && is_zero(*expression) == Some(true) {
+                *expression = dag.zero();
+            } else if evaluate(dag, &settled, |symbol| varied(dag, 0, symbol)) == [value] {
                 *expression = settled[0];
             }
         }

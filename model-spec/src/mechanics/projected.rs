@@ -29,6 +29,7 @@
 
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
 
+use super::InertialPair;
 use super::energy;
 use super::kinematics::{
     self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
@@ -313,25 +314,30 @@ impl<'a, 'd> Projection<'a, 'd> {
         let drifts = self.model.space == Space::Plane;
         let loads = if drifts { applied } else { forces };
         let velocities = self.velocities_of(&self.inertial, rate);
-        let (mut inertia, mut gravity) = (Vec::new(), Vec::new());
+        let mut inertia = Vec::new();
         for (body, velocity) in self.inertial.iter().zip(&velocities) {
-            let points = || body.points.iter().zip(&velocity.points);
-            inertia.extend(points().map(|(point, &u)| [u, u, point.weight]));
-            if drifts {
-                gravity.extend(points().filter_map(|(point, &u)| Some((u, point.gravity?))));
-            }
+            let points = body.points.iter().zip(&velocity.points);
+            inertia.extend(points.map(|(point, &u)| InertialPair {
+                fall: point.gravity.filter(|g| drifts && !g.is_zero()),
+                ..InertialPair::weightless(u, u, point.weight)
+            }));
+            let mut add = |[u, w, weight]: [Expr<'d>; 3]| {
+                inertia.push(InertialPair::weightless(u, w, weight));
+            };
             if let (Some((mass, ..)), Some(linear)) = (body.centre, velocity.linear) {
-                inertia.extend(linear.map(|u| [u, u, mass]));
+                linear.into_iter().for_each(|u| add([u, u, mass]));
             }
             if let (Some((tensor, _)), Some([x, y, z])) = (body.tensor, velocity.angular) {
                 let [xx, yy, zz, xy, xz, yz] = tensor;
-                inertia.extend([[x, x, xx], [y, y, yy], [z, z, zz]]);
-                inertia.extend([[x, y, 2 * xy], [x, z, 2 * xz], [y, z, 2 * yz]]);
+                let moments = [[x, x, xx], [y, y, yy], [z, z, zz]];
+                let products = [[x, y, 2 * xy], [x, z, 2 * xz], [y, z, 2 * yz]];
+                moments.into_iter().chain(products).for_each(add);
             }
         }
         let twists = self.twists(rate);
         for (pose, lump) in &self.lumps {
-            inertia.extend(lump.pairs(&twists[pose.index()]));
+            let pairs = lump.pairs(&twists[pose.index()]).into_iter();
+            inertia.extend(pairs.map(|[u, w, weight]| InertialPair::weightless(u, w, weight)));
         }
         let mut acting = Vec::new();
         acting.extend(
@@ -348,13 +354,11 @@ impl<'a, 'd> Projection<'a, 'd> {
                 .iter()
                 .map(|&(i, load)| (velocity(i), load)),
         );
-        inertia.retain(|[_, _, weight]| !weight.is_zero());
+        inertia.retain(|pair| !pair.weight.is_zero());
         acting.retain(|(_, load)| !load.is_zero());
-        gravity.retain(|(_, g)| !g.is_zero());
         super::Unprojected {
             inertia,
             loads: acting,
-            gravity,
             drifts,
         }
     }

@@ -173,8 +173,13 @@ fn dependent<'d>(
     })
 }
 
-/// Whether one may divide by a coefficient: it is not 0 where the parameters have their defaults.
+/// Whether one may divide by a coefficient: it is not 0. Where it happens to be 0 for the parameters
+/// that the spec gives, another coordinate or none is the better choice, though this one would do for
+/// others.
 fn is_usable(model: &Model<'_>, coefficient: Expr<'_>) -> bool {
+    if experiment::is_zero(coefficient) != Some(false) {
+        return false;
+    }
     let default = |symbol: Symbol| {
         let mut parameters = model.parameters.iter();
         let parameter = parameters.find(|p| p.symbol.as_symbol() == Some(symbol));

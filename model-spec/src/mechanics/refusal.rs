@@ -1,8 +1,11 @@
 //! Machines that cannot be derived, and why.
 
+use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::Expr;
 
 use super::Equations;
+use super::constraints::ConstraintEquation;
+use super::experiment;
 use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use crate::diagnostic::{Code, Diagnostic, Report};
@@ -170,25 +173,46 @@ pub(super) fn refuse_undefined(
     true
 }
 
-/// Refuses coordinates that move no inertia: their rows of `M` are zero, and they have no
-/// acceleration. True if refused.
-pub(super) fn refuse_massless(
-    model: &Model<'_>,
-    mass_matrix: &Symmetric<Expr<'_>>,
+/// Refuses coordinates that may move without moving any inertia, where no constraint stops them: they
+/// have no accelerations. True if refused.
+pub(super) fn refuse_massless<'d>(
+    model: &Model<'d>,
+    mass_matrix: &Symmetric<Expr<'d>>,
+    constraints: &[ConstraintEquation<'d>],
     report: &mut Report,
 ) -> bool {
-    let mut refused = false;
-    for (i, coordinate) in model.coordinates.iter().enumerate() {
-        // M is positive semidefinite, so a row is zero exactly if its diagonal entry is.
-        if mass_matrix.get(i, i).is_zero() {
-            let name = &coordinate.name;
-            let message =
-                format!("no body's motion depends on `{name}`: its equation has no acceleration");
-            let help =
-                format!("give a body that `{name}` moves a mass, or an inertia if it turns one");
-            report.push(Diagnostic::new(Code::NoInertia, coordinate.span, message).help(help));
-            refused = true;
-        }
+    let n = model.coordinates.len();
+    let row = |i: usize| (0..n).map(move |j| *mass_matrix.get(i, j)).collect();
+    let rows = constraints.iter().map(|constraint| constraint.row.clone());
+    let rows: Vec<Vec<Expr<'d>>> = (0..n).map(row).chain(rows).collect();
+    let free = experiment::null_space(model.dag, &rows).unwrap_or_default();
+    for direction in &free {
+        let moving = (0..n).filter(|&i| direction[i] != Residue::ZERO);
+        let moving: Vec<usize> = moving.collect();
+        let names: Vec<String> = moving
+            .iter()
+            .map(|&i| format!("`{}`", model.coordinates[i].name))
+            .collect();
+        let Some((&last, name)) = moving.last().zip(names.last()) else {
+            continue;
+        };
+        let (message, help) = match &names[..] {
+            [_] => (
+                format!("no body's motion depends on {name}: its equation has no acceleration"),
+                format!("give a body that {name} moves a mass, or an inertia if it turns one"),
+            ),
+            all => (
+                format!(
+                    "no body's motion depends on how {} change together: their equations have no accelerations of their own",
+                    all.join(", ")
+                ),
+                format!(
+                    "leave {name} out, or give a body a mass that it moves otherwise than these do"
+                ),
+            ),
+        };
+        let span = model.coordinates[last].span;
+        report.push(Diagnostic::new(Code::NoInertia, span, message).help(help));
     }
-    refused
+    !free.is_empty()
 }

@@ -118,12 +118,16 @@ pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
     let normal = match &sliding.normal {
         None => left,
         Some(given) => {
-            let given = unit(given);
-            let side = dot(&given, &left);
-            // Said by its components the normal is as good as the direction turned, and shorter.
-            match experiment::equal(side, model.dag.int(-1)) {
-                Some(true) => left.into_iter().map(|x| -x).collect(),
-                _ => left,
+            let [x, y] = [sliding.direction[0], sliding.direction[1]];
+            // The given one is so many times the direction turned left, and the roots of their lengths
+            // need not be compared.
+            let times = dot(given, &[-y, x]) / model.dag.sum([x.square(), y.square()]);
+            // Said by its components the direction turned is as good as the given one, and shorter.
+            match experiment::steady_sign(times) {
+                Some(true) => left,
+                Some(false) => left.into_iter().map(|x| -x).collect(),
+                // The sides change with parameters or coordinates.
+                None => unit(given),
             }
         }
     };
@@ -401,5 +405,5 @@ fn dot<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Expr<'d> {
 }
 
 fn is_zero(e: Expr<'_>) -> bool {
-    e.is_zero() || experiment::equal(e, e.dag().zero()) == Some(true)
+    experiment::is_zero(e) == Some(true)
 }

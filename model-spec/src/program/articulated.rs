@@ -38,7 +38,7 @@ use lagrangian_symbolic::{
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bars::{self, Arm};
-use crate::mechanics::Unprojected;
+use crate::mechanics::{InertialPair, Unprojected, experiment};
 use crate::model::Model;
 
 /// The most terms that may go into the form. Where it takes more, the mass matrix is the better
@@ -88,6 +88,11 @@ pub(super) fn solve<'d>(
         .iter()
         .filter_map(|step| Some((*front.coordinates.get(&step.of)?, step.pivot?)))
         .collect();
+    // A coordinate without inertia need not look like one.
+    let divisors: Vec<Expr<'d>> = steps.iter().filter_map(|step| step.pivot).collect();
+    if !experiment::are_divisors(model.dag, &divisors, &front.names) {
+        return None;
+    }
     let velocities: BTreeMap<Id, usize> = model
         .coordinates
         .iter()
@@ -120,7 +125,6 @@ pub(super) fn mass_matrix<'d>(
     let unloaded = Unprojected {
         inertia: machine.inertia.clone(),
         loads: Vec::new(),
-        gravity: Vec::new(),
         drifts: false,
     };
     let mut front = Front::of(model, &unloaded, false);
@@ -272,7 +276,7 @@ impl<'d> Front<'d> {
         for id in front.coordinates.keys().copied().collect::<Vec<_>>() {
             front.enter(id);
         }
-        for &[u, w, weight] in &machine.inertia {
+        for &InertialPair { u, w, weight, .. } in &machine.inertia {
             front.add_inertia(u, w, weight);
         }
         let weights = front.gravity(machine);
@@ -290,7 +294,7 @@ impl<'d> Front<'d> {
         let inert: FxHashSet<Id> = machine
             .inertia
             .iter()
-            .flat_map(|[u, w, _]| [u.id(), w.id()])
+            .flat_map(|pair| [pair.u.id(), pair.w.id()])
             .collect();
         let mut candidates: BTreeMap<Id, Vec<usize>> = BTreeMap::new();
         for (&id, touched) in &self.touches {
@@ -352,7 +356,7 @@ impl<'d> Front<'d> {
 
     /// The velocities that inertia and loads are on, and the coordinates'.
     fn roots(&self, model: &Model<'d>, machine: &Unprojected<'d>) -> Vec<Expr<'d>> {
-        let inertial = machine.inertia.iter().flat_map(|[u, w, _]| [*u, *w]);
+        let inertial = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
         let loaded = machine.loads.iter().map(|(u, _)| *u);
         let velocities = model.coordinates.iter().map(|c| c.v);
         inertial.chain(loaded).chain(velocities).collect()
@@ -1038,14 +1042,13 @@ impl<'d> Front<'d> {
     /// There nothing has weight, and the ground accelerates upwards; no load comes to any body, and
     /// no sum of weights is rounded that the ground bears anyway.
     fn gravity(&mut self, machine: &Unprojected<'d>) -> Vec<(Expr<'d>, Expr<'d>)> {
-        let mut acting: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
-        for &(u, g) in &machine.gravity {
-            acting.entry(u.id()).or_default().push(g);
-        }
-        for (id, g) in &acting {
-            let moves = self.touches.contains_key(id) && self.is_linear(*id);
-            if moves && !self.coordinates.contains_key(id) {
-                self.falls.insert(*id, g[0]);
+        for pair in &machine.inertia {
+            let (id, Some(g)) = (pair.u.id(), pair.fall) else {
+                continue;
+            };
+            let moves = self.touches.contains_key(&id) && self.is_linear(id);
+            if moves && !self.coordinates.contains_key(&id) {
+                self.falls.entry(id).or_insert(g);
             }
         }
         // So is what they are built on.
@@ -1065,15 +1068,14 @@ impl<'d> Front<'d> {
                 open.insert(*carrier);
             }
         }
-        // What is left of weights from there: mostly nothing.
-        let mut loads = Vec::new();
-        for &[u, w, weight] in &machine.inertia {
-            let here = acting.get_mut(&u.id()).filter(|_| u == w);
-            let weighs = here.and_then(Vec::pop).unwrap_or(self.dag.zero());
-            let falls = self.falls.get(&u.id()).copied();
-            loads.push((u, weight * (weighs - falls.unwrap_or(self.dag.zero()))));
-        }
-        loads
+        // The weights that remain as seen from there: mostly none. Bodies that share a velocity may
+        // fall differently along it, so each pair has its own.
+        let zero = self.dag.zero();
+        let load = |pair: &InertialPair<'d>| {
+            let seen = self.falls.get(&pair.u.id()).copied().unwrap_or(zero);
+            (pair.u, pair.weight * (pair.fall.unwrap_or(zero) - seen))
+        };
+        machine.inertia.iter().map(load).collect()
     }
 
     /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that

@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 
 use lagrangian_symbolic::{Expr, Id, Node, Rational, Stage};
 
-use crate::mechanics::Unprojected;
+use crate::mechanics::{InertialPair, Unprojected};
 use crate::model::Assumption;
 
 /// A component of the velocity of a point on a bar: `u = u_H + c ω`.
@@ -69,19 +69,26 @@ pub(super) fn replaced<'d>(
             continue;
         };
         rest = &others[1..];
-        let [u, _, mass] = first;
-        let dag = u.dag();
+        let mass = first.weight;
+        let dag = mass.dag();
         let (near, far) = (mass * (1 - bar.share), mass * bar.share);
-        for (joint, tip) in bar.joint.iter().zip(&bar.tip) {
-            let [joint, tip] = [joint, tip].map(|id| dag.expr(*id));
-            replaced.inertia.push([joint, joint, near]);
-            replaced.inertia.push([tip, tip, far]);
+        // What acts on the body, falls included, acts on both ends in these shares.
+        let falls = [first.fall, others[0].fall];
+        for ((joint, tip), fall) in bar.joint.iter().zip(&bar.tip).zip(falls) {
+            for (end, mass) in [(joint, near), (tip, far)] {
+                let end = dag.expr(*end);
+                replaced.inertia.push(InertialPair {
+                    fall,
+                    ..InertialPair::weightless(end, end, mass)
+                });
+            }
         }
         let turning = dag.expr(bar.turning);
         // λ² l² and λ l² are products of lengths, without a quotient.
         let [squared, single] = [2, 1].map(|power| bar.share.powi(power) * bar.length_squared);
         let left = mass * (squared - single);
-        replaced.inertia.push([turning, turning, left]);
+        let left = InertialPair::weightless(turning, turning, left);
+        replaced.inertia.push(left);
         gone.push(bar);
     }
     if gone.is_empty() {
@@ -103,11 +110,6 @@ pub(super) fn replaced<'d>(
             }
             None => replaced.loads.push((u, load)),
         }
-    }
-    replaced.gravity.clear();
-    for &(u, g) in &machine.gravity {
-        let ends = on(u).map_or(vec![u], |(_, ends)| ends.to_vec());
-        replaced.gravity.extend(ends.into_iter().map(|u| (u, g)));
     }
     Some(replaced)
 }
@@ -138,13 +140,14 @@ fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
 
 /// The bar that a point is on, if there is another point in the same direction from its joint.
 fn bar<'d>(
-    inertia: [[Expr<'d>; 3]; 2],
+    inertia: [InertialPair<'d>; 2],
     arms: &BTreeMap<Id, Arm<'d>>,
     carried: &BTreeMap<(Id, Id), Vec<Id>>,
     assumptions: &[Assumption<'d>],
 ) -> Option<Bar<'d>> {
-    let [[x, x_again, weight], [y, y_again, weight_of_y]] = inertia;
-    let is_point = x == x_again && y == y_again && weight == weight_of_y;
+    let [first, second] = inertia;
+    let (x, y, weight) = (first.u, second.u, first.weight);
+    let is_point = x == first.w && y == second.w && weight == second.weight;
     if !is_point || weight.stage() > Stage::PARAMETER {
         return None;
     }

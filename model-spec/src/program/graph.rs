@@ -12,10 +12,12 @@
 //! Never more multiplications than before: one for each term that loses its factor, against one
 //! where the sum is used.
 
+use lagrangian_scalar::Scalar;
 use lagrangian_symbolic::{Function, Rational};
 use rustc_hash::FxHashMap;
 
 use super::Source;
+use super::interpret::{binary, unary};
 
 /// A node of a [`Graph`]; operands have smaller ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -452,6 +454,68 @@ impl Graph {
             factor,
             core: x.core,
         }
+    }
+
+    /// Values over any numbers, given those of what is read.
+    pub(super) fn evaluate<S: Scalar>(
+        &self,
+        roots: &[Scaled],
+        read: impl Fn(Source) -> S,
+    ) -> Vec<S> {
+        let mut needed = vec![false; self.nodes.len()];
+        for root in roots {
+            needed[root.factor.index()] = true;
+            needed[root.core.index()] = true;
+        }
+        for index in (0..self.nodes.len()).rev() {
+            if !needed[index] {
+                continue;
+            }
+            let mut need = |id: Id| needed[id.index()] = true;
+            match &self.nodes[index] {
+                Node::Constant(_) | Node::Pi | Node::Read(_) => {}
+                Node::Sum(terms) => terms.iter().for_each(|term| need(term.id)),
+                Node::Product(factors) => factors.iter().for_each(|(id, _)| need(*id)),
+                Node::Function(_, arguments) => arguments.iter().for_each(|id| need(*id)),
+                Node::Whole(id) => need(*id),
+            }
+        }
+        let mut values = vec![S::ZERO; self.nodes.len()];
+        for index in (0..self.nodes.len()).filter(|&index| needed[index]) {
+            let at = |id: Id| values[id.index()];
+            values[index] = match &self.nodes[index] {
+                Node::Constant(value) => value.evaluate(),
+                Node::Pi => S::pi(),
+                Node::Read(source) => read(*source),
+                Node::Sum(terms) => terms.iter().fold(S::ZERO, |sum, term| {
+                    let value = at(term.id);
+                    if term.negative {
+                        sum - value
+                    } else {
+                        sum + value
+                    }
+                }),
+                Node::Product(factors) => factors.iter().fold(S::ONE, |product, (id, power)| {
+                    let factor = at(*id).powi(power.saturating_abs());
+                    if *power < 0 {
+                        product / factor
+                    } else {
+                        product * factor
+                    }
+                }),
+                Node::Function(function, arguments) => match **arguments {
+                    [x] => unary(*function, at(x)),
+                    [x, y] => binary(*function, at(x), at(y)),
+                    _ => unreachable!("functions have one argument or two"),
+                },
+                Node::Whole(id) => at(*id),
+            };
+        }
+        let value = |root: &Scaled| {
+            let value = values[root.factor.index()] * values[root.core.index()];
+            if root.negative { -value } else { value }
+        };
+        roots.iter().map(value).collect()
     }
 
     /// The same value, computed on its own wherever it is used: not multiplied out.

@@ -147,7 +147,7 @@ impl Program {
         if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
             starts.extend(model.coordinates.iter().map(|c| c.start_rate));
         }
-        let mut lowering = Lowering::new(model);
+        let mut lowering = Lowering::new(model, constraints.len());
         lowering.lower(&all_values(source.quantities));
         lowering.lower(&starts);
         lowering.lower(&all_values(source.expanded));
@@ -453,15 +453,18 @@ fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Qu
 /// Expressions on their way into the graph.
 struct Lowering<'m, 'd> {
     model: &'m Model<'d>,
+    /// How many constraints there are.
+    constraints: usize,
     graph: Graph,
     sources: FxHashMap<Symbol, Source>,
     values: FxHashMap<symbolic::Id, Scaled>,
 }
 
 impl<'m, 'd> Lowering<'m, 'd> {
-    fn new(model: &'m Model<'d>) -> Self {
+    fn new(model: &'m Model<'d>, constraints: usize) -> Self {
         Lowering {
             model,
+            constraints,
             graph: Graph::new(),
             sources: sources(model),
             values: FxHashMap::default(),
@@ -524,7 +527,11 @@ impl<'m, 'd> Lowering<'m, 'd> {
     }
 
     /// M and f, if both are there; of the constraints behind them those that they come with.
-    fn system(&self, quantities: &[Quantity<'d>], constraints: &[Quantity<'d>]) -> Option<System> {
+    fn system(
+        &mut self,
+        quantities: &[Quantity<'d>],
+        constraints: &[Quantity<'d>],
+    ) -> Option<System> {
         let values = |quantities: &[Quantity<'d>], role| {
             let quantity = quantities.iter().find(|quantity| quantity.role == role)?;
             Some(self.values(&quantity.values))
@@ -533,16 +540,20 @@ impl<'m, 'd> Lowering<'m, 'd> {
         let mut forces = values(quantities, Role::Forces)?;
         let coordinates = forces.len();
         let rows = values(constraints, Role::ConstraintMatrix).unwrap_or_default();
-        for (k, row) in rows.chunks(coordinates.max(1)).enumerate() {
-            matrix.extend(row);
+        let drifts = values(constraints, Role::ConstraintDrift).unwrap_or_default();
+        // A machine whose coordinates are all settled has rows without entries.
+        for k in 0..drifts.len() {
+            matrix.extend(&rows[k * coordinates..][..coordinates]);
             matrix.extend(vec![Scaled::ZERO; k + 1]);
         }
-        forces.extend(values(constraints, Role::ConstraintDrift).unwrap_or_default());
-        Some(System {
+        forces.extend(drifts);
+        let system = System {
             matrix,
             forces,
             coordinates,
-        })
+            held: Vec::new(),
+        };
+        Some(system.held_by_constraints(&mut self.graph))
     }
 
     fn values(&self, expressions: &[Expr<'d>]) -> Vec<Scaled> {
@@ -763,7 +774,7 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
         .map(|draft| draft.function.counts().ops())
         .min();
     for (basis, system) in systems {
-        let elimination = Elimination::of(&system);
+        let elimination = Elimination::of(&lowering.graph, &system);
         // What is certainly longer is not even written down: it grows with the cube of the number
         // of coordinates.
         if shortest.is_some_and(|ops| elimination.multiplications > ops) {
@@ -773,6 +784,30 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
         drafts.extend(solved(lowering, source, solution, basis));
     }
     drafts
+}
+
+/// What the square of a coefficient that parameters decide has to exceed by the tolerance of guards, for
+/// its value not to be rounding of its terms alone: `n Σ t²` times that tolerance. `None` where it has
+/// no rounding to speak of: a product, or a sum or difference of two numbers that are given.
+fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
+    let dag = coefficient.dag();
+    let symbolic::Node::Sum(terms) = coefficient.node() else {
+        return None;
+    };
+    let is_given = |(id, c): &(symbolic::Id, lagrangian_symbolic::Rational)| {
+        let is_symbol = dag.expr(*id).as_symbol().is_some();
+        is_symbol && c.abs().is_one()
+    };
+    if terms.len() < 2 || (terms.len() == 2 && terms.iter().all(is_given)) {
+        return None;
+    }
+    let squares = terms
+        .iter()
+        .map(|(id, c)| (dag.expr(*id) * c.clone()).square());
+    let tolerance = solve::pivot_tolerance(rows) * terms.len() as f64;
+    // A power of 2 at least as large: the tolerance is no number of the equations.
+    let halvings = -tolerance.log2().ceil() as i32;
+    Some(dag.sum(squares) / dag.int(2).powi(halvings))
 }
 
 /// A solution for the coordinates that are left, as one for all coordinates.
@@ -820,6 +855,7 @@ fn embedded<'d>(
     });
     let mut pivots: Vec<Pivot> = pivots.collect();
     // What was divided by; the determinant has its square.
+    let rows = all + lowering.constraints;
     for dependent in &reduction.dependents {
         lowering.lower(&[dependent.coefficient]);
         let coefficient = lowering.values(&[dependent.coefficient])[0];
@@ -828,7 +864,13 @@ fn embedded<'d>(
         pivots.push(Pivot {
             coordinate: all + dependent.constraint,
             pivot,
-            scale: pivot,
+            scale: match rounding_of(dependent.coefficient, rows) {
+                None => pivot,
+                Some(rounding) => {
+                    lowering.lower(&[rounding]);
+                    lowering.values(&[rounding])[0]
+                }
+            },
         });
     }
     Solution {
@@ -856,7 +898,7 @@ fn multipliers<'d>(
     let Some(system) = lowering.system(quantities, source.quantities) else {
         return Vec::new();
     };
-    let elimination = Elimination::of(&system);
+    let elimination = Elimination::of(&lowering.graph, &system);
     let work = elimination.multiplications;
     let along = source.cut_open.and_then(|machine| {
         let solution = closed::solve(lowering, lowering.model, &system, machine)?;

@@ -673,8 +673,12 @@ impl<'a, 'd> Point<'a, 'd> {
             });
         let diagonal = |i: usize| lower[Shape::index(i, i)];
         let mut by_coordinates = pairs.iter().take(coordinates).enumerate();
-        // Where coordinates are put into others, these have another inertia.
+        // Where coordinates are put into others, these have another inertia; so have those that
+        // constraints hold because they have none.
+        let own = &lower[..Shape::Symmetric(coordinates).len()];
+        let has_inertia = determinant(own, coordinates) != Residue::ZERO;
         let scales = !are_of_matrix
+            || !has_inertia
             || by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
         let determinant = determinant(lower, n);
         if !determinant.is_finite() {
@@ -739,19 +743,29 @@ fn guarded_coordinates(program: &Program) -> Vec<usize> {
     guards.map(|guard| guard.coordinate).collect()
 }
 
-/// The determinant of a symmetric matrix, by its lower triangle; undefined where a leading minor
-/// vanishes.
+/// The determinant of a symmetric matrix, by its lower triangle.
 fn determinant(lower: &[Residue], n: usize) -> Residue {
-    let index = Shape::index;
-    let mut left = lower.to_vec();
+    let entry = |i: usize, j: usize| lower[Shape::index(i.max(j), i.min(j))];
+    let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
+    let mut left: Vec<Vec<Residue>> = (0..n).map(row).collect();
     let mut determinant = Residue::ONE;
     for k in 0..n {
-        let pivot = left[index(k, k)];
-        determinant = determinant * pivot;
-        for i in k + 1..n {
-            let l = left[index(i, k)] / pivot;
-            for j in k + 1..=i {
-                left[index(i, j)] = left[index(i, j)] - l * left[index(j, k)];
+        // Rows are exchanged: without inertia of its own a coordinate has no pivot in its place.
+        let Some(found) = (k..n).find(|&i| left[i][k] != Residue::ZERO) else {
+            return Residue::ZERO;
+        };
+        if found != k {
+            left.swap(found, k);
+            determinant = -determinant;
+        }
+        let pivot = left[k].clone();
+        determinant = determinant * pivot[k];
+        for row in &mut left[k + 1..] {
+            if row[k] != Residue::ZERO {
+                let l = row[k] / pivot[k];
+                for (x, y) in row.iter_mut().zip(&pivot).skip(k) {
+                    *x = *x - l * *y;
+                }
             }
         }
     }

@@ -16,11 +16,22 @@
 //! eliminated already: of one sign wherever the constraints say different things. So a long chain
 //! that closes is eliminated from its ends, as a tree is.
 //!
+//! What may be divided by is decided at a random point of a prime field, where nothing is rounded and
+//! no zero is in disguise. Constraints that say what others have said already leave a pivot of 0: their
+//! multipliers are 0 here, and a guard that always fails tells whoever asks that these are not the
+//! only ones. Where M is singular and the constraints hold what has no inertia, `M + Gᵀ W G` takes its
+//! place, which has the same motion and the same multipliers since the constraints decide `G a`
+//! ([`System::held`]).
+//!
 //! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
 //! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
 
-use super::Shape;
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_symbolic::Rational;
+
 use super::graph::{Graph, Scaled};
+use super::{Shape, Source};
+use crate::mechanics::experiment::null_space_of;
 
 /// How many times n·2⁻⁵² of its diagonal entry a pivot must exceed.
 ///
@@ -61,6 +72,106 @@ pub(super) struct System {
     pub(super) forces: Vec<Scaled>,
     /// How many rows are of coordinates.
     pub(super) coordinates: usize,
+    /// Constraints whose squares are part of M and f, `M + Σ wₖ gₖ gₖᵀ` and `f + Σ wₖ γₖ gₖ`, with
+    /// their weights.
+    pub(super) held: Vec<(usize, Scaled)>,
+}
+
+impl System {
+    /// The lower triangle at a random point where all of it has a value.
+    fn at_random(&self, graph: &Graph) -> Option<Vec<Residue>> {
+        /// A square root exists at every second point.
+        const TRIALS: u64 = 16;
+        let at = |seed| graph.evaluate(&self.matrix, |source| random(seed, source));
+        (0..TRIALS)
+            .map(at)
+            .find(|values| values.iter().all(|value| value.is_finite()))
+    }
+
+    /// The row of a constraint.
+    pub(super) fn row(&self, constraint: usize) -> &[Scaled] {
+        let start = Shape::index(self.coordinates + constraint, 0);
+        &self.matrix[start..start + self.coordinates]
+    }
+
+    /// The same system with a regular M, where constraints hold what has no inertia: each of these
+    /// adds as much inertia along it as its coordinates have together.
+    pub(super) fn held_by_constraints(mut self, graph: &mut Graph) -> System {
+        let n = self.coordinates;
+        let count = self.forces.len() - n;
+        if count == 0 {
+            return self;
+        }
+        let Some(values) = self.at_random(graph) else {
+            return self;
+        };
+        let entry = |i: usize, j: usize| values[Shape::index(i.max(j), i.min(j))];
+        let rows = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect());
+        let free = null_space_of(rows.collect(), n);
+        let mut matrix = self.matrix.clone();
+        let mut forces = self.forces.clone();
+        for k in 0..count {
+            let along = |direction: &Vec<Residue>| {
+                let products = (0..n).map(|j| entry(n + k, j) * direction[j]);
+                products.fold(Residue::ZERO, |sum, x| sum + x)
+            };
+            if free
+                .iter()
+                .all(|direction| along(direction) == Residue::ZERO)
+            {
+                continue;
+            }
+            let row = self.row(k).to_vec();
+            let own = (0..n).filter(|&j| !row[j].is_zero());
+            let inertia = own.clone().fold(Residue::ZERO, |sum, j| sum + entry(j, j));
+            let inert: Vec<usize> = match inertia == Residue::ZERO {
+                true => (0..n).collect(),
+                false => own.clone().collect(),
+            };
+            let inertia = inert.iter().map(|&j| self.matrix[Shape::index(j, j)]);
+            let inertia = graph.sum(&inertia.collect::<Vec<_>>());
+            let squares: Vec<Scaled> = own.clone().map(|j| graph.product(&[(row[j], 2)])).collect();
+            let squares = graph.sum(&squares);
+            let weight = graph.quotient(inertia, squares);
+            let weight = graph.whole(weight);
+            let weighted: Vec<Scaled> = row
+                .iter()
+                .map(|g| {
+                    let weighted = graph.product(&[(weight, 1), (*g, 1)]);
+                    graph.whole(weighted)
+                })
+                .collect();
+            for i in own.clone() {
+                for j in own.clone().take_while(|j| *j <= i) {
+                    let place = &mut matrix[Shape::index(i, j)];
+                    let product = graph.product(&[(weighted[i], 1), (row[j], 1)]);
+                    *place = total(graph, &[*place, product]);
+                }
+                let product = graph.product(&[(weighted[i], 1), (self.forces[n + k], 1)]);
+                forces[i] = total(graph, &[forces[i], product]);
+            }
+            self.held.push((k, weight));
+        }
+        self.matrix = matrix;
+        self.forces = forces;
+        self
+    }
+}
+
+/// A random value of what is read, one and the same for the same seed.
+fn random(seed: u64, source: Source) -> Residue {
+    let (kind, index) = match source {
+        Source::Time => (0, 0),
+        Source::Parameter(index) => (1, index),
+        Source::Prepared(index) => (2, index),
+        Source::Coordinate(index) => (3, index),
+        Source::Velocity(index) => (4, index),
+        Source::Input(index) => (5, index),
+        Source::Acceleration(index) => (6, index),
+        Source::AtTime(index) => (7, index),
+        Source::AtPosition(index) => (8, index),
+    };
+    Residue::random(seed, kind << 32 | u64::from(index))
 }
 
 /// Solves `M a = f + Gᵀ λ`, `G a = γ`.
@@ -69,6 +180,7 @@ pub(super) fn solve(graph: &mut Graph, system: &System, elimination: Elimination
         matrix,
         forces,
         coordinates,
+        ..
     } = system;
     let (n, is_constraint) = (forces.len(), |row: usize| row >= *coordinates);
     let mut left = Entries::new(matrix, n);
@@ -80,6 +192,19 @@ pub(super) fn solve(graph: &mut Graph, system: &System, elimination: Elimination
     let mut eliminated = vec![false; n];
     for k in elimination.order {
         eliminated[k] = true;
+        if elimination.dependent.contains(&k) {
+            pivots.push(Pivot {
+                coordinate: k,
+                pivot: Scaled::ZERO,
+                scale: graph.constant(&Rational::ONE),
+            });
+            columns.push(Column {
+                k,
+                scaled: Scaled::ZERO,
+                below: Vec::new(),
+            });
+            continue;
+        }
         let pivot = left.total(graph, k, k);
         pivots.push(match is_constraint(k) {
             false => Pivot {
@@ -95,7 +220,8 @@ pub(super) fn solve(graph: &mut Graph, system: &System, elimination: Elimination
         });
         // Column k of what is left of M: u, of which l = u/d.
         let mut column = Vec::new();
-        for i in (0..n).filter(|i| !eliminated[*i]) {
+        let matters = |i: &usize| !eliminated[*i] && !elimination.dependent.contains(i);
+        for i in (0..n).filter(matters) {
             let u = left.total(graph, i, k);
             if !u.is_zero() {
                 let l = graph.quotient(u, pivot);
@@ -262,18 +388,54 @@ impl Pattern {
     }
 }
 
+/// A system at a random point, while it is eliminated; without numbers where no point was found.
+struct Numbers {
+    lower: Option<Vec<Residue>>,
+}
+
+impl Numbers {
+    fn is_zero(&self, i: usize, j: usize) -> bool {
+        let index = Shape::index(i.max(j), i.min(j));
+        let entry = self.lower.as_ref().map(|lower| lower[index]);
+        entry == Some(Residue::ZERO)
+    }
+
+    /// Takes row k, whose pivot is not zero, out of the rows that are left.
+    fn eliminate(&mut self, k: usize, left: &[usize]) {
+        let Some(lower) = &mut self.lower else {
+            return;
+        };
+        let index = |i: usize, j: usize| Shape::index(i.max(j), i.min(j));
+        let pivot = lower[index(k, k)];
+        let column = left.iter().map(|&i| (i, lower[index(i, k)]));
+        let column: Vec<(usize, Residue)> = column.filter(|(_, u)| *u != Residue::ZERO).collect();
+        for (position, &(i, u)) in column.iter().enumerate() {
+            let l = u / pivot;
+            for &(j, other) in &column[..=position] {
+                let entry = &mut lower[index(i, j)];
+                *entry = *entry - l * other;
+            }
+        }
+    }
+}
+
 /// The order in which coordinates are eliminated: each time the cheapest one; the first one, if
 /// several are.
 pub(super) struct Elimination {
     order: Vec<usize>,
+    /// Rows of which nothing is left beside those before them.
+    dependent: Vec<usize>,
     /// How many multiplications it will take at run time.
     pub(super) multiplications: usize,
 }
 
 impl Elimination {
     /// The order for a system.
-    pub(super) fn of(system: &System) -> Elimination {
+    pub(super) fn of(graph: &Graph, system: &System) -> Elimination {
         let n = system.forces.len();
+        let mut numbers = Numbers {
+            lower: system.at_random(graph),
+        };
         let mut pattern = Pattern::new(&Entries::new(&system.matrix, n));
         let whole = pattern.kinds.clone();
         // A constraint waits for all its coordinates.
@@ -283,16 +445,25 @@ impl Elimination {
         };
         let mut elimination = Elimination {
             order: Vec::with_capacity(n),
+            dependent: Vec::new(),
             multiplications: 0,
         };
-        let next = |pattern: &Pattern| {
+        let next = |pattern: &Pattern, numbers: &Numbers| {
             let ready = pattern.left.iter().filter(|k| is_ready(**k, &pattern.left));
-            ready.map(|&k| (pattern.cost(k), k)).min()
+            ready
+                .map(|&k| (numbers.is_zero(k, k), pattern.cost(k), k))
+                .min()
         };
-        while let Some((cost, k)) = next(&pattern) {
+        while let Some((is_zero, cost, k)) = next(&pattern, &numbers) {
             elimination.order.push(k);
-            elimination.multiplications += cost;
-            pattern.eliminate(k);
+            if is_zero {
+                elimination.dependent.push(k);
+                pattern.left.retain(|&i| i != k);
+            } else {
+                elimination.multiplications += cost;
+                pattern.eliminate(k);
+                numbers.eliminate(k, &pattern.left);
+            }
         }
         elimination
     }

@@ -211,3 +211,68 @@ fn guides_that_are_none_are_refused() {
     }
     assert!(codes(&cart(&of("body: box, on: cart, direction: (2, 0)"))).is_empty());
 }
+
+/// A bead on the parabola y = k z²/2: N = m (g + k ż²)/√(1 + k² z²) upwards, whatever the lengths of what is said of the guide.
+#[test]
+fn the_side_of_a_normal_does_not_depend_on_lengths() {
+    let guides = [
+        ("(1, k*z)", "(-k*z, 1)"),
+        ("(0.5, 0.5*k*z)", "(-k*z, 1)"),
+        ("(1.5, 1.5*k*z)", "(-k*z, 1)"),
+        ("(2, 2*k*z)", "(-3*k*z, 3)"),
+        ("(3, 3*k*z)", "(-k*z, 1)"),
+        ("(-3, -3*k*z)", "(-k*z, 1)"),
+        ("(5/7, 5/7*k*z)", "(-11*k*z, 11)"),
+        ("(sqrt(3), sqrt(3)*k*z)", "(-k*z, 1)"),
+        ("(-pi, -pi*k*z)", "(-2*k*z, 2)"),
+        ("(1 + z^2*k^2, (1 + z^2*k^2)*k*z)", "(-k*z, 1)"),
+        ("(s*(1, k*z))", "(-k*z, 1)"),
+        ("(-s*(1, k*z))", "(-k*z, 1)"),
+        ("(1, k*z)", "(s^2*(-k*z, 1))"),
+        ("(cos(k*z)*(1, k*z))", "(-k*z, 1)"),
+    ];
+    for (direction, normal) in guides {
+        let text = format!(
+            "machine Bead in plane {{
+                parameters {{ m: kg = 2, k: 1/m = 0.7, g: m/s^2 = 9.81, mu: 1 = 0.2, s: 1 = 3 }}
+                coordinates {{ z: m }}
+                frames {{ bead = ground.shift(z, k*z^2/2) }}
+                bodies {{ bead {{ mass: m, frame: bead }} }}
+                gravity (0, -g);
+                sliding {{ wire {{ body: bead, on: ground, direction: {direction}, normal: {normal}, friction: mu }} }}
+            }}"
+        );
+        derived(&text, |model, equations| {
+            let (z, v) = (model.coordinates[0].q, model.coordinates[0].v);
+            let [normal_of_bead] = &equations.sliding[..] else {
+                panic!("one guide");
+            };
+            let normal_of_bead = normal_of_bead.normal(model);
+            for (z_at, v_at, s_at) in [
+                (0.3, 1.2, 3.0),
+                (-1.4, 0.5, 3.0),
+                (-0.2, -2.0, 0.4),
+                (1.1, 0.1, -1.7),
+            ] {
+                let (m, k, g) = (2.0, 0.7, 9.81);
+                let value = |symbol| match Some(symbol) {
+                    of if of == z.as_symbol() => z_at,
+                    of if of == v.as_symbol() => v_at,
+                    of if of == model.coordinates[0].a.as_symbol() => 0.8,
+                    of => {
+                        let known = [("m", m), ("k", k), ("g", g), ("s", s_at), ("mu", 0.2)];
+                        let is_it =
+                            |(name, _): &&(&str, f64)| self::symbol(model, name).as_symbol() == of;
+                        known.iter().find(is_it).expect("a parameter").1
+                    }
+                };
+                let found = lagrangian_symbolic::evaluate(model.dag, &[normal_of_bead], value)[0];
+                let expected = m * (g + k * v_at * v_at) / (1.0 + k * k * z_at * z_at).sqrt();
+                assert!(
+                    (found - expected).abs() < 1e-12 * expected,
+                    "{direction} {normal}: {found} {expected}"
+                );
+            }
+        });
+    }
+}

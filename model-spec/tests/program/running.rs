@@ -230,3 +230,58 @@ fn deep_programs_run() {
     let expected = (0..60).fold(0.5_f64, |x, _| 0.5 + x.sin() / 3.0);
     assert!((out[0] - expected).abs() < 1e-15);
 }
+
+/// The accelerations of a machine at its default parameters.
+fn accelerations_at(text: &str, q: &[f64], v: &[f64]) -> Vec<f64> {
+    let program = program(text);
+    let parameters = program.parameters.iter();
+    let parameters: Vec<f64> = parameters
+        .map(|p| p.default.as_ref().expect("a default").value)
+        .collect();
+    let arguments = Arguments {
+        t: 0.0,
+        q,
+        v,
+        u: &[],
+        a: &[],
+    };
+    let mut a = vec![0.0; q.len()];
+    let called =
+        Interpreter::new(&program, &parameters).call(Role::Accelerations, arguments, &mut a);
+    assert_eq!(called, Ok(()));
+    a
+}
+
+#[test]
+fn drag_by_the_square_of_the_speed_is_nothing_at_rest() {
+    let text = "machine Falling in plane {
+        parameters { m: kg = 0.1, c: N*s^2/m^2 = 0.003, g: m/s^2 = 9.81 }
+        coordinates { x: m, y: m = 100 }
+        bodies { ball { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        dissipations { drag: 1/3*c*dot(der(ball.at), der(ball.at))^(3/2) }
+    }";
+    let a = accelerations_at(text, &[0.0, 100.0], &[0.0; 2]);
+    assert!(a[0] == 0.0 && (a[1] + 9.81).abs() < 1e-14, "{a:?}");
+    // c |v| v of 0.003·5·(3, −4) N on 0.1 kg.
+    let a = accelerations_at(text, &[0.0, 100.0], &[3.0, -4.0]);
+    assert!(
+        (a[0] + 0.45).abs() < 1e-15 && (a[1] - 0.6 + 9.81).abs() < 1e-14,
+        "{a:?}"
+    );
+}
+
+#[test]
+fn one_coordinate_may_be_the_abscissa_of_one_body_and_the_ordinate_of_another() {
+    let bodies = [
+        "block { mass: 1, at: (x, 0) }",
+        "weight { mass: 2, at: (0, x) }",
+    ];
+    for [first, second] in [bodies, [bodies[1], bodies[0]]] {
+        let text = format!(
+            "machine T in plane {{ coordinates {{ x: m }} bodies {{ {first}, {second} }} gravity (0, -10); }}"
+        );
+        let a = accelerations_at(&text, &[0.0], &[0.0]);
+        assert!((a[0] + 20.0 / 3.0).abs() < 1e-14, "{a:?}");
+    }
+}

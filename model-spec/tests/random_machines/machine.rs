@@ -214,6 +214,99 @@ impl Machine {
         machine
     }
 
+    /// A planar machine in which a coordinate is the abscissa of one body and the ordinate of another, so that
+    /// bodies share velocities along different axes, in any order of bodies. Some carry an arm that turns.
+    pub fn sharing(random: &mut Random, coordinates: usize) -> Machine {
+        let own = |coordinate: usize, factor: f64| Linear {
+            coordinate: vec![(coordinate, factor)],
+            ..Linear::default()
+        };
+        let mut pool: Vec<Linear> = (0..coordinates).map(|k| own(k, 1.0)).collect();
+        pool.push(Linear::default());
+        for _ in 0..2 {
+            let mut linear = own(random.below(coordinates), [1.0, -1.0, 2.0][random.below(3)]);
+            linear
+                .coordinate
+                .push((random.below(coordinates), random.number(-1.0, 1.0)));
+            pool.push(linear);
+        }
+        let mut frames = Vec::new();
+        let mut bodies = Vec::new();
+        // Each coordinate moves a mass of its own, so the mass matrix is positive definite.
+        for k in 0..coordinates + 2 {
+            let first = if k < coordinates {
+                k
+            } else {
+                random.below(pool.len())
+            };
+            let mut at = [
+                pool[first].clone(),
+                pool[random.below(pool.len())].clone(),
+                Linear::default(),
+            ];
+            if random.chance(50) {
+                at.swap(0, 1);
+            }
+            frames.push(Frame {
+                parent: 0,
+                step: Step::Shift(at),
+            });
+            if random.chance(40) {
+                let angle = own(random.below(coordinates), random.number(0.5, 1.5));
+                frames.push(Frame {
+                    parent: frames.len(),
+                    step: Step::Turn(2, angle),
+                });
+                let arm = [0.25, 0.5, 0.0].map(|constant| Linear {
+                    constant,
+                    ..Linear::default()
+                });
+                frames.push(Frame {
+                    parent: frames.len(),
+                    step: Step::Shift(arm),
+                });
+                bodies.push(Body {
+                    frame: frames.len(),
+                    offset: [0.0; 3],
+                    mass: random.number(0.5, 3.0),
+                    inertia: random.chance(50).then_some([1.0; 6]),
+                });
+            }
+            let is_on_arm = bodies.len() > 0 && random.chance(20) && k >= coordinates;
+            bodies.push(Body {
+                frame: if is_on_arm {
+                    bodies[random.below(bodies.len())].frame
+                } else {
+                    root_of(&frames)
+                },
+                offset: [0.0; 3],
+                mass: random.number(0.5, 3.0),
+                inertia: None,
+            });
+        }
+        for last in (1..bodies.len()).rev() {
+            bodies.swap(last, random.below(last + 1));
+        }
+        Machine {
+            spatial: false,
+            coordinates,
+            frames,
+            bodies,
+            gravity: [
+                if random.chance(50) {
+                    0.0
+                } else {
+                    random.number(-3.0, 3.0)
+                },
+                random.number(-10.0, -1.0),
+                0.0,
+            ],
+            springs: Vec::new(),
+            dampers: Vec::new(),
+            forces: Vec::new(),
+        }
+    }
+
     fn stretch(&self, random: &mut Random) -> Stretch {
         let (a, b) = (
             random.below(self.bodies.len()),
@@ -352,6 +445,12 @@ impl Machine {
         text.push_str("}\n");
         text
     }
+}
+
+/// The number of the last frame on the ground.
+fn root_of(frames: &[Frame]) -> usize {
+    let root = frames.iter().rposition(|frame| frame.parent == 0);
+    root.map_or(0, |root| root + 1)
 }
 
 impl Linear {

@@ -27,7 +27,7 @@ pub(super) fn solve<'d>(
     let n = system.coordinates;
     let count = system.forces.len() - n;
     // Each column has an entry for each coordinate at least.
-    if count * n > Elimination::of(system).multiplications {
+    if count * n > Elimination::of(&lowering.graph, system).multiplications {
         return None;
     }
     let start = Shape::index(n, 0);
@@ -37,11 +37,9 @@ pub(super) fn solve<'d>(
         matrix: matrix.to_vec(),
         forces: forces.to_vec(),
         coordinates: n,
+        held: Vec::new(),
     };
     let solved = derivatives::along_the_machine(lowering, model, &open, machine)?;
-    if solved.pivots.iter().any(|pivot| pivot.pivot.is_zero()) {
-        return None;
-    }
     let rows: Vec<&[Scaled]> = (n..n + count)
         .map(|row| &below[Shape::index(row, 0) - start..][..n])
         .collect();
@@ -54,6 +52,7 @@ pub(super) fn solve<'d>(
         matrix: Vec::new(),
         forces: Vec::new(),
         coordinates: count,
+        held: Vec::new(),
     };
     for ((k, row), drift) in rows.iter().enumerate().zip(drifts) {
         for column in &columns[..=k] {
@@ -63,7 +62,7 @@ pub(super) fn solve<'d>(
         let free = with_products(graph, drift.negated(), row, &solved.accelerations);
         closing.forces.push(free.negated());
     }
-    let elimination = Elimination::of(&closing);
+    let elimination = Elimination::of(graph, &closing);
     let held = solve::solve(graph, &closing, elimination);
     let accelerations = (0..n).map(|i| {
         let by: Vec<Scaled> = columns.iter().map(|column| column[i]).collect();

@@ -49,7 +49,7 @@ pub(super) struct Asked<'a, 'd> {
 
 /// The function of the accelerations and their derivatives, by the way that is cheapest to run.
 pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
-    let elimination = Elimination::of(asked.system);
+    let elimination = Elimination::of(&lowering.graph, asked.system);
     let along = asked
         .unprojected
         .and_then(|machine| along_the_machine(lowering, lowering.model, asked.system, machine));
@@ -101,8 +101,8 @@ fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination)
 pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
     let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
         of: pivot.coordinate,
-        // Pivots of constraints are guarded as positive numbers.
-        pivot: Some(match pivot.coordinate < system.coordinates {
+        // Pivots of constraints are guarded as positive numbers; without one a row depends on others.
+        pivot: (!pivot.pivot.is_zero()).then(|| match pivot.coordinate < system.coordinates {
             true => pivot.pivot,
             false => pivot.pivot.negated(),
         }),
@@ -224,7 +224,16 @@ fn right_hand_sides<'d>(
     let mut rights = Vec::with_capacity(slopes.len());
     for column in slopes {
         lowering.lower(column);
-        rights.push(lowering.values(column));
+        let mut right = lowering.values(column);
+        for &(k, weight) in &asked.system.held {
+            let closing = right[asked.system.coordinates + k];
+            for (to, g) in right.iter_mut().zip(asked.system.row(k)) {
+                let graph = &mut lowering.graph;
+                let product = graph.product(&[(weight, 1), (*g, 1), (closing, 1)]);
+                *to = graph.sum(&[*to, product]);
+            }
+        }
+        rights.push(right);
     }
     lowering.values = before;
     rights

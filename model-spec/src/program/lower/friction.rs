@@ -51,7 +51,7 @@ pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, '
         if before.as_ref() == Some(&system) {
             continue;
         }
-        let elimination = Elimination::of(&system);
+        let elimination = Elimination::of(&lowering.graph, &system);
         let solution = solve::solve(&mut lowering.graph, &system, elimination);
         let solved = of_elimination(solution, &system);
         let layout = FrictionLayout {

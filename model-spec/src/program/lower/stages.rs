@@ -126,7 +126,7 @@ fn solutions<'d>(
         solutions.push((Basis::Along, solution));
     }
     for (basis, system) in systems {
-        let elimination = Elimination::of(&system);
+        let elimination = Elimination::of(&lowering.graph, &system);
         // What takes longer than the accelerations at once is not even written down: it grows with
         // the cube of the number of coordinates.
         if has_along && elimination.multiplications > at_once.function.counts().ops() {
