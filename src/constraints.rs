@@ -13,19 +13,32 @@
     reason = "what is not a number passes no test here"
 )]
 
+mod algebra;
+mod choice;
+mod fork;
 #[cfg(feature = "std")]
-use crate::Pivot;
-use crate::compensated::two_sum;
-use crate::math::sqrt;
-use crate::{Singular, StepError, System, Vector};
+mod report;
+mod room;
+mod scale;
+mod start;
 
-/// What is left of the constraints is kept below this, relative to their
-/// [scale](Constraints::relative): 450 times the roundoff of `f64`, of which the constraints
+use crate::compensated::two_sum;
+use crate::{Singular, StepError, System, Vector};
+use algebra::{backward, dot, forward, length, remove, share};
+use choice::{Choice, Rank};
+use room::{Room, in_room};
+use scale::Scales;
+
+/// Residuals are kept below this, relative to their [scale](Scales): 450 times the roundoff of `f64`, of which the constraints
 /// themselves lose some.
 pub(crate) const RESIDUAL: f64 = 1e-13;
 
 /// What is left is worked off from here: what depends on several rows keeps the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
+
+/// The same where rows depend on others: which of them are chosen changes on the way, and what is left of
+/// those that are not must be as small. Newton's method goes on until rounding stops it.
+const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
 /// What rounding alone may change in what is left, relative: some eight operations from a coordinate
 /// to a constraint.
@@ -36,9 +49,9 @@ const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
 /// about a hundred times that; and a multiplier that is held by less has lost ten of its digits.
 const INDEPENDENT: f64 = 1e-10;
 
-/// The same, far from the constraints, where rows that depend on each other *on* them do so only
-/// about as exactly as the state is there.
-const INDEPENDENT_AFAR: f64 = 1e-6;
+/// Beyond the rows that a run had, only those count as independent of which more than this is left: a
+/// pose in which rows depend on each other that do not elsewhere is left as soon as it is met.
+const INDEPENDENT_AGAIN: f64 = 1e-6;
 
 /// Rows once chosen may come closer to each other before they have to be chosen anew.
 const STILL_INDEPENDENT: f64 = 1e-2 * INDEPENDENT;
@@ -81,7 +94,7 @@ pub fn least_multipliers<S: System>(
     multipliers: &mut [f64],
 ) -> Result<(), StepError> {
     let mut constraints = Constraints::new(system, q, v);
-    constraints.choose(system, t, q, Rank::Revealed(INDEPENDENT))?;
+    constraints.choose_again(system, t, q)?;
     constraints.accelerations(system, t, q, v, u, a)?;
     constraints.multipliers(system, t, q, v, u, multipliers)?;
     constraints.check_accelerations(system, (t, q, v, u), a)
@@ -90,19 +103,17 @@ pub fn least_multipliers<S: System>(
 /// What a run knows of the constraints of its machine.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraints<V> {
-    /// By which residuals are measured: the greatest `|qⱼ|` and `|vⱼ|` so far.
-    sizes: [V; 2],
-    /// 1 for a coordinate that is an angle, else 0.
-    angles: V,
-    /// The indices of rows that are independent, those of positions first. There are no more than
-    /// coordinates.
-    rows: V,
-    /// How many of them there are.
-    rank: usize,
-    /// How many of them are of positions.
-    holonomic: usize,
+    /// By which residuals are measured.
+    scales: Scales<V>,
+    /// The rows that are kept; the others follow from them.
+    choice: Choice<V>,
     /// Whether there are other rows, which depend on these.
     pub redundant: bool,
+    /// Whether the motion passes a pose in which rows come to depend on each other.
+    pub at_fork: bool,
+    /// Coordinates, and rates, that stay as they are while the start is brought onto the constraints:
+    /// those that are not 0.
+    kept: Option<[V; 2]>,
     /// By how much the last state was moved, coordinates and rates.
     pub moved: [V; 2],
     /// What is left of the chosen rows at the last state, of positions and rates, relative to their
@@ -118,15 +129,6 @@ pub(crate) struct Constraints<V> {
     pub greatest_residual: f64,
 }
 
-/// How many rows to choose.
-#[derive(Clone, Copy)]
-enum Rank {
-    /// As many as are independent by more than this.
-    Revealed(f64),
-    /// As many of positions, and as many in all, as were chosen before.
-    Known,
-}
-
 /// A state to be brought onto the constraints, with what rounding took from it.
 pub(crate) struct Place<'p, V> {
     pub t: f64,
@@ -134,56 +136,16 @@ pub(crate) struct Place<'p, V> {
     pub v: [&'p mut V; 2],
 }
 
-/// The room for the work, in parts.
-struct Room<'r, M> {
-    n: usize,
-    m: usize,
-    /// `L`, lower triangle, row after row.
-    metric: M,
-    /// `G`, row after row; while rows are chosen, `yₖ` relative to their lengths.
-    matrix: &'r mut [f64],
-    /// Orthonormal vectors that span the chosen `yₖ`.
-    basis: &'r mut [f64],
-    /// `R` of `yⱼ = Σᵢ Rᵢⱼ basisᵢ`, row after row.
-    triangle: &'r mut [f64],
-    positions: &'r mut [f64],
-    rates: &'r mut [f64],
-    /// A number for each row.
-    row: &'r mut [f64],
-    /// A number for each coordinate.
-    column: &'r mut [f64],
-    before: &'r mut [f64],
-    lengths: &'r mut [f64],
-}
-
 impl<V: Vector> Constraints<V> {
     /// No rows are chosen yet.
-    ///
-    /// A coordinate's size is at least 1 if it is an angle, and at the start at least that of any
-    /// other of its unit.
     pub fn new<S: System<Vector = V>>(system: &S, q: &V, v: &V) -> Self {
         let zeros = q.zeros_like();
-        let mut sizes = [zeros.clone(), zeros.clone()];
-        let mut angles = zeros.clone();
-        for (j, coordinate) in system.coordinates().enumerate() {
-            for (size, of) in sizes.iter_mut().zip([q, v]) {
-                let alike = system.coordinates().zip(of.as_slice());
-                let alike = alike.filter(|(other, _)| other.unit == coordinate.unit);
-                size.as_mut_slice()[j] = alike.fold(0.0, |size, (_, x)| x.abs().max(size));
-            }
-            if coordinate.unit == "rad" {
-                let size = &mut sizes[0].as_mut_slice()[j];
-                *size = size.max(1.0);
-                angles.as_mut_slice()[j] = 1.0;
-            }
-        }
         Self {
-            sizes,
-            angles,
-            rows: zeros.clone(),
-            rank: 0,
-            holonomic: 0,
+            scales: Scales::new(system, q, v),
+            choice: Choice::none(zeros.clone()),
             redundant: false,
+            at_fork: false,
+            kept: None,
             moved: [zeros.clone(), zeros],
             left: [0.0; 2],
             left_before: [0.0; 2],
@@ -193,46 +155,9 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Brings the start of a run onto the constraints, and chooses rows there.
-    pub fn begin<S: System<Vector = V>>(
-        &mut self,
-        system: &S,
-        place: &mut Place<'_, V>,
-    ) -> Result<(), StepError> {
-        let mut moved = [place.q[0].zeros_like(), place.q[0].zeros_like()];
-        let mut tried = Ok(false);
-        for independent in [INDEPENDENT_AFAR, INDEPENDENT, INDEPENDENT] {
-            let before = [place.q[0].clone(), place.v[0].clone()];
-            self.choose(system, place.t, place.q[0], Rank::Revealed(independent))?;
-            tried = self.bring(system, place);
-            if tried.is_err() {
-                place.q[0].clone_from(&before[0]);
-                place.v[0].clone_from(&before[1]);
-                continue;
-            }
-            for (moved, by) in moved.iter_mut().zip(&self.moved) {
-                for (moved, by) in moved.as_mut_slice().iter_mut().zip(by.as_slice()) {
-                    *moved += by;
-                }
-            }
-            // A row that depends on others only because the state was far off may be missing still.
-            if tried == Ok(false) && independent == INDEPENDENT {
-                break;
-            }
-        }
-        tried?;
-        self.moved = moved;
-        self.accept(place.q[0], place.v[0]);
-        Ok(())
-    }
-
     /// Takes note of a state that was brought onto the constraints.
     pub fn accept(&mut self, q: &V, v: &V) {
-        for (size, of) in self.sizes.iter_mut().zip([q, v]) {
-            for (size, x) in size.as_mut_slice().iter_mut().zip(of.as_slice()) {
-                *size = size.max(x.abs());
-            }
-        }
+        self.scales.accept(q, v);
         self.greatest_residual = self.greatest_residual.max(self.residual);
         self.left_before = self.left;
     }
@@ -244,7 +169,11 @@ impl<V: Vector> Constraints<V> {
         t: f64,
         q: &V,
     ) -> Result<(), StepError> {
-        self.choose(system, t, q, Rank::Revealed(INDEPENDENT))
+        let rank = match self.choice.rank {
+            0 => Rank::Revealed(INDEPENDENT),
+            _ => Rank::Followed(INDEPENDENT, INDEPENDENT_AGAIN),
+        };
+        self.choose(system, t, q, rank)
     }
 
     /// Brings a state between the ends of steps onto the constraints.
@@ -256,9 +185,7 @@ impl<V: Vector> Constraints<V> {
         v: &mut V,
     ) -> Result<(), StepError> {
         let mut own = self.clone();
-        if own.redundant {
-            own.choose_as_many(system, t, q)?;
-        }
+        own.choose_as_many(system, t, q)?;
         let mut low = [q.zeros_like(), v.zeros_like()];
         let [q_low, v_low] = &mut low;
         own.bring(
@@ -279,11 +206,12 @@ impl<V: Vector> Constraints<V> {
         t: f64,
         q: &V,
     ) -> Result<(), StepError> {
-        self.choose(system, t, q, Rank::Known)
+        if self.redundant {
+            self.choose(system, t, q, Rank::Known)?;
+        }
+        Ok(())
     }
 
-    /// Chooses rows that are independent, one after the other, with what is left of each beside those
-    /// before it: the first of those that leave a tenth of the most.
     fn choose<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -291,83 +219,10 @@ impl<V: Vector> Constraints<V> {
         q: &V,
         rank: Rank,
     ) -> Result<(), StepError> {
-        let known = [self.holonomic, self.rank];
-        in_room(system, t, q.as_slice().len(), |room| {
-            system.constraint_matrix(t, q, room.matrix);
-            room.factor(system, t, q)?;
-            let n = room.n;
-            for row in room.matrix.chunks_exact_mut(n) {
-                forward(room.metric.as_slice(), row);
-                let length = length(row);
-                if length > 0.0 {
-                    row.iter_mut().for_each(|x| *x /= length);
-                }
-            }
-            self.rank = 0;
-            for (phase, holonomic) in [true, false].into_iter().enumerate() {
-                loop {
-                    let least = match rank {
-                        Rank::Revealed(least) => least.max(room.roundoff()),
-                        Rank::Known if self.rank < known[phase] => 0.0,
-                        Rank::Known => break,
-                    };
-                    let mut most = least;
-                    let mut chosen = None;
-                    for asked in [1.0, 0.1] {
-                        let of_kind = system.constraints().enumerate();
-                        let of_kind = of_kind.filter(|(_, row)| row.holonomic == holonomic);
-                        for (k, _) in of_kind {
-                            let left = length(&room.matrix[k * n..][..n]);
-                            if asked == 1.0 {
-                                most = most.max(left);
-                            } else if chosen.is_none() && left > least && left >= asked * most {
-                                chosen = Some(k);
-                            }
-                        }
-                    }
-                    let Some(k) = chosen.filter(|_| self.rank < n) else {
-                        break;
-                    };
-                    self.take(room, k, least);
-                }
-                if holonomic {
-                    self.holonomic = self.rank;
-                }
-            }
-            self.redundant = self.rank < room.m;
-            Ok(())
-        })
-    }
-
-    /// Adds a row to those chosen, if it is independent by more than `least`, and takes its direction
-    /// out of the others.
-    fn take<M: Vector>(&mut self, room: &mut Room<'_, M>, k: usize, least: f64) {
-        let n = room.n;
-        room.column.copy_from_slice(&room.matrix[k * n..][..n]);
-        room.matrix[k * n..][..n].fill(0.0);
-        // Once more: a direction that little is left of has lost its right angles.
-        for known in room.basis[..self.rank * n].chunks_exact(n) {
-            remove(known, room.column);
-        }
-        let left = length(room.column);
-        if left <= least {
-            return;
-        }
-        let new = &mut room.basis[self.rank * n..][..n];
-        for (new, x) in new.iter_mut().zip(&*room.column) {
-            *new = x / left;
-        }
-        for row in room.matrix.chunks_exact_mut(n) {
-            remove(new, row);
-        }
-        self.rows.as_mut_slice()[self.rank] = k as f64;
-        self.rank += 1;
-    }
-
-    /// The index of a chosen row.
-    fn row(&self, chosen: usize) -> usize {
-        // There are far fewer rows than an `f64` counts exactly.
-        self.rows.as_slice()[chosen] as usize
+        let by = (&self.scales, None);
+        self.choice = self.choice.made(system, (t, q), rank, by)?;
+        self.redundant = self.choice.rank < system.constraints().len();
+        Ok(())
     }
 
     /// Brings a state onto the constraints by the least move, in the metric of the mass matrix: first
@@ -377,42 +232,73 @@ impl<V: Vector> Constraints<V> {
         system: &S,
         place: &mut Place<'_, V>,
     ) -> Result<bool, StepError> {
+        in_room(system, place.t, place.q[0].as_slice().len(), |room| {
+            let moved = self.approach(system, room, place, &[Level::Positions, Level::Rates])?;
+            self.check(system, room, place)?;
+            Ok(moved)
+        })
+    }
+
+    /// The same on some levels, whatever it leaves of the rows that were not chosen.
+    fn approach<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        room: &mut Room<'_, S::Matrix>,
+        place: &mut Place<'_, V>,
+        levels: &[Level],
+    ) -> Result<bool, StepError> {
         let t = place.t;
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
-        in_room(system, t, place.q[0].as_slice().len(), |room| {
-            let [positions, rates] = self.left(system, room, place);
-            self.left = [positions.0, rates.0];
-            for (level, roundoff) in self.roundoff().into_iter().enumerate() {
-                let before = self.left_before[level] + roundoff;
-                let now = self.left[level];
-                self.share[level] = if now > before {
-                    1.0 - before / now
-                } else {
-                    0.0
-                };
-            }
-            let still = positions.0 <= WORKED_OFF && rates.0 <= WORKED_OFF;
-            if !still {
-                self.prepare(system, room, t, place.q[0])?;
-                self.newton(system, room, place, Level::Positions, positions)?;
-                let [_, rates] = self.left(system, room, place);
-                self.newton(system, room, place, Level::Rates, rates)?;
-                let [positions, rates] = self.left(system, room, place);
-                self.left = [positions.0, rates.0];
-            }
-            self.check(system, room, place)?;
-            Ok(!still)
-        })
+        let [positions, rates] = self.left(system, room, place);
+        self.left = [positions.0, rates.0];
+        for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
+            let before = self.left_before[level] + roundoff;
+            let now = self.left[level];
+            self.share[level] = if now > before {
+                1.0 - before / now
+            } else {
+                0.0
+            };
+        }
+        if positions.0 <= self.worked_off() && rates.0 <= self.worked_off() {
+            return Ok(false);
+        }
+        if self.redundant && self.kept.is_none() {
+            self.choice = self.best_at(system, t, place.q[0])?;
+        }
+        let all = self.choice.clone();
+        let first = levels.first().copied().unwrap_or(Level::Positions);
+        let prepared = self.prepare(system, room, (t, place.q[0]), first);
+        if self.kept.is_none() && self.is_weak(&prepared, room, place.q[0]) {
+            // What holds so little would turn rounding of positions into a move.
+            let by = (&self.scales, None);
+            let holding = Rank::Holding(fork::WEAK);
+            self.choice = all.made(system, (t, place.q[0]), holding, by)?;
+            self.prepare(system, room, (t, place.q[0]), first)?;
+        } else {
+            prepared?;
+        }
+        self.scales.note_metric(room.metric.as_slice());
+        let mut done = Ok(());
+        for level in levels {
+            let left = self.left(system, room, place)[*level as usize];
+            done = done.and_then(|()| self.newton(system, room, place, *level, left));
+        }
+        let [positions, rates] = self.left(system, room, place);
+        self.choice = all;
+        done?;
+        self.left = [positions.0, rates.0];
+        Ok(true)
     }
 
-    /// What rounding alone may change in what is left of positions and rates, relative to their scale.
-    /// The rows that rates go through turn by as much as angles are rounded.
-    fn roundoff(&self) -> [f64; 2] {
-        let angles = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());
-        let greatest = angles.fold(1.0_f64, |most, (is_angle, size)| most.max(is_angle * size));
-        [ROUNDOFF, ROUNDOFF * greatest]
+    fn worked_off(&self) -> f64 {
+        if self.redundant {
+            WORKED_OFF_REDUNDANT
+        } else {
+            WORKED_OFF
+        }
     }
 
     /// Newton's method on one level, with the matrices of one state while it contracts.
@@ -432,7 +318,7 @@ impl<V: Vector> Constraints<V> {
         let mut fresh = true;
         let mut far = self.distance(room, level);
         for _ in 0..ROUNDS {
-            if left <= WORKED_OFF {
+            if left <= self.worked_off() {
                 return Ok(());
             }
             self.correction(room, level);
@@ -458,7 +344,7 @@ impl<V: Vector> Constraints<V> {
             for (moved, by) in self.moved[at].as_mut_slice().iter_mut().zip(&*room.column) {
                 *moved += part * by;
             }
-            if left <= WORKED_OFF {
+            if left <= self.worked_off() {
                 return Ok(());
             }
             if fresh && !(near <= (1.0 - 0.125 * part) * far) {
@@ -467,21 +353,33 @@ impl<V: Vector> Constraints<V> {
             fresh = !(near <= 0.1 * far);
             if fresh {
                 // Where rows come to depend on each other on the way, there is no way on.
-                if self.prepare(system, room, place.t, place.q[0]).is_err() {
+                let at = (place.t, &*place.q[0]);
+                if self.prepare(system, room, at, level).is_err() {
                     break;
                 }
                 near = self.distance(room, level);
             }
             far = near;
         }
-        // It may stand at the roundoff of the constraints themselves, which only shows in what the
-        // last correction was.
-        let sizes = self.sizes[at].as_slice();
-        let y = place.level(level)[0].as_slice();
-        let mut of = room.column.iter().zip(sizes).zip(y);
-        let is_roundoff = of.all(|((by, size), y)| by.abs() <= RESIDUAL * size.max(y.abs()));
-        if left <= RESIDUAL || (is_roundoff && left <= CONSISTENT) {
-            return Ok(());
+        // It may stand at the roundoff of the constraints themselves.
+        for _ in 0..=room.m {
+            let promised = self.promised(room, place, level);
+            let last = &*place.level(level)[0];
+            if promised.0 <= RESIDUAL
+                || (promised.0 <= CONSISTENT && self.scales.is_roundoff(at, room.column, last))
+            {
+                return Ok(());
+            }
+            (left, worst) = promised;
+            if !self.is_rounding(system, room, place, level, worst) {
+                break;
+            }
+            let row = &room.matrix[worst * room.n..][..room.n];
+            let of_row = match level {
+                Level::Positions => room.positions[worst],
+                Level::Rates => room.rates[worst],
+            };
+            self.scales.note_grain(at, row, of_row);
         }
         Err(StepError::Inconsistent {
             constraint: worst,
@@ -490,7 +388,50 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// What is left of the chosen rows at a state, relative to their scale, and where most; all
+    /// Whether the residual of a row is rounding in its evaluation, where the correction in
+    /// `room.column` did not take it away: along this, the row scatters by as much as the residual,
+    /// although its slope is the same.
+    fn is_rounding<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        room: &mut Room<'_, S::Matrix>,
+        place: &mut Place<'_, V>,
+        level: Level,
+        k: usize,
+    ) -> bool {
+        let n = room.n;
+        let seen = |room: &Room<'_, S::Matrix>| {
+            let terms = room.matrix[k * n..][..n].iter().zip(&*room.column);
+            let slope: f64 = terms.clone().map(|(g, by)| g * by).sum();
+            let length: f64 = terms.map(|(g, by)| (g * by).abs()).sum();
+            let left = match level {
+                Level::Positions => room.positions[k],
+                Level::Rates => room.rates[k],
+            };
+            (left, slope, length)
+        };
+        let (left, slope, length) = seen(room);
+        room.before
+            .copy_from_slice(place.level(level)[0].as_slice());
+        let (mut scatters, mut turns) = (0.0_f64, 0.0_f64);
+        for part in [-1.0, -0.5, -0.25, -0.125, 0.125, 0.25, 0.5, 1.0] {
+            let y = place.level(level)[0].as_mut_slice().iter_mut();
+            for ((y, before), by) in y.zip(&*room.before).zip(&*room.column) {
+                *y = before + part * by;
+            }
+            self.left(system, room, place);
+            let (there, slope_there, _) = seen(room);
+            scatters = scatters.max((there - left - part * slope).abs());
+            turns = turns.max((slope_there - slope).abs());
+        }
+        place.level(level)[0]
+            .as_mut_slice()
+            .copy_from_slice(room.before);
+        self.left(system, room, place);
+        turns <= 1e-3 * length && scatters >= 0.0625 * left.abs()
+    }
+
+    /// What is left of the rows at a state, relative to their scale, and where most; all
     /// residuals, and the constraint matrix, stay in the room.
     fn left<S: System<Vector = V>>(
         &self,
@@ -502,40 +443,43 @@ impl<V: Vector> Constraints<V> {
         system.residuals(place.t, q, v, room.positions, room.rates);
         system.constraint_matrix(place.t, q, room.matrix);
         let mut most = [(0.0, 0), (0.0, 0)];
-        for chosen in 0..self.rank {
-            let k = self.row(chosen);
+        for k in 0..room.m {
+            let is_chosen = self.choice.has(k);
             for (most, now) in most.iter_mut().zip(self.relative(room, k, q, v)) {
+                // Others come nearer with the chosen ones, unless they contradict them.
+                if !is_chosen && !(now.now <= CONSISTENT) {
+                    continue;
+                }
                 // What is not a number is the most of all.
-                if !(now <= most.0) {
-                    *most = (now, k);
+                if !(now.now <= most.0) {
+                    *most = (now.now, k);
                 }
             }
         }
         most
     }
 
-    /// What is left of a row, relative to its scale: to `Σⱼ |Gₖⱼ| |qⱼ|` on positions and to
-    /// `Σⱼ |Gₖⱼ| |vⱼ| + |∂gₖ/∂t|` on rates, with the greatest `|qⱼ|` and `|vⱼ|` of the run so far
-    /// (an angle counts as 1 rad at least). A coordinate or rate that is off by 10⁻¹³ of its
-    /// greatest value leaves no more than 10⁻¹³.
-    fn relative<M>(&self, room: &Room<'_, M>, k: usize, q: &V, v: &V) -> [f64; 2] {
-        let row = &room.matrix[k * room.n..][..room.n];
-        let [sizes_q, sizes_v] = [self.sizes[0].as_slice(), self.sizes[1].as_slice()];
-        let (mut positions, mut rates, mut by_rates) = (0.0, 0.0, 0.0);
-        for (j, g) in row.iter().enumerate() {
-            let (q, v) = (q.as_slice()[j], v.as_slice()[j]);
-            positions += g.abs() * sizes_q[j].max(q.abs());
-            rates += g.abs() * sizes_v[j].max(v.abs());
-            by_rates += g * v;
+    /// What is left of the chosen rows on one level, relative to what is promised, and where most.
+    fn promised<M>(&self, room: &Room<'_, M>, place: &Place<'_, V>, level: Level) -> (f64, usize) {
+        let mut most = (0.0, 0);
+        for chosen in 0..self.choice.rank {
+            let k = self.choice.row(chosen);
+            let now = self.relative(room, k, place.q[0], place.v[0])[level as usize];
+            if !(now.promised <= most.0) {
+                most = (now.promised, k);
+            }
         }
-        rates += (room.rates[k] - by_rates).abs();
-        [
-            share(room.positions[k], positions),
-            share(room.rates[k], rates),
-        ]
+        most
     }
 
-    /// Whether the rows that were not chosen agree with those that were; notes what is left.
+    fn relative<M>(&self, room: &Room<'_, M>, k: usize, q: &V, v: &V) -> [scale::Relative; 2] {
+        let row = &room.matrix[k * room.n..][..room.n];
+        let left = [room.positions[k], room.rates[k]];
+        self.scales.relative(k, row, left, q, v)
+    }
+
+    /// Whether the rows that were not chosen agree with those that were; notes what is left, and the
+    /// size of the terms.
     fn check<S: System<Vector = V>>(
         &mut self,
         system: &S,
@@ -545,21 +489,26 @@ impl<V: Vector> Constraints<V> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
         let mut most = (0.0, 0);
         for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(room, k, q, v);
+            let [positions, rates] = self.relative(room, k, q, v).map(|of| of.promised);
             let now = if positions > rates { positions } else { rates };
             if !(now <= most.0) {
                 most = (now, k);
             }
         }
         self.residual = most.0;
-        if most.0 <= CONSISTENT {
-            return Ok(());
+        if !(most.0 <= CONSISTENT) {
+            return Err(StepError::Inconsistent {
+                constraint: most.1,
+                residual: most.0,
+                t: place.t,
+            });
         }
-        Err(StepError::Inconsistent {
-            constraint: most.1,
-            residual: most.0,
-            t: place.t,
-        })
+        for (k, row) in room.matrix.chunks_exact(room.n.max(1)).enumerate() {
+            let by_rates = dot(row, v.as_slice());
+            self.scales
+                .note_terms(k, row, (room.rates[k] - by_rates).abs());
+        }
+        Ok(())
     }
 
     /// Whether accelerations obey the rows that were not chosen, too.
@@ -604,41 +553,16 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// Factorizes at a state: metric, basis and triangle of the chosen rows.
+    /// Factorizes at a pose: metric, basis and triangle of the chosen rows.
     fn prepare<S: System<Vector = V>>(
         &self,
         system: &S,
         room: &mut Room<'_, S::Matrix>,
-        t: f64,
-        q: &V,
+        at: (f64, &V),
+        level: Level,
     ) -> Result<(), StepError> {
-        system.constraint_matrix(t, q, room.matrix);
-        room.factor(system, t, q)?;
-        let (n, rank) = (room.n, self.rank);
-        for j in 0..rank {
-            let k = self.row(j);
-            let (known, rest) = room.basis.split_at_mut(j * n);
-            let new = &mut rest[..n];
-            new.copy_from_slice(&room.matrix[k * n..][..n]);
-            forward(room.metric.as_slice(), new);
-            let whole = length(new);
-            // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
-            for pass in 0..2 {
-                for (i, known) in known.chunks_exact(n).enumerate() {
-                    let along = remove(known, new);
-                    let entry = &mut room.triangle[i * rank + j];
-                    *entry = if pass == 0 { along } else { *entry + along };
-                }
-            }
-            let left = length(new);
-            if !(left > STILL_INDEPENDENT * whole) {
-                let singular = Singular::constraint(k, left * left, whole * whole);
-                return Err(StepError::Singular { singular, t });
-            }
-            new.iter_mut().for_each(|x| *x /= left);
-            room.triangle[j * rank + j] = left;
-        }
-        Ok(())
+        let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
+        prepare(system, room, at, (&self.choice, fixed))
     }
 
     /// The least move, in the metric of inertia, that takes what is left of the constraints away to
@@ -663,32 +587,21 @@ impl<V: Vector> Constraints<V> {
     /// `R⁻ᵀ g` to `row`, for the rows of a level; says how many these are.
     fn along_basis<M: Vector>(&self, room: &mut Room<'_, M>, level: Level) -> usize {
         let count = match level {
-            Level::Positions => self.holonomic,
-            Level::Rates => self.rank,
+            Level::Positions => self.choice.holonomic,
+            Level::Rates => self.choice.rank,
         };
         for j in 0..count {
-            let k = self.row(j);
+            let k = self.choice.row(j);
             room.row[j] = match level {
                 Level::Positions => room.positions[k],
                 Level::Rates => room.rates[k],
             };
         }
-        self.solve_transposed(room, count);
+        solve_transposed(room, self.choice.rank, count);
         count
     }
 
-    /// `R⁻ᵀ row` in place, for the first `count` rows.
-    fn solve_transposed<M>(&self, room: &mut Room<'_, M>, count: usize) {
-        for j in 0..count {
-            let mut sum = room.row[j];
-            for i in 0..j {
-                sum -= room.triangle[i * self.rank + j] * room.row[i];
-            }
-            room.row[j] = sum / room.triangle[j * self.rank + j];
-        }
-    }
-
-    /// Accelerations that obey the chosen rows: `z = L⁻¹ f`, and what `z` has along the rows is
+    /// Accelerations that obey as many rows as were chosen, those that are best at the pose: `z = L⁻¹ f`, and what `z` has along the rows is
     /// replaced by what these ask for. No multiplier is needed.
     pub fn accelerations<S: System<Vector = V>>(
         &self,
@@ -699,10 +612,28 @@ impl<V: Vector> Constraints<V> {
         u: &S::Inputs,
         a: &mut V,
     ) -> Result<(), StepError> {
+        if self.at_fork {
+            return self.accelerations_at_fork(system, (t, q, v, u), a);
+        }
+        self.accelerations_here(system, (t, q, v, u), a)
+    }
+
+    fn accelerations_here<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        a: &mut V,
+    ) -> Result<(), StepError> {
+        let choice = self.best_at(system, t, q)?;
         in_room(system, t, q.as_slice().len(), |room| {
-            self.reactions_along(system, room, (t, q, v, u), a)?;
+            reactions_along(system, room, &choice, (t, q, v, u), a)?;
             let metric = room.metric.as_slice();
-            for (j, along) in room.basis.chunks_exact(room.n).take(self.rank).enumerate() {
+            for (j, along) in room
+                .basis
+                .chunks_exact(room.n)
+                .take(choice.rank)
+                .enumerate()
+            {
                 for (z, along) in a.as_mut_slice().iter_mut().zip(along) {
                     *z += room.row[j] * along;
                 }
@@ -712,26 +643,18 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// `z = L⁻¹ f` to `z`, and to `room.row` what the reactions add along the basis, `R⁻ᵀ γ − Qᵀ z`.
-    fn reactions_along<S: System<Vector = V>>(
+    /// As many rows as were chosen, but those that are best at a pose.
+    fn best_at<S: System<Vector = V>>(
         &self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
-        (t, q, v, u): (f64, &V, &V, &S::Inputs),
-        z: &mut V,
-    ) -> Result<(), StepError> {
-        self.prepare(system, room, t, q)?;
-        system.forces(t, q, v, u, z);
-        system.constraint_drift(t, q, v, room.rates);
-        for j in 0..self.rank {
-            room.row[j] = room.rates[self.row(j)];
+        t: f64,
+        q: &V,
+    ) -> Result<Choice<V>, StepError> {
+        if !self.redundant {
+            return Ok(self.choice.clone());
         }
-        self.solve_transposed(room, self.rank);
-        forward(room.metric.as_slice(), z.as_mut_slice());
-        for (j, along) in room.basis.chunks_exact(room.n).take(self.rank).enumerate() {
-            room.row[j] -= dot(along, z.as_slice());
-        }
-        Ok(())
+        self.choice
+            .made(system, (t, q), Rank::Known, (&self.scales, None))
     }
 
     /// Multipliers of least norm; see [`least_multipliers`].
@@ -745,12 +668,88 @@ impl<V: Vector> Constraints<V> {
         multipliers: &mut [f64],
     ) -> Result<(), StepError> {
         let mut z = q.zeros_like();
+        let choice = self.best_at(system, t, q)?;
         in_room(system, t, q.as_slice().len(), |room| {
-            self.reactions_along(system, room, (t, q, v, u), &mut z)?;
+            reactions_along(system, room, &choice, (t, q, v, u), &mut z)?;
             multipliers.fill(0.0);
-            room.least_norm(multipliers, |j| self.row(j), self.rank);
+            room.least_norm(multipliers, |j| choice.row(j), choice.rank);
             Ok(())
         })
+    }
+}
+
+/// Factorizes at a pose, with rows of a choice and coordinates that are fixed.
+fn prepare<S: System>(
+    system: &S,
+    room: &mut Room<'_, S::Matrix>,
+    (t, q): (f64, &S::Vector),
+    (choice, fixed): (&Choice<S::Vector>, Option<&S::Vector>),
+) -> Result<(), StepError> {
+    system.constraint_matrix(t, q, room.matrix);
+    room.fix_rows(fixed);
+    room.factor(system, t, q, fixed)?;
+    let (n, rank) = (room.n, choice.rank);
+    for j in 0..rank {
+        let k = choice.row(j);
+        let (known, rest) = room.basis.split_at_mut(j * n);
+        let new = &mut rest[..n];
+        new.copy_from_slice(&room.matrix[k * n..][..n]);
+        forward(room.metric.as_slice(), new);
+        let whole = length(new);
+        // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
+        for pass in 0..2 {
+            for (i, known) in known.chunks_exact(n).enumerate() {
+                let along = remove(known, new);
+                let entry = &mut room.triangle[i * rank + j];
+                *entry = if pass == 0 { along } else { *entry + along };
+            }
+        }
+        let left = length(new);
+        if !(left > STILL_INDEPENDENT * whole) {
+            let singular = Singular::constraint(k, left * left, whole * whole);
+            return Err(StepError::Singular { singular, t });
+        }
+        new.iter_mut().for_each(|x| *x /= left);
+        room.triangle[j * rank + j] = left;
+    }
+    Ok(())
+}
+
+/// `z = L⁻¹ f` to `z`, and to `room.row` what the reactions add along the basis, `R⁻ᵀ γ − Qᵀ z`.
+fn reactions_along<S: System>(
+    system: &S,
+    room: &mut Room<'_, S::Matrix>,
+    choice: &Choice<S::Vector>,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    z: &mut S::Vector,
+) -> Result<(), StepError> {
+    prepare(system, room, (t, q), (choice, None))?;
+    system.forces(t, q, v, u, z);
+    system.constraint_drift(t, q, v, room.rates);
+    for j in 0..choice.rank {
+        room.row[j] = room.rates[choice.row(j)];
+    }
+    solve_transposed(room, choice.rank, choice.rank);
+    forward(room.metric.as_slice(), z.as_mut_slice());
+    for (j, along) in room
+        .basis
+        .chunks_exact(room.n)
+        .take(choice.rank)
+        .enumerate()
+    {
+        room.row[j] -= dot(along, z.as_slice());
+    }
+    Ok(())
+}
+
+/// `R⁻ᵀ row` in place, for the first `count` rows of `rank`.
+fn solve_transposed<M>(room: &mut Room<'_, M>, rank: usize, count: usize) {
+    for j in 0..count {
+        let mut sum = room.row[j];
+        for i in 0..j {
+            sum -= room.triangle[i * rank + j] * room.row[i];
+        }
+        room.row[j] = sum / room.triangle[j * rank + j];
     }
 }
 
@@ -769,317 +768,4 @@ impl<V> Place<'_, V> {
         };
         [high, low]
     }
-}
-
-impl<M: Vector> Room<'_, M> {
-    /// Makes `L` at a state; the matrix of the constraints is there already.
-    fn factor<S: System<Matrix = M>>(
-        &mut self,
-        system: &S,
-        t: f64,
-        q: &S::Vector,
-    ) -> Result<(), StepError> {
-        let n = self.n;
-        system.mass_matrix(t, q, &mut self.metric);
-        if cholesky(self.metric.as_mut_slice(), self.lengths).is_ok() {
-            return Ok(());
-        }
-        // Something has no inertia of its own; perhaps the constraints hold it.
-        system.mass_matrix(t, q, &mut self.metric);
-        let metric = self.metric.as_mut_slice();
-        let weights = &mut *self.row;
-        weights.fill(0.0);
-        loop {
-            let mut found = false;
-            for (weight, row) in weights.iter_mut().zip(self.matrix.chunks_exact(n)) {
-                if *weight > 0.0 {
-                    continue;
-                }
-                // As much inertia along the constraint as there is in any of its coordinates.
-                for (j, g) in row.iter().enumerate().filter(|(_, g)| **g != 0.0) {
-                    *weight = weight.max(metric[j * n + j] / (g * g));
-                }
-                if *weight > 0.0 && weight.is_finite() {
-                    found = true;
-                    for i in 0..n {
-                        for j in 0..n {
-                            metric[i * n + j] += *weight * row[i] * row[j];
-                        }
-                    }
-                }
-            }
-            if !found {
-                break;
-            }
-        }
-        cholesky(metric, self.lengths).map_err(|singular| StepError::Singular { singular, t })
-    }
-
-    /// The greatest error of a vector `L⁻¹ x` by rounding, relative to its length: the roundoff of
-    /// `n` operations, times what elimination took from the diagonal.
-    fn roundoff(&self) -> f64 {
-        let least = self.lengths.iter().fold(1.0, |least: f64, x| least.min(*x));
-        8.0 * (self.n + self.m) as f64 * f64::EPSILON / least
-    }
-}
-
-impl<M: Vector> Room<'_, M> {
-    /// From `c`, the reactions along the basis, in `row`: the multipliers `λ` of least norm with
-    /// `Σ λₖ yₖ = Σ cⱼ basisⱼ`.
-    ///
-    /// With rows of length 1, `μₖ = λₖ |yₖ|`, and with those that were not chosen as `X` makes them
-    /// of those that were, `μ = [I X]ᵀ (I + X Xᵀ)⁻¹ b` is the least `μ` with `[I X] μ = b`.
-    fn least_norm(
-        &mut self,
-        multipliers: &mut [f64],
-        chosen: impl Fn(usize) -> usize,
-        rank: usize,
-    ) {
-        self.combine(&chosen, rank);
-        let (n, lengths) = (self.n, &*self.positions);
-        // What the chosen rows alone would carry.
-        self.column[..rank].copy_from_slice(&self.row[..rank]);
-        solve_triangle(self.triangle, rank, self.column);
-        for j in 0..rank {
-            self.column[j] *= lengths[chosen(j)];
-        }
-        for i in 0..rank {
-            for j in 0..rank {
-                let shared = self.matrix.chunks_exact(n).map(|x| x[i] * x[j]);
-                let own = if i == j { 1.0 } else { 0.0 };
-                self.triangle[i * rank + j] = own + shared.sum::<f64>();
-            }
-        }
-        // At least the unit matrix: nothing stops it.
-        let _ = cholesky(&mut self.triangle[..rank * rank], self.lengths);
-        forward(&self.triangle[..rank * rank], &mut self.column[..rank]);
-        backward(&self.triangle[..rank * rank], &mut self.column[..rank]);
-        let rows = self.matrix.chunks_exact(n).zip(lengths);
-        for (multiplier, (x, length)) in multipliers.iter_mut().zip(rows) {
-            let shared = dot(&x[..rank], &self.column[..rank]);
-            *multiplier = if *length > 0.0 { shared / length } else { 0.0 };
-        }
-        for j in 0..rank {
-            let k = chosen(j);
-            multipliers[k] = self.column[j] / lengths[k];
-        }
-    }
-
-    /// Lengths of all rows to `positions`; and for each row `k` that was not chosen, how the chosen
-    /// ones make it, `yₖ/|yₖ| = Σⱼ Xⱼₖ yⱼ/|yⱼ|`, to the front of its row of `matrix`. Those of the
-    /// chosen are 0.
-    fn combine(&mut self, chosen: impl Fn(usize) -> usize, rank: usize) {
-        let n = self.n;
-        for (row, length_of) in self.matrix.chunks_exact_mut(n).zip(&mut *self.positions) {
-            forward(self.metric.as_slice(), row);
-            *length_of = length(row);
-        }
-        for (k, row) in self.matrix.chunks_exact_mut(n).enumerate() {
-            let whole = self.positions[k];
-            if whole > 0.0 && !(0..rank).any(|j| chosen(j) == k) {
-                for (along, basis) in self
-                    .column
-                    .iter_mut()
-                    .zip(self.basis.chunks_exact(n))
-                    .take(rank)
-                {
-                    *along = dot(basis, row);
-                }
-                solve_triangle(self.triangle, rank, self.column);
-                row.fill(0.0);
-                for (j, (x, along)) in row.iter_mut().zip(&*self.column).take(rank).enumerate() {
-                    *x = along * self.positions[chosen(j)] / whole;
-                }
-            } else {
-                row.fill(0.0);
-            }
-        }
-    }
-}
-
-#[cfg(feature = "std")]
-impl<V: Vector> Constraints<V> {
-    /// For each row that was not chosen, its index and those of the chosen rows that it depends on,
-    /// at a state where the rows were chosen.
-    pub fn dependences<S: System<Vector = V>>(
-        &self,
-        system: &S,
-        t: f64,
-        q: &V,
-    ) -> Result<std::vec::Vec<(usize, std::vec::Vec<usize>)>, StepError> {
-        use std::vec::Vec;
-
-        // What rounding leaves of 0 beside 1.
-        const NOTHING: f64 = 1e-6;
-        in_room(system, t, q.as_slice().len(), |room| {
-            self.prepare(system, room, t, q)?;
-            room.combine(|j| self.row(j), self.rank);
-            let is_chosen = |k: usize| (0..self.rank).any(|j| self.row(j) == k);
-            let others = room.matrix.chunks_exact(room.n).enumerate();
-            let others = others.filter(|(k, _)| !is_chosen(*k));
-            let others = others.map(|(k, x)| {
-                let on = (0..self.rank).filter(|&j| x[j].abs() > NOTHING);
-                let mut on: Vec<usize> = on.map(|j| self.row(j)).collect();
-                on.sort_unstable();
-                (k, on)
-            });
-            Ok(others.collect())
-        })
-    }
-
-    /// The row that has lost most of its hold on the way from one pose to another, and what is left of
-    /// it beside the others, relative to what it had; none where it had nothing.
-    ///
-    /// Where it is 0, rows depend on each other that did not before: more directions are free there than
-    /// elsewhere, and branches of the motion may meet.
-    pub fn weakest<S: System<Vector = V>>(
-        &mut self,
-        system: &S,
-        before: (f64, &V),
-        now: (f64, &V),
-    ) -> Result<Option<(usize, f64)>, StepError> {
-        self.choose(system, before.0, before.1, Rank::Revealed(INDEPENDENT))?;
-        let mut held = before.1.zeros_like();
-        let held = held.as_mut_slice();
-        in_room(system, before.0, before.1.as_slice().len(), |room| {
-            self.prepare(system, room, before.0, before.1)?;
-            for (j, held) in held.iter_mut().take(self.rank).enumerate() {
-                *held = room.triangle[j * self.rank + j];
-            }
-            let prepared = self.prepare(system, room, now.0, now.1);
-            if let Err(StepError::Singular { singular, .. }) = prepared
-                && let Pivot::Constraint(k) = singular.at
-            {
-                return Ok(Some((k, 0.0)));
-            }
-            prepared?;
-            let left = (0..self.rank).map(|j| {
-                let left = room.triangle[j * self.rank + j] / held[j];
-                (self.row(j), left)
-            });
-            Ok(left.min_by(|a, b| a.1.total_cmp(&b.1)))
-        })
-    }
-
-    /// The size by which a coordinate and its rate are measured.
-    pub fn sizes(&self, coordinate: usize) -> [f64; 2] {
-        [0, 1].map(|of: usize| self.sizes[of].as_slice()[coordinate])
-    }
-}
-
-/// Lends the room for the work on constraints, in parts.
-fn in_room<S: System, R>(
-    system: &S,
-    t: f64,
-    coordinates: usize,
-    work: impl FnOnce(&mut Room<'_, S::Matrix>) -> Result<R, StepError>,
-) -> Result<R, StepError> {
-    let (n, m) = (coordinates, system.constraints().len());
-    let rank = m.min(n);
-    system.lend(constraint_room(n, m), |room| {
-        let mut rest = room.ok_or(StepError::NoRoom { t })?;
-        let mut part = |length: usize| {
-            let (part, left) = core::mem::take(&mut rest)
-                .split_at_mut_checked(length)
-                .ok_or(StepError::NoRoom { t })?;
-            rest = left;
-            Ok(part)
-        };
-        work(&mut Room {
-            n,
-            m,
-            metric: S::Matrix::zeros(n * n),
-            matrix: part(m * n)?,
-            basis: part(rank * n)?,
-            triangle: part(rank * rank)?,
-            positions: part(m)?,
-            rates: part(m)?,
-            row: part(m)?,
-            column: part(n)?,
-            before: part(n)?,
-            lengths: part(n)?,
-        })
-    })
-}
-
-/// Cholesky's factorization `L Lᵀ`, to the lower triangle; and to `shares` what is left of each
-/// diagonal element, `Lᵢᵢ / √aᵢᵢ`.
-fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
-    let n = root(a.len());
-    let roundoff = 4.0 * n as f64 * f64::EPSILON;
-    for j in 0..n {
-        let diagonal = a[j * n + j];
-        for i in j..n {
-            let mut sum = a[i * n + j];
-            for k in 0..j {
-                sum -= a[i * n + k] * a[j * n + k];
-            }
-            if i > j {
-                a[i * n + j] = sum / a[j * n + j];
-                continue;
-            }
-            if !(sum > roundoff * diagonal) {
-                return Err(Singular::new(j, sum, diagonal));
-            }
-            a[j * n + j] = sqrt(sum);
-            shares[j] = sqrt(sum / diagonal);
-        }
-    }
-    Ok(())
-}
-
-/// `L⁻¹ x` in place.
-fn forward(l: &[f64], x: &mut [f64]) {
-    let n = x.len();
-    for i in 0..n {
-        let known = dot(&l[i * n..][..i], &x[..i]);
-        x[i] = (x[i] - known) / l[i * n + i];
-    }
-}
-
-/// `L⁻ᵀ x` in place.
-fn backward(l: &[f64], x: &mut [f64]) {
-    let n = x.len();
-    for i in (0..n).rev() {
-        let mut sum = x[i];
-        for k in i + 1..n {
-            sum -= l[k * n + i] * x[k];
-        }
-        x[i] = sum / l[i * n + i];
-    }
-}
-
-/// `R⁻¹ x` in place, for the upper triangle `R` of `rank` rows.
-fn solve_triangle(r: &[f64], rank: usize, x: &mut [f64]) {
-    for i in (0..rank).rev() {
-        let known = dot(&r[i * rank..][i + 1..rank], &x[i + 1..rank]);
-        x[i] = (x[i] - known) / r[i * rank + i];
-    }
-}
-
-/// Takes out of `x` what it has along a unit vector, and says how much that was.
-fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
-    let along = dot(unit, x);
-    for (x, unit) in x.iter_mut().zip(unit) {
-        *x -= along * unit;
-    }
-    along
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-fn length(x: &[f64]) -> f64 {
-    sqrt(dot(x, x))
-}
-
-/// `x` relative to a scale that may be 0.
-fn share(x: f64, scale: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x.abs() / scale }
-}
-
-/// The number of rows of a square matrix of so many numbers.
-fn root(numbers: usize) -> usize {
-    numbers.isqrt()
 }

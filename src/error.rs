@@ -99,6 +99,16 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The constraints cannot be met at the start by moving only what is not
+    /// [kept](crate::Simulation::keep).
+    KeptStart {
+        /// The constraint that is violated the most.
+        constraint: String,
+        /// What is kept of the coordinates and rates in it.
+        kept: std::vec::Vec<String>,
+        /// Time, in s.
+        t: f64,
+    },
     /// The law of friction leaves no motion at all, or several: what Painlevé found of rods that slide
     /// on rough ground.
     FrictionParadox {
@@ -425,6 +435,17 @@ impl Display for Error {
                  machine may go on in more than one way, and rounding hides in which; the longer steps of a coarser tolerance \
                  may pass over it",
                 t = Short(*t)
+            ),
+            Self::KeptStart {
+                constraint,
+                kept,
+                t,
+            } => write!(
+                f,
+                "the constraint `{constraint}` cannot be met at the start, t = {t} s, while {} {} kept: keep fewer numbers, or \
+                 give values that agree",
+                quoted(kept),
+                if kept.len() == 1 { "is" } else { "are" }
             ),
             Self::NoRoomForConstraints { t } => write!(
                 f,

@@ -53,7 +53,8 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     let (start, of_start) = match system.constraints().len() {
         0 => (start, Vec::new()),
         _ => {
-            let found = bring_start(&system, start.t, &mut q, &mut v)?;
+            let kept = settings.kept(&system)?;
+            let found = bring_start(&system, start.t, &mut q, &mut v, kept)?;
             (state(&system, (start.t, q.clone(), v.clone())), found)
         }
     };
@@ -693,13 +694,27 @@ fn bring_start<S: System>(
     t: f64,
     q: &mut S::Vector,
     v: &mut S::Vector,
+    kept: Option<[S::Vector; 2]>,
 ) -> Result<Vec<Warning>, Error> {
     let given = [q.clone(), v.clone()];
     let mut known = Constraints::new(system, q, v);
     let mut start = Point::new(t, q.clone(), v.clone());
-    known
-        .begin(system, &mut start.place())
-        .map_err(|error| contradiction(error, system, q, v))?;
+    let brought = known.begin(system, &mut start.place(), kept.clone());
+    brought.map_err(|error| {
+        let of_kept = kept.and_then(|kept| contradicts_kept(&error, system, q, &kept));
+        of_kept.unwrap_or_else(|| match error {
+            // At rest where rows depend on each other that do not beside the start.
+            StepError::Singular { singular, t } => match singular.at {
+                Pivot::Constraint(row) => Error::Fork {
+                    constraint: constraint_name(system, row),
+                    left: 0.0,
+                    t,
+                },
+                _ => contradiction(error, system, q, v),
+            },
+            _ => contradiction(error, system, q, v),
+        })
+    })?;
     (*q, *v) = (start.q, start.v);
 
     let mut found = Vec::new();
@@ -712,14 +727,53 @@ fn bring_start<S: System>(
             if (to - from).abs() <= ROUNDING_OF_START * known.sizes(j)[level] {
                 continue;
             }
-            let name = match level {
-                0 => coordinate.name.into(),
-                _ => std::format!("der({})", coordinate.name),
-            };
+            let name = number_name(coordinate.name, level);
             found.push(Warning::StartMoved { name, from, to });
         }
     }
     Ok(found)
+}
+
+/// The error of a start of which some numbers are kept: with those that the constraint depends on.
+fn contradicts_kept<S: System>(
+    error: &StepError,
+    system: &S,
+    q: &S::Vector,
+    kept: &[S::Vector; 2],
+) -> Option<Error> {
+    let (constraint, t) = match *error {
+        StepError::Inconsistent { constraint, t, .. } => (constraint, t),
+        StepError::Singular { singular, t } => match singular.at {
+            Pivot::Constraint(constraint) => (constraint, t),
+            _ => return None,
+        },
+        _ => return None,
+    };
+    let n = q.as_slice().len();
+    let m = system.constraints().len();
+    let mut rows = std::vec![0.0; m * n];
+    system.constraint_matrix(t, q, &mut rows);
+    let mut names = Vec::new();
+    for (level, kept) in kept.iter().enumerate() {
+        for (j, coordinate) in system.coordinates().enumerate() {
+            if kept.as_slice()[j] != 0.0 && rows[constraint * n + j] != 0.0 {
+                names.push(number_name(coordinate.name, level));
+            }
+        }
+    }
+    (!names.is_empty()).then(|| Error::KeptStart {
+        constraint: constraint_name(system, constraint),
+        kept: names,
+        t,
+    })
+}
+
+/// The name of a coordinate, or of its rate.
+fn number_name(coordinate: &str, level: usize) -> String {
+    match level {
+        0 => coordinate.into(),
+        _ => std::format!("der({coordinate})"),
+    }
 }
 
 /// A run that is stopped where less than this is left of a constraint is stopped by that: rounding in
@@ -820,6 +874,33 @@ impl Settings {
             check("every", interval, positive(interval), "greater than 0")?;
         }
         Ok(until)
+    }
+
+    /// Which numbers of the start are kept, coordinates and rates: those that are not 0.
+    fn kept<S: System>(&self, system: &S) -> Result<Option<[S::Vector; 2]>, Error> {
+        if self.kept.is_empty() {
+            return Ok(None);
+        }
+        let zeros = || S::Vector::zeros(system.coordinates().len());
+        let mut kept = [zeros(), zeros()];
+        for name in &self.kept {
+            let rate = name
+                .strip_prefix("der(")
+                .and_then(|rest| rest.strip_suffix(')'));
+            let (level, asked) = rate.map_or((0, name.as_str()), |rate| (1, rate));
+            let mut is_known = false;
+            for (j, coordinate) in system.coordinates().enumerate() {
+                let member = coordinate.name.strip_prefix(asked);
+                if member.is_some_and(|member| member.is_empty() || member.starts_with('[')) {
+                    kept[level].as_mut_slice()[j] = 1.0;
+                    is_known = true;
+                }
+            }
+            if !is_known {
+                return Err(Error::UnknownCoordinate { name: name.clone() });
+            }
+        }
+        Ok(Some(kept))
     }
 
     fn tolerance<S: System>(&self, system: &S) -> Result<Tolerance<S::Vector>, Error> {

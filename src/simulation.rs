@@ -70,6 +70,7 @@ pub(crate) struct Settings {
     pub first_step: Option<f64>,
     pub longest_step: f64,
     pub max_steps: usize,
+    pub kept: Vec<String>,
     pub every: Option<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
@@ -127,6 +128,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 first_step: None,
                 longest_step: f64::INFINITY,
                 max_steps: 10_000_000,
+                kept: Vec::new(),
                 every: None,
                 keep_steps: true,
                 energy_balance: false,
@@ -216,6 +218,16 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// The greatest length of a step, in s.
     pub fn longest_step(mut self, step: f64) -> Self {
         self.settings.longest_step = step;
+        self
+    }
+
+    /// Keeps a number of the start as it was given, where the start does not obey the constraints and is
+    /// moved onto them: a coordinate, `"theta"`, or a rate, `"der(theta)"`; of a family, `"q[3]"`, or all
+    /// of it, `"q"`. The others move by the least that inertia allows. Called once for each.
+    ///
+    /// The run has an error where the constraints cannot be met so.
+    pub fn keep(mut self, name: &str) -> Self {
+        self.settings.kept.push(name.into());
         self
     }
 

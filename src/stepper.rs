@@ -19,7 +19,7 @@ use crate::math::{power, rough_power, sqrt};
 use crate::methods::Tableau;
 use crate::methods::{MAX_STAGES, Method, Row};
 use crate::piece::{Ends, Piece, glance};
-use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state};
+use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
 use crate::{Singular, System, Vector};
 #[cfg(feature = "std")]
 use std::boxed::Box;
@@ -32,6 +32,11 @@ pub const LEAST_RELATIVE_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 
 /// A test of stiffness follows every so many steps, as in DOP853.
 const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
+
+/// Where constraints come to depend on each other, what goes across them is rounding up to this, relative and
+/// absolute: 10⁻¹⁶ in a constraint are 10⁻⁵ in the accelerations of a stage where the weakest row has 3·10⁻⁴
+/// of its length left, and a hundredth of that in what a step makes of them.
+const ACROSS: f64 = 1e-7;
 
 /// How a machine's inputs are set while it runs.
 ///
@@ -287,7 +292,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let mut constraints = None;
         if system.constraints().len() != 0 {
             let known = constraints.insert(Constraints::new(system, &start.q, &start.v));
-            known.begin(system, &mut start.place())?;
+            known.begin(system, &mut start.place(), None)?;
         }
         let mut stepper = Self {
             method,
@@ -333,7 +338,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             let contacts = Contacts::begin(system, now.t, &now.q, &now.v, inputs)?;
             model.contacts = Some(contacts);
         }
-        model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
+        let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
+        if let Some(constraints) = &mut model.constraints
+            && found.is_err()
+            && constraints.meet_fork(system, [(now.t, &now.q); 2])
+        {
+            model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
+        } else {
+            found?;
+        }
         if let Some(constraints) = &model.constraints
             && constraints.redundant
         {
@@ -673,6 +686,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
                     self.accept(h);
                     return Ok(());
                 }
+                _ if self.meets_fork(h) => {
+                    // Once more, with an eye on that.
+                    self.work.rejected += 1;
+                    continue;
+                }
                 Ok(error) => {
                     self.step = h * self.reduction(error, shrink);
                     None
@@ -806,6 +824,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         Ok(error)
     }
 
+    /// Whether the step just tried may have failed because constraints come to depend on each other on its
+    /// way, which was not known before.
+    fn meets_fork(&mut self, h: f64) -> bool {
+        let Self {
+            model,
+            before,
+            stage,
+            ..
+        } = self;
+        let Some(constraints) = &mut model.constraints else {
+            return false;
+        };
+        let ahead = &mut stage.0;
+        ahead.clone_from(&before.q);
+        for (q, v) in ahead.as_mut_slice().iter_mut().zip(before.v.as_slice()) {
+            *q += h * v;
+        }
+        let poses = [(before.t, &before.q), (before.t + h, &*ahead)];
+        constraints.meet_fork(model.system, poses)
+    }
+
     /// Makes the step just tried the last step.
     fn accept(&mut self, h: f64) {
         let stages = self.method.tableau.stages;
@@ -830,6 +869,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     ///
     /// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
     fn error(&self, h: f64) -> f64 {
+        if let Some(constraints) = &self.model.constraints
+            && constraints.at_fork
+        {
+            return self.error_along(constraints, h);
+        }
         let scheme = &self.method.scheme;
         let (mut fine, mut coarse) = (0.0, 0.0);
         in_blocks!(self.now.q.as_slice().len(), |start, B| {
@@ -848,19 +892,76 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         sqrt(fine * (fine / denominator) / numbers as f64)
     }
 
+    /// The same where constraints are about to depend on each other: of what goes across them, which they
+    /// take away again, only what is not rounding there counts.
+    fn error_along(&self, constraints: &Constraints<S::Vector>, h: f64) -> f64 {
+        let scheme = &self.method.scheme;
+        let mut sums = [0.0, 0.0];
+        let coarse = self.method.tableau.coarse_error.is_some();
+        let rows = [Some(&scheme.error), coarse.then_some(&scheme.coarse_error)];
+        for (sum, row) in sums.iter_mut().zip(rows) {
+            let Some(row) = row else {
+                continue;
+            };
+            let mut errors = [self.now.q.zeros_like(), self.now.q.zeros_like()];
+            in_blocks!(self.now.q.as_slice().len(), |start, B| {
+                let [position, velocity] = weigh::<B, _>(row, &self.k, start);
+                for i in 0..B {
+                    errors[0].as_mut_slice()[start + i] = h * h * position[i];
+                    errors[1].as_mut_slice()[start + i] = h * velocity[i];
+                }
+            });
+            let states = [[&self.before.q, &self.now.q], [&self.before.v, &self.now.v]];
+            for (error, [before, now]) in errors.iter().zip(states) {
+                let (t, q) = (self.now.t, &self.now.q);
+                let mut along = error.clone();
+                if constraints
+                    .keep_along(self.model.system, t, q, &mut along)
+                    .is_err()
+                {
+                    along.clone_from(error);
+                }
+                for (i, along) in along.as_slice().iter().enumerate() {
+                    let size = before.as_slice()[i].abs().max(now.as_slice()[i].abs());
+                    let tolerable = self.tolerable(i, size);
+                    let across = error.as_slice()[i] - along;
+                    let loose = tolerable.max(ACROSS * (1.0 + size));
+                    *sum += (along / tolerable) * (along / tolerable);
+                    *sum += (across / loose) * (across / loose);
+                }
+            }
+        }
+        let [fine, coarse] = sums;
+        let denominator = fine + 0.01 * coarse;
+        if denominator == 0.0 {
+            return 0.0;
+        }
+        let numbers = 2 * self.now.q.as_slice().len();
+        sqrt(fine * (fine / denominator) / numbers as f64)
+    }
+
+    /// What is tolerable in a number of a coordinate.
+    fn tolerable(&self, coordinate: usize, size: f64) -> f64 {
+        let Tolerance { relative, absolute } = &self.tolerance;
+        absolute.as_slice()[coordinate] + relative * size
+    }
+
     /// How far the step just tried was moved onto the constraints, in the norm of its
     /// [`error`](Self::error): what it was off by across them, and not what its beginning was.
     fn error_of_move(&self) -> f64 {
         let Some(constraints) = &self.model.constraints else {
             return 0.0;
         };
-        let Tolerance { relative, absolute } = &self.tolerance;
         let mut sum = 0.0;
         let levels = constraints.moved.iter().zip(constraints.share);
         for ((moved, share), y) in levels.zip([&self.now.q, &self.now.v]) {
             let by = moved.as_slice().iter().zip(y.as_slice());
-            for ((moved, y), absolute) in by.zip(absolute.as_slice()) {
-                let error = share * moved / (absolute + relative * y.abs());
+            for (i, (moved, y)) in by.enumerate() {
+                let mut tolerable = self.tolerable(i, y.abs());
+                if constraints.at_fork {
+                    tolerable = tolerable.max(ACROSS * (1.0 + y.abs()));
+                }
+                let error = share * moved / tolerable;
                 sum += error * error;
             }
         }
@@ -1102,6 +1203,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
         if let Some(constraints) = &mut self.constraints {
             constraints.accept(&now.q, &now.v);
+            if constraints.at_fork {
+                constraints.pass_fork(self.system, now.t, &now.q);
+            }
             if constraints.redundant {
                 // Where that fails, the rows of before will do, or the next step will say why not.
                 let _ = constraints.choose_again(self.system, now.t, &now.q);
@@ -1163,7 +1267,7 @@ pub(crate) fn accelerations<S: System>(
     }
     if system.constraints().len() != 0
         && let Some(constraints) = constraints
-        && constraints.redundant
+        && (constraints.redundant || constraints.at_fork)
     {
         return constraints.accelerations(system, t, q, v, u, a);
     }

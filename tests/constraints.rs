@@ -416,6 +416,50 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
 }
 
 #[test]
+fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
+    let machine = circle::<1>();
+    let given = State {
+        t: 0.0,
+        q: [-0.66, 0.88],
+        v: [1.0, 0.0],
+    };
+    let simulation = || Simulation::new(&machine).until(0.1);
+    let run = simulation()
+        .keep("x1")
+        .keep("der(y1)")
+        .run(given)
+        .expect("it runs");
+    let y = (1.0_f64 - 0.66 * 0.66).sqrt();
+    assert_near(&run.start().q, &[-0.66, y], 1e-13);
+    // x ẋ + y ẏ = 0
+    assert_near(&run.start().v, &[0.0, 0.0], 1e-13);
+
+    // Nothing is left to move.
+    let refused = simulation().keep("x1").keep("y1").run(given);
+    assert_eq!(
+        refused.err(),
+        Some(Error::KeptStart {
+            constraint: "rod".into(),
+            kept: vec!["x1".into(), "y1".into()],
+            t: 0.0
+        })
+    );
+    // Kept is too much: beyond the circle.
+    let far = State {
+        q: [-1.5, 0.1],
+        ..given
+    };
+    let refused = simulation().keep("x1").run(far);
+    let Err(Error::KeptStart { kept, .. }) = refused else {
+        panic!("{:?}", refused.map(|run| *run.end()));
+    };
+    assert_eq!(kept, ["x1"]);
+    let refused = simulation().keep("z").run(given);
+    let name = "z".into();
+    assert_eq!(refused.err(), Some(Error::UnknownCoordinate { name }));
+}
+
+#[test]
 fn between_the_steps_the_motion_is_on_the_constraints_too() {
     // Steps as long as this tolerance allows leave the circle by 10⁻⁶ between their ends.
     let machine = circle::<1>();

@@ -207,6 +207,9 @@ pub struct Simulate {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
+    /// Keep numbers of a start that does not obey the constraints, as in `--keep theta,der(phi)`, and move the others.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub keep: Vec<String>,
     /// Integrate to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,

@@ -139,6 +139,9 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
         simulation = simulation.every(interval / f64::from(finer));
     }
+    for name in &call.keep {
+        simulation = simulation.keep(name.trim());
+    }
     let simulation = contacts.watch(simulation);
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     let mut trouble = Trouble {
@@ -245,6 +248,9 @@ fn cause(error: Error) -> Failure {
             };
             Failure::Call(format!("--{option} {value:e}: must be {needed}"))
         }
+        Error::UnknownCoordinate { name } => Failure::Call(format!(
+            "--keep {name}: no coordinate of that name; the rate of a coordinate is written der(NAME)"
+        )),
         error => Failure::run(error),
     }
 }

@@ -1,0 +1,167 @@
+//! Which rows are kept: as many as are independent, and of these the ones that hold best at a pose.
+#![expect(
+    clippy::neg_cmp_op_on_partial_ord,
+    reason = "what is not a number passes no test here"
+)]
+
+use super::algebra::{forward, length, remove};
+use super::room::{Room, in_room};
+use super::scale::Scales;
+use crate::{StepError, System, Vector};
+
+/// Rows that are independent, those of positions first. There are no more than coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Choice<V> {
+    rows: V,
+    /// How many of them there are.
+    pub rank: usize,
+    /// How many of them are of positions.
+    pub holonomic: usize,
+}
+
+/// How many rows to choose.
+#[derive(Clone, Copy)]
+pub(crate) enum Rank {
+    /// As many as are independent by more than this.
+    Revealed(f64),
+    /// The same with the first number, and beyond as many as there were only what is independent by more
+    /// than the second.
+    Followed(f64, f64),
+    /// As many of positions, and as many in all, as were chosen before.
+    Known,
+    /// Those that hold by more than this: see [`Constraints::hold`](super::Constraints::hold).
+    Holding(f64),
+}
+
+impl<V: Vector> Choice<V> {
+    /// No row.
+    pub fn none(zeros: V) -> Self {
+        Self {
+            rows: zeros,
+            rank: 0,
+            holonomic: 0,
+        }
+    }
+
+    /// The index of a chosen row.
+    pub fn row(&self, chosen: usize) -> usize {
+        // There are far fewer rows than an `f64` counts exactly.
+        self.rows.as_slice()[chosen] as usize
+    }
+
+    /// Whether a row was chosen.
+    pub fn has(&self, k: usize) -> bool {
+        (0..self.rank).any(|j| self.row(j) == k)
+    }
+
+    /// Chooses rows at a pose, one after the other, by what is left of each beside those before it: the
+    /// first of those that leave half of the most, and before these a row that was chosen until now and
+    /// leaves a quarter, so that rows do not change from one evaluation to the next for nothing.
+    ///
+    /// What is left is taken relative to the row's own length where it is asked *whether* a row is
+    /// independent, and relative to the greatest that its terms have been in the run where it is asked
+    /// *which* is the better one: a row that vanishes in a pose is not lost there, but rounding holds more
+    /// of it. This is Gram and Schmidt's process with choice of the column, in the metric of inertia
+    /// (G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., section 5.4.2).
+    pub fn made<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        (t, q): (f64, &V),
+        rank: Rank,
+        (scales, fixed): (&Scales<V>, Option<&V>),
+    ) -> Result<Self, StepError> {
+        let mut made = Self::none(q.zeros_like());
+        in_room(system, t, q.as_slice().len(), |room| {
+            system.constraint_matrix(t, q, room.matrix);
+            let n = room.n;
+            for (k, row) in room.matrix.chunks_exact(n.max(1)).enumerate() {
+                room.rates[k] = scales.strength(k, row, q);
+            }
+            room.fix_rows(fixed);
+            room.factor(system, t, q, fixed)?;
+            for row in room.matrix.chunks_exact_mut(n.max(1)) {
+                forward(room.metric.as_slice(), row);
+                let length = length(row);
+                if length > 0.0 {
+                    row.iter_mut().for_each(|x| *x /= length);
+                }
+            }
+            let roundoff = room.roundoff();
+            for (known, holonomic) in [(self.holonomic, true), (self.rank, false)] {
+                loop {
+                    let least = match rank {
+                        Rank::Revealed(least) => least.max(roundoff),
+                        Rank::Followed(least, _) if made.rank < known => least.max(roundoff),
+                        Rank::Followed(_, more) => more.max(roundoff),
+                        Rank::Known if made.rank < known => 0.0,
+                        Rank::Known => break,
+                        Rank::Holding(_) => roundoff,
+                    };
+                    let Some((k, held)) = made.best(system, room, holonomic, (least, self)) else {
+                        break;
+                    };
+                    if matches!(rank, Rank::Holding(least) if !(held > least)) {
+                        break;
+                    }
+                    made.take(room, k, least);
+                }
+                if holonomic {
+                    made.holonomic = made.rank;
+                }
+            }
+            Ok(made)
+        })
+    }
+
+    /// The row to be chosen next, if any is independent by more than `least`, and what is left of it,
+    /// relative to the greatest that it has been.
+    fn best<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        room: &Room<'_, S::Matrix>,
+        holonomic: bool,
+        (least, before): (f64, &Self),
+    ) -> Option<(usize, f64)> {
+        if self.rank >= room.n.min(room.m) {
+            return None;
+        }
+        let held = |k: usize| {
+            let left = length(&room.matrix[k * room.n..][..room.n]);
+            // The weaker a row, the more of its direction is rounding.
+            (left > least).then_some((k, left * room.rates[k]))
+        };
+        let rows = || {
+            let rows = system.constraints().enumerate();
+            let rows = rows.filter(move |(_, row)| row.holonomic == holonomic);
+            rows.filter_map(|(k, _)| held(k))
+        };
+        let most = rows().map(|(_, held)| held).reduce(f64::max)?;
+        let was_chosen = || rows().find(|(k, held)| before.has(*k) && *held >= 0.25 * most);
+        was_chosen().or_else(|| rows().find(|(_, held)| *held >= 0.5 * most))
+    }
+
+    /// Adds a row to those chosen, if it is independent by more than `least`, and takes its direction
+    /// out of the others.
+    fn take<M: Vector>(&mut self, room: &mut Room<'_, M>, k: usize, least: f64) {
+        let n = room.n;
+        room.column.copy_from_slice(&room.matrix[k * n..][..n]);
+        room.matrix[k * n..][..n].fill(0.0);
+        // Once more: a direction that little is left of has lost its right angles.
+        for known in room.basis[..self.rank * n].chunks_exact(n) {
+            remove(known, room.column);
+        }
+        let left = length(room.column);
+        if left <= least {
+            return;
+        }
+        let new = &mut room.basis[self.rank * n..][..n];
+        for (new, x) in new.iter_mut().zip(&*room.column) {
+            *new = x / left;
+        }
+        for row in room.matrix.chunks_exact_mut(n) {
+            remove(new, row);
+        }
+        self.rows.as_mut_slice()[self.rank] = k as f64;
+        self.rank += 1;
+    }
+}

@@ -1,0 +1,210 @@
+//! Poses in which rows come to depend on each other that do not elsewhere: a parallelogram whose bars
+//! come into line.
+//!
+//! There more directions are free than elsewhere, and branches of the motion may cross. Let `ε` be how much
+//! of its greatest length a row has left beside the others. It vanishes in the pose, and rounding of the
+//! constraint, `u`, is an error `u/ε` of positions along that row, `u/ε²` of rates and `u/ε³` of accelerations.
+//! All of it lies across the motion: a row's direction is what its reaction pushes along, so what is off is
+//! taken away again by the next move onto the constraints, where `ε` is no longer small. So, while a motion
+//! passes such a pose,
+//!
+//! * its stages are brought onto the constraints before their accelerations are evaluated;
+//! * accelerations within [`PASSED_OVER`] are those between two states on the same branch, one before
+//!   and one after, which are well held: an error of order `ε²`;
+//! * a state with `ε` below [`WEAK`] is not moved along what holds so little: it goes on as it came, which is
+//!   how the branch goes on;
+//! * the errors of a step are measured along the motion, as that of the state that the constraints then
+//!   make of it (E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., section VII.2).
+
+use super::algebra::{backward, remove};
+use super::choice::Rank;
+use super::room::{Room, in_room};
+use super::{Constraints, Level, Place};
+use crate::{Singular, StepError, System, Vector};
+
+/// Below this, rows no longer move a state.
+pub(super) const WEAK: f64 = 1e-4;
+
+/// Below this, accelerations are taken from beside the pose.
+pub(super) const PASSED_OVER: f64 = 3e-4;
+
+/// Within this, a step that fails may have failed because of such a pose.
+const IN_SIGHT: f64 = 0.5;
+
+/// How far from a pose states are looked for, in units of the coordinates' sizes.
+const BESIDE: f64 = 0.1;
+
+impl<V: Vector> Constraints<V> {
+    /// How much of its greatest length the weakest of the chosen rows has left beside the others at a pose;
+    /// 0 where it has nothing.
+    pub fn hold<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
+        let hold = in_room(system, t, q.as_slice().len(), |room| {
+            self.prepare(system, room, (t, q), Level::Rates)?;
+            Ok(self.held(room, q))
+        });
+        hold.unwrap_or(0.0)
+    }
+
+    /// The same where rows have been factorized.
+    fn held<M: Vector>(&self, room: &Room<'_, M>, q: &V) -> f64 {
+        let rank = self.choice.rank;
+        let mut least: f64 = 1.0;
+        for j in 0..rank {
+            let entries = (0..=j).map(|i| room.triangle[i * rank + j]);
+            let whole = crate::math::sqrt(entries.map(|x| x * x).sum());
+            let k = self.choice.row(j);
+            let row = &room.matrix[k * room.n..][..room.n];
+            let own = room.triangle[j * rank + j] / whole * self.scales.strength(k, row, q);
+            least = least.min(own);
+        }
+        least
+    }
+
+    /// Whether the chosen rows hold too little to move a state.
+    pub(super) fn is_weak<M: Vector>(
+        &self,
+        prepared: &Result<(), StepError>,
+        room: &Room<'_, M>,
+        q: &V,
+    ) -> bool {
+        match prepared {
+            Ok(()) => self.held(room, q) < WEAK,
+            Err(StepError::Singular { singular, .. }) => {
+                matches!(singular.at, crate::Pivot::Constraint(_))
+            }
+            Err(_) => false,
+        }
+    }
+
+    /// Takes note that a step between two poses failed; says whether such a pose may be why, which was not
+    /// known before.
+    pub fn meet_fork<S: System<Vector = V>>(&mut self, system: &S, poses: [(f64, &V); 2]) -> bool {
+        if self.at_fork {
+            return false;
+        }
+        let holds = |(t, q): &(f64, &V)| self.hold(system, *t, q) < IN_SIGHT;
+        self.at_fork = poses.iter().any(holds);
+        self.at_fork
+    }
+
+    /// Takes note of the end of a step: whether the pose has been passed.
+    pub fn pass_fork<S: System<Vector = V>>(&mut self, system: &S, t: f64, q: &V) {
+        self.at_fork = self.at_fork && self.hold(system, t, q) < IN_SIGHT;
+    }
+
+    /// Accelerations of a state that is first brought onto the constraints: a stage is off them by what the
+    /// method leaves of it, and that, too, would grow as `1/ε²`.
+    pub(super) fn accelerations_at_fork<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        a: &mut V,
+    ) -> Result<(), StepError> {
+        if self.hold(system, t, q) < PASSED_OVER {
+            return self.accelerations_across(system, (t, q, v, u), a);
+        }
+        let (mut q, mut v) = (q.clone(), v.clone());
+        self.put_on(system, t, &mut q, &mut v)?;
+        self.accelerations_here(system, (t, &q, &v, u), a)
+    }
+
+    /// Accelerations between those beside a pose, before and after it.
+    fn accelerations_across<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        a: &mut V,
+    ) -> Result<(), StepError> {
+        let mut beside = a.clone();
+        let after = self.accelerations_beside(system, (t, q, v, u), 1.0, a)?;
+        let before = self.accelerations_beside(system, (t, q, v, u), -1.0, &mut beside)?;
+        let pairs = a.as_mut_slice().iter_mut().zip(beside.as_slice());
+        for (a, beside) in pairs {
+            *a = (before * *a + after * beside) / (before + after);
+        }
+        Ok(())
+    }
+
+    /// Accelerations at the nearest state in a direction of time that is held well enough; says how long
+    /// until there.
+    fn accelerations_beside<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        (t, q, v, u): (f64, &V, &V, &S::Inputs),
+        direction: f64,
+        a: &mut V,
+    ) -> Result<f64, StepError> {
+        let rate = self.scales.rate(v);
+        let mut far = PASSED_OVER;
+        // What comes to rest in such a pose may leave it on any branch.
+        while rate > 0.0 && far < BESIDE {
+            let by = direction * far / rate;
+            let mut ahead = q.clone();
+            for (q, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
+                *q += by * v;
+            }
+            if self.hold(system, t + by, &ahead) >= 2.0 * PASSED_OVER {
+                let mut rates = v.clone();
+                self.put_on(system, t + by, &mut ahead, &mut rates)?;
+                self.accelerations_here(system, (t + by, &ahead, &rates, u), a)?;
+                return Ok(far / rate);
+            }
+            far *= 1.5;
+        }
+        let singular = Singular::constraint(self.choice.row(0), 0.0, 1.0);
+        Err(StepError::Singular { singular, t })
+    }
+
+    /// Brings a state that may be held weakly, but is held, onto all chosen rows.
+    pub(super) fn put_on<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &mut V,
+        v: &mut V,
+    ) -> Result<(), StepError> {
+        let mut own = self.clone();
+        let mut low = [q.zeros_like(), v.zeros_like()];
+        let [q_low, v_low] = &mut low;
+        let place = &mut Place {
+            t,
+            q: [q, q_low],
+            v: [v, v_low],
+        };
+        in_room(system, t, place.q[0].as_slice().len(), |room| {
+            own.prepare(system, room, (t, place.q[0]), Level::Positions)?;
+            let [left, _] = own.left(system, room, place);
+            own.newton(system, room, place, Level::Positions, left)?;
+            own.prepare(system, room, (t, place.q[0]), Level::Rates)?;
+            let [_, left] = own.left(system, room, place);
+            own.newton(system, room, place, Level::Rates, left)
+        })
+    }
+
+    /// Takes out of a change of coordinates, or of rates, what goes across the constraints at a pose.
+    pub fn keep_along<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &V,
+        change: &mut V,
+    ) -> Result<(), StepError> {
+        let choice = self
+            .choice
+            .made(system, (t, q), Rank::Known, (&self.scales, None))?;
+        in_room(system, t, q.as_slice().len(), |room| {
+            super::prepare(system, room, (t, q), (&choice, None))?;
+            let (n, l) = (room.n, room.metric.as_slice());
+            let change = change.as_mut_slice();
+            // z = Lᵀ x
+            for i in 0..n {
+                change[i] = (i..n).map(|k| l[k * n + i] * change[k]).sum();
+            }
+            for along in room.basis.chunks_exact(n).take(choice.rank) {
+                remove(along, change);
+            }
+            backward(l, change);
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! What a run tells of its constraints.
+
+use super::choice::Rank;
+use super::room::in_room;
+use super::{Constraints, INDEPENDENT, Level};
+use crate::{Pivot, StepError, System, Vector};
+
+impl<V: Vector> Constraints<V> {
+    /// For each row that was not chosen, its index and those of the chosen rows that it depends on,
+    /// at a state where the rows were chosen.
+    pub fn dependences<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &V,
+    ) -> Result<std::vec::Vec<(usize, std::vec::Vec<usize>)>, StepError> {
+        use std::vec::Vec;
+
+        // What rounding leaves of 0 beside 1.
+        const NOTHING: f64 = 1e-6;
+        in_room(system, t, q.as_slice().len(), |room| {
+            self.prepare(system, room, (t, q), Level::Rates)?;
+            room.combine(|j| self.choice.row(j), self.choice.rank);
+            let others = room.matrix.chunks_exact(room.n).enumerate();
+            let others = others.filter(|(k, _)| !self.choice.has(*k));
+            let others = others.map(|(k, x)| {
+                let on = (0..self.choice.rank).filter(|&j| x[j].abs() > NOTHING);
+                let mut on: Vec<usize> = on.map(|j| self.choice.row(j)).collect();
+                on.sort_unstable();
+                (k, on)
+            });
+            Ok(others.collect())
+        })
+    }
+
+    /// The row that has lost most of its hold on the way from one pose to another, and what is left of
+    /// it beside the others, relative to what it had; none where it had nothing.
+    ///
+    /// Where it is 0, rows depend on each other that did not before: more directions are free there than
+    /// elsewhere, and branches of the motion may meet.
+    pub fn weakest<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        before: (f64, &V),
+        now: (f64, &V),
+    ) -> Result<Option<(usize, f64)>, StepError> {
+        self.choose(system, before.0, before.1, Rank::Revealed(INDEPENDENT))?;
+        let mut held = before.1.zeros_like();
+        let held = held.as_mut_slice();
+        in_room(system, before.0, before.1.as_slice().len(), |room| {
+            self.prepare(system, room, before, Level::Rates)?;
+            for (j, held) in held.iter_mut().take(self.choice.rank).enumerate() {
+                *held = room.triangle[j * self.choice.rank + j];
+            }
+            let prepared = self.prepare(system, room, now, Level::Rates);
+            if let Err(StepError::Singular { singular, .. }) = prepared
+                && let Pivot::Constraint(k) = singular.at
+            {
+                return Ok(Some((k, 0.0)));
+            }
+            prepared?;
+            let left = (0..self.choice.rank).map(|j| {
+                let left = room.triangle[j * self.choice.rank + j] / held[j];
+                (self.choice.row(j), left)
+            });
+            Ok(left.min_by(|a, b| a.1.total_cmp(&b.1)))
+        })
+    }
+
+    /// The size by which a coordinate and its rate are measured.
+    pub fn sizes(&self, coordinate: usize) -> [f64; 2] {
+        [0, 1].map(|of: usize| self.scales.sizes[of].as_slice()[coordinate])
+    }
+}

@@ -1,0 +1,186 @@
+//! The start of a run is brought onto the constraints.
+
+use super::choice::{Choice, Rank};
+use super::room::{Room, in_room};
+use super::{Constraints, INDEPENDENT, Level, Place};
+use crate::{Singular, StepError, System, Vector};
+
+/// How independent rows must be, from afar to near: off the constraints, rows that depend on each other
+/// *on* them do so only about as exactly as the state is there. Last comes what holds there, once more
+/// for a row that was missing only because the state was far off.
+const PASSES: [f64; 7] = [0.3, 0.1, 1e-2, 1e-4, 1e-6, INDEPENDENT, INDEPENDENT];
+
+/// How far from the start rows are looked at, in units of the coordinates' sizes, and how independent they
+/// must be there that were not at the start: a state so far off the start is off the constraints by the
+/// square of it, and so are rows that depend on each other.
+const BESIDE: f64 = 1e-3;
+const NEWS: f64 = 10.0 * BESIDE * BESIDE;
+
+/// How many displacements show how rows bend.
+const DISPLACEMENTS: u32 = 3;
+
+impl<V: Vector> Constraints<V> {
+    /// Brings the start of a run onto the constraints, by the least move in the metric of inertia, and
+    /// chooses rows there.
+    ///
+    /// Coordinates and rates that are not 0 in `kept` stay as they are: the move is the least that the
+    /// others make.
+    pub fn begin<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        place: &mut Place<'_, V>,
+        kept: Option<[V; 2]>,
+    ) -> Result<(), StepError> {
+        let given = [place.q[0].clone(), place.v[0].clone()];
+        self.kept = kept;
+        let mut tried = Ok(false);
+        for independent in PASSES {
+            tried = self.pass(system, place, Rank::Revealed(independent));
+            if tried == Ok(false) && independent == INDEPENDENT {
+                break;
+            }
+        }
+        tried?;
+        // The passes together may have gone farther than one move with the rows that they found.
+        if *place.q[0] != given[0] || *place.v[0] != given[1] {
+            let found = [place.q[0].clone(), place.v[0].clone()];
+            put(place, &given);
+            if self.pass(system, place, Rank::Known).is_err() {
+                put(place, &found);
+                self.pass(system, place, Rank::Revealed(INDEPENDENT))?;
+            }
+        }
+        self.kept = None;
+        self.choose(system, place.t, place.q[0], Rank::Revealed(INDEPENDENT))?;
+        for (level, given) in given.iter().enumerate() {
+            let now = [&*place.q[0], &*place.v[0]][level].as_slice();
+            let moved = self.moved[level].as_mut_slice().iter_mut();
+            for (moved, (now, given)) in moved.zip(now.iter().zip(given.as_slice())) {
+                *moved = now - given;
+            }
+        }
+        self.accept(place.q[0], place.v[0]);
+        self.look_beside(system, (place.t, place.q[0], place.v[0]))
+    }
+
+    /// Whether rows depend on each other in the pose where the run starts that do not beside it: then the
+    /// rates say on which branch the motion goes on, and all rows that hold there are chosen.
+    ///
+    /// # Errors
+    /// If there are no rates: inertia does not decide then.
+    fn look_beside<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        (t, q, v): (f64, &V, &V),
+    ) -> Result<(), StepError> {
+        if !self.redundant {
+            return Ok(());
+        }
+        let rate = self.scales.rate(v);
+        let mut ahead = q.zeros_like();
+        let mut later = t;
+        if rate > 0.0 {
+            ahead.clone_from(v);
+            later += BESIDE / rate;
+        } else {
+            self.scales.displacement(0, &mut ahead);
+        }
+        let by = if rate > 0.0 { BESIDE / rate } else { BESIDE };
+        for (ahead, q) in ahead.as_mut_slice().iter_mut().zip(q.as_slice()) {
+            *ahead = q + by * *ahead;
+        }
+        // Rows that depend on others everywhere do so only on those.
+        if self
+            .put_on(system, later, &mut ahead, &mut v.clone())
+            .is_err()
+        {
+            return Ok(());
+        }
+        let by = (&self.scales, None);
+        let beside = (later, &ahead);
+        let found = Choice::none(q.zeros_like()).made(system, beside, Rank::Revealed(NEWS), by)?;
+        if found.rank <= self.choice.rank {
+            return Ok(());
+        }
+        if rate == 0.0 {
+            let row = (0..found.rank).map(|j| found.row(j));
+            let row = row.into_iter().find(|k| !self.choice.has(*k));
+            let singular = Singular::constraint(row.unwrap_or_default(), 0.0, 1.0);
+            return Err(StepError::Singular { singular, t });
+        }
+        self.redundant = found.rank < system.constraints().len();
+        self.choice = found;
+        self.at_fork = true;
+        Ok(())
+    }
+
+    /// One move, with the rows that are independent where it begins; none where these have no solution
+    /// near. Says whether it moved.
+    fn pass<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        place: &mut Place<'_, V>,
+        rank: Rank,
+    ) -> Result<bool, StepError> {
+        let n = place.q[0].as_slice().len();
+        let before = [place.q[0].clone(), place.v[0].clone()];
+        let mut moved = false;
+        // Other numbers are kept of positions than of rates, so other rows are independent.
+        let levels: &[&[Level]] = match &self.kept {
+            None => &[&[Level::Positions, Level::Rates]],
+            Some(_) => &[&[Level::Positions], &[Level::Rates]],
+        };
+        let known = self.choice.clone();
+        for levels in levels {
+            let fixed = self.kept.as_ref().map(|kept| &kept[levels[0] as usize]);
+            let by = (&self.scales, fixed);
+            self.choice = known.made(system, (place.t, place.q[0]), rank, by)?;
+            self.redundant = self.choice.rank < system.constraints().len();
+            let approached = in_room(system, place.t, n, |room| {
+                self.note_bends(system, room, (place.t, place.q[0]));
+                self.approach(system, room, place, levels)
+            });
+            match approached {
+                Ok(has_moved) => moved |= has_moved,
+                Err(error) => {
+                    put(place, &before);
+                    return Err(error);
+                }
+            }
+        }
+        in_room(system, place.t, n, |room| {
+            self.left(system, room, place);
+            self.check(system, room, place)
+        })?;
+        Ok(moved)
+    }
+
+    /// Notes by how much rows change within the reach of the coordinates: `½ sᵀ (∂²g/∂q²) s` for some
+    /// displacements `s`, from the part of `γ` that is even in the rates.
+    fn note_bends<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        room: &mut Room<'_, S::Matrix>,
+        (t, q): (f64, &V),
+    ) {
+        let mut s = q.zeros_like();
+        system.constraint_drift(t, q, &s, room.row);
+        for part in 0..DISPLACEMENTS {
+            self.scales.displacement(part, &mut s);
+            system.constraint_drift(t, q, &s, room.positions);
+            s.as_mut_slice().iter_mut().for_each(|s| *s = -*s);
+            system.constraint_drift(t, q, &s, room.rates);
+            for k in 0..room.m {
+                let even = 0.5 * (room.positions[k] + room.rates[k]) - room.row[k];
+                self.scales.note_bend(k, 0.5 * even.abs());
+            }
+        }
+    }
+}
+
+fn put<V: Vector>(place: &mut Place<'_, V>, state: &[V; 2]) {
+    for (of, state) in [&mut place.q, &mut place.v].into_iter().zip(state) {
+        of[0].clone_from(state);
+        of[1].as_mut_slice().fill(0.0);
+    }
+}
