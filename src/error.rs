@@ -124,8 +124,8 @@ pub enum Error {
         v: std::vec::Vec<f64>,
     },
     /// Constraints come to depend on each other where they did not before. The machine may go on in more
-    /// than one way from there, as a parallelogram whose bars come into line, and rounding hides which
-    /// way the motion has.
+    /// than one way from there, as a parallelogram whose bars come into line, and neither the motion before
+    /// nor inertia says in which: it is at rest there, or rounding hides it.
     Fork {
         /// The constraint that loses its hold.
         constraint: String,
@@ -432,8 +432,8 @@ impl Display for Error {
             } => write!(
                 f,
                 "the constraint `{constraint}` loses its hold near t = {t} s ({left:.1e} of what it had is left): from there the \
-                 machine may go on in more than one way, and rounding hides in which; the longer steps of a coarser tolerance \
-                 may pass over it",
+                 machine may go on in more than one way, and nothing says in which; start it beside that pose, or with rates \
+                 along one of them",
                 t = Short(*t)
             ),
             Self::KeptStart {
@@ -442,8 +442,9 @@ impl Display for Error {
                 t,
             } => write!(
                 f,
-                "the constraint `{constraint}` cannot be met at the start, t = {t} s, while {} {} kept: keep fewer numbers, or \
+                "the constraint `{constraint}` cannot be met at the start, t = {} s, while {} {} kept: keep fewer numbers, or \
                  give values that agree",
+                Short(*t),
                 quoted(kept),
                 if kept.len() == 1 { "is" } else { "are" }
             ),
