@@ -83,6 +83,31 @@ pub(crate) struct Change {
     pub cause: Cause,
 }
 
+/// By how much the state of a contact holds, negative where it does not, and what rounding may take
+/// from that.
+#[cfg(feature = "std")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Margin {
+    pub value: f64,
+    pub rounding: f64,
+}
+
+#[cfg(feature = "std")]
+impl Margin {
+    /// Of what does not end.
+    const ENDLESS: Margin = Margin {
+        value: f64::INFINITY,
+        rounding: 0.0,
+    };
+
+    /// Whether a state has ended that had this margin before: it is clearly lost now, or it was
+    /// clearly there before. What is zero within rounding throughout has not ended. *When* a state
+    /// ended is a question of the value alone.
+    pub fn is_lost_since(self, before: Margin) -> bool {
+        self.value < -self.rounding || (self.value < 0.0 && before.value > before.rounding)
+    }
+}
+
 #[cfg(feature = "std")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Cause {
@@ -96,7 +121,8 @@ pub(crate) enum Cause {
 
 /// Accelerations and multipliers of a machine with contacts, and the forces in these, at a state.
 ///
-/// A contact whose slip is not 0 slides. Where it is exactly 0, all contacts at rest are asked
+/// A contact whose slip is not 0 slides. Where it is 0 within rounding
+/// ([`System::slip_ranges`]), all contacts at rest are asked
 /// together whether they stick or slide off. A run knows more: there a contact that has come to rest
 /// stays so until its friction is used up.
 ///
@@ -110,7 +136,7 @@ pub fn contact_forces<S: System>(
     multipliers: &mut [f64],
     forces: &mut [ContactForce],
 ) -> Result<(), Singular> {
-    let slips = slips(system, t, q, v);
+    let slips = resting_slips(system, t, q, v);
     with_parts(system, t, q, v, u, |parts, _| {
         let known = Question::from_slips(&slips);
         let (mode, frictions) = known.answer(parts).map_err(Paradox::singular)?;
@@ -192,6 +218,22 @@ fn slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
     slips
 }
 
+/// The slips, 0 where a contact rests within rounding.
+fn resting_slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Each {
+    let mut slips = slips(system, t, q, v);
+    if slips == [0.0; MOST_CONTACTS] {
+        return slips;
+    }
+    let mut ranges = [[f64::INFINITY; 2]; MOST_CONTACTS];
+    system.slip_ranges(t, q, v, &mut ranges[..system.contacts().len()]);
+    for (slip, [from, to]) in slips.iter_mut().zip(ranges) {
+        if from.is_finite() && to.is_finite() && from <= 0.0 && to >= 0.0 {
+            *slip = 0.0;
+        }
+    }
+    slips
+}
+
 /// Accelerations and multipliers with these frictions, as far as there is room for them.
 fn results(parts: &Parts<'_>, frictions: &Each, a: &mut [f64], multipliers: &mut [f64]) {
     for (i, a) in a.iter_mut().enumerate() {
@@ -230,7 +272,7 @@ impl Contacts {
         v: &S::Vector,
         u: &S::Inputs,
     ) -> Result<Contacts, StepError> {
-        let question = Question::from_slips(&slips(system, t, q, v));
+        let question = Question::from_slips(&resting_slips(system, t, q, v));
         let mode = with_parts(system, t, q, v, u, |parts, _| {
             let (mode, _) = question.answer(parts).map_err(Paradox::singular)?;
             Ok(mode)
@@ -314,28 +356,37 @@ impl Contacts {
     }
 
     /// By how much the states of the contacts hold, two numbers for each: what slides is on its side
-    /// of rest and presses to its side; what sticks has friction left. Negative where one has ended.
+    /// of rest and presses to its side; what sticks has friction left.
     #[cfg(feature = "std")]
     pub fn margins<S: System>(
         &self,
         system: &S,
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
-    ) -> Result<[[f64; 2]; MOST_CONTACTS], StepError> {
+    ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
             let frictions = self.frictions(parts)?;
-            let mut margins = [[f64::INFINITY; 2]; MOST_CONTACTS];
+            let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
                 let [normal, terms] = parts.sum(parts.normal(k), &frictions);
                 *margin = match self.mode.motion[k] {
                     Motion::Sticks => {
                         let coefficient = parts.static_friction(k);
-                        let most = coefficient * (normal.abs() + ROUNDING * terms);
-                        [most - frictions[k].abs(), f64::INFINITY]
+                        let reserve = Margin {
+                            value: coefficient * normal.abs() - frictions[k].abs(),
+                            rounding: ROUNDING * coefficient * terms,
+                        };
+                        [reserve, Margin::ENDLESS]
                     }
                     Motion::Slides(sign) => [
-                        sign * slips[k],
-                        self.mode.press[k] * normal + ROUNDING * terms,
+                        Margin {
+                            value: sign * slips[k],
+                            rounding: 0.0,
+                        },
+                        Margin {
+                            value: self.mode.press[k] * normal,
+                            rounding: ROUNDING * terms,
+                        },
                     ],
                 };
             }
@@ -344,16 +395,16 @@ impl Contacts {
         margins.map_err(|singular| StepError::Singular { singular, t })
     }
 
-    /// The states that have ended, by their margins, and which of the two margins says so.
+    /// The states that seem to have ended, by their margins, and which of the two margins says so.
     #[cfg(feature = "std")]
-    pub fn ended(
+    pub fn seem_ended(
         &self,
-        margins: &[[f64; 2]; MOST_CONTACTS],
+        margins: &[[Margin; 2]; MOST_CONTACTS],
     ) -> [Option<(Change, usize)>; 2 * MOST_CONTACTS] {
         let mut ended = [None; 2 * MOST_CONTACTS];
         for (k, margins) in margins[..self.count].iter().enumerate() {
             for (kind, margin) in margins.iter().enumerate() {
-                if *margin >= 0.0 {
+                if margin.value >= 0.0 {
                     continue;
                 }
                 let cause = match (self.mode.motion[k], kind) {
@@ -379,6 +430,7 @@ impl Contacts {
         let question = Question {
             motion: self.mode.motion.map(Some),
             excluded: None,
+            turned: None,
         };
         with_parts(system, t, q, v, u, |parts, _| {
             match question.answer(parts) {
@@ -432,6 +484,7 @@ impl Contacts {
                 Cause::Stopped if is_at_once => Some((own.0, own.1, None)),
                 Cause::Stopped => None,
             },
+            turned: (change.cause == Cause::Turned).then_some((own.0, own.1, -self.mode.press[k])),
         };
         let decided = with_parts(system, t, q, v, u, |parts, _| {
             question.answer(parts).map_err(Paradox::singular)

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
-use lagrangian_scalar::{Dual, Kernel, Scalar};
+use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
 
@@ -60,6 +60,10 @@ pub struct InterpretedSystem {
     inputs: Vec<f64>,
     /// Registers that a call writes; a system is used by one thread at a time.
     interpreter: RefCell<Interpreter<f64>>,
+    /// The parameters, and the same program over intervals once it is asked for; of machines with
+    /// contacts.
+    parameters: Vec<f64>,
+    enclosing: RefCell<Option<Interpreter<Interval>>>,
 }
 
 /// No parameter, coordinate or input has this name.
@@ -164,6 +168,11 @@ impl Machine for InterpretedMachine {
             names: self.names.clone(),
             inputs: self.inputs.clone(),
             interpreter: RefCell::new(Interpreter::new(&self.program, &self.parameters)),
+            parameters: match self.program.contacts.is_empty() {
+                true => Vec::new(),
+                false => self.parameters.clone(),
+            },
+            enclosing: RefCell::new(None),
         }
     }
 
@@ -559,6 +568,27 @@ impl System for InterpretedSystem {
 
     fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
         let _ = self.call(Role::Slips, at(t, q, v, &[]), slips);
+    }
+
+    fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
+        let near = |x: f64| Interval::new(x.next_down(), x.next_up());
+        let list = |numbers: &[f64]| numbers.iter().map(|x| near(*x)).collect::<Vec<_>>();
+        let mut enclosing = self.enclosing.borrow_mut();
+        let enclosing = enclosing
+            .get_or_insert_with(|| Interpreter::new(&self.program, &list(&self.parameters)));
+        let mut slips = vec![Interval::UNKNOWN; ranges.len()];
+        let arguments = Arguments {
+            t: near(t),
+            q: &list(q),
+            v: &list(v),
+            u: &[],
+            a: &[],
+        };
+        // No slip divides by a pivot.
+        let _ = enclosing.call(Role::Slips, arguments, &mut slips);
+        for (range, slip) in ranges.iter_mut().zip(slips) {
+            *range = [slip.lo(), slip.hi()];
+        }
     }
 
     fn slip_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {

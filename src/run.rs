@@ -285,14 +285,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         let mut theta_before = 0.0;
         let theta_roundoff = event::theta_roundoff(stepper);
         for theta in event::LOOKS {
-            let ended = contacts.ended(&margins(&event::glance_at(stepper, theta))?);
+            let ended = contacts.seem_ended(&margins(&event::glance_at(stepper, theta))?);
             for (change, kind) in ended.into_iter().flatten() {
                 let piece = made(piece, stepper, model.system)?;
                 let at = |theta| event::state_at(model.system, stepper, piece, theta);
-                let margin = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
-                if margin(theta)? >= 0.0 {
+                let exactly = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
+                if !exactly(theta)?.is_lost_since(exactly(theta_before)?) {
                     continue;
                 }
+                let margin = |theta| exactly(theta).map(|margin| margin.value);
                 // What has just begun may hold only a little later.
                 let mut from = theta_before;
                 if margin(from)? <= 0.0 {

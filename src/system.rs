@@ -243,6 +243,20 @@ pub trait System {
     #[inline(always)]
     fn slips(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _slips: &mut [f64]) {}
 
+    /// Between which numbers each slip is, lower and upper bound in m/s, where the state and the parameters
+    /// are rounded, and with what rounding makes of the slips themselves: a contact whose slip may be 0
+    /// rests within rounding. Bounds that are not finite say nothing.
+    ///
+    /// By default what rounding does is not known, and both are the slip.
+    fn slip_ranges(&self, t: f64, q: &Self::Vector, v: &Self::Vector, ranges: &mut [[f64; 2]]) {
+        let mut slips = [0.0; crate::MOST_CONTACTS];
+        let slips = &mut slips[..ranges.len().min(crate::MOST_CONTACTS)];
+        self.slips(t, q, v, slips);
+        for (range, slip) in ranges.iter_mut().zip(slips) {
+            *range = [*slip; 2];
+        }
+    }
+
     /// The matrix `τ(q, t) = ∂w/∂v` of the slips, row after row.
     #[inline(always)]
     fn slip_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}

@@ -2,6 +2,8 @@
 //! open what happens, that is said.
 #![cfg(feature = "interpreter")]
 
+#[path = "friction/spelling.rs"]
+mod spelling;
 mod support;
 
 use std::f64::consts::PI;
@@ -9,6 +11,7 @@ use std::f64::consts::PI;
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Crossing, Error, Machine, Simulation, Solution, State, System};
 use support::library::{interpreted, machine};
+use support::random::SplitMix;
 
 /// Runs a machine with these parameters, coordinates and rates from its start.
 fn run(
@@ -392,4 +395,206 @@ fn a_reaction_that_changes_its_side_is_an_event() {
         .map(|p| (primitive(p[1]) - primitive(p[0])).abs())
         .sum();
     assert_near(value(&run.end().v, "x"), 3.0 - 0.3 * pressed, 1e-10);
+}
+
+/// A block on a rail that something presses up and down, and pulls.
+fn pressed(gravity: &str) -> InterpretedMachine {
+    machine(&format!(
+        "machine Pressed in plane {{
+            parameters {{ m: kg = 1, mu: 1 = 0.2, p: N = 3, P: N = 15, w: rad/s = 2, g: m/s^2 = 9.81 }}
+            coordinates {{ z: m }}
+            bodies {{ block {{ mass: m, at: (z, 0) }} }}
+            {gravity}
+            forces {{ press {{ at: block.at, force: (p, P*sin(w*t)) }} }}
+            sliding {{ rail {{ body: block, on: ground, direction: (1, 0), friction: mu }} }}
+        }}"
+    ))
+}
+
+#[test]
+fn a_reaction_goes_through_zero_and_the_motion_goes_on() {
+    // m v' = p − μ |N|, N = m g − P sin w t: one motion, whatever N is.
+    let (p, most, w, mu, until) = (3.0, 15.0, 2.0_f64, 0.2, 5.0);
+    for (gravity, g) in [("gravity (0, -g);", 9.81_f64), ("", 0.0)] {
+        let first = (g / most).asin() / w;
+        let turns: Vec<f64> = (0..9)
+            .flat_map(|k| {
+                let period = 2.0 * PI / w * f64::from(k);
+                [period + first, period + PI / w - first]
+            })
+            .filter(|t| *t > 0.0 && *t < until)
+            .collect();
+        let primitive = |t: f64| g * t + most * (w * t).cos() / w;
+        let ends: Vec<f64> = [0.0]
+            .into_iter()
+            .chain(turns.clone())
+            .chain([until])
+            .collect();
+        let pieces = ends.windows(2);
+        let load: f64 = pieces
+            .map(|e| (primitive(e[1]) - primitive(e[0])).abs())
+            .sum();
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let start = [("z", 0.0, 1.0)];
+            let run = run(&pressed(gravity), &[], &start, (tolerance, until)).expect("it runs");
+            let mut known = events(&run);
+            // Where the reaction is zero at the start, either side may be the first.
+            known.retain(|(_, t)| *t > 0.0);
+            assert_eq!(known.len(), turns.len(), "{known:?}");
+            for ((name, t), turn) in known.iter().zip(&turns) {
+                assert_eq!(name, "rail presses the other way");
+                // The reaction is a function of time alone, with 9.81 N against 15 N, rounded once each.
+                assert_near(*t, *turn, 8.0 * f64::EPSILON * until);
+            }
+            let v = 1.0 + p * until - mu * load;
+            assert_near(value(&run.end().v, "z"), v, 100.0 * tolerance);
+        }
+    }
+}
+
+#[test]
+fn contacts_break_away_and_stop_at_the_rounding_of_time() {
+    let pulled = machine(
+        "machine Pulled in plane {
+            parameters { m: kg = 1, mu: 1 = 0.2, mu0: 1 = 0.3, c: N/s = 1, g: m/s^2 = 9.81 }
+            coordinates { z: m }
+            bodies { block { mass: m, at: (z, 0) } }
+            gravity (0, -g);
+            forces { pull { at: block.at, force: (c*t, 0*m*g) } }
+            sliding {
+                rail { body: block, on: ground, direction: (1, 0), friction: mu, static_friction: mu0 },
+            }
+        }",
+    );
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-13] {
+        for c in [1.0, 0.37, 5e-3] {
+            let away = 0.3 * 9.81 / c;
+            let set = [("c", c)];
+            let run = run(&pulled, &set, &[], (tolerance, 1.5 * away)).expect("it runs");
+            let known = events(&run);
+            assert_eq!(known[0].0, "rail slides");
+            // The roundings of 0.3, of its product with 9.81 N, of c t, and of t.
+            assert_near(known[0].1, away, 4.0 * f64::EPSILON * away);
+        }
+        // m v' = −μ m g: it comes to rest at v/(μ g).
+        let set = [("c", 0.0)];
+        let run = run(&pulled, &set, &[("z", 0.0, 2.5)], (tolerance, 3.0)).expect("it runs");
+        let stop = 2.5 / (0.2 * 9.81);
+        // Rates are sums of some steps, each rounded.
+        assert_near(events(&run)[0].1, stop, 16.0 * f64::EPSILON * stop);
+        assert_eq!(value(&run.end().v, "z"), 0.0);
+    }
+}
+
+/// A block on a rail that is shaken and turned: by where it is on the rail.
+const SHAKEN: &str = "machine Shaken in plane {
+    parameters {
+        m: kg = 1, mu: 1 = 9, a: m = 0.1, b: m = 0.05, w: rad/s = 3, u: rad/s = 5, alpha: rad = -0.85,
+        c: rad = 0.2, g: m/s^2 = 9.81,
+    }
+    coordinates { s: m }
+    frames {
+        rail = ground.shift(a*sin(w*t), b*cos(u*t)).turn(alpha + c*sin(w*t)),
+        seat = rail.shift(s, 0),
+    }
+    bodies { block { mass: m, frame: seat } }
+    gravity (0, -g);
+    sliding { rail { body: block, on: rail, direction: rail.vector(1, 0), friction: mu } }
+}";
+
+/// A block on a rail that is shaken along the ground by two motors: by where it is over the ground.
+const CARRIED: &str = "machine Carried in plane {
+    parameters {
+        m: kg = 1, mu: 1 = 9, a: m = 0.1, b: m = 0.3, w: rad/s = 3, u: rad/s = 1, alpha: rad = -0.85,
+        g: m/s^2 = 9.81,
+    }
+    coordinates { x: m }
+    define { motors = a*sin(w*t) - b*sin(u*t) }
+    frames { rail = ground.shift(motors, 0).turn(alpha) }
+    bodies { block { mass: m, at: (x, (x - motors)*tan(alpha)) } }
+    gravity (0, -g);
+    sliding { rail { body: block, on: rail, direction: rail.vector(1, 0), friction: mu } }
+}";
+
+#[test]
+fn what_rests_within_rounding_rests() {
+    let mut random = SplitMix::new(14);
+    let (g, mut resting) = (9.81, 0);
+    for draw in 0..400 {
+        let mut number = |from: f64, to: f64| random.uniform(from, to);
+        let (a, b, w, u) = (
+            number(-0.2, 0.2),
+            number(-0.2, 0.2),
+            number(1.0, 9.0),
+            number(1.0, 9.0),
+        );
+        let (alpha, c, t, place) = (
+            number(-1.2, 1.2),
+            number(-0.3, 0.3),
+            number(0.0, 20.0),
+            number(-2.0, 2.0),
+        );
+        let is_carried = draw % 2 == 1;
+        let set = |text: &str, rest: &[(&str, f64)]| {
+            let mut machine = machine(text);
+            let all = [("a", a), ("b", b), ("w", w), ("u", u), ("alpha", alpha)];
+            for (name, value) in all.iter().chain(rest) {
+                machine.set(name, *value).expect("a parameter");
+            }
+            machine.prepare()
+        };
+        // The acceleration of the block, at rest on the rail, and the direction of the rail.
+        let (sin, cos) = (w * t).sin_cos();
+        let (system, v, acceleration, angle) = match is_carried {
+            false => {
+                let [theta, omega, alpha_dot] = [alpha + c * sin, c * w * cos, -c * w * w * sin];
+                let e = [theta.cos(), theta.sin()];
+                let shaken = [-a * w * w * sin, -b * u * u * (u * t).cos()];
+                let x = shaken[0] + place * (-alpha_dot * e[1] - omega * omega * e[0]);
+                let y = shaken[1] + place * (alpha_dot * e[0] - omega * omega * e[1]);
+                (set(SHAKEN, &[("c", c)]), 0.0, [x, y], theta)
+            }
+            true => {
+                let rate = a * (w * cos) - b * (u * (t * u).cos());
+                let x = -a * w * w * sin + b * u * u * (u * t).sin();
+                (set(CARRIED, &[]), rate, [x, 0.0], alpha)
+            }
+        };
+        let inputs = system.default_inputs();
+        let (q, mut a) = (vec![place], vec![0.0]);
+        let mut force = |v: f64| {
+            let mut forces = [lagrangian::ContactForce::default()];
+            let at = (t, &q, &vec![v], &inputs);
+            let found = lagrangian::contact_forces(&system, at, &mut a, &mut [], &mut forces);
+            found.map(|()| forces[0])
+        };
+        let (sin, cos) = angle.sin_cos();
+        let [x, y] = [acceleration[0], acceleration[1] + g];
+        let [load, needed] = [y * cos - x * sin, x * cos + y * sin];
+        // Where it takes more than there is, it slides off.
+        if needed.abs() > 8.9 * load.abs() {
+            continue;
+        }
+        let found = force(v).expect("it rests");
+        resting += 1;
+        assert!(found.sticks, "draw {draw}: {found:?}");
+        assert_near(found.normal, load, 1e-11);
+        assert_near(found.friction, needed, 1e-11);
+        // What is clearly more than rounding slides, or jams where it would have to rise.
+        if let Ok(found) = force(v + 1e-11) {
+            assert!(!found.sticks, "draw {draw}: {found:?}");
+        }
+    }
+    assert!(resting > 300, "{resting}");
+}
+
+#[test]
+fn a_run_starts_from_rest_within_rounding() {
+    // At t = 0 the motors drive the rail with a w − b u = 0.3 m/s − 0.3 m/s, rounded.
+    let start = [("x", 0.4, 0.1 * 3.0 - 0.3 * 1.0)];
+    assert_ne!(start[0].2, 0.0);
+    let run = run(&machine(CARRIED), &[], &start, (1e-10, 2.0)).expect("it runs");
+    assert!(run.events().is_empty(), "{:?}", events(&run));
+    let motors = 0.1 * 6.0_f64.sin() - 0.3 * 2.0_f64.sin();
+    assert_near(value(&run.end().q, "x"), 0.4 + motors, 1e-9);
 }

@@ -11,9 +11,7 @@
 //! | `bias` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `applied` | 4 | 9 | 0 | 1 | 0 | 10 |
 //! | `forces` | 5 | 10 | 0 | 1 | 0 | 12 |
-//! | `slips` | 11 | 15 | 0 | 1 | 0 | 23 |
-//! | `slip_drift` | 19 | 23 | 0 | 1 | 0 | 39 |
-//! | `friction` | 27 | 30 | 0 | 1 | 0 | 54 |
+//! | `friction` | 16 | 16 | 0 | 1 | 0 | 29 |
 //! | `kinetic_energy` | 12 | 13 | 0 | 1 | 0 | 22 |
 //! | `potential_energy` | 5 | 9 | 0 | 1 | 0 | 11 |
 //! | `work_rate` | 16 | 16 | 0 | 1 | 0 | 29 |
@@ -247,55 +245,15 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S;
 }
 
 /// How fast the contacts slide, `w`, in m/s.
-pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> [S; 1] {
-    let s = q[0];
+pub fn slips<S: ::lagrangian::Scalar>(v: &[S; 1]) -> [S; 1] {
     let s_dot = v[0];
-    let t0 = p.rate * t;
-    let t1 = p.rate * s;
-    let t2 = t0 + p.alpha;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = t0.sum_error(p.alpha) + p.rate.product_error(t);
-    let t4 = cos_t2 - t3 * sin_t2;
-    let t5 = sin_t2 + t3 * cos_t2;
-    let t6 = t4 * t1;
-    let t7 = t5 * t1;
-    let w1 = t4 * (t7 + (t4 * s_dot - t7)) - t5 * (t6 - (t6 + t5 * s_dot));
-    [w1]
+    [s_dot]
 }
 
 /// The matrix `tau = dw/dv` of the slips, row after row.
 pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
     let one = S::ONE;
     [one]
-}
-
-/// `dw/dt` at `a = 0`.
-pub fn slip_drift<S: ::lagrangian::Scalar>(
-    p: &Prepared<S>,
-    t: S,
-    q: &[S; 1],
-    v: &[S; 1],
-) -> [S; 1] {
-    let s = q[0];
-    let s_dot = v[0];
-    let t0 = p.rate * t;
-    let t1 = s * p.k2;
-    let t2 = t0 + p.alpha;
-    let (sin_t2, cos_t2) = t2.sin_cos();
-    let t3 = t0.sum_error(p.alpha) + p.rate.product_error(t);
-    let t4 = sin_t2 + t3 * cos_t2;
-    let t5 = cos_t2 - t3 * sin_t2;
-    let t6 = p.rate * t5;
-    let t7 = p.rate * t4;
-    let t8 = t6 * s_dot;
-    let t9 = t6 * s;
-    let t10 = s_dot * t7;
-    let t11 = s * t7;
-    let t12 = t4 * t1 - t8;
-    let t13 = t10 + t5 * t1;
-    let t14 = t5 * (t13 - (t10 + t13)) - t7 * (t11 + (t5 * s_dot - t11));
-    let drift1 = t4 * (t12 + (t8 - t12)) - t6 * (t9 - (t9 + t4 * s_dot)) + t14;
-    [drift1]
 }
 
 /// What there is without friction, and what each unit of friction adds to it: accelerations,
@@ -338,34 +296,20 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
         let s_dot = n(v[0]);
         let t0 = n(p.rate) * n(t);
         let t1 = s * n(p.k2);
-        let t2 = t0 + n(p.alpha);
-        let (sin_t2, cos_t2) = t2.sin_cos();
-        let t3 = t0.sum_error(n(p.alpha)) + n(p.rate).product_error(n(t));
-        let t4 = t3.mul_add(cos_t2, sin_t2);
-        let t5 = t3.neg_mul_add(sin_t2, cos_t2);
-        let t6 = n(p.rate) * t5;
-        let t7 = n(p.rate) * t4;
-        let t8 = t4 * t1;
-        let t9 = t4 * s_dot;
-        let t10 = t5 * t1;
-        let t11 = t5 * s_dot;
-        let t12 = t6 * s_dot;
-        let t13 = s * t6;
-        let t14 = s_dot * t7;
-        let t15 = s * t7;
-        let r0 = n(p.k9) * t4.mul_add(n(p.k1), s * n(p.k6));
-        let t16 = t8 - t12;
-        let t17 = t14 + t10;
-        let t18 = n(p.g) - t11.mul_sub(n(p.k3), t8);
-        let t19 = t5.neg_mul_add(t18, t4 * t9.mul_add(n(p.k3), t10));
-        let t20 = t5.mul_sub(t17 - (t14 + t17), t7 * (t15 + (t11 - t15)));
-        let t21 = t4.mul_sub(t16 + (t12 - t16), t6 * (t13 - (t13 + t9)));
-        let r1 = r0 + (t21 + t20);
-        let r2 = -(t19 * n(p.m));
+        let t2 = n(p.k3) * s_dot;
+        let t3 = t0 + n(p.alpha);
+        let (sin_t3, cos_t3) = t3.sin_cos();
+        let t4 = t0.sum_error(n(p.alpha)) + n(p.rate).product_error(n(t));
+        let t5 = t4.mul_add(cos_t3, sin_t3);
+        let t6 = t4.neg_mul_add(sin_t3, cos_t3);
+        let r0 = n(p.k9) * t5.mul_add(n(p.k1), s * n(p.k6));
+        let t7 = n(p.g) - t6.mul_sub(t2, t5 * t1);
+        let t8 = t6.neg_mul_add(t7, t5 * t6.mul_add(t1, t5 * t2)) * n(p.m);
+        let r2 = -t8;
         let zero = N::ZERO;
         let friction = [
             r0.store(),
-            r1.store(),
+            r0.store(),
             r2.store(),
             n(p.k9).store(),
             n(p.k9).store(),
@@ -589,16 +533,24 @@ impl ::lagrangian::System for Prepared {
         CONTACTS.iter().copied()
     }
 
-    fn slips(&self, t: f64, q: &[f64; 1], v: &[f64; 1], w: &mut [f64]) {
-        fill(w, &slips(self, t, q, v));
+    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], w: &mut [f64]) {
+        fill(w, &slips(v));
     }
 
     fn slip_matrix(&self, _: f64, _: &[f64; 1], rows: &mut [f64]) {
         fill(rows, &slip_matrix());
     }
 
-    fn slip_drift(&self, t: f64, q: &[f64; 1], v: &[f64; 1], drift: &mut [f64]) {
-        fill(drift, &slip_drift(self, t, q, v));
+    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], drift: &mut [f64]) {
+        drift.fill(0.0);
+    }
+
+    fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
+        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let slips: [::lagrangian::scalar::Interval; _] = slips(&v.map(near));
+        for (range, w) in ranges.iter_mut().zip(slips) {
+            *range = [w.lo(), w.hi()];
+        }
     }
 
     fn friction(

@@ -11,8 +11,8 @@
 //!
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
-//! | `prepare` | 31 | 11 | 3 | 1 | 0 | 47 |
-//! | `slips` | 2 | 3 | 0 | 0 | 0 | 5 |
+//! | `prepare` | 28 | 11 | 3 | 1 | 0 | 44 |
+//! | `slips` | 1 | 0 | 0 | 0 | 0 | 1 |
 //! | `kinetic_energy` | 6 | 3 | 0 | 0 | 0 | 9 |
 //! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
 //!
@@ -84,48 +84,45 @@ impl<S: ::lagrangian::Scalar> Prisms<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
-        let k2 = self.m + self.M;
-        let t0 = self.g * self.m;
-        let t1 = S::ONE / k2;
+        let k1 = self.m + self.M;
+        let t0 = self.m * self.g;
+        let t1 = S::ONE / k1;
         let t2 = self.m * t1;
-        let k8 = S::ONE / cos_self_alpha;
-        let t3 = k8 * k8;
-        let t4 = sin_self_alpha * k8;
-        let k6 = self.m * t3;
-        let k1 = t0 * t4;
-        let pivot_1 = k6 - self.m * t2;
+        let k6 = S::ONE / cos_self_alpha;
+        let t3 = sin_self_alpha * self.m;
+        let k0 = k6 * (t3 * self.g);
+        let t4 = sin_self_alpha * k6;
+        let k5 = k6 * (self.m * k6);
+        let pivot_1 = k5 - self.m * t2;
         let t5 = S::ONE / pivot_1;
-        let t6 = self.m * t5;
-        let k16 = t1 * t6;
-        let t7 = t4 * t6;
-        let k17 = t1 + t2 * k16;
-        let k11 = self.g * t7;
-        let t8 = t0 * t7;
-        let k3 = t4 * t4;
-        let k4 = self.M * S::from_f64(0.5);
-        let k5 = self.m * S::from_f64(0.5);
-        let k7 = sin_self_alpha * t4;
-        let k9 = -self.m;
-        let k10 = -k1;
-        let k12 = t1 * t8;
-        let k13 = k8 * k11;
-        let k14 = t0 + self.g * self.M - t4 * t8;
-        let k15 = cos_self_alpha * t0 - t8 * (sin_self_alpha * t2);
-        let k18 = k8 * k16;
-        let k19 = k8 * t5;
-        let k20 = t3 * t5;
-        let k21 = -(t2 * t7);
-        let k22 = -(k17 * (sin_self_alpha * self.m));
-        let k23 = -(k8 * t7);
-        let singular = if vanishes(k2, k2, 1.7763568394002505e-15) {
-            Some(singular(0, k2, k2))
-        } else if vanishes(pivot_1, k6, 1.7763568394002505e-15) {
-            Some(singular(1, pivot_1, k6))
+        let k17 = k6 * t5;
+        let k14 = t2 * t5;
+        let t6 = t3 * k17;
+        let k15 = t1 + t2 * k14;
+        let k9 = self.g * t6;
+        let k10 = t2 * k9;
+        let k11 = k6 * k9;
+        let k2 = t4 * t4;
+        let k3 = self.M * S::from_f64(0.5);
+        let k4 = self.m * S::from_f64(0.5);
+        let k7 = -self.m;
+        let k8 = -k0;
+        let k12 = t0 + self.g * self.M - t3 * k11;
+        let k13 = cos_self_alpha * t0 - t3 * k10;
+        let k16 = t2 * k17;
+        let k18 = k6 * k17;
+        let k19 = -(t2 * t6);
+        let k20 = -(t3 * k15);
+        let k21 = -(k6 * t6);
+        let singular = if vanishes(k1, k1, 1.7763568394002505e-15) {
+            Some(singular(0, k1, k1))
+        } else if vanishes(pivot_1, k5, 1.7763568394002505e-15) {
+            Some(singular(1, pivot_1, k5))
         } else {
             None
         };
         Prepared {
-            k0: cos_self_alpha,
+            k0,
             k1,
             k2,
             k3,
@@ -134,10 +131,10 @@ impl<S: ::lagrangian::Scalar> Prisms<S> {
             k6,
             k7,
             k8,
-            k9,
-            k10,
             mu2: self.mu2,
             mu1: self.mu1,
+            k9,
+            k10,
             k11,
             k12,
             k13,
@@ -149,8 +146,6 @@ impl<S: ::lagrangian::Scalar> Prisms<S> {
             k19,
             k20,
             k21,
-            k22,
-            k23,
             singular,
         }
     }
@@ -208,58 +203,54 @@ pub struct Outputs {}
 /// The parameters of a [`Prisms`], with the work done that depends on them alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prepared<S = f64> {
-    /// `cos(alpha)`
-    k0: S,
     /// `m*g*sin(alpha)/cos(alpha)`
-    k1: S,
+    k0: S,
     /// `m + M`
-    k2: S,
+    k1: S,
     /// `sin(alpha)^2/cos(alpha)^2`
-    k3: S,
+    k2: S,
     /// `0.5*M`
-    k4: S,
+    k3: S,
     /// `0.5*m`
-    k5: S,
+    k4: S,
     /// `m/cos(alpha)^2`
-    k6: S,
-    /// `sin(alpha)^2/cos(alpha)`
-    k7: S,
+    k5: S,
     /// `1/cos(alpha)`
-    k8: S,
+    k6: S,
     /// `-m`
-    k9: S,
+    k7: S,
     /// `-m*g*sin(alpha)/cos(alpha)`
-    k10: S,
+    k8: S,
     /// `mu2`
     mu2: S,
     /// `mu1`
     mu1: S,
     /// `m*g*sin(alpha)/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k11: S,
+    k9: S,
     /// `m^2*g*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k12: S,
+    k10: S,
     /// `m*g*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k13: S,
+    k11: S,
     /// `M*g + m*g - m^2*g*sin(alpha)^2/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k14: S,
+    k12: S,
     /// `m*g*cos(alpha) - m^3*g*sin(alpha)^2/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k15: S,
+    k13: S,
     /// `m/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k16: S,
+    k14: S,
     /// `1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k17: S,
+    k15: S,
     /// `m/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k18: S,
+    k16: S,
     /// `1/cos(alpha)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k19: S,
+    k17: S,
     /// `1/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k20: S,
+    k18: S,
     /// `-m^2*sin(alpha)/cos(alpha)/(m + M)/(m/cos(alpha)^2 - m^2/(m + M))`
-    k21: S,
+    k19: S,
     /// `-m*sin(alpha)*(1/(m + M) + m^2/(m + M)^2/(m/cos(alpha)^2 - m^2/(m + M)))`
-    k22: S,
+    k20: S,
     /// `-m*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
-    k23: S,
+    k21: S,
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -272,7 +263,7 @@ pub struct Prepared<S = f64> {
 /// M[q2, q2] = m/cos(alpha)^2
 /// ```
 pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
-    [[p.k2, p.k9], [p.k9, p.k6]]
+    [[p.k1, p.k7], [p.k7, p.k5]]
 }
 
 /// Applied generalized forces `Q`.
@@ -282,20 +273,20 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
 /// ```
 pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
-    [zero, p.k1]
+    [zero, p.k0]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
 pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
-    [zero, p.k1]
+    [zero, p.k0]
 }
 
 /// How fast the contacts slide, `w`, in m/s.
 pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     let q1_dot = v[0];
     let q2_dot = v[1];
-    let w2 = (q1_dot - (q1_dot - q2_dot)) * p.k0 + q2_dot * p.k7;
+    let w2 = p.k6 * q2_dot;
     [q1_dot, w2]
 }
 
@@ -303,7 +294,7 @@ pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
 pub fn slip_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let one = S::ONE;
     let zero = S::ZERO;
-    [one, zero, zero, p.k8]
+    [one, zero, zero, p.k6]
 }
 
 /// What there is without friction, and what each unit of friction adds to it: accelerations,
@@ -334,24 +325,24 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
             return Err(singular);
         }
         let friction = [
-            n(p.k12).store(),
+            n(p.k10).store(),
+            n(p.k9).store(),
+            n(p.k10).store(),
             n(p.k11).store(),
             n(p.k12).store(),
             n(p.k13).store(),
+            n(p.k15).store(),
             n(p.k14).store(),
             n(p.k15).store(),
-            n(p.k17).store(),
+            n(p.k16).store(),
+            n(p.k19).store(),
+            n(p.k20).store(),
             n(p.k16).store(),
             n(p.k17).store(),
+            n(p.k16).store(),
             n(p.k18).store(),
             n(p.k21).store(),
-            n(p.k22).store(),
-            n(p.k18).store(),
             n(p.k19).store(),
-            n(p.k18).store(),
-            n(p.k20).store(),
-            n(p.k23).store(),
-            n(p.k21).store(),
             n(p.mu2).store(),
             n(p.mu1).store(),
             n(p.mu2).store(),
@@ -370,7 +361,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S
     let q1_dot = v[0];
     let q2_dot = v[1];
     let t0 = q1_dot - q2_dot;
-    p.k5 * (q2_dot * (q2_dot * p.k3) + t0 * t0) + q1_dot * (q1_dot * p.k4)
+    p.k4 * (q2_dot * (q2_dot * p.k2) + t0 * t0) + q1_dot * (q1_dot * p.k3)
 }
 
 /// Potential energy `V`, in J.
@@ -380,7 +371,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S
 /// ```
 pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q2 = q[1];
-    p.k10 * q2
+    p.k8 * q2
 }
 
 /// Names and units.
@@ -543,6 +534,41 @@ impl ::lagrangian::System for Prepared {
 
     fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], drift: &mut [f64]) {
         drift.fill(0.0);
+    }
+
+    fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
+        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let p = Prepared {
+            k0: near(self.k0),
+            k1: near(self.k1),
+            k2: near(self.k2),
+            k3: near(self.k3),
+            k4: near(self.k4),
+            k5: near(self.k5),
+            k6: near(self.k6),
+            k7: near(self.k7),
+            k8: near(self.k8),
+            mu2: near(self.mu2),
+            mu1: near(self.mu1),
+            k9: near(self.k9),
+            k10: near(self.k10),
+            k11: near(self.k11),
+            k12: near(self.k12),
+            k13: near(self.k13),
+            k14: near(self.k14),
+            k15: near(self.k15),
+            k16: near(self.k16),
+            k17: near(self.k17),
+            k18: near(self.k18),
+            k19: near(self.k19),
+            k20: near(self.k20),
+            k21: near(self.k21),
+            singular: self.singular,
+        };
+        let slips: [::lagrangian::scalar::Interval; _] = slips(&p, &v.map(near));
+        for (range, w) in ranges.iter_mut().zip(slips) {
+            *range = [w.lo(), w.hi()];
+        }
     }
 
     fn friction(

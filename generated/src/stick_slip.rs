@@ -444,6 +444,27 @@ impl ::lagrangian::System for Prepared {
         drift.fill(0.0);
     }
 
+    fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
+        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let p = Prepared {
+            m: near(self.m),
+            k: near(self.k),
+            v_b: near(self.v_b),
+            k0: near(self.k0),
+            k1: near(self.k1),
+            k2: near(self.k2),
+            k3: near(self.k3),
+            mu: near(self.mu),
+            mu0: near(self.mu0),
+            k4: near(self.k4),
+            singular: self.singular,
+        };
+        let slips: [::lagrangian::scalar::Interval; _] = slips(&p, &v.map(near));
+        for (range, w) in ranges.iter_mut().zip(slips) {
+            *range = [w.lo(), w.hi()];
+        }
+    }
+
     fn friction(
         &self,
         _: f64,

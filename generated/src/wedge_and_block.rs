@@ -8,7 +8,6 @@
 //! | function | mul | add | div | sin cos | other | temporaries |
 //! | --- | --: | --: | --: | --: | --: | --: |
 //! | `prepare` | 20 | 11 | 2 | 1 | 0 | 35 |
-//! | `slips` | 3 | 3 | 0 | 0 | 0 | 6 |
 //! | `kinetic_energy` | 7 | 3 | 0 | 0 | 0 | 10 |
 //! | `potential_energy` | 1 | 0 | 0 | 0 | 0 | 1 |
 //!
@@ -264,11 +263,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
 }
 
 /// How fast the contacts slide, `w`, in m/s.
-pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
+pub fn slips<S: ::lagrangian::Scalar>(v: &[S; 2]) -> [S; 2] {
     let x_dot = v[0];
     let s_dot = v[1];
-    let w2 = s_dot * p.k1 - p.k0 * (x_dot - (x_dot + p.k0 * s_dot));
-    [x_dot, w2]
+    [x_dot, s_dot]
 }
 
 /// The matrix `tau = dw/dv` of the slips, row after row.
@@ -506,7 +504,7 @@ impl ::lagrangian::System for Prepared {
     }
 
     fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], w: &mut [f64]) {
-        fill(w, &slips(self, v));
+        fill(w, &slips(v));
     }
 
     fn slip_matrix(&self, _: f64, _: &[f64; 2], rows: &mut [f64]) {
@@ -515,6 +513,14 @@ impl ::lagrangian::System for Prepared {
 
     fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], drift: &mut [f64]) {
         drift.fill(0.0);
+    }
+
+    fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
+        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let slips: [::lagrangian::scalar::Interval; _] = slips(&v.map(near));
+        for (range, w) in ranges.iter_mut().zip(slips) {
+            *range = [w.lo(), w.hi()];
+        }
     }
 
     fn friction(

@@ -180,6 +180,8 @@ codes! {
     NoInertia => "no-inertia",
     /// A body that slides is not held by its guide, or by more than that.
     NoGuide => "no-guide",
+    /// What moves with a guided body, and is tied to it by nothing that the spec names.
+    Untied => "untied",
     /// A small coordinate about whose zero an energy has no expansion.
     NoExpansion => "no-expansion",
     /// An energy or an equation that has no value anywhere.

@@ -16,6 +16,7 @@
 
 mod approximation;
 mod brachistochrone;
+mod carrying;
 pub(crate) mod circles;
 mod constraints;
 mod derivatives;
@@ -36,6 +37,7 @@ mod symmetric;
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
 pub use brachistochrone::{Brachistochronic, Guided, Unmet};
+pub use carrying::Carrying;
 pub use circles::{body_axes, placed};
 pub use constraints::{ConstraintEquation, constraints};
 pub use kinematics::angular_velocities;

@@ -370,6 +370,8 @@ pub struct Body<'d> {
     pub rotation: Rotation<'d>,
     /// Its name in the spec.
     pub span: Span,
+    /// What the spec says of where it is: `at`, or `frame` where that is all.
+    pub place: Span,
 }
 
 /// A point along the axes of a frame.

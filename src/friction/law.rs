@@ -129,9 +129,13 @@ impl Parts<'_> {
     }
 
     /// Whether contacts in given states can have these frictions: what sticks no more than it can
-    /// hold, what slides on the side to which it is said to press.
-    fn admits(&self, mode: &Mode, frictions: &Each) -> bool {
+    /// hold, what slides on the side to which it is said to press. The state to which a contact turns
+    /// where its reaction is zero is not asked for the side: rounding would decide.
+    fn admits(&self, mode: &Mode, frictions: &Each, turned: Option<Turned>) -> bool {
         (0..self.layout.k).all(|k| {
+            if turned == Some((k, mode.motion[k], mode.press[k])) {
+                return true;
+            }
             let [normal, terms] = self.sum(self.normal(k), frictions);
             match mode.motion[k] {
                 Motion::Sticks => {
@@ -164,6 +168,10 @@ impl Parts<'_> {
     }
 }
 
+/// A contact whose normal reaction is zero just here: in which state it is from here on, what it does
+/// and to which side it presses.
+pub(super) type Turned = (usize, Motion, f64);
+
 /// What is open about the contacts where one of their states ends.
 #[derive(Clone, Copy)]
 pub(super) struct Question {
@@ -171,6 +179,8 @@ pub(super) struct Question {
     pub motion: [Option<Motion>; MOST_CONTACTS],
     /// What has just proved impossible: what a contact does, or the side to which it presses.
     pub excluded: Option<(usize, Motion, Option<f64>)>,
+    /// What presses to the other side from here on, unless it stops.
+    pub turned: Option<Turned>,
 }
 
 impl Question {
@@ -180,6 +190,7 @@ impl Question {
         Question {
             motion: slips.map(sliding),
             excluded: None,
+            turned: None,
         }
     }
 
@@ -202,7 +213,7 @@ impl Question {
             };
             let departs =
                 |k: usize| self.motion[k].is_some() || parts.departs(&mode, &frictions, k);
-            if !parts.admits(&mode, &frictions) || !(0..count).all(departs) {
+            if !parts.admits(&mode, &frictions, self.turned) || !(0..count).all(departs) {
                 return;
             }
             let Some((known, other)) = &best else {

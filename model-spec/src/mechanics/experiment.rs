@@ -402,7 +402,8 @@ impl Trial {
     }
 }
 
-fn random(seed: u64, symbol: Symbol) -> Residue {
+/// A value for a symbol.
+pub(super) fn random(seed: u64, symbol: Symbol) -> Residue {
     Residue::random(seed, symbol.index() as u64)
 }
 

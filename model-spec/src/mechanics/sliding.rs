@@ -19,13 +19,14 @@
 
 use lagrangian_symbolic::{Expr, Tangent, substitute};
 
+use super::carrying;
 use super::constraints;
 use super::experiment;
 use super::kinematics::{self, Variables};
 use super::lagrange::gradient;
 use super::projected::Projection;
 use crate::diagnostic::{Code, Diagnostic, Report};
-use crate::model::{Model, Place, Rotation, Sliding};
+use crate::model::{Model, Place, Rotation, Sliding, stage};
 
 /// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
 /// and of six contacts there are 46 656.
@@ -165,14 +166,18 @@ pub(super) fn sliding<'d>(
         report.push(diagnostic.help("guides that hold a body in the same direction share its load in unknown parts: say it of one of them"));
         return None;
     };
+    if carrying::refuse_untied(model, report) {
+        return None;
+    }
     let mut coasting = x.coasting(model);
     let mut equations = Vec::with_capacity(guides.len());
     for ((sliding, guide), normal) in model.sliding.iter().zip(&guides).zip(solved) {
         let [slip, _] = relative(model, sliding, guide, &mut coasting);
+        let (slip, row) = settled(model, &x, slip);
         equations.push(SlidingEquation {
             name: sliding.name.to_string(),
             slip,
-            row: gradient(model.dag, slip, &x.v),
+            row,
             drift: coasting.of(slip),
             load: normal.load,
             by_accelerations: normal.by_accelerations,
@@ -183,6 +188,26 @@ pub(super) fn sliding<'d>(
         });
     }
     Some(equations)
+}
+
+/// A slip and its derivatives by the rates. What of it is constant, or zero, is written as such: a body
+/// at rest on a rail that moves has the slip 0, and not what rounding makes of differences.
+fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d>, Vec<Expr<'d>>) {
+    let dag = model.dag;
+    let derived = gradient(dag, slip, &x.v);
+    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
+    let of_base = substitute(dag, &[slip], &at_rest)[0];
+    let mut parts: Vec<Expr<'d>> = derived.iter().copied().chain([of_base]).collect();
+    experiment::settle(dag, &mut parts);
+    let rows = &parts[..x.v.len()];
+    let is_constant = rows.iter().all(|entry| entry.stage() <= stage::PARAMETER);
+    if !is_constant && rows == &derived[..] && parts[x.v.len()] == of_base {
+        return (slip, derived);
+    }
+    let of_base = parts.pop().unwrap_or(dag.zero());
+    let rates = model.coordinates.iter().zip(&parts);
+    let rates = rates.map(|(coordinate, &entry)| entry * coordinate.v);
+    (dag.sum(rates.chain([of_base])), parts)
 }
 
 /// Why a contact is no guide.

@@ -364,6 +364,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             local: at.local.map(|(pose, point)| Local { pose, point }),
             rotation: rotation?,
             span,
+            place: record
+                .get("at")
+                .or_else(|| record.get("frame"))
+                .map_or(span, |place| place.span),
         })
     }
 

@@ -3,7 +3,7 @@
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_spec::compare::compare;
 use lagrangian_spec::diagnostic::{Code, Report};
-use lagrangian_spec::mechanics::Equations;
+use lagrangian_spec::mechanics::{Carrying, Equations};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Dag, Expr};
 
@@ -275,4 +275,157 @@ fn the_side_of_a_normal_does_not_depend_on_lengths() {
             }
         });
     }
+}
+
+/// A machine with a cart on a rail, and what is hung on it.
+fn on_a_cart(coordinates: &str, rest: &str) -> String {
+    format!(
+        "machine Cart in plane {{
+            parameters {{ m: kg = 1, M: kg = 2, l: m = 1, k: N/m = 9, P: N = 2, mu: 1 = 0.2, g: m/s^2 = 9.81 }}
+            coordinates {{ x: m, {coordinates} }}
+            frames {{ cart = ground.shift(x, 0) }}
+            gravity (0, -g);
+            {rest}
+        }}"
+    )
+}
+
+const RAIL: &str = "rail { body: cart, on: ground, direction: (1, 0), friction: mu }";
+
+#[test]
+fn what_moves_with_a_guided_body_and_is_tied_to_it_by_nothing_is_refused() {
+    let hung = |bob: &str| {
+        let bodies =
+            format!("bodies {{ cart {{ mass: M, frame: cart }}, bob {{ mass: m, {bob} }} }}");
+        on_a_cart("phi: rad", &format!("{bodies} sliding {{ {RAIL} }}"))
+    };
+    for (bob, is_right) in [
+        ("at: cart.at + l*(sin(phi), -cos(phi))", true),
+        ("at: cart.point(l*sin(phi), -l*cos(phi))", true),
+        ("frame: cart.turn(phi).shift(0, -l)", true),
+        ("at: (x + l*sin(phi), -l*cos(phi))", false),
+        ("frame: ground.shift(x, -l).turn(phi)", false),
+        // The frame of the cart, said again.
+        ("frame: ground.shift(x, 0).turn(phi).shift(0, -l)", true),
+        // Free along the rail, and still written by it.
+        ("at: (x + l*phi, l)", false),
+        ("at: (l*phi, l)", true),
+        ("at: cart.at + (l*phi, l)", true),
+        // The rope over a pulley: it may pull as it likes.
+        ("at: (l*phi, -x)", false),
+        // Built on the cart, and driven by something that is not.
+        ("at: cart.at + l*(phi, x/l)", false),
+    ] {
+        let found = codes(&hung(bob));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, message)], false) => {
+                assert!(
+                    message.contains("`bob`") || message.contains("`cart`"),
+                    "{message}"
+                );
+            }
+            _ => panic!("{bob}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn guides_that_share_a_coordinate_are_refused_and_a_rod_between_them_is_not() {
+    let guides = format!(
+        "sliding {{ {RAIL}, wall {{ body: b, on: ground, direction: (0, 1), friction: mu }} }}"
+    );
+    let bodies = |b: &str| {
+        format!(
+            "bodies {{ cart {{ mass: M, frame: cart }}, b {{ mass: m, frame: ground.shift(0, {b}) }} }}"
+        )
+    };
+    let shared = on_a_cart("", &format!("{} {guides}", bodies("sqrt(l^2 - x^2)")));
+    let found = codes(&shared);
+    assert!(
+        !found.is_empty() && found.iter().all(|(code, _)| *code == Code::Untied),
+        "{found:?}"
+    );
+    for (rod, is_right) in [
+        ("norm(cart.at - b.at) = l", true),
+        ("x^2 + y^2 = l^2", false),
+        // A rope along both guides.
+        ("x + y = l", true),
+    ] {
+        let rest = format!("{} {guides} constraints {{ rod: {rod} }}", bodies("y"));
+        let found = codes(&on_a_cart("y: m", &rest));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, message)], false) => assert!(message.contains("`rod`"), "{message}"),
+            _ => panic!("{rod}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn what_is_written_in_coordinates_must_act_along_the_guide() {
+    let with = |section: &str| {
+        on_a_cart(
+            "",
+            &format!("bodies {{ cart {{ mass: M, frame: cart }} }} sliding {{ {RAIL} }} {section}"),
+        )
+    };
+    for (section, is_right) in [
+        ("springs { s { stiffness: k, stretch: x } }", true),
+        ("springs { s { stiffness: k, stretch: 2*l - x } }", true),
+        (
+            "springs { s { stiffness: k, stretch: sqrt(x^2 + l^2) - l } }",
+            false,
+        ),
+        (
+            "springs { s { stiffness: k, from: cart.at, to: (0, l), length: l } }",
+            true,
+        ),
+        (
+            "springs { s { stiffness: k, from: (x, 0), to: (0, l), length: l } }",
+            false,
+        ),
+        (
+            "springs { s { stiffness: k, from: (x, 0), to: (3*l, 0), length: l } }",
+            true,
+        ),
+        ("forces { f { at: cart.at, force: (P, P) } }", true),
+        ("forces { f { at: (x, 0), force: (P, P) } }", false),
+        ("forces { f { at: (x, 0), force: (P, 0) } }", true),
+        ("forces { f { on: x, value: P } }", true),
+        ("potentials { v: k*x^4/l^2 }", true),
+    ] {
+        let found = codes(&with(section));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, _)], false) => {}
+            _ => panic!("{section}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn what_guides_carry_and_coordinates_move_is_known() {
+    let carrying = |text: &str| resolved(text, |model| Carrying::of(model).expect("it has guides"));
+    // The wedge is body 0, the slider body 1; the floor is guide 0.
+    let built = carrying(&text_of("prisms"));
+    assert_eq!(built.carried, [vec![0, 1], vec![1]]);
+    assert_eq!(built.moved, [vec![0, 1], vec![1]]);
+    assert_eq!(built.pushed_by, [Some(vec![0]), Some(vec![1])]);
+    assert!((0..2).all(|guide| built.unsaid(guide).is_empty()));
+    let absolute = text_of("prisms").replace("wedge.shift(-q2", "ground.shift(q1 - q2");
+    assert!(codes(&absolute).is_empty());
+    let absolute = carrying(&absolute);
+    assert_eq!(absolute.carried, [vec![0], vec![1]]);
+    assert_eq!(absolute.moved, built.moved);
+    // What pushes the slider pushes the wedge, and nobody says how much of that is across the floor.
+    assert_eq!(absolute.unsaid(0), [1]);
+    assert!(absolute.unsaid(1).is_empty());
+    let forced = text_of("prisms")
+        .replace("wedge.shift(-q2", "ground.shift(q1 - q2")
+        .replace(
+            "gravity (0, -g);",
+            "gravity (0, -g); forces { f { on: q2, value: m*g } }",
+        );
+    assert!(matches!(&codes(&forced)[..], [(Code::Untied, _)]));
 }

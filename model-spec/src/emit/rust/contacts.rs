@@ -54,6 +54,7 @@ impl Emitter<'_> {
             };
             self.method(name, arguments, None, |body| body.line(line));
         }
+        self.slip_ranges();
         let call = self.call(Role::Friction);
         let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
         self.method(
@@ -67,6 +68,56 @@ impl Emitter<'_> {
                 body.line("Ok(())");
             },
         );
+    }
+
+    /// The slips over intervals, of a state and of prepared parameters that are rounded.
+    fn slip_ranges(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let (function, f64) = (self.emitted(Role::Slips), self.types.known("f64"));
+        let Some(needs) = function.map(|function| self.needs(function)) else {
+            let arguments = ["t", "q", "v", "ranges"];
+            self.method("slip_ranges", &arguments, None, |body| {
+                body.line("ranges.fill([0.0; 2]);");
+            });
+            return;
+        };
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let prepared = names.contains(&"p").then(|| {
+            let near = |slot: usize| format!("near(self.{})", self.prepared[slot]);
+            let mut value = self.prepared_literal(near, &[]);
+            if let Layout::Struct(_, fields) = &mut value
+                && !self.program.prepare.guards.is_empty()
+            {
+                fields.push(("singular".into(), Layout::Atom("self.singular".into())));
+            }
+            value
+        });
+        let passed = names.iter().map(|&name| match name {
+            "t" => "near(t)".to_owned(),
+            "p" => "&p".to_owned(),
+            name => format!("&{name}.map(near)"),
+        });
+        let passed: Vec<String> = passed.collect();
+        let call = format!("{}({})", self.function_name(Role::Slips), passed.join(", "));
+        let interval = format!("{runtime}::scalar::Interval");
+        self.method("slip_ranges", &["t", "q", "v", "ranges"], None, |body| {
+            if !names.is_empty() {
+                body.line(format!(
+                    "let near = |x: {f64}| {interval}::new(x.next_down(), x.next_up());"
+                ));
+            }
+            if let Some(value) = prepared {
+                body.expression("let p = ", &value, ";");
+            }
+            body.line(format!("let slips: [{interval}; _] = {call};"));
+            body.open("for (range, w) in ranges.iter_mut().zip(slips) {");
+            body.line("*range = [w.lo(), w.hi()];");
+            body.close("}");
+        });
     }
 
     /// Room for the work on constraints and contacts: an array, where that is no burden to a stack.

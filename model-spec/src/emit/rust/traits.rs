@@ -80,6 +80,7 @@ impl Emitter<'_> {
             "coordinates" => format!("&{coordinates}"),
             "matrix" => format!("&mut [{f64}; {}]", n * n),
             "result" => format!("&mut [{f64}; {n}]"),
+            "ranges" => format!("&mut [[{f64}; 2]]"),
             "positions" | "rates" | "rows" | "drift" | "lambda" | "w" | "parts" => {
                 format!("&mut [{f64}]")
             }
