@@ -32,6 +32,11 @@ pub enum Error {
         /// What the description's `derivatives` asks for, of parameters and inputs.
         known: std::vec::Vec<String>,
     },
+    /// The motion of a machine with constraints is to be differentiated.
+    ConstrainedSensitivity {
+        /// The first of its constraints.
+        constraint: String,
+    },
     /// There is no method of integration of that name.
     UnknownMethod {
         /// The name.
@@ -319,6 +324,11 @@ impl Display for Error {
                      there is: {known}"
                 )
             }
+            Self::ConstrainedSensitivity { constraint } => write!(
+                f,
+                "the motion is held by the constraint `{constraint}`, and derivatives of its start on the constraints are not known: \
+                 take differences of runs, or coordinates that need no constraint"
+            ),
             Self::UnknownMethod { name } => {
                 write!(f, "no method of integration is named `{name}`; there are")?;
                 for (i, method) in crate::METHODS.iter().enumerate() {

@@ -34,6 +34,9 @@ use crate::{
 /// own steps are others, by as much as the tolerance allows. Its absolute part is the same number
 /// for all; [`absolute_of`](crate::Simulation::absolute_of) sets it for one of them, `"theta by l"`.
 ///
+/// Machines with constraints are refused: their start obeys the constraints, and would have to change
+/// with parameters as these do.
+///
 /// The machine's system must know its derivatives: a description with `derivatives { coordinates,
 /// rates, … }`, which names the parameters and `inputs` too if they are varied; or the interpreter.
 /// Inputs are numbers here, or functions of time: what a law makes of the *state*
@@ -113,8 +116,9 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// By the start value of a coordinate, `"s1"`, or `"q[3]"` in a family.
     ///
     /// # Errors
-    /// If there is no such coordinate.
+    /// If there is no such coordinate, or the machine has constraints.
     pub fn by_start(self, coordinate: &str) -> Result<Self, Error> {
+        self.check_free()?;
         let index = self.coordinate(coordinate)?;
         Ok(self.with_start(index))
     }
@@ -122,15 +126,20 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     /// By the start value of a coordinate's rate.
     ///
     /// # Errors
-    /// If there is no such coordinate.
+    /// If there is no such coordinate, or the machine has constraints.
     pub fn by_start_rate(self, coordinate: &str) -> Result<Self, Error> {
+        self.check_free()?;
         let index = self.coordinate(coordinate)?;
         Ok(self.with_start_rate(index))
     }
 
     /// By the start values of all coordinates, then of all rates: the state transition matrix, a
     /// column for each.
-    pub fn by_state(mut self) -> Self {
+    ///
+    /// # Errors
+    /// If the machine has constraints.
+    pub fn by_state(mut self) -> Result<Self, Error> {
+        self.check_free()?;
         let n = self.dimension();
         for i in 0..n {
             self = self.with_start(i);
@@ -138,7 +147,7 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
         for i in 0..n {
             self = self.with_start_rate(i);
         }
-        self
+        Ok(self)
     }
 
     /// By a parameter or an input. Start values are held: where the description computes them from
@@ -146,8 +155,9 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
     ///
     /// # Errors
     /// If the accelerations' derivatives by it are not there: it must be in the `derivatives` of the
-    /// description.
+    /// description. Or if the machine has constraints.
     pub fn by(self, name: &str) -> Result<Self, Error> {
+        self.check_free()?;
         let system = self.machine.prepare();
         let found = system
             .variables()
@@ -201,6 +211,21 @@ impl<'m, M: Machine<System: Differentiate>> Sensitive<'m, M> {
                 value: v,
                 by: by(start_rate),
             },
+        }
+    }
+
+    /// Whether the derivatives of the motion follow from those of the accelerations. A start that obeys
+    /// constraints moves with them, as the start of a pendulum does with its length, and what is known
+    /// of the constraints are no derivatives by parameters.
+    fn check_free(&self) -> Result<(), Error> {
+        let system = self.machine.prepare();
+        let first = system
+            .constraints()
+            .next()
+            .map(|constraint| constraint.name.to_string());
+        match first {
+            Some(constraint) => Err(Error::ConstrainedSensitivity { constraint }),
+            None => Ok(()),
         }
     }
 
