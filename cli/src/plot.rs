@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::FontFamily;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::recording::{Kind, Panel, Recording, thin};
+use crate::recording::{Kind, Panel, Recording, extent, thin};
 
 /// Units of the drawing in 1/96 inch: the library rounds to whole units, and whole 1/96 inches show as stairs.
 pub const UNIT: u32 = 8;
@@ -92,12 +92,9 @@ fn draw_panel(
     area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>,
 ) -> Drawing<()> {
     let times = range(recording.times.iter().copied());
-    let values = range(
-        panel
-            .columns
-            .iter()
-            .flat_map(|column| column.values.iter().copied()),
-    );
+    let columns = panel.columns.iter();
+    let values = columns.flat_map(|column| column.values.iter().copied());
+    let values = range_beyond(panel.rounding(), values);
     let (area, beside) = area.split_horizontally(WIDTH - LEGEND);
     // Ticks are multiples of a step, and rounding makes 7e-18 of the one at zero.
     let label = |x: &f64, span: f64| short(if x.abs() < 1e-9 * span { 0.0 } else { *x });
@@ -151,18 +148,19 @@ fn draw_panel(
 
 /// The range of finite values with a margin of 1/20; a constant gets room around it.
 pub fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let (low, high) = values
-        .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-            (low.min(value), high.max(value))
-        });
-    if low > high {
+    range_beyond(0.0, values)
+}
+
+/// The same, where what spans no more than rounding does is a constant.
+fn range_beyond(rounding: f64, values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let Some([low, high]) = extent(values) else {
         return 0.0..1.0;
-    }
+    };
+    let largest = low.abs().max(high.abs());
     let margin = match high - low {
-        0.0 if low == 0.0 => 1.0,
-        0.0 => 0.1 * low.abs(),
-        span => 0.05 * span,
+        span if span > rounding => 0.05 * span,
+        _ if largest <= rounding => 1.0,
+        _ => 0.1 * largest,
     };
     (low - margin)..(high + margin)
 }
@@ -194,6 +192,23 @@ mod tests {
         assert_eq!(short(12000.0), "12000");
         assert_eq!(short(1.5e-9), "1.5e-9");
         assert_eq!(short(-2e6), "-2e6");
+    }
+
+    #[test]
+    fn what_is_rounding_is_drawn_flat() {
+        let of = |values: [f64; 2]| {
+            let range = range_beyond(1e-12, values.into_iter());
+            (range.start, range.end)
+        };
+        let near = |(a, b): (f64, f64), (c, d): (f64, f64)| {
+            assert!((a - c).abs() < 1e-9 && (b - d).abs() < 1e-9, "{a} {b}")
+        };
+        near(of([-1e-16, 2e-17]), (-1.0, 1.0));
+        near(of([2.0, 2.0 + 1e-15]), (1.8, 2.2));
+        near(of([0.0, 1.0]), (-0.05, 1.05));
+        // Without a word on rounding every number counts.
+        let end = range([3e-17, 3e-17].into_iter()).end;
+        assert!((end / 3.3e-17 - 1.0).abs() < 1e-15, "{end:e}");
     }
 
     #[test]

@@ -114,7 +114,36 @@ pub struct Panel<'a> {
     pub columns: Vec<&'a Column>,
 }
 
+/// What is smaller than this in its unit is rounding, beside numbers of 1 or more as a part of these: coordinates are known no
+/// better from any tolerance.
+pub const ROUNDING: f64 = 1e-12;
+
+/// Finite numbers from the least to the greatest; None if there are none.
+pub fn extent(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    let finite = values.filter(|value| value.is_finite());
+    finite.fold(None, |extent, value| {
+        let [low, high] = extent.unwrap_or([value; 2]);
+        Some([low.min(value), high.max(value)])
+    })
+}
+
 impl Panel<'_> {
+    /// What all of its curves together must span to be more than rounding, and to be drawn as more than a straight line.
+    /// In the balance of energy rounding is what one looks for.
+    pub fn rounding(&self) -> f64 {
+        let values = self.columns.iter().flat_map(|column| &column.values);
+        let sizes = values.map(|value| value.abs());
+        let largest = extent(sizes).map_or(0.0, |[_, largest]| largest);
+        match self.kind {
+            Kind::Residual => 0.0,
+            Kind::Coordinate | Kind::Rate => ROUNDING * largest.max(1.0),
+            Kind::Output | Kind::Contact | Kind::Multiplier | Kind::Energy => {
+                // They may be small beside their unit, and are made of a few hundred operations.
+                1e3 * f64::EPSILON * largest
+            }
+        }
+    }
+
     /// `coordinates [rad]`.
     pub fn label(&self) -> String {
         let what = match self.kind {
@@ -174,6 +203,31 @@ mod tests {
         let kept = thin(&times, &values, 1500);
         assert!(kept.len() <= 1502);
         assert!(kept.contains(&(70_001.0, 5.0)) && kept.contains(&(123.0, -3.0)));
+    }
+
+    #[test]
+    fn rounding_is_told_from_motion_but_not_in_the_balance() {
+        let rounding = |kind, values: &[f64]| {
+            let column = Column {
+                name: "x".into(),
+                unit: "m".into(),
+                kind,
+                values: values.to_vec(),
+            };
+            let panel = Panel {
+                kind,
+                unit: "m",
+                columns: vec![&column],
+            };
+            panel.rounding()
+        };
+        // A coordinate that rests at 0 but for rounding, and one that moves by a nanometre.
+        assert!(rounding(Kind::Coordinate, &[1e-16, -3e-17]) > 1e-15);
+        assert!(rounding(Kind::Coordinate, &[1.0, 1.0 + 1e-9]) < 1e-10);
+        assert!(rounding(Kind::Energy, &[9.81, 9.81 + 2e-15]) > 2e-15);
+        assert!(rounding(Kind::Multiplier, &[1e-9, -1e-9]) < 1e-12);
+        assert_eq!(rounding(Kind::Residual, &[1e-16, f64::NAN]), 0.0);
+        assert_eq!(extent([f64::NAN].into_iter()), None);
     }
 
     #[test]

@@ -87,7 +87,8 @@ impl Report<'_, '_> {
                     .iter()
                     .map(|column| self.curve(column, points))
                     .collect();
-                json!({ "label": panel.label(), "unit": panel.unit, "curves": curves })
+                let rounding = panel.rounding();
+                json!({ "label": panel.label(), "unit": panel.unit, "rounding": rounding, "curves": curves })
             })
             .collect();
         let mut data = motion(self.recording, samples, self.machine, scene);

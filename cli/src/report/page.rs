@@ -1,6 +1,6 @@
 //! The page: its text, its tables, and the files it is made from.
 
-use lagrangian::{Machine, System};
+use lagrangian::{Ending, Machine, System};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::emit::document::{Block, Document};
 use lagrangian_spec::emit::html as derivation;
@@ -155,6 +155,22 @@ fn changed(value: f64, otherwise: Option<f64>) -> Cell {
     }
 }
 
+/// Notes in one box: one note as it is, more behind the first.
+fn folded(notes: &[String]) -> String {
+    match notes {
+        [] => String::new(),
+        [one] => format!("<p class=\"alert\">{one}</p>\n"),
+        [first, more @ ..] => {
+            let more: Vec<String> = more.iter().map(|note| format!("<p>{note}</p>")).collect();
+            format!(
+                "<details class=\"alert\"><summary>{first} <span class=\"more\">and {} more</span></summary>{}</details>\n",
+                more.len(),
+                more.concat()
+            )
+        }
+    }
+}
+
 /// Why the run ended early, and what else its reader must know.
 fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
     /// What one begins to see.
@@ -167,22 +183,26 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
             safe(&error.to_string())
         ));
     }
-    if samples.error > COARSE {
+    let t = shortest(report.run.end().t);
+    if matches!(report.run.ending(), Ending::Stopped) {
         alert.push_str(&format!(
-            "<p class=\"alert\"><strong>The run is long for one page:</strong> between the {} states that it holds, \
-             coordinates are interpolated to {:.0} % of what they span.</p>\n",
+            "<p class=\"alert\" role=\"alert\"><strong>The run was interrupted, at t = {t} s.</strong></p>\n",
+        ));
+    }
+    let mut notes: Vec<String> = Vec::new();
+    if samples.error > COARSE {
+        notes.push(format!(
+            "<strong>The run is long for one page:</strong> between the {} states that it holds, \
+             coordinates are interpolated to {:.0} % of what those of their unit span.",
             samples.count,
             (100.0 * samples.error).ceil()
         ));
     }
     let warnings = report.run.warnings().iter().map(ToString::to_string);
     let contacts = report.contacts.iter().flat_map(Found::warnings);
-    for warning in warnings.chain(contacts) {
-        alert.push_str(&format!(
-            "<p class=\"alert\"><strong>Warning:</strong> {}</p>\n",
-            safe(&warning)
-        ));
-    }
+    let warnings = warnings.chain(contacts);
+    notes.extend(warnings.map(|warning| format!("<strong>Warning:</strong> {}", safe(&warning))));
+    alert.push_str(&folded(&notes));
     alert
 }
 

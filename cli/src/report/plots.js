@@ -93,6 +93,7 @@ class Plot {
   constructor(panel, motion, seek) {
     this.motion = motion;
     this.seek = seek;
+    this.rounding = panel.rounding ?? 0;
     this.curves = panel.curves.map((curve) => new Curve(curve, motion));
     this.svg = svg('svg', { class: 'plot', role: 'img', 'aria-label': `${panel.label} over time` });
     this.legend = html('div', { class: this.curves.length > 12 ? 'legend many' : 'legend' });
@@ -145,7 +146,10 @@ class Plot {
       }
     }
     if (!(low <= high)) [low, high] = [0, 1];
-    const margin = high > low ? 0.06 * (high - low) : 0.1 * Math.abs(high) || 1;
+    // What spans no more than rounding does is drawn as the constant that it is.
+    const largest = Math.max(Math.abs(low), Math.abs(high));
+    const constant = largest > this.rounding ? 0.1 * largest : 1;
+    const margin = high - low > this.rounding ? 0.06 * (high - low) : constant;
     [low, high] = [low - margin, high + margin];
     this.x = (t) => left + ((right - left) * (t - this.early)) / (this.late - this.early);
     const y = (value) => bottom - ((bottom - top) * (value - low)) / (high - low);
