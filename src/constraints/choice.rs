@@ -1,8 +1,4 @@
 //! Which rows are kept: as many as are independent, and of these the ones that hold best at a pose.
-#![expect(
-    clippy::neg_cmp_op_on_partial_ord,
-    reason = "what is not a number passes no test here"
-)]
 
 use super::algebra::{forward, length, remove};
 use super::room::{Room, in_room};
@@ -100,7 +96,7 @@ impl<V: Vector> Choice<V> {
                     let Some((k, held)) = made.best(system, room, holonomic, (least, self)) else {
                         break;
                     };
-                    if matches!(rank, Rank::Holding(least) if !(held > least)) {
+                    if matches!(rank, Rank::Holding(least) if held <= least) {
                         break;
                     }
                     made.take(room, k, least);

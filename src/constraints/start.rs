@@ -103,8 +103,8 @@ impl<V: Vector> Constraints<V> {
             return Ok(());
         }
         if rate == 0.0 {
-            let row = (0..found.rank).map(|j| found.row(j));
-            let row = row.into_iter().find(|k| !self.choice.has(*k));
+            let mut rows = (0..found.rank).map(|j| found.row(j));
+            let row = rows.find(|k| !self.choice.has(*k));
             let singular = Singular::constraint(row.unwrap_or_default(), 0.0, 1.0);
             return Err(StepError::Singular { singular, t });
         }
