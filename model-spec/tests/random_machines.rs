@@ -3,6 +3,7 @@
 mod random_machines {
     pub mod machine;
     pub mod number;
+    pub mod random;
     pub mod truth;
 }
 
@@ -16,8 +17,9 @@ use lagrangian_spec::syntax::Spec;
 use lagrangian_spec::token::lex;
 use lagrangian_symbolic::Dag;
 
-use random_machines::machine::{Machine, Random};
+use random_machines::machine::Machine;
 use random_machines::number::Number;
+use random_machines::random::Random;
 use random_machines::truth::Truth;
 
 fn compile(machine: &Machine) -> Program {

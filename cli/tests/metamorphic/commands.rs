@@ -1,0 +1,481 @@
+//! What the command prints and makes: `evaluate`, `modes`, C and shared libraries.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use lagrangian_scalar::{DoubleDouble, Scalar};
+use lagrangian_spec::emit;
+use lagrangian_spec::program::{Program, Role};
+use nalgebra::{Complex, DMatrix};
+use serde_json::{Value, json};
+
+use super::evaluation::{Case, Expected, compile, is_unprepared, rewrite, write};
+use super::generate::Kind;
+use super::machine::{Elastic, Expr, Machine, Stretch, num, q, sum};
+use super::random::Random;
+use super::rewrite::Rewritten;
+use super::text;
+use super::truth::{State, Variable, World, on_constraints};
+use super::{Tally, seed};
+
+/// A folder that goes when the test is done.
+pub struct Folder(PathBuf);
+
+impl Folder {
+    pub fn new(name: &str) -> Folder {
+        let path = std::env::temp_dir().join(format!("lagrangian-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).expect("a temporary folder");
+        Folder(path)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).expect("the folder can be written");
+    }
+
+    /// Runs a program in it; what it prints, or what it says is wrong.
+    fn run(&self, program: &str, arguments: &[&str]) -> Result<String, String> {
+        let output = Command::new(program)
+            .args(arguments)
+            .current_dir(&self.0)
+            .stdin(Stdio::null())
+            .output()
+            .map_err(|error| error.to_string())?;
+        match output.status.success() {
+            true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+            false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
+        }
+    }
+
+    fn lagrangian(&self, arguments: &[&str]) -> Result<Value, String> {
+        let text = self.run(env!("CARGO_BIN_EXE_lagrangian"), arguments)?;
+        serde_json::from_str(&text).map_err(|error| error.to_string())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0); // a folder that stays does no harm
+    }
+}
+
+/// A machine that can stand still: time stands, and every coordinate has a spring.
+fn still(random: &mut Random, kind: Kind) -> Option<Case> {
+    let mut machine = Case::random(random, kind)?.machine;
+    machine.replace(&mut |e| {
+        if *e == Expr::Time {
+            *e = num(0.5);
+        }
+    });
+    // Powers of speeds that are no squares have no derivative at rest.
+    machine
+        .dissipations
+        .retain(|e| !e.any(|e| matches!(e, Expr::Power(_, halves) if halves % 2 != 0)));
+    machine.approximations.clear();
+    for i in 0..machine.coordinates.len() {
+        let start = (machine.coordinates[i].start * 64.0).round() / 64.0;
+        machine.coordinates[i].start = start;
+        machine.coordinates[i].rate = 0.0;
+        let stretch = sum(vec![q(i), num(-start)]);
+        machine.springs.push(Elastic {
+            name: format!("e{i}"),
+            factor: num(random.number(30.0, 60.0)),
+            stretch: Stretch::Number(stretch),
+        });
+    }
+    let wide = |f: fn(&super::machine::Coordinate) -> f64| {
+        machine
+            .coordinates
+            .iter()
+            .map(|c| DoubleDouble::from_f64(f(c)))
+            .collect()
+    };
+    let state = State {
+        t: DoubleDouble::ZERO,
+        q: wide(|c| c.start),
+        v: wide(|c| c.rate),
+    };
+    let state = on_constraints(&machine, &state)?;
+    Case::at(machine, state)
+}
+
+/// The eigenvalues that `modes` prints, those of a conjugate pair both.
+fn eigenvalues(result: &Value) -> Vec<Complex<f64>> {
+    let modes = result["modes"].as_array().into_iter().flatten();
+    let mut list = Vec::new();
+    for mode in modes {
+        let part = |name: &str| mode[name].as_f64().unwrap_or(f64::NAN);
+        let value = Complex::new(part("re"), part("im"));
+        list.push(value);
+        if value.im != 0.0 {
+            list.push(value.conj());
+        }
+    }
+    list
+}
+
+/// How far two sets are apart: each number of one is matched with the nearest that is left of the other.
+fn distance(a: &[Complex<f64>], b: &[Complex<f64>]) -> f64 {
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    let mut left = b.to_vec();
+    let mut worst: f64 = 0.0;
+    for x in a {
+        let far = |y: &Complex<f64>| (x - y).norm();
+        let nearest = (0..left.len()).min_by(|i, j| far(&left[*i]).total_cmp(&far(&left[*j])));
+        if let Some(nearest) = nearest {
+            worst = worst.max(far(&left[nearest]));
+            left.swap_remove(nearest);
+        }
+    }
+    worst
+}
+
+/// The eigenvalues of ÿ = A y + B ẏ, with A and B by the evaluator.
+fn true_eigenvalues(machine: &Machine, equilibrium: &[f64]) -> Option<Vec<Complex<f64>>> {
+    let n = equilibrium.len();
+    let state = State {
+        t: 0.0,
+        q: equilibrium.to_vec(),
+        v: vec![0.0; n],
+    };
+    let world = World::new(machine, &state);
+    let truth = world.truth()?;
+    let mut matrix = DMatrix::<f64>::zeros(2 * n, 2 * n);
+    for j in 0..n {
+        matrix[(j, n + j)] = 1.0;
+        let by = |variable| world.derivative(variable, &truth.accelerations, &[]);
+        let (by_place, by_rate) = (by(Variable::Coordinate(j))?, by(Variable::Rate(j))?);
+        for i in 0..n {
+            matrix[(n + i, j)] = by_place[i];
+            matrix[(n + i, n + j)] = by_rate[i];
+        }
+    }
+    Some(matrix.complex_eigenvalues().iter().copied().collect())
+}
+
+/// `modes` and `evaluate` of a machine and of the same machine said otherwise.
+pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
+    let kind = [Kind::Formulas, Kind::Tree, Kind::Closed][number % 3];
+    let Some(case) = still(&mut random, kind) else {
+        return;
+    };
+    // What is held by its rate stands anywhere: of many places each finds its own.
+    if case.machine.constraints.iter().any(|one| !one.holonomic) {
+        return;
+    }
+    let (rewritten, single) = rewrite(&case, &mut random);
+    // What is held by its rate alone may stand anywhere, and what moves stands nowhere.
+    let other_modes = ["constraint by its rate", "ground moving"];
+    if rewritten.names.is_empty()
+        || rewritten
+            .names
+            .iter()
+            .any(|name| other_modes.contains(name))
+    {
+        return;
+    }
+    let Ok(Some(expected)) = Expected::of_rewritten(&case, &rewritten, &single) else {
+        return;
+    };
+    let folder = Folder::new(&format!("modes-{number}"));
+    let written = write(&rewritten.machine, "Rewritten", &mut random);
+    let first_text = text::spec(&case.machine, "Random");
+    folder.write("first.machine", &first_text);
+    folder.write("second.machine", &written.text);
+    for (name, text) in &written.files {
+        folder.write(name, text);
+    }
+    let first = folder.lagrangian(&["modes", "first.machine", "--json"]);
+    let second = folder.lagrangian(&["modes", "second.machine", "--json"]);
+    let names = format!("{:?}", rewritten.names);
+    let mut fail = |what: String| {
+        tally
+            .failures
+            .push(format!("{names}: {what}\n{}of\n{first_text}", written.text));
+    };
+    match (first, second) {
+        (Ok(first), Ok(second)) => {
+            let (one, other) = (eigenvalues(&first), eigenvalues(&second));
+            let largest = one.iter().map(|x| x.norm()).fold(1.0, f64::max);
+            // Where two eigenvalues are one, they go with the root of what rounding makes of the matrix.
+            let bound = f64::EPSILON.sqrt() * 64.0 * largest / case.truth.pivot.sqrt();
+            let apart = distance(&one, &other);
+            // Of several equilibria each may have found another one.
+            let steps = |result: &Value| result["equilibrium"]["steps"].as_f64().unwrap_or(0.0);
+            let near = steps(&first) < 8.0 && steps(&second) < 8.0;
+            if apart > bound && near {
+                fail(format!(
+                    "{one:?} and {other:?}: {apart:e} apart, {bound:e} may be"
+                ));
+                return;
+            }
+            if case.machine.constraints.is_empty() {
+                let places: Vec<f64> = first["equilibrium"]["q"]
+                    .as_object()
+                    .map(|q| q.values().filter_map(Value::as_f64).collect())
+                    .unwrap_or_default();
+                if let Some(truth) = true_eigenvalues(&case.machine, &places) {
+                    let apart = distance(&one, &truth);
+                    if apart > bound {
+                        fail(format!(
+                            "{one:?}, not {truth:?}: {apart:e} apart, {bound:e} may be"
+                        ));
+                        return;
+                    }
+                }
+            }
+            tally.count("modes");
+        }
+        (Ok(_), Err(error)) if is_unprepared(&error) => tally.count("left out: not prepared"),
+        (Ok(_), Err(error)) => fail(format!("no modes: {error}")),
+        (Err(_), _) => tally.count("no equilibrium"),
+    }
+    evaluate(&folder, &expected, tally, &names, &written.text);
+}
+
+/// `evaluate` at the state.
+fn evaluate(folder: &Folder, expected: &Expected, tally: &mut Tally, names: &str, text: &str) {
+    let State { t, q, v } = &expected.state;
+    let plain = |list: &[DoubleDouble]| list.iter().map(|x| x.hi()).collect::<Vec<f64>>();
+    let point = json!([{ "t": t.hi(), "q": plain(q), "v": plain(v) }]);
+    folder.write("points.json", &point.to_string());
+    let result = folder.lagrangian(&["evaluate", "second.machine", "--at", "points.json"]);
+    let found = match &result {
+        Ok(result) => result[0]["accelerations"].as_array(),
+        Err(_) => None,
+    };
+    if result.as_ref().is_err_and(|error| is_unprepared(error)) {
+        return;
+    }
+    let Some(found) = found else {
+        tally
+            .failures
+            .push(format!("{names}: evaluate says {result:?}\n{text}"));
+        return;
+    };
+    let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
+    for (found, a) in found.iter().zip(&expected.accelerations) {
+        let error = (found.as_f64().unwrap_or(f64::NAN) - a.hi()).abs();
+        if error.is_nan() || error > bound {
+            let a = a.hi();
+            tally.failures.push(format!(
+                "{names}: evaluate prints {found}, not {a} ({error:e}, {bound:e} may be)\n{text}"
+            ));
+            return;
+        }
+    }
+    tally.count("evaluate");
+}
+
+/// A machine without guides, and the same said otherwise, with what is to be found of each.
+fn pair(random: &mut Random, number: usize) -> Option<[(Machine, Expected); 2]> {
+    let kind = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Rolling][number % 4];
+    let case = Case::random(random, kind)?;
+    let (rewritten, single) = rewrite(&case, random);
+    if rewritten.names.is_empty() || rewritten.constraints.len() > single.constraints.len() {
+        return None;
+    }
+    let expected = Expected::of_rewritten(&case, &rewritten, &single).ok()??;
+    let first = Expected::of(&case);
+    let Rewritten { machine, .. } = rewritten;
+    Some([(case.machine, first), (machine, expected)])
+}
+
+/// Machines and their programs, until there are enough.
+fn several(count: usize, tag: u64) -> Vec<(Machine, Program, Expected)> {
+    let mut list = Vec::new();
+    let mut random = Random(seed() ^ tag);
+    for number in 0..40 * count {
+        if list.len() >= count {
+            break;
+        }
+        for (machine, expected) in pair(&mut random, number).into_iter().flatten() {
+            let name = format!("Machine{}", list.len());
+            if let Ok(program) = compile(&text::spec(&machine, &name), &[]) {
+                list.push((machine, program, expected));
+            }
+        }
+    }
+    list
+}
+
+fn numbers(values: &[DoubleDouble]) -> String {
+    let values: Vec<String> = values.iter().map(|x| format!("{:?}", x.hi())).collect();
+    values.join(", ")
+}
+
+/// Holds accelerations that were printed, machine after machine, one number a line.
+fn hold_printed(printed: &str, list: &[(Machine, Program, Expected)], what: &str) {
+    let mut lines = printed
+        .lines()
+        .map(|line| line.parse::<f64>().unwrap_or(f64::NAN));
+    for (machine, program, expected) in list {
+        let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
+        for (i, a) in expected.accelerations.iter().enumerate() {
+            let found = lines.next().unwrap_or(f64::NAN);
+            let error = (found - a.hi()).abs();
+            assert!(
+                error <= bound,
+                "{what}: acceleration {i} is {found}, not {} (off by {error:e}, may be {bound:e})\n{}",
+                a.hi(),
+                text::spec(machine, &program.name)
+            );
+        }
+    }
+}
+
+/// C for many machines at once, by one call of the compiler.
+pub fn as_c() {
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let folder = Folder::new("metamorphic-c");
+    if folder.run(&compiler, &["--version"]).is_err() {
+        eprintln!("there is no C compiler; nothing is tested");
+        return;
+    }
+    let list = several(24, 0xC);
+    assert!(list.len() >= 24);
+    let (mut calls, mut prototypes) = (String::new(), String::new());
+    let mut files = vec!["main.c".to_owned()];
+    for (k, (_, program, expected)) in list.iter().enumerate() {
+        folder.write(
+            &format!("machine{k}.c"),
+            &emit::c::file(program, &[], &BTreeMap::new()),
+        );
+        folder.write(&format!("call{k}.c"), &c_call(k, program, expected));
+        files.push(format!("call{k}.c"));
+        let _ = writeln!(prototypes, "int call{k}(void);"); // writing to a String cannot fail
+        let _ = writeln!(calls, "    if (call{k}()) return {};", 1 + k); // as above
+    }
+    folder.write(
+        "main.c",
+        &format!("{prototypes}\nint main(void) {{\n{calls}    return 0;\n}}\n"),
+    );
+    let mut arguments = vec!["-std=c99", "-O1"];
+    arguments.extend(files.iter().map(String::as_str));
+    arguments.extend(["-o", "all", "-lm"]);
+    if let Err(error) = folder.run(&compiler, &arguments) {
+        panic!("{error}");
+    }
+    let program = folder.0.join("all");
+    let printed = folder.run(&program.to_string_lossy(), &[]);
+    hold_printed(&printed.expect("no machine is singular"), &list, "C");
+}
+
+fn c_call(k: usize, program: &Program, expected: &Expected) -> String {
+    let prefix = emit::snake_case(&program.name);
+    let defaults = |slots: &[lagrangian_spec::program::Slot]| {
+        let value =
+            |slot: &lagrangian_spec::program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
+        let values: Vec<String> = slots
+            .iter()
+            .map(|slot| format!("{:?}", value(slot)))
+            .collect();
+        values.join(", ")
+    };
+    let function = program.function(Role::Accelerations).expect("no guides");
+    let reads = function.reads();
+    let all = [
+        (reads.prepared || !program.prepare.guards.is_empty(), "&p"),
+        (reads.time, "t"),
+        (reads.coordinates, "q"),
+        (reads.velocities, "v"),
+        (reads.inputs, "&u"),
+        (true, "a"),
+    ];
+    let arguments: Vec<&str> = all
+        .iter()
+        .filter(|(is_read, _)| *is_read)
+        .map(|(_, name)| *name)
+        .collect();
+    let arguments = arguments.join(", ");
+    let State { t, q, v } = &expected.state;
+    let n = q.len();
+    let inputs = match program.inputs.is_empty() {
+        true => String::new(),
+        false => format!(
+            "    const {prefix}_inputs u = {{{}}};\n    (void)u;\n",
+            defaults(&program.inputs)
+        ),
+    };
+    format!(
+        "#include <stdio.h>\n#include \"machine{k}.c\"\n\nint call{k}(void) {{\n    \
+         const {prefix}_parameters parameters = {{{}}};\n    {prefix}_prepared p;\n    \
+         const double t = {:?}, q[{n}] = {{{}}}, v[{n}] = {{{}}};\n    double a[{n}];\n{inputs}    \
+         (void)t, (void)q, (void)v;\n    {prefix}_prepare(&parameters, &p);\n    \
+         if ({prefix}_accelerations({arguments})) return 1;\n    \
+         for (int i = 0; i < {n}; i++) printf(\"%.17g\\n\", a[i]);\n    return 0;\n}}\n",
+        defaults(&program.parameters),
+        t.hi(),
+        numbers(q),
+        numbers(v),
+    )
+}
+
+/// Shared libraries of a few machines, called from one program in C.
+pub fn as_libraries() {
+    let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
+    let folder = Folder::new("metamorphic-libraries");
+    if folder.run(&compiler, &["--version"]).is_err() {
+        eprintln!("there is no C compiler; nothing is tested");
+        return;
+    }
+    let list = several(4, 0x50);
+    let mut calls = String::new();
+    for (k, (machine, _, expected)) in list.iter().enumerate() {
+        folder.write(
+            &format!("machine{k}.machine"),
+            &text::spec(machine, "Machine"),
+        );
+        let (spec, library) = (format!("machine{k}.machine"), format!("lib{k}.so"));
+        if let Err(error) = folder.lagrangian(&["library", &spec, "--out", &library, "--json"]) {
+            panic!("{error}\n{}", text::spec(machine, "Machine"));
+        }
+        let State { t, q, v } = &expected.state;
+        let state: Vec<DoubleDouble> = q.iter().chain(v).copied().collect();
+        let _ = writeln!(
+            calls,
+            "    {{ const double y[] = {{{}}}; if (call(\"./{library}\", y, {:?}, {})) return {}; }}",
+            numbers(&state),
+            t.hi(),
+            q.len(),
+            1 + k
+        ); // writing to a String cannot fail
+    }
+    folder.write(
+        "main.c",
+        &format!("{CALLER}\nint main(void) {{\n{calls}    return 0;\n}}\n"),
+    );
+    if let Err(error) = folder.run(&compiler, &["main.c", "-o", "all", "-ldl"]) {
+        panic!("{error}");
+    }
+    let program = folder.0.join("all");
+    let printed = folder.run(&program.to_string_lossy(), &[]);
+    hold_printed(
+        &printed.expect("the libraries can be called"),
+        &list,
+        "library",
+    );
+}
+
+const CALLER: &str = r#"
+#include <dlfcn.h>
+#include <stdio.h>
+
+static int call(const char *path, const double *y, double t, int n) {
+    double a[64];
+    void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!library) return 1;
+    void (*setup)(const double *) = (void (*)(const double *))dlsym(library, "eval_setup");
+    void (*eval)(const double *, double, const double *, double *) =
+        (void (*)(const double *, double, const double *, double *))dlsym(library, "eval");
+    if (!setup || !eval) return 1;
+    setup(0);
+    eval(y, t, 0, a);
+    for (int i = 0; i < n; ++i) printf("%.17g\n", a[i]);
+    return 0;
+}
+"#;

@@ -1,0 +1,196 @@
+//! Random machines, each also said otherwise, against each other and against an evaluation in numbers that shares nothing with
+//! the compiler but its arithmetic.
+//!
+//! Every run takes a seed of its own and prints it. `METAMORPHIC_SEED=… METAMORPHIC_MACHINE=…` does one machine of that seed
+//! again, `METAMORPHIC_COUNT` says how many machines there are.
+#![allow(
+    clippy::needless_range_loop,
+    clippy::type_complexity,
+    reason = "sums over i and j read like the formulas"
+)]
+
+mod commands;
+mod evaluation;
+mod generate;
+mod jet;
+mod machine;
+#[path = "../../../model-spec/tests/random_machines/random.rs"]
+mod random;
+mod rewrite;
+mod simulation;
+mod text;
+mod truth;
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, OnceLock};
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use random::Random;
+
+/// How many random machines there are in a run.
+const MACHINES: usize = 800;
+/// How many of them are run, and how many have their modes looked for.
+const RUNS: usize = 200;
+const MODES: usize = 45;
+
+/// What one of many tasks found: how often things took part, and what is wrong.
+#[derive(Default)]
+pub(crate) struct Tally {
+    pub(crate) counts: BTreeMap<String, usize>,
+    pub(crate) failures: Vec<String>,
+}
+
+impl Tally {
+    pub(crate) fn count(&mut self, what: impl Into<String>) {
+        *self.counts.entry(what.into()).or_default() += 1;
+    }
+
+    fn add(&mut self, other: Tally) {
+        for (what, count) in other.counts {
+            *self.counts.entry(what).or_default() += count;
+        }
+        self.failures.extend(other.failures);
+    }
+}
+
+/// The classes of machines that are left out, until they come out right. `METAMORPHIC_ALL=1` takes them in.
+const EXCLUDED: [&str; 6] = [
+    generate::SHARED,
+    generate::CURVED,
+    generate::REST,
+    generate::UNTIED,
+    generate::ALONE,
+    generate::PREPARED,
+];
+
+/// Whether a class of machines is left out.
+fn excluded(class: &str) -> bool {
+    EXCLUDED.contains(&class) && variable("METAMORPHIC_ALL").is_none()
+}
+
+fn variable(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
+/// The seed of this run.
+fn seed() -> u64 {
+    static SEED: OnceLock<u64> = OnceLock::new();
+    *SEED.get_or_init(|| {
+        let clock = || SystemTime::now().duration_since(UNIX_EPOCH);
+        let by_clock = || clock().map_or(1, |time| time.as_nanos() as u64 % 1_000_000_007);
+        variable("METAMORPHIC_SEED").unwrap_or_else(by_clock)
+    })
+}
+
+/// Does one task after the other, on as many threads as there are processors, and prints what they found.
+fn each(name: &str, count: usize, task: impl Fn(Random, usize, &mut Tally) + Sync) -> Tally {
+    let (seed, only) = (seed(), variable("METAMORPHIC_MACHINE"));
+    let count = variable("METAMORPHIC_COUNT").map_or(count, |count| count as usize);
+    println!("{name}: METAMORPHIC_SEED={seed}");
+    for class in EXCLUDED.iter().filter(|class| excluded(class)) {
+        println!("left out: {class}");
+    }
+    let (next, total) = (AtomicUsize::new(0), Mutex::new(Tally::default()));
+    let start = Instant::now();
+    let work = || {
+        let mut own = Tally::default();
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            if number >= count {
+                break;
+            }
+            if only.is_some_and(|only| only != number as u64) {
+                continue;
+            }
+            let random = Random(seed.wrapping_mul(1_000_003).wrapping_add(number as u64));
+            let before = own.failures.len();
+            let done = catch_unwind(AssertUnwindSafe(|| task(random, number, &mut own)));
+            if done.is_err() {
+                own.failures.push("it panicked".into());
+            }
+            for failure in &mut own.failures[before..] {
+                *failure =
+                    format!("METAMORPHIC_SEED={seed} METAMORPHIC_MACHINE={number}: {failure}");
+            }
+        }
+        let mut total = total.lock().expect("no thread panics while it adds");
+        total.add(own);
+    };
+    let threads = std::thread::available_parallelism()
+        .map_or(1, usize::from)
+        .min(4);
+    std::thread::scope(|scope| {
+        (0..threads).for_each(|_| {
+            scope.spawn(work);
+        });
+    });
+    let total = total.into_inner().expect("no thread panics while it adds");
+    println!("{name}: {:.1} s", start.elapsed().as_secs_f64());
+    for (what, count) in &total.counts {
+        println!("{count:7}  {what}");
+    }
+    let failures = total.failures.len();
+    for failure in &total.failures {
+        let lines: Vec<&str> = failure.lines().take(2).collect();
+        println!("{}", lines.join(" "));
+    }
+    for failure in total.failures.iter().take(8) {
+        println!("\n{failure}");
+    }
+    assert!(failures == 0, "{failures} failures; the seed is {seed}");
+    total
+}
+
+/// Whether all machines of a run were looked at, so that what never took part is a fault of the generator.
+fn is_full() -> bool {
+    variable("METAMORPHIC_MACHINE").is_none() && variable("METAMORPHIC_COUNT").is_none()
+}
+
+#[test]
+#[ignore = "until it has been run on the compiler as it is now: cargo test --workspace --test metamorphic -- --ignored"]
+fn random_machines_said_otherwise_are_the_same() {
+    let total = each("evaluation", MACHINES, evaluation::task);
+    if is_full() {
+        let expected = evaluation::parts();
+        let missing: Vec<&String> = expected
+            .iter()
+            .filter(|part| !total.counts.contains_key(*part))
+            .collect();
+        assert!(missing.is_empty(), "these never took part: {missing:?}");
+    }
+}
+
+#[test]
+#[ignore = "until it has been run on the compiler as it is now: cargo test --workspace --test metamorphic -- --ignored"]
+fn their_runs_end_where_each_other_do() {
+    let total = each("simulation", RUNS, simulation::task);
+    let runs = |(what, count): (&String, &usize)| what.starts_with("run:").then_some(*count);
+    let runs: usize = total.counts.iter().filter_map(runs).sum();
+    assert!(!is_full() || runs > RUNS / 4, "only {runs} runs");
+}
+
+#[test]
+#[ignore = "until it has been run on the compiler as it is now: cargo test --workspace --test metamorphic -- --ignored"]
+fn the_command_prints_the_same_modes_and_accelerations() {
+    let total = each("commands", MODES, commands::modes);
+    for what in ["modes", "evaluate"] {
+        let count = total.counts.get(what).copied().unwrap_or(0);
+        assert!(!is_full() || count > MODES / 5, "only {count} times {what}");
+    }
+}
+
+#[test]
+#[ignore = "until it has been run on the compiler as it is now: cargo test --workspace --test metamorphic -- --ignored"]
+fn they_are_the_same_in_c() {
+    println!("C: METAMORPHIC_SEED={}", seed());
+    commands::as_c();
+}
+
+#[test]
+#[ignore = "until it has been run on the compiler as it is now: cargo test --workspace --test metamorphic -- --ignored"]
+fn they_are_the_same_as_shared_libraries() {
+    println!("libraries: METAMORPHIC_SEED={}", seed());
+    commands::as_libraries();
+}
