@@ -1,5 +1,11 @@
 //! The balance of energy, integrated alongside the motion.
 
+#[cfg(feature = "std")]
+mod explained;
+
+#[cfg(feature = "std")]
+pub(crate) use explained::Explained;
+
 use crate::System;
 use crate::compensated::Sum;
 use crate::methods::MAX_STAGES;
@@ -156,6 +162,16 @@ pub struct EnergyBalance {
     /// What the run had to do with, the scale of [`relative`](Self::relative), in J: the greatest
     /// kinetic energy at the end of any step, `∫ |work rate| dt` and the energy dissipated.
     pub turned_over: f64,
+    /// How great the residual may be by tolerance and rounding, in J, with a margin of 20.
+    ///
+    /// A motion that leaves a trajectory by the error of a step goes on along another, whose balance
+    /// closes: so errors of steps add up in the residual, and none grows. In a step of tolerance
+    /// `δ` an energy changes by no more than `√(2n) (|∂T/∂v| δv + |∂(T + V)/∂q| δq)`, which is bounded by
+    /// kinetic energy, applied forces and accelerations at its end, in the metric of inertia; for implicit
+    /// methods by what `δ` changes in the powers, too, over the length of the step. Rounding adds some units
+    /// in the last place of the energies at each step, and what it makes of the potential energy, found
+    /// out by moving coordinates by theirs.
+    pub explained: f64,
 }
 
 impl EnergyBalance {

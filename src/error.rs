@@ -176,6 +176,20 @@ pub enum Error {
         /// When it ended, in s.
         t: f64,
     },
+    /// Accelerations, multipliers and frictions do not obey the equations of motion at a state: the
+    /// functions of the machine contradict each other, and none of them can be trusted.
+    EquationsViolated {
+        /// The coordinate, or the constraint, whose equation is violated the most.
+        row: String,
+        /// Whether it is a constraint: `G a = γ`, and not `M a = f + Gᵀ λ`.
+        is_constraint: bool,
+        /// The left side less the right one.
+        residual: f64,
+        /// The size of the terms that rounding of this row may come from.
+        terms: f64,
+        /// Time, in s.
+        t: f64,
+    },
     /// The function of an event is not a number.
     EventNotFinite {
         /// The event.
@@ -491,6 +505,25 @@ impl Display for Error {
                     t = Short(*t)
                 )
             }
+            Self::EquationsViolated {
+                row,
+                is_constraint,
+                residual,
+                terms,
+                t,
+            } => {
+                let (of, equation) = match is_constraint {
+                    true => ("the constraint", "G a - γ"),
+                    false => ("the coordinate", "M a - f - Gᵀ λ"),
+                };
+                write!(
+                    f,
+                    "the accelerations do not obey the equations of motion to rounding at t = {t} s: in the row of {of} \
+                     `{row}`, {equation} is {residual:e} beside terms of {terms:e}; that is a mistake of the program and not \
+                     of the machine, and nothing that follows from it can be trusted: please report it",
+                    t = Short(*t)
+                )
+            }
             Self::EventNotFinite { event, t } => {
                 write!(
                     f,
@@ -542,6 +575,16 @@ pub enum Warning {
         /// When it was noticed, in s.
         t: f64,
     },
+    /// The residual of the energy balance is greater than what tolerance and rounding explain.
+    EnergyUnexplained {
+        /// The residual, in J.
+        residual: f64,
+        /// What tolerance and rounding explain, in J: see
+        /// [`EnergyBalance::explained`](crate::EnergyBalance::explained).
+        explained: f64,
+        /// The residual relative to the energy turned over.
+        relative: f64,
+    },
     /// A constraint follows from others at the start, so multipliers are not determined: those of
     /// least norm are given, and the motion does not depend on the choice.
     RedundantConstraint {
@@ -567,6 +610,16 @@ impl Display for Warning {
             Self::ToleranceRaised { asked, used } => write!(
                 f,
                 "a relative tolerance of {asked:e} asks for more digits than there are; {used:e} was used"
+            ),
+            Self::EnergyUnexplained {
+                residual,
+                explained,
+                relative,
+            } => write!(
+                f,
+                "the energies do not balance: {residual:.1e} J are left over, {relative:.1e} of what was turned over, \
+                 where tolerance and rounding explain {explained:.1e} J; the motion is less exact than was asked for, or \
+                 its equations and its energies do not belong together"
             ),
             Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
                 f,

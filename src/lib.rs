@@ -75,6 +75,8 @@ pub mod interpreted;
 pub mod matrices;
 
 #[cfg(feature = "std")]
+mod equations;
+#[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
 mod event;
@@ -106,6 +108,8 @@ pub use system::{
 };
 pub use vector::Vector;
 
+#[cfg(feature = "std")]
+pub use equations::check_equations;
 #[cfg(feature = "std")]
 pub use error::{Error, Warning};
 #[cfg(feature = "std")]

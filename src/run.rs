@@ -4,8 +4,9 @@ use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
-use crate::balance::{Alongside, Energies, EnergyBalance};
+use crate::balance::{Alongside, Energies, EnergyBalance, Explained};
 use crate::constraints::Constraints;
+use crate::equations::check_equations;
 use crate::error::constraint_name;
 use crate::event::{self, Crossing, Event, Terminal, Triple, state};
 use crate::friction::{Change, Contacts, Motion};
@@ -38,8 +39,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             check_parameters(machine)?;
             machine.prepare()
         }
+        // Its equations were checked where it began.
         Of::System(system) => system,
     };
+    let goes_on = resumed.is_some();
     if system.contacts().len() != 0 && until < start.t {
         return Err(Error::InvalidSetting {
             setting: "until",
@@ -86,6 +89,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         until,
     )
     .map_err(|error| model.explain(error, &q, &v))?;
+    if !goes_on {
+        check_equations(&system, (start.t, &q, &v, stepper.inputs()))?;
+    }
     stepper.set_longest_step(settings.longest_step);
     if let Some(step) = settings.first_step {
         stepper.set_first_step(step);
@@ -106,6 +112,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             energies: Vec::new(),
             contacts: Vec::new(),
             kinetic_energy: 0.0,
+            explained: Explained::default(),
         },
     };
     let contacts = run.stepper.contacts().iter().cloned();
@@ -130,7 +137,8 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         events,
         energies,
         contacts,
-        ..
+        explained,
+        kinetic_energy,
     } = record;
     let end = state(
         &system,
@@ -140,9 +148,21 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         samples.push(end.clone());
     }
     let work = stepper.work();
+    let balance = balance(&stepper, &energies, &explained, kinetic_energy);
+    let mut warnings = warnings(&settings, &stepper, of_start);
+    if let Some(balance) = &balance
+        && error.is_none()
+        && balance.residual().abs() > balance.explained
+    {
+        warnings.push(Warning::EnergyUnexplained {
+            residual: balance.residual(),
+            explained: balance.explained,
+            relative: balance.relative(),
+        });
+    }
     let solution = Solution {
         method: settings.method,
-        balance: balance(&stepper, &energies, record.kinetic_energy),
+        balance,
         statistics: Statistics {
             steps: work.steps,
             rejected: work.rejected,
@@ -151,7 +171,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
             stiff_since: stepper.stiff_since(),
             seconds: clock.elapsed().as_secs_f64(),
         },
-        warnings: warnings(&settings, &stepper, of_start),
+        warnings,
         next_step: next_step.unwrap_or(stepper.next_step()).abs(),
         constraints: stepper.constraints().clone(),
         contacts,
@@ -196,6 +216,8 @@ struct Record<M: Machine> {
     contacts: Vec<(f64, Contacts)>,
     /// The greatest so far, in J.
     kinetic_energy: f64,
+    /// What tolerance and rounding explain of the energy balance's residual.
+    explained: Explained,
 }
 
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
@@ -554,13 +576,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
         let kinetic = model.system.kinetic_energy(t, q, v);
         record.kinetic_energy = record.kinetic_energy.max(kinetic);
-        record.energies.push(Energies {
+        let energies = Energies {
             t,
             kinetic,
             potential: model.system.potential_energy(t, q, &model.inputs(t, q, v)),
             work: integrals.work(),
             dissipated: integrals.dissipated(),
-        });
+        };
+        record.explained.take(model.system, stepper, &energies);
+        record.energies.push(energies);
     }
 
     fn shall_stop(&mut self) -> bool {
@@ -961,16 +985,19 @@ fn check_start<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> R
 fn balance<S: System, L: InputLaw<S>, A: Alongside<S>>(
     stepper: &Stepper<'_, S, L, A>,
     energies: &[Energies],
+    explained: &Explained,
     kinetic_energy: f64,
 ) -> Option<EnergyBalance> {
     let integrals = stepper.alongside().integrals()?;
     let (first, last) = (energies.first()?, energies.last()?);
+    let turned_over = kinetic_energy + integrals.work_turned_over() + last.dissipated;
     Some(EnergyBalance {
+        explained: explained.in_all(turned_over),
         start: first.kinetic + first.potential,
         end: last.kinetic + last.potential,
         work: last.work,
         dissipated: last.dissipated,
-        turned_over: kinetic_energy + integrals.work_turned_over() + last.dissipated,
+        turned_over,
     })
 }
 

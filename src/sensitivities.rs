@@ -415,6 +415,11 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         Ok(())
     }
 
+    /// Those of the machine alone are there, without its derivatives.
+    fn equations(&self) -> usize {
+        0
+    }
+
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
         let mut own = S::Matrix::zeros(self.dimension * self.dimension);
         self.system.mass_matrix(t, &self.own(q), &mut own);

@@ -463,6 +463,19 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         constraints.map_or(0.0, |constraints| constraints.greatest_residual)
     }
 
+    /// The error that a step may make in a coordinate, or in its rate, of this size.
+    #[cfg(feature = "std")]
+    pub(crate) fn tolerable(&self, coordinate: usize, size: f64) -> f64 {
+        let Tolerance { relative, absolute } = &self.tolerance;
+        absolute.as_slice()[coordinate] + relative * size.abs()
+    }
+
+    /// Whether the stages of its method depend on each other.
+    #[cfg(feature = "std")]
+    pub(crate) fn is_implicit(&self) -> bool {
+        self.implicit.is_some()
+    }
+
     /// What is known of the constraints.
     #[cfg(feature = "std")]
     pub(crate) fn constraints(&self) -> &Option<Constraints<S::Vector>> {

@@ -95,6 +95,13 @@ pub trait System {
         a: &mut Self::Vector,
     ) -> Result<(), Singular>;
 
+    /// How many equations of motion there are to check (`check_equations`) at the start of a run: one
+    /// for each coordinate, or 0 where mass matrix and forces are not those of all coordinates.
+    #[inline]
+    fn equations(&self) -> usize {
+        self.coordinates().len()
+    }
+
     /// Mass matrix `M(q, t)`, row after row.
     fn mass_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut Self::Matrix);
 

@@ -5,7 +5,7 @@ mod by_hand;
 
 use by_hand::double_pendulum::DoublePendulum;
 use by_hand::toy::{Toy, oscillator, pendulum};
-use lagrangian::{Error, METHODS, Machine, Simulation};
+use lagrangian::{Error, METHODS, Machine, Simulation, Warning};
 
 /// `x'' = −4 x − 0.3 v + 2 cos(p t) + u`: a spring, a damper, a drive and an input.
 fn driven() -> Toy<1> {
@@ -219,4 +219,91 @@ fn a_machine_at_rest_has_nothing_to_balance() {
         .unwrap();
     let balance = run.energy_balance().unwrap();
     assert_eq!((balance.residual(), balance.relative()), (0.0, 0.0));
+}
+
+#[test]
+fn what_the_tolerance_explains_is_no_warning() {
+    // Every method, from tolerances at which hardly a digit is right to those of rounding; driven and damped,
+    // free, at rest, and stiff beside its own motion.
+    let stiff = Toy {
+        p: 1e3,
+        ..oscillator()
+    };
+    let resting = Toy {
+        start: ([0.0], [0.0]),
+        ..oscillator()
+    };
+    let machines = [
+        driven(),
+        oscillator(),
+        pendulum(3.0),
+        pendulum(0.1),
+        stiff,
+        resting,
+    ];
+    for method in &METHODS {
+        for (i, machine) in machines.iter().enumerate() {
+            for exponent in 1..=12 {
+                let tolerance = 0.1_f64.powi(exponent);
+                if method.tableau.order == 3 && exponent > 8 {
+                    continue;
+                }
+                let until = if i == 4 { 0.3 } else { 30.0 };
+                let run = Simulation::new(machine)
+                    .method(method)
+                    .tolerance(tolerance)
+                    .until(until)
+                    .energy_balance(true)
+                    .run(machine.start())
+                    .unwrap();
+                let unexplained = |w: &Warning| matches!(w, Warning::EnergyUnexplained { .. });
+                let name = method.tableau.name;
+                assert!(
+                    !run.warnings().iter().any(unexplained),
+                    "{name} machine {i} at {tolerance:e}: {:?}",
+                    run.energy_balance()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_of_the_wrong_sign_is_a_warning() {
+    // The spring, the damper, the drive: each on the wrong side in the acceleration alone.
+    let wrong: [Toy<1>; 3] = [
+        Toy {
+            accelerations: |t, q, v, _, p| [4.0 * q[0] - 0.3 * v[0] + 2.0 * (p * t).cos()],
+            ..driven()
+        },
+        Toy {
+            accelerations: |t, q, v, _, p| [-4.0 * q[0] + 0.3 * v[0] + 2.0 * (p * t).cos()],
+            ..driven()
+        },
+        Toy {
+            accelerations: |t, q, v, _, p| [-4.0 * q[0] - 0.3 * v[0] - 2.0 * (p * t).cos()],
+            ..driven()
+        },
+    ];
+    for machine in &wrong {
+        for tolerance in [1e-5, 1e-9] {
+            let run = Simulation::new(machine)
+                .tolerance(tolerance)
+                .until(2.0)
+                .energy_balance(true)
+                .run(machine.start())
+                .unwrap();
+            let [
+                Warning::EnergyUnexplained {
+                    residual,
+                    explained,
+                    relative,
+                },
+            ] = run.warnings()
+            else {
+                panic!("{:?}", run.energy_balance())
+            };
+            assert!(relative.abs() > 1e-3 && residual.abs() > 10.0 * explained);
+        }
+    }
 }

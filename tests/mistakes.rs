@@ -3,9 +3,13 @@
 
 mod by_hand;
 
+use by_hand::constrained::{Constrained, bead, circle, parallelogram, sleigh, winch};
 use by_hand::double_pendulum::DoublePendulum;
+use by_hand::tampered::{Slip, Tampered};
 use by_hand::toy::{Toy, ball, oscillator, pendulum};
-use lagrangian::{Error, METHODS, Machine, Method, Simulation, Solution, State, Warning};
+use lagrangian::{
+    Error, METHODS, Machine, Method, Simulation, Solution, State, System, Warning, check_equations,
+};
 
 fn error_of<const N: usize>(toy: &Toy<N>, until: f64) -> Error {
     Simulation::new(toy)
@@ -494,4 +498,120 @@ fn unknown_methods_are_told_the_known() {
         message.ends_with("there are `dop853`, `dopri5`, `bs32`, `radau5`"),
         "{message}"
     );
+}
+
+/// The row that is told to be violated at the start, if any.
+fn violated<const N: usize, const M: usize, const NN: usize>(
+    machine: Constrained<N, M, NN>,
+    slip: Slip,
+) -> Option<(String, bool)> {
+    let machine = Tampered { machine, slip };
+    // Moving, and with every multiplier at work.
+    let mut start = machine.start();
+    for (i, v) in start.v.iter_mut().enumerate() {
+        *v += 0.3 + 0.1 * i as f64;
+    }
+    match check_equations(&machine, (0.0, &start.q, &start.v, &())) {
+        Ok(()) => None,
+        Err(Error::EquationsViolated {
+            row,
+            is_constraint,
+            residual,
+            terms,
+            ..
+        }) => {
+            assert!(residual.abs() > 1e-8 * terms, "{residual:e} {terms:e}");
+            Some((row, is_constraint))
+        }
+        Err(other) => panic!("{other}"),
+    }
+}
+
+#[test]
+fn machines_whose_functions_contradict_each_other_are_not_run() {
+    fn each<const N: usize, const M: usize, const NN: usize>(machine: Constrained<N, M, NN>) {
+        assert_eq!(violated(machine, Slip::None), None);
+        // Far more than rounding, far less than anybody sees in a plot.
+        for i in 0..N {
+            let found = violated(machine, Slip::Acceleration(i, 1e-4));
+            assert!(found.is_some(), "acceleration {i} of {machine:?}");
+        }
+        for k in 0..M {
+            let found = violated(machine, Slip::Multiplier(k, -1.0));
+            assert!(found.is_some(), "multiplier {k} of {machine:?}");
+            let (name, is_constraint) = violated(machine, Slip::Drift(k, 1e-3)).unwrap();
+            assert!(is_constraint && name == machine.constraints[k].0, "{name}");
+        }
+    }
+    each(circle::<1>());
+    each(winch());
+    each(bead());
+    // A run ends before it begins.
+    let wrong = Tampered {
+        machine: sleigh(),
+        slip: Slip::Acceleration(0, 0.5),
+    };
+    let refused = Simulation::new(&wrong).until(1.0).run(wrong.start());
+    let error = refused.unwrap_err();
+    assert!(matches!(error, Error::EquationsViolated { .. }), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("do not obey the equations of motion to rounding")
+    );
+}
+
+#[test]
+fn honest_machines_are_run_however_ill_conditioned() {
+    // Masses of 10⁻¹² and 10¹² kg on one rod, in any position.
+    for [light, heavy] in [[1e-12, 1e12], [1e-6, 1.0], [1e9, 1e-9]] {
+        for turn in 0..50 {
+            let angle = 0.13 * f64::from(turn);
+            let machine = Constrained {
+                mass: [light, heavy, 1.0, light],
+                ..parallelogram(angle)
+            };
+            assert_eq!(violated(machine, Slip::None), None, "{light:e} {angle}");
+            let circle = Constrained {
+                mass: [light, heavy],
+                start: ([angle.cos(), angle.sin()], [-angle.sin(), angle.cos()]),
+                ..circle::<3>()
+            };
+            assert_eq!(violated(circle, Slip::None), None, "{light:e} {angle}");
+        }
+    }
+    // At rest in equilibrium forces are nothing but rounding.
+    let pendulum = DoublePendulum::default();
+    for tilt in [0.0, 1e-17, 1e-12, 3e-9] {
+        let system = pendulum.prepare();
+        let u = system.default_inputs();
+        let at = (0.0, &[tilt, -tilt], &[0.0, 0.0], &u);
+        assert_eq!(check_equations(&system, at), Ok(()));
+    }
+}
+
+#[test]
+fn stiffness_is_told_while_the_run_is_under_way() {
+    let stiff = Toy::new(([0.0], [0.0]), |t, _, v, _, _| [-1e5 * (v[0] - t.sin())]);
+    let mut told = None;
+    let run = Simulation::new(&stiff)
+        .tolerance(1e-6)
+        .until(1.0)
+        .progress(|progress| {
+            if progress.stiff_since.is_some() && told.is_none() {
+                told = Some(progress);
+            }
+        })
+        .run(stiff.start())
+        .unwrap();
+    let told = told.unwrap();
+    assert_eq!(told.stiff_since, run.statistics().stiff_since);
+    assert!(told.steps <= 1100 && run.statistics().steps > 10_000);
+    let implicit = Simulation::new(&stiff)
+        .method(Method::named("radau5").unwrap())
+        .tolerance(1e-6)
+        .until(1.0)
+        .run(stiff.start())
+        .unwrap();
+    assert_eq!(implicit.statistics().stiff_since, None);
 }

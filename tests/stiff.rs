@@ -109,6 +109,8 @@ fn a_step_of_a_spring_turns_as_its_stability_function_says() {
 fn dragged(p: f64) -> Toy<1> {
     Toy {
         p,
+        // The damper is between the block and what drags it.
+        work_rate: |t, _, v, _, p| (-p * (v[0] - t.sin()) + t.cos()) * v[0],
         ..Toy::new(([0.0], [0.0]), |t, _, v, _, p| {
             [-p * (v[0] - t.sin()) + t.cos()]
         })

@@ -6,7 +6,7 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    ContactForce, Error, Machine, Pivot, State, StepError, System, contact_forces,
+    ContactForce, Error, Machine, Pivot, State, StepError, System, check_equations, contact_forces,
     least_multipliers,
 };
 use serde::Serialize;
@@ -197,6 +197,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
             coordinate.name
         ));
     }
+    check_equations(system, (t, q, v, &u)).map_err(|error| error.to_string())?;
     let mut contacts = contacts::forces(system, &multipliers);
     contacts.extend(sliding(system, (t, q, v, &u)));
     let kinetic_energy = system.kinetic_energy(t, q, v);

@@ -1,8 +1,10 @@
 //! `lagrangian simulate`: the motion of a machine.
 
+use std::cell::Cell;
+
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{METHODS, Method};
-use lagrangian::{Ending, Energies, Error, Machine, Simulation, Solution, System};
+use lagrangian::{Ending, Energies, Error, Machine, Simulation, Solution, System, Warning};
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
@@ -122,6 +124,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     progress::at(start.t, 0.0, 0);
     progress::run(call.until);
+    let is_said = Cell::new(false);
     let mut simulation = Simulation::new(&machine)
         .tolerance(call.tolerance)
         .method(method)
@@ -130,7 +133,16 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         .energy_balance(true)
         .forget_steps()
         .stop_if(|_| interrupt.came())
-        .progress(|now| progress::at(now.t, now.fraction, now.steps));
+        .progress(|now| {
+            progress::at(now.t, now.fraction, now.steps);
+            // At once, and not when the run has taken its hours.
+            if let Some(t) = now.stiff_since.filter(|_| !is_said.replace(true)) {
+                output::complain(format_args!(
+                    "warning: {}: --method radau5",
+                    Warning::Stiff { t }
+                ));
+            }
+        });
     if recorded && call.until != 0.0 {
         if call.until.abs() / interval.abs() > MOST_SAMPLES {
             return Err(Failure::Call(format!(
@@ -147,7 +159,10 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut trouble = Trouble {
         error: error.as_ref(),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
-        other: overflow(&run).into_iter().collect(),
+        other: overflow(&run)
+            .or_else(|| imbalance(&run))
+            .into_iter()
+            .collect(),
     };
     let contacts = contacts.found(&run);
 
@@ -190,6 +205,19 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         (true, Some(_)) => Err(Failure::Interrupted),
         (true, None) => Ok(()),
     }
+}
+
+/// More than this of the energy turned over may not be missing for a run to count as good.
+const MOST_MISSING: f64 = 1e-3;
+
+/// Whether so much energy is missing, beyond what tolerance and rounding explain, that the motion is not that of the
+/// machine.
+fn imbalance(run: &Run) -> Option<String> {
+    let unexplained = |warning: &&Warning| matches!(warning, Warning::EnergyUnexplained { relative, .. } if relative.abs() > MOST_MISSING);
+    run.warnings()
+        .iter()
+        .find(unexplained)
+        .map(ToString::to_string)
 }
 
 /// Whether an energy was greater than any number: then nothing is known of their balance.

@@ -533,3 +533,35 @@ fn a_family_takes_another_size() {
         Some(3)
     );
 }
+
+#[test]
+fn a_run_that_is_stiff_says_so_at_once() {
+    let spec = "machine Stiff in plane {\n\
+        parameters { c: N*s/m = 1e5 }\n\
+        coordinates { x: m = 0 }\n\
+        bodies { block { mass: 1, at: (x, 0) } }\n\
+        dissipations { drag: 1/2*c*der(x)^2 }\n}\n";
+    let scratch = Scratch::new("stiff.machine", spec);
+    let arguments = [
+        "simulate",
+        scratch.path(),
+        "--until",
+        "0.5",
+        "--rate",
+        "x=1",
+        "--tolerance",
+        "1e-6",
+    ];
+    let output = lagrangian(&arguments);
+    let said = err(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(
+        said.contains("stiff") && said.contains("--method radau5"),
+        "{said}"
+    );
+    // Once, and among the warnings of the summary too.
+    assert_eq!(said.matches("--method radau5").count(), 1, "{said}");
+    assert!(out(&output).contains("warning: the machine is stiff"));
+    let implicit = lagrangian(&[&arguments[..], &["--method", "radau5"]].concat());
+    assert_eq!(err(&implicit), "");
+}

@@ -5,4 +5,5 @@
 pub mod as_list;
 pub mod constrained;
 pub mod double_pendulum;
+pub mod tampered;
 pub mod toy;

@@ -1,0 +1,125 @@
+//! What tolerance and rounding explain of the residual of an energy balance.
+
+use std::vec;
+use std::vec::Vec;
+
+use crate::math::sqrt;
+use crate::stepper::{InputLaw, Stepper};
+use crate::{Alongside, Energies, System, Vector};
+
+/// Errors of steps are estimates, energies are bent, and bounds are taken at the ends of steps: by so much they
+/// may be exceeded.
+const MARGIN: f64 = 20.0;
+
+/// Roundings of an energy and of its integrals in each step, in units in the last place.
+const ROUNDINGS: f64 = 16.0;
+
+/// What there is of it so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Explained {
+    steps: usize,
+    /// The sum over all steps, in J.
+    by_tolerance: f64,
+    /// What rounding of coordinates made of the potential energy, and the greatest energies, in J.
+    by_rounding: f64,
+    greatest: f64,
+    /// `√Mᵢᵢ`, as it was when the number of steps was last a power of two.
+    inertia: Vec<f64>,
+}
+
+impl Explained {
+    /// Takes the last step into account, with the energies at its end.
+    pub fn take<S: System, L: InputLaw<S>, A: Alongside<S>>(
+        &mut self,
+        system: &S,
+        stepper: &Stepper<'_, S, L, A>,
+        energies: &Energies,
+    ) {
+        let (t, q, v, a) = (stepper.t(), stepper.q(), stepper.v(), stepper.a());
+        let u = stepper.inputs();
+        let n = q.as_slice().len();
+        self.steps += 1;
+        self.greatest = (self.greatest)
+            .max(energies.kinetic.abs() + energies.potential.abs())
+            .max(energies.work.abs() + energies.dissipated.abs());
+        if self.steps.is_power_of_two() {
+            self.look(system, (t, q, u), energies.potential);
+        }
+        let tolerable = |of: &S::Vector| {
+            let mut tolerable = of.clone();
+            for (i, x) in tolerable.as_mut_slice().iter_mut().enumerate() {
+                *x = stepper.tolerable(i, *x);
+            }
+            tolerable
+        };
+        let [of_q, of_v] = [q, v].map(tolerable);
+        let length = |of: &S::Vector| {
+            let each = self.inertia.iter().zip(of.as_slice());
+            each.map(|(d, x)| d * x.abs()).sum::<f64>()
+        };
+        let mut applied = q.zeros_like();
+        system.applied(t, q, v, u, &mut applied);
+        let work = applied.as_slice().iter().zip(of_q.as_slice());
+        let mut change = work.map(|(force, by)| (force * by).abs()).sum::<f64>();
+        let (by_q, by_v) = (length(&of_q), length(&of_v));
+        change += length(a) * by_q + (sqrt(2.0 * energies.kinetic.abs()) + by_v) * by_v;
+        if stepper.is_implicit() {
+            let power = |q: &S::Vector, v: &S::Vector| {
+                system.work_rate(t, q, v, a, u) - system.dissipation_rate(t, q, v, u)
+            };
+            let here = power(q, v);
+            let mut most = 0.0_f64;
+            for alternating in [1.0, -1.0] {
+                let moved = |of: &S::Vector, by: &S::Vector| {
+                    let (mut moved, mut sign) = (of.clone(), 1.0);
+                    for (x, by) in moved.as_mut_slice().iter_mut().zip(by.as_slice()) {
+                        *x += sign * by;
+                        sign *= alternating;
+                    }
+                    moved
+                };
+                let (q, v) = (moved(q, &of_q), moved(v, &of_v));
+                most = most.max((power(&q, &v) - here).abs());
+                change += (system.potential_energy(t, &q, u) - energies.potential).abs();
+            }
+            change += most * stepper.last_step().abs();
+        }
+        self.by_tolerance += sqrt((2 * n) as f64) * change;
+    }
+
+    /// Looks at what takes many evaluations.
+    fn look<S: System>(&mut self, system: &S, (t, q, u): (f64, &S::Vector, &S::Inputs), here: f64) {
+        let n = q.as_slice().len();
+        self.inertia = vec![0.0; n];
+        let rest = q.zeros_like();
+        let of_rest = system.kinetic_energy(t, q, &rest);
+        for (i, inertia) in self.inertia.iter_mut().enumerate() {
+            // T is of second degree in the rates.
+            let mut doubled = -2.0 * of_rest;
+            for rate in [1.0, -1.0] {
+                let mut v = rest.clone();
+                v.as_mut_slice()[i] = rate;
+                doubled += system.kinetic_energy(t, q, &v);
+            }
+            *inertia = sqrt(doubled.max(0.0));
+        }
+        for times in [-3.0, -1.0, 1.0, 3.0] {
+            let mut moved = q.clone();
+            let mut sign = 1.0;
+            for x in moved.as_mut_slice() {
+                *x += sign * times * f64::EPSILON * x.abs().max(1.0);
+                sign = -sign;
+            }
+            let by = (system.potential_energy(t, &moved, u) - here).abs();
+            if by.is_finite() {
+                self.by_rounding = self.by_rounding.max(by);
+            }
+        }
+    }
+
+    /// In J. `turned_over` is what went to and fro.
+    pub fn in_all(&self, turned_over: f64) -> f64 {
+        let each = f64::EPSILON * (self.greatest + turned_over) + self.by_rounding;
+        MARGIN * self.by_tolerance + ROUNDINGS * sqrt(self.steps as f64) * each
+    }
+}

@@ -1,0 +1,301 @@
+//! Whether accelerations obey the equations of motion, once for each state that somebody asks about.
+//!
+//! ```text
+//! M a = f + Gᵀ λ + τᵀ F,   G a = γ
+//! ```
+//!
+//! with the multipliers `λ` of the constraints and the frictions `F` of the contacts. `M`, `f`, `G`, `γ` and
+//! `a` come from different functions of a machine, and elimination has gone between them: an error in any
+//! of them shows here.
+//!
+//! What rounding does. With `dᵢ = √Mᵢᵢ`, elimination in a positive definite matrix, in any order and by any
+//! arrangement of its products, leaves no more than `c n ε dᵢ Σⱼ dⱼ |aⱼ|` in row `i`, however ill-conditioned
+//! `M` is: N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, theorems 10.3 and
+//! 10.4, with `|Mᵢⱼ| ≤ dᵢ dⱼ`. Forces of other rows come in as `dᵢ |fⱼ|/dⱼ`. Multipliers are found by a
+//! second elimination, in `G M⁻¹ Gᵀ`, and by a function of their own, so they differ from those that
+//! `a` obeys by that matrix's condition, which is reckoned with; and so is that of `M` for the rows of `G`.
+//!
+//! What is inside of a force is not seen from here: `k x − k x₀` may have lost most of its digits. So the
+//! bound allows seven digits more than `ε`, and a state that exceeds it is held against states beside it,
+//! away from such cancellations, where a wrong equation is as wrong. Only where all of these exceed
+//! it too, the equations are violated.
+
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+use crate::error::constraint_name;
+use crate::math::sqrt;
+use crate::{
+    ContactForce, Error, MOST_CONTACTS, Pivot, System, Vector, contact_forces, least_multipliers,
+};
+
+/// What may be left of an equation, relative to the sizes of its terms, for each coordinate: seven digits
+/// more than the roundoff of `f64`.
+const TOLERANCE: f64 = 1e-9;
+
+/// A row that keeps less than this beside those before it depends on them.
+const DEPENDENT: f64 = 1e-8;
+
+/// How far the states beside one are, relative to the sizes of its numbers, and how many there are.
+const BESIDE: (f64, usize) = (1e-3, 4);
+
+/// Checks that the accelerations, multipliers and frictions of a machine at a state obey its equations of
+/// motion to rounding: `M a = f + Gᵀ λ + τᵀ F` and `G a = γ`.
+///
+/// Every run checks this at its start. A machine that has no accelerations there, or no matrix of its
+/// own ([`System::Matrix`] of another length), is not judged.
+///
+/// # Errors
+/// [`Error::EquationsViolated`], which is a mistake in the functions of the machine and not in its
+/// description.
+pub fn check_equations<S: System>(
+    system: &S,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+) -> Result<(), Error> {
+    let n = system.equations();
+    if n == 0 || n != q.as_slice().len() || S::Matrix::zeros(n * n).as_slice().len() != n * n {
+        return Ok(());
+    }
+    let Some(here) = worst(system, (t, q, v, u)) else {
+        return Ok(());
+    };
+    if here.share <= here.tolerance {
+        return Ok(());
+    }
+    let beside = (1..=BESIDE.1).filter_map(|number| {
+        let (q, v) = state_beside(system, q, v, number);
+        worst(system, (t, &q, &v, u))
+    });
+    let shares: Vec<bool> = beside.map(|there| there.share > there.tolerance).collect();
+    if shares.len() < 2 || shares.contains(&false) {
+        return Ok(());
+    }
+    Err(Error::EquationsViolated {
+        row: here.row,
+        is_constraint: here.is_constraint,
+        residual: here.residual,
+        terms: here.terms,
+        t,
+    })
+}
+
+/// The equation that is obeyed the worst.
+struct Worst {
+    row: String,
+    is_constraint: bool,
+    residual: f64,
+    terms: f64,
+    /// The residual relative to the terms.
+    share: f64,
+    tolerance: f64,
+}
+
+/// None where there is nothing to judge: no accelerations, or none in numbers.
+fn worst<S: System>(
+    system: &S,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+) -> Option<Worst> {
+    let n = q.as_slice().len();
+    let (m, k) = (system.constraints().len(), system.contacts().len());
+    let mut a = q.zeros_like();
+    let mut multipliers = vec![0.0; m];
+    let mut contacts = [ContactForce::default(); MOST_CONTACTS];
+    solve(
+        system,
+        (t, q, v, u),
+        &mut a,
+        &mut multipliers,
+        &mut contacts[..k],
+    )?;
+
+    let mut mass = S::Matrix::zeros(n * n);
+    system.mass_matrix(t, q, &mut mass);
+    let mass = mass.as_slice();
+    let [mut forces, mut applied, mut bias] = [0; 3].map(|_| q.zeros_like());
+    system.forces(t, q, v, u, &mut forces);
+    system.applied(t, q, v, u, &mut applied);
+    system.bias(t, q, v, &mut bias);
+    let (mut matrix, mut drift) = (vec![0.0; m * n], vec![0.0; m]);
+    system.constraint_matrix(t, q, &mut matrix);
+    system.constraint_drift(t, q, v, &mut drift);
+    let mut slips = vec![0.0; k * n];
+    system.slip_matrix(t, q, &mut slips);
+
+    // Forces and the sizes of their terms.
+    let sizes = [&applied, &bias].map(|part| part.as_slice());
+    let mut right: Vec<f64> = forces.as_slice().to_vec();
+    let mut size: Vec<f64> = (0..n)
+        .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())
+        .collect();
+    let rows = matrix.chunks_exact(n).zip(&multipliers);
+    let frictions = contacts.iter().map(|contact| &contact.friction);
+    for (row, force) in rows.chain(slips.chunks_exact(n).zip(frictions)) {
+        for i in 0..n {
+            right[i] += row[i] * force;
+            size[i] += (row[i] * force).abs();
+        }
+    }
+    let a = a.as_slice();
+    let inertia: Vec<f64> = (0..n).map(|i| sqrt(mass[i * n + i].max(0.0))).collect();
+    let spread: f64 = (0..n)
+        .map(|j| match inertia[j] > 0.0 {
+            true => inertia[j] * a[j].abs() + size[j] / inertia[j],
+            false => 0.0,
+        })
+        .sum();
+
+    let [of_mass, of_constraints] = conditions(mass, &inertia, &matrix);
+    let tolerance = TOLERANCE * (n + m) as f64 * of_constraints;
+    let mut worst = Worst {
+        row: String::new(),
+        is_constraint: false,
+        residual: 0.0,
+        terms: 0.0,
+        share: 0.0,
+        tolerance,
+    };
+    let mut is_finite = tolerance.is_finite();
+    let mut take = |index: usize, is_constraint: bool, residual: f64, terms: f64, weight: f64| {
+        is_finite &= residual.is_finite() && terms.is_finite();
+        let share = match residual == 0.0 {
+            true => 0.0,
+            false => residual.abs() / terms / weight,
+        };
+        if share > worst.share {
+            let row = match is_constraint {
+                true => constraint_name(system, index),
+                false => {
+                    let coordinate = system.coordinates().nth(index);
+                    coordinate.map_or("?", |coordinate| coordinate.name).into()
+                }
+            };
+            worst = Worst {
+                row,
+                is_constraint,
+                residual,
+                terms,
+                share,
+                tolerance,
+            };
+        }
+    };
+    for i in 0..n {
+        let row = mass[i * n..][..n].iter().zip(a);
+        let left: f64 = row.clone().map(|(m, a)| m * a).sum();
+        let own: f64 = row.map(|(m, a)| (m * a).abs()).sum();
+        let terms = own + size[i] + inertia[i] * spread;
+        take(i, false, left - right[i], terms, 1.0);
+    }
+    for (k, row) in matrix.chunks_exact(n).enumerate() {
+        let left: f64 = row.iter().zip(a).map(|(g, a)| g * a).sum();
+        let mut terms = drift[k].abs();
+        for j in 0..n {
+            terms += (row[j] * a[j]).abs();
+            if inertia[j] > 0.0 {
+                terms += (row[j] / inertia[j]).abs() * spread;
+            }
+        }
+        take(k, true, left - drift[k], terms, of_mass);
+    }
+    is_finite.then_some(worst)
+}
+
+/// Accelerations, multipliers and frictions, as a run finds them.
+fn solve<S: System>(
+    system: &S,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    a: &mut S::Vector,
+    multipliers: &mut [f64],
+    contacts: &mut [ContactForce],
+) -> Option<()> {
+    if !contacts.is_empty() {
+        let at = (t, q, v, u);
+        return contact_forces(system, at, a.as_mut_slice(), multipliers, contacts).ok();
+    }
+    let found = system
+        .accelerations(t, q, v, u, a)
+        .and_then(|()| system.multipliers(t, q, v, u, multipliers));
+    match found {
+        Ok(()) => Some(()),
+        Err(singular) if matches!(singular.at, Pivot::Constraint(_)) => {
+            least_multipliers(system, t, q, v, u, a, multipliers).ok()
+        }
+        Err(_) => None,
+    }
+}
+
+/// How much elimination may enlarge rounding, of the mass matrix and of the constraints: the inverse
+/// squares of the least that is left of a row of unit length beside those before it.
+fn conditions(mass: &[f64], inertia: &[f64], matrix: &[f64]) -> [f64; 2] {
+    let n = inertia.len();
+    // Something has no inertia of its own: the constraints hold it, in a way that is not looked into.
+    const UNKNOWN: [f64; 2] = [1e4; 2];
+    if inertia.contains(&0.0) {
+        return UNKNOWN;
+    }
+    let mut lower = vec![0.0; n * n];
+    let mut of_mass = 1.0_f64;
+    for i in 0..n {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| lower[i * n + k] * lower[j * n + k]).sum();
+            let left = mass[i * n + j] / (inertia[i] * inertia[j]) - known;
+            if j < i {
+                lower[i * n + j] = left / lower[j * n + j];
+            } else if left > 0.0 {
+                lower[i * n + i] = sqrt(left);
+                of_mass = of_mass.max(1.0 / left);
+            } else {
+                return UNKNOWN;
+            }
+        }
+    }
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut of_constraints = 1.0_f64;
+    for row in matrix.chunks_exact(n) {
+        let mut y = vec![0.0; n];
+        for i in 0..n {
+            let known: f64 = (0..i).map(|k| lower[i * n + k] * y[k]).sum();
+            y[i] = (row[i] / inertia[i] - known) / lower[i * n + i];
+        }
+        let length = |y: &[f64]| sqrt(y.iter().map(|y| y * y).sum());
+        let whole = length(&y);
+        // Twice: a direction that little is left of has lost its right angles.
+        for known in basis.iter().chain(&basis) {
+            let along: f64 = known.iter().zip(&y).map(|(e, y)| e * y).sum();
+            y.iter_mut().zip(known).for_each(|(y, e)| *y -= along * e);
+        }
+        let left = length(&y);
+        if left > DEPENDENT * whole {
+            of_constraints = of_constraints.max((whole / left) * (whole / left));
+            basis.push(y.iter().map(|y| y / left).collect());
+        }
+    }
+    [of_mass, of_constraints]
+}
+
+/// A state near another, the same for the same number.
+fn state_beside<S: System>(
+    system: &S,
+    q: &S::Vector,
+    v: &S::Vector,
+    number: usize,
+) -> (S::Vector, S::Vector) {
+    let mut draw = number as f64 * 0.414_213_562_373_095;
+    let mut moved = |of: &S::Vector, angles: bool| {
+        let mut moved = of.clone();
+        for (j, coordinate) in system.coordinates().enumerate() {
+            let alike = system.coordinates().zip(of.as_slice());
+            let alike = alike.filter(|(other, _)| other.unit == coordinate.unit);
+            let mut size = alike.fold(0.0, |size: f64, (_, x)| size.max(x.abs()));
+            if size == 0.0 || (angles && coordinate.unit == "rad") {
+                size = size.max(1.0);
+            }
+            // Multiples of the golden ratio are spread evenly.
+            draw = (draw + 0.618_033_988_749_895) % 1.0;
+            moved.as_mut_slice()[j] += BESIDE.0 * size * (2.0 * draw - 1.0);
+        }
+        moved
+    };
+    (moved(q, true), moved(v, false))
+}
