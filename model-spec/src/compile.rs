@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use crate::diagnostic::Report;
 use crate::emit::formulas;
 use crate::mechanics::Equations;
+use crate::mechanics::refusal::refuse_large;
 use crate::model::Model;
 use crate::program::{self, Basis, Program, Role};
 
@@ -28,6 +29,11 @@ impl<'d> Compiled<'d> {
         }
         let expanded = equations.expanded();
         let program = Program::lower_by(&model, &equations, expanded.as_ref(), &program::best);
+        if program.function(program.solving()).is_none() {
+            // Solving for the accelerations takes more than may be written down.
+            refuse_large(&model, report);
+            return None;
+        }
         let choice = program.choice(program.solving());
         let is_expanded = choice.is_some_and(|c| {
             let form = c.chosen().form;

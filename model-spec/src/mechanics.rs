@@ -30,11 +30,11 @@ mod lumps;
 mod power;
 mod projected;
 mod reduction;
-mod refusal;
+pub(crate) mod refusal;
 mod sliding;
 mod symmetric;
 
-use lagrangian_symbolic::{Expr, Node, Symbol, normal};
+use lagrangian_symbolic::{Dag, Expr, Node, Symbol, normal};
 
 pub use brachistochrone::{Brachistochronic, Guided, Unmet};
 pub use carrying::Carrying;
@@ -155,6 +155,16 @@ impl<'d> InertialPair<'d> {
     }
 }
 
+impl<'d> Unprojected<'d> {
+    /// The nodes of inertia and loads, and their operands.
+    pub(crate) fn size(&self, dag: &'d Dag) -> usize {
+        let inertia = self.inertia.iter().flat_map(|pair| [pair.u, pair.w, pair.weight]);
+        let loads = self.loads.iter().flat_map(|&(velocity, load)| [velocity, load]);
+        let all: Vec<Expr<'d>> = inertia.chain(loads).collect();
+        lagrangian_symbolic::evaluation_work(dag, &all)
+    }
+}
+
 /// What is derived for one body.
 #[derive(Clone, Debug)]
 pub struct BodyEquations<'d> {
@@ -181,9 +191,19 @@ impl<'d> Equations<'d> {
         if refusal::refuse_unsupported(model, report)
             || refusal::refuse_unturned(model, report)
             || refusal::refuse_many_coordinates(model, report)
+            || refusal::refuse_many_constraints(model, report)
         {
             return None;
         }
+        // Whatever the machine: what is left undefined by the bound is refused below.
+        model.dag.set_limit(refusal::MOST_SIZE);
+        let equations = Equations::within_bounds(model, report);
+        model.dag.set_limit(usize::MAX);
+        equations
+    }
+
+    /// The same, while the size of the graph is bounded.
+    fn within_bounds(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         let approximations = Approximations::of(model);
         let derived = if approximations.is_empty() {
             exact(model)
@@ -205,8 +225,14 @@ impl<'d> Equations<'d> {
             return None;
         };
         equations.slopes = slopes;
-        equations.sliding = sliding::sliding(model, report)?;
+        if !model.dag.is_exhausted() {
+            equations.sliding = sliding::sliding(model, report)?;
+        }
         equations.reduction = reduction::reduction(model, &equations.constraints);
+        if model.dag.is_exhausted() {
+            refusal::refuse_large(model, report);
+            return None;
+        }
         let refused = refusal::refuse_undefined(model, &equations, report) || {
             let (matrix, constraints) = (&equations.mass_matrix, &equations.constraints);
             refusal::refuse_massless(model, matrix, constraints, report)

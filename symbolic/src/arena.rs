@@ -12,6 +12,13 @@ use crate::rational::Rational;
 /// The nodes, and a table that finds a node by its content without building it first.
 pub(crate) struct Arena {
     entries: Vec<Entry>,
+    /// How many operands the nodes have, all together.
+    operands: usize,
+    /// The most nodes and operands that there may be; beyond it every new sum, product and function
+    /// has no value.
+    limit: usize,
+    /// Whether a node was asked for beyond the limit.
+    pub(crate) exhausted: bool,
     /// Open addressing with linear probing; a power of two of slots, at most half of them taken.
     table: Vec<u32>,
     pub(crate) symbols: Vec<SymbolEntry>,
@@ -55,6 +62,9 @@ impl Arena {
     pub(crate) fn new() -> Arena {
         let mut arena = Arena {
             entries: Vec::new(),
+            operands: 0,
+            limit: usize::MAX,
+            exhausted: false,
             table: vec![EMPTY; 1024],
             symbols: Vec::new(),
             spare_terms: Vec::new(),
@@ -69,6 +79,16 @@ impl Arena {
 
     pub(crate) fn len(&self) -> usize {
         self.entries.len()
+    }
+
+    /// Nodes and operands: what memory and work of one pass over the graph are proportional to.
+    pub(crate) fn size(&self) -> usize {
+        self.entries.len() + self.operands
+    }
+
+    pub(crate) fn set_limit(&mut self, limit: usize) {
+        self.limit = limit;
+        self.exhausted = false;
     }
 
     pub(crate) fn node(&self, id: Id) -> &Node {
@@ -110,11 +130,14 @@ impl Arena {
 
     pub(crate) fn symbol(&mut self, name: &str, stage: Stage) -> Id {
         let symbol = Symbol(count(self.symbols.len()));
+        // Symbols are few, and whoever asks for one relies on it.
+        let limit = std::mem::replace(&mut self.limit, usize::MAX);
         let id = self.intern(
             fingerprint(&(1u8, symbol)),
             |_| false,
             || Node::Symbol(symbol),
         );
+        self.limit = limit;
         self.symbols.push(SymbolEntry {
             name: name.to_owned(),
             stage,
@@ -188,11 +211,16 @@ impl Arena {
         if let Some(id) = self.find(hash, same) {
             return id;
         }
+        if self.size() >= self.limit {
+            self.exhausted = true;
+            return Arena::UNDEFINED;
+        }
         if 2 * self.entries.len() >= self.table.len() {
             self.grow();
         }
         let id = Id(count(self.entries.len()));
         let entry = self.entry(id, hash, make());
+        self.operands += entry.node.operands();
         self.entries.push(entry);
         place(&mut self.table, hash, id.0);
         id

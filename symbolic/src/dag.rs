@@ -191,6 +191,17 @@ pub enum Node {
 }
 
 impl Node {
+    /// What it holds: its children, and the machine words of numbers that do not fit into one.
+    pub(crate) fn operands(&self) -> usize {
+        match self {
+            Node::Constant(value) => value.words(),
+            Node::Pi | Node::Symbol(_) => 0,
+            Node::Sum(terms) => terms.iter().map(|(_, c)| 1 + c.words()).sum(),
+            Node::Product(factors) => factors.len(),
+            Node::Function(_, arguments) => arguments.len(),
+        }
+    }
+
     /// Calls `visit` with every child.
     pub fn for_each_child(&self, mut visit: impl FnMut(Id)) {
         match self {
@@ -290,6 +301,36 @@ impl Dag {
     #[expect(clippy::len_without_is_empty, reason = "a graph always holds 0 and 1")]
     pub fn len(&self) -> usize {
         self.arena.borrow().len()
+    }
+
+    /// The number of nodes and of their operands: what memory, and the work of one pass over the
+    /// graph, are proportional to.
+    pub fn size(&self) -> usize {
+        self.arena.borrow().size()
+    }
+
+    /// Bounds the [size](Dag::size): whatever new node is asked for beyond it is undefined, and
+    /// [`is_exhausted`](Dag::is_exhausted) says so from then on. What stands already stays as it is.
+    /// A later call replaces the bound; `usize::MAX` lifts it.
+    ///
+    /// ```
+    /// use lagrangian_symbolic::{Dag, Stage};
+    ///
+    /// let dag = Dag::new();
+    /// let mut x = dag.symbol("x", Stage(3));
+    /// dag.set_limit(dag.size() + 100);
+    /// for _ in 0..1000 {
+    ///     x = x.sin();
+    /// }
+    /// assert!(dag.is_exhausted() && x.is_undefined());
+    /// ```
+    pub fn set_limit(&self, limit: usize) {
+        self.arena.borrow_mut().set_limit(limit);
+    }
+
+    /// Whether a node was asked for beyond the [limit](Dag::set_limit).
+    pub fn is_exhausted(&self) -> bool {
+        self.arena.borrow().exhausted
     }
 
     /// Every node, in order of construction.

@@ -82,6 +82,24 @@ pub fn evaluate<S: Scalar>(
         .collect()
 }
 
+/// The work of [`evaluate`]: nodes, operands, and the digits of what does not fit into a machine
+/// word, in units of about one arithmetic operation.
+pub fn evaluation_work(dag: &Dag, roots: &[Expr<'_>]) -> usize {
+    /// What a machine word of a large coefficient costs: it is brought to lowest terms.
+    const WORD: usize = 20;
+    let needed = crate::reachable(dag, roots);
+    let arena = dag.arena.borrow();
+    let digits = |value: &crate::rational::Rational| WORD * value.words();
+    let each = |id: &Id| match arena.node(*id) {
+        Node::Constant(value) => 1 + digits(value),
+        Node::Pi | Node::Symbol(_) => 1,
+        Node::Sum(terms) => terms.iter().map(|(_, c)| 1 + digits(c)).sum(),
+        Node::Product(factors) => factors.len(),
+        Node::Function(_, arguments) => 1 + arguments.len(),
+    };
+    needed.iter().map(each).sum()
+}
+
 /// The `f64` nearest to a constant, computed with twice its digits: `50*pi`, `1 - cos(0.01)`. Not a
 /// number where a symbol occurs or the constant has no value.
 ///

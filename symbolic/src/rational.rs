@@ -310,6 +310,18 @@ impl Rational {
         }
     }
 
+    /// How many machine words it takes on the heap; none where its digits fit into one each.
+    pub(crate) fn words(&self) -> usize {
+        match &self.0 {
+            Repr::Small(..) => 0,
+            Repr::Big(big) => {
+                // Two allocations and what stands before them.
+                const OVERHEAD: u64 = 12;
+                (OVERHEAD + (big.numerator.bits() + big.denominator.bits()) / 64) as usize
+            }
+        }
+    }
+
     /// The value by its digits, which may round at each.
     fn in_digits<S: Scalar>(&self) -> S {
         match &self.0 {

@@ -14,7 +14,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::{
-    Dag, Expr, Function, Node, Symbol, evaluate, reachable, reverse, substitute,
+    Dag, Expr, Function, Node, Symbol, evaluate, evaluation_work, reachable, reverse, substitute,
 };
 
 use crate::model::stage;
@@ -29,9 +29,9 @@ const EXPERIMENTS_WITH_SIGNS: usize = 64;
 /// Experiments that are tried for each one that counts: a square root exists at every second point.
 const TRIALS: usize = 16;
 
-/// Evaluations of nodes that experiments on one machine may take: some seconds. What is left open
-/// then stays as it is.
-const WORK: usize = 10_000_000;
+/// The [work](evaluation_work) that experiments on one machine may take: some seconds. What is left
+/// open then stays as it is.
+const WORK: usize = 30_000_000;
 
 /// Whether the two are equal, as far as the prime field can tell; `None` where neither has a value
 /// at any point.
@@ -273,7 +273,7 @@ pub(super) fn irrelevant<'d>(
 ) -> Vec<Symbol> {
     let nodes = reachable(dag, expressions);
     let needed = experiments(dag, expressions);
-    if nodes.len().saturating_mul(needed * cyclic.len()) > WORK {
+    if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK {
         return Vec::new();
     }
     let mut agreeing = 0;
@@ -340,7 +340,7 @@ fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
             ..Trial::default()
         })
         .collect();
-    let mut left = WORK / reachable(dag, expressions).len().max(1);
+    let mut left = WORK / evaluation_work(dag, expressions).max(1);
     for seed in 0..(TRIALS * needed) as u64 {
         let is_open = |&i: &usize| !trials[i].varies && trials[i].agreeing < needed;
         let open: Vec<usize> = (0..expressions.len()).filter(is_open).collect();

@@ -108,9 +108,9 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
 /// eliminating it takes three million operations.
 pub const MOST_COORDINATES: usize = 256;
 
-/// The most nodes that the expressions of a machine may have; 256 links in relative angles take
-/// half a million.
-const MOST_NODES: usize = 1_500_000;
+/// The most nodes and operands that the expressions of a machine may have: an operand takes 8 to 24
+/// bytes, a node 64, so that they stay below half a gigabyte.
+pub(super) const MOST_SIZE: usize = 4_000_000;
 
 /// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
 /// if refused.
@@ -125,15 +125,32 @@ pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) ->
     true
 }
 
+/// The most equations of constraints, of which those of circles that roll are two each.
+const MOST_CONSTRAINTS: usize = 256;
+
+/// Refuses machines of more than [`MOST_CONSTRAINTS`] constraints, at the first one too many. True
+/// if refused.
+pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) -> bool {
+    let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
+    let spans = model.constraints.iter().map(|c| c.span).chain(rolling);
+    let Some(span) = spans.clone().nth(MOST_CONSTRAINTS) else {
+        return false;
+    };
+    let message = format!("{} equations of constraints are too many", spans.count());
+    let help = format!("a machine may have {MOST_CONSTRAINTS} of them");
+    report.push(Diagnostic::new(Code::TooLarge, span, message).help(help));
+    true
+}
+
 /// Whether the expressions have outgrown every machine that could be run.
 pub(super) fn is_too_large(model: &Model<'_>) -> bool {
-    model.dag.len() > MOST_NODES
+    model.dag.is_exhausted()
 }
 
 /// Says that the equations are too large.
-pub(super) fn refuse_large(model: &Model<'_>, report: &mut Report) {
+pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
     let message = "the equations of this machine are too large to be derived";
-    let help = format!("written out they may have {MOST_NODES} terms");
+    let help = format!("written out they may have {MOST_SIZE} terms and factors");
     report.push(Diagnostic::new(Code::TooLarge, model.span, message).help(help));
 }
 

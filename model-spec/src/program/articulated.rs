@@ -45,6 +45,13 @@ use crate::model::Model;
 /// way.
 const BUDGET: usize = 40_000;
 
+/// How many nodes and operands may be made for each one that inertia and loads consist of. What
+/// grows more is coupled too densely to be eliminated along itself.
+const GROWTH: usize = 32;
+
+/// Growth that is granted to the smallest machine.
+const LEAST_GROWTH: usize = 200_000;
+
 /// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
 /// their coordinates.
 pub(super) struct Solution<'d> {
@@ -60,6 +67,27 @@ pub(super) struct Solution<'d> {
 
 /// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
 pub(super) fn solve<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    order: Order,
+) -> Option<Solution<'d>> {
+    within_bounds(model.dag, machine, || eliminated(model, machine, order))
+}
+
+/// What `derive` makes of a machine; `None` where the graph grows too much on the way.
+fn within_bounds<'d, T>(
+    dag: &'d Dag,
+    machine: &Unprojected<'d>,
+    derive: impl FnOnce() -> Option<T>,
+) -> Option<T> {
+    dag.set_limit(dag.size() + LEAST_GROWTH + GROWTH * machine.size(dag));
+    let derived = derive();
+    let is_whole = !dag.is_exhausted();
+    dag.set_limit(usize::MAX);
+    derived.filter(|_| is_whole)
+}
+
+fn eliminated<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
     order: Order,
@@ -122,6 +150,13 @@ pub(super) fn mass_matrix<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
 ) -> Option<Vec<Expr<'d>>> {
+    within_bounds(model.dag, machine, || composite_inertia(model, machine))
+}
+
+fn composite_inertia<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+) -> Option<Vec<Expr<'d>>> {
     let unloaded = Unprojected {
         inertia: machine.inertia.clone(),
         loads: Vec::new(),
@@ -130,7 +165,7 @@ pub(super) fn mass_matrix<'d>(
     let mut front = Front::of(model, &unloaded, false);
     front.totals.expands = false;
     while let Some(id) = front.next_to_replace() {
-        if front.terms > BUDGET {
+        if front.is_too_long() {
             return None;
         }
         let group = front.group(id)?;
@@ -580,9 +615,14 @@ impl<'d> Front<'d> {
         (own, others, self.loads.remove(&id).unwrap_or_default())
     }
 
+    /// Whether the elimination has taken more than any machine for which it is the better way.
+    fn is_too_long(&self) -> bool {
+        self.terms > BUDGET || self.dag.is_exhausted()
+    }
+
     /// The next step; `None` inside once the front is empty.
     fn next(&mut self) -> Option<Option<Vec<Step<'d>>>> {
-        if self.terms > BUDGET {
+        if self.is_too_long() {
             return None;
         }
         let is_free =

@@ -24,6 +24,10 @@ const LONGEST_SUM: usize = 512;
 /// How deep factors are taken out of what others were taken out of.
 const DEEPEST: usize = 48;
 
+/// How many factors may be looked at in one function, counted anew for each one that is taken out.
+/// Where it takes more, the sums after that stay as they are.
+const LOOKS: usize = 2_000_000;
+
 /// A term of a sum.
 struct Monomial {
     /// Its factors by index, repeated for powers; of a term that is no product of its own, the
@@ -54,6 +58,7 @@ impl Net {
     pub(super) fn factor(&mut self) -> bool {
         let uses = self.uses();
         let mut changed = false;
+        let mut looks = LOOKS;
         for index in 0..self.items.len() {
             let Item::Sum(terms) = &self.items[index] else {
                 continue;
@@ -62,11 +67,11 @@ impl Net {
                 .iter()
                 .map(|&term| self.monomial(term, &uses))
                 .collect();
-            if monomials.len() > LONGEST_SUM || most_common(&monomials, self).is_none() {
+            if monomials.len() > LONGEST_SUM || self.most_common(&monomials, &mut looks).is_none() {
                 continue;
             }
             changed = true;
-            let terms = self.factored(monomials, 0);
+            let terms = self.factored(monomials, 0, &mut looks);
             let terms: Vec<Signed> = terms.into_iter().map(|term| self.written(term)).collect();
             self.items[index] = match *terms.as_slice() {
                 // All of it is one product; its item is nobody else's.
@@ -121,9 +126,14 @@ impl Net {
     }
 
     /// The same sum with common factors taken out.
-    fn factored(&mut self, mut terms: Vec<Monomial>, depth: usize) -> Vec<Monomial> {
+    fn factored(
+        &mut self,
+        mut terms: Vec<Monomial>,
+        depth: usize,
+        looks: &mut usize,
+    ) -> Vec<Monomial> {
         while depth < DEEPEST
-            && let Some(factor) = most_common(&terms, self)
+            && let Some(factor) = self.most_common(&terms, looks)
         {
             let has = |term: &Monomial| term.is_product() && term.factors.contains(&factor);
             let (mut inside, outside) = terms.into_iter().partition::<Vec<_>, _>(has);
@@ -140,7 +150,7 @@ impl Net {
             }
             let negative = inside.iter().all(|term| term.negative);
             inside.iter_mut().for_each(|term| term.negative ^= negative);
-            let inside = self.factored(inside, depth + 1);
+            let inside = self.factored(inside, depth + 1, looks);
             match <[Monomial; 1]>::try_from(inside) {
                 Ok([product]) => {
                     common.extend(product.factors);
@@ -156,6 +166,23 @@ impl Net {
             }
         }
         terms
+    }
+
+    /// The factor that most products among the terms have, if two have one: of several, the one known
+    /// last, then the oldest. None once so many factors have been looked at.
+    fn most_common(&self, terms: &[Monomial], looks: &mut usize) -> Option<Index> {
+        let factors: usize = terms.iter().map(|term| term.factors.len()).sum();
+        *looks = looks.checked_sub(factors)?;
+        let mut counts: FxHashMap<Index, u32> = FxHashMap::default();
+        for term in terms.iter().filter(|term| term.is_product()) {
+            for group in term.factors.chunk_by(|a, b| a == b) {
+                *counts.entry(group[0]).or_default() += 1;
+            }
+        }
+        let common = counts.into_iter().filter(|(_, count)| *count > 1);
+        let best = common
+            .max_by_key(|&(factor, count)| (count, self.stages[factor as usize], Reverse(factor)));
+        best.map(|(factor, _)| factor)
     }
 
     /// A term as an item.
@@ -181,19 +208,4 @@ impl Monomial {
             item: None,
         }
     }
-}
-
-/// The factor that most products among the terms have, if two have one: of several, the one known
-/// last, then the oldest.
-fn most_common(terms: &[Monomial], net: &Net) -> Option<Index> {
-    let mut counts: FxHashMap<Index, u32> = FxHashMap::default();
-    for term in terms.iter().filter(|term| term.is_product()) {
-        for group in term.factors.chunk_by(|a, b| a == b) {
-            *counts.entry(group[0]).or_default() += 1;
-        }
-    }
-    let common = counts.into_iter().filter(|(_, count)| *count > 1);
-    let best =
-        common.max_by_key(|&(factor, count)| (count, net.stages[factor as usize], Reverse(factor)));
-    best.map(|(factor, _)| factor)
 }

@@ -596,7 +596,7 @@ impl Planned {
     fn drafts(self, graph: &mut Graph, basis: Basis) -> Vec<Draft> {
         let net = self.net(graph, true);
         let mut factored = net.clone();
-        let has_factors = factored.factor();
+        let has_factors = net.size() <= LARGEST_FACTORED && factored.factor();
         let mut drafts = vec![self.draft(net, basis, false)];
         if has_factors {
             drafts.push(self.draft(factored, basis, true));
@@ -777,7 +777,8 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
         let elimination = Elimination::of(&lowering.graph, &system);
         // What is certainly longer is not even written down: it grows with the cube of the number
         // of coordinates.
-        if shortest.is_some_and(|ops| elimination.multiplications > ops) {
+        let most = shortest.map_or(MOST_MULTIPLICATIONS, |ops| ops.min(MOST_MULTIPLICATIONS));
+        if elimination.multiplications > most {
             continue;
         }
         let solution = solve::solve(&mut lowering.graph, &system, elimination);
@@ -809,6 +810,13 @@ fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
     let halvings = -tolerance.log2().ceil() as i32;
     Some(dag.sum(squares) / dag.int(2).powi(halvings))
 }
+
+/// The most operands in a function for which a second way is tried: beyond it, each takes a second.
+const LARGEST_FACTORED: usize = 200_000;
+
+/// The most multiplications of an elimination that is written down: every one is an instruction, and
+/// takes 2 kB until it is one. 90 coordinates that all depend on each other take as many.
+const MOST_MULTIPLICATIONS: usize = 150_000;
 
 /// A solution for the coordinates that are left, as one for all coordinates.
 fn embedded<'d>(
@@ -921,7 +929,7 @@ fn multipliers<'d>(
         shortest
     };
     let shortest = along.and_then(|(basis, solution)| draft(lowering, basis, solution));
-    if shortest.is_none_or(|ops| work <= ops) {
+    if work <= shortest.unwrap_or(MOST_MULTIPLICATIONS) {
         let solution = solve::solve(&mut lowering.graph, &system, elimination);
         draft(lowering, basis, solution);
     }

@@ -85,6 +85,15 @@ impl Net {
         net
     }
 
+    /// How many operands all items have together.
+    pub(super) fn size(&self) -> usize {
+        let mut size = 0;
+        for item in &self.items {
+            operands(item, |_| size += 1);
+        }
+        size
+    }
+
     fn add_node(
         &mut self,
         graph: &Graph,

@@ -21,6 +21,11 @@ use super::net::{Index, Item, Net, Stage};
 /// needs 20 000.
 const BUDGET: usize = 1 << 18;
 
+/// The share of the budget that may go into counting the pairs that there are at the start. Bags of
+/// more pairs than that leaves room for are not looked at: the table of a bag of n members has
+/// n²/2 pairs.
+const COUNTING: usize = BUDGET / 2;
+
 impl Net {
     /// Finds common pairs of factors, then of terms.
     pub(super) fn share_pairs(&mut self) {
@@ -133,8 +138,13 @@ impl Bags {
 
     fn run(&mut self, net: &mut Net) {
         for bag in 0..self.bags.len() {
-            self.count_pairs(bag, net, Change::Enter);
+            let members = self.bags[bag].members.len();
+            if self.changes + members * (members + 1) / 2 <= COUNTING {
+                self.count_pairs(bag, net, Change::Enter);
+            }
         }
+        // Until all are counted, ranks are of no use.
+        self.queue.clear();
         let counted = self.pairs.iter().filter(|(_, uses)| uses.count > 1);
         self.queue = counted
             .map(|(&pair, uses)| rank(pair, uses.count, net))

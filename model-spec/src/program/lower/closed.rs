@@ -12,7 +12,7 @@
 use super::super::Shape;
 use super::super::graph::{Graph, Scaled};
 use super::super::solve::{self, Elimination, Pivot, Solution, System};
-use super::{Lowering, derivatives};
+use super::{Lowering, MOST_MULTIPLICATIONS, derivatives};
 use crate::mechanics::Unprojected;
 use crate::model::Model;
 
@@ -26,8 +26,10 @@ pub(super) fn solve<'d>(
 ) -> Option<Solution> {
     let n = system.coordinates;
     let count = system.forces.len() - n;
-    // Each column has an entry for each coordinate at least.
-    if count * n > Elimination::of(&lowering.graph, system).multiplications {
+    // Each column has an entry for each coordinate at least, and the multipliers take an elimination
+    // of their own.
+    let least = count * n + count * count * count / 6;
+    if least > Elimination::of(&lowering.graph, system).multiplications || least > MOST_MULTIPLICATIONS {
         return None;
     }
     let start = Shape::index(n, 0);
