@@ -158,8 +158,14 @@ impl<'d> InertialPair<'d> {
 impl<'d> Unprojected<'d> {
     /// The nodes of inertia and loads, and their operands.
     pub(crate) fn size(&self, dag: &'d Dag) -> usize {
-        let inertia = self.inertia.iter().flat_map(|pair| [pair.u, pair.w, pair.weight]);
-        let loads = self.loads.iter().flat_map(|&(velocity, load)| [velocity, load]);
+        let inertia = self
+            .inertia
+            .iter()
+            .flat_map(|pair| [pair.u, pair.w, pair.weight]);
+        let loads = self
+            .loads
+            .iter()
+            .flat_map(|&(velocity, load)| [velocity, load]);
         let all: Vec<Expr<'d>> = inertia.chain(loads).collect();
         lagrangian_symbolic::evaluation_work(dag, &all)
     }

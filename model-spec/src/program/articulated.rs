@@ -153,10 +153,7 @@ pub(super) fn mass_matrix<'d>(
     within_bounds(model.dag, machine, || composite_inertia(model, machine))
 }
 
-fn composite_inertia<'d>(
-    model: &Model<'d>,
-    machine: &Unprojected<'d>,
-) -> Option<Vec<Expr<'d>>> {
+fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Vec<Expr<'d>>> {
     let unloaded = Unprojected {
         inertia: machine.inertia.clone(),
         loads: Vec::new(),

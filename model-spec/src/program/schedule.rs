@@ -238,7 +238,10 @@ impl Builder {
             _ => return None,
         };
         let subtrahend = if is_difference {
-            self.op(Op::Neg(b))
+            match &self.code[b.index()] {
+                Op::Constant(constant) => self.op(Op::Constant(-constant)),
+                _ => self.op(Op::Neg(b)),
+            }
         } else {
             b
         };

@@ -111,7 +111,8 @@ impl Program {
     }
 }
 
-/// No operation has operands that are all constants or prepared values.
+/// No operation has operands that are all constants or prepared values, but for the sign that the
+/// error of a rounded difference needs: it costs less than one more prepared value.
 fn no_work_left_for_prepare(code: &[Op]) -> Result<(), String> {
     let known = |value: Value| {
         matches!(
@@ -119,7 +120,9 @@ fn no_work_left_for_prepare(code: &[Op]) -> Result<(), String> {
             Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_))
         )
     };
-    let idle = |op: &&Op| op.operands().next().is_some() && op.operands().all(known);
+    let is_sign = |op: &Op| matches!(op, Op::Neg(a) if !matches!(code[a.index()], Op::Constant(_)));
+    let idle =
+        |op: &&Op| op.operands().next().is_some() && op.operands().all(known) && !is_sign(op);
     match code.iter().find(idle) {
         Some(op) => Err(format!("{op:?} could have been prepared")),
         None => Ok(()),

@@ -29,7 +29,9 @@ pub(super) fn solve<'d>(
     // Each column has an entry for each coordinate at least, and the multipliers take an elimination
     // of their own.
     let least = count * n + count * count * count / 6;
-    if least > Elimination::of(&lowering.graph, system).multiplications || least > MOST_MULTIPLICATIONS {
+    if least > Elimination::of(&lowering.graph, system).multiplications
+        || least > MOST_MULTIPLICATIONS
+    {
         return None;
     }
     let start = Shape::index(n, 0);
