@@ -34,7 +34,7 @@ pub(crate) mod refusal;
 mod sliding;
 mod symmetric;
 
-use lagrangian_symbolic::{Dag, Expr, Node, Symbol, normal};
+use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
 pub use brachistochrone::{Brachistochronic, Guided, Unmet};
 pub use carrying::Carrying;
@@ -152,22 +152,6 @@ impl<'d> InertialPair<'d> {
             weight,
             fall: None,
         }
-    }
-}
-
-impl<'d> Unprojected<'d> {
-    /// The nodes of inertia and loads, and their operands.
-    pub(crate) fn size(&self, dag: &'d Dag) -> usize {
-        let inertia = self
-            .inertia
-            .iter()
-            .flat_map(|pair| [pair.u, pair.w, pair.weight]);
-        let loads = self
-            .loads
-            .iter()
-            .flat_map(|&(velocity, load)| [velocity, load]);
-        let all: Vec<Expr<'d>> = inertia.chain(loads).collect();
-        lagrangian_symbolic::evaluation_work(dag, &all)
     }
 }
 

@@ -45,12 +45,9 @@ use crate::model::Model;
 /// way.
 const BUDGET: usize = 40_000;
 
-/// How many nodes and operands may be made for each one that inertia and loads consist of. What
-/// grows more is coupled too densely to be eliminated along itself.
-const GROWTH: usize = 32;
-
-/// Growth that is granted to the smallest machine.
-const LEAST_GROWTH: usize = 200_000;
+/// How many nodes and operands may be made on the way. What grows more is coupled too densely to be
+/// eliminated along itself.
+const MOST_GROWTH: usize = 2_000_000;
 
 /// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
 /// their coordinates.
@@ -71,16 +68,12 @@ pub(super) fn solve<'d>(
     machine: &Unprojected<'d>,
     order: Order,
 ) -> Option<Solution<'d>> {
-    within_bounds(model.dag, machine, || eliminated(model, machine, order))
+    within_bounds(model.dag, || eliminated(model, machine, order))
 }
 
 /// What `derive` makes of a machine; `None` where the graph grows too much on the way.
-fn within_bounds<'d, T>(
-    dag: &'d Dag,
-    machine: &Unprojected<'d>,
-    derive: impl FnOnce() -> Option<T>,
-) -> Option<T> {
-    dag.set_limit(dag.size() + LEAST_GROWTH + GROWTH * machine.size(dag));
+fn within_bounds<T>(dag: &Dag, derive: impl FnOnce() -> Option<T>) -> Option<T> {
+    dag.set_limit(dag.size() + MOST_GROWTH);
     let derived = derive();
     let is_whole = !dag.is_exhausted();
     dag.set_limit(usize::MAX);
@@ -150,7 +143,7 @@ pub(super) fn mass_matrix<'d>(
     model: &Model<'d>,
     machine: &Unprojected<'d>,
 ) -> Option<Vec<Expr<'d>>> {
-    within_bounds(model.dag, machine, || composite_inertia(model, machine))
+    within_bounds(model.dag, || composite_inertia(model, machine))
 }
 
 fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Vec<Expr<'d>>> {
