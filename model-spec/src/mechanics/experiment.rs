@@ -271,7 +271,6 @@ pub(super) fn irrelevant<'d>(
     expressions: &[Expr<'d>],
     mut cyclic: Vec<Symbol>,
 ) -> Vec<Symbol> {
-    let nodes = reachable(dag, expressions);
     let needed = experiments(dag, expressions);
     if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK {
         return Vec::new();
