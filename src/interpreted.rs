@@ -914,7 +914,7 @@ fn labels(slots: &[Slot]) -> Arc<[Label]> {
         .iter()
         .map(|slot| Label {
             name: slot.name.to_string(),
-            unit: slot.unit.to_string(),
+            unit: slot.label(),
         })
         .collect()
 }

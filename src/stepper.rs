@@ -464,7 +464,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     }
 
     /// The error that a step may make in a coordinate, or in its rate, of this size.
-    #[cfg(feature = "std")]
     pub(crate) fn tolerable(&self, coordinate: usize, size: f64) -> f64 {
         let Tolerance { relative, absolute } = &self.tolerance;
         absolute.as_slice()[coordinate] + relative * size.abs()
@@ -951,12 +950,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         }
         let numbers = 2 * self.now.q.as_slice().len();
         sqrt(fine * (fine / denominator) / numbers as f64)
-    }
-
-    /// What is tolerable in a number of a coordinate.
-    fn tolerable(&self, coordinate: usize, size: f64) -> f64 {
-        let Tolerance { relative, absolute } = &self.tolerance;
-        absolute.as_slice()[coordinate] + relative * size
     }
 
     /// How far the step just tried was moved onto the constraints, in the norm of its

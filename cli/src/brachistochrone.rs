@@ -43,7 +43,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         coordinates: Vec::new(),
         rates: Vec::new(),
     };
-    let machine = reading::machine(compiled.program.clone(), &start)?;
+    let machine = reading::machine(&compiled, &start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",

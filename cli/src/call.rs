@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lagrangian::LEAST_RELATIVE_TOLERANCE;
+use lagrangian_spec::token::normalized;
 use lagrangian_symbolic::Rational;
 
 /// Machines written down as specs: their equations, their numbers, their motion.
@@ -134,6 +135,12 @@ pub struct Start {
 pub struct Check {
     #[command(flatten)]
     pub spec: Spec,
+    /// Exit with status 1 where there are warnings.
+    #[arg(long)]
+    pub deny_warnings: bool,
+    /// Exit with status 1 where a published formula differs from the derived one.
+    #[arg(long)]
+    pub strict: bool,
 }
 
 /// Arguments of `derive`.
@@ -313,7 +320,7 @@ fn assignment(text: &str) -> Result<Assignment, String> {
         return Err("expected a name before `=`".into());
     }
     Ok(Assignment {
-        name: name.into(),
+        name: normalized(name).into_owned(),
         value: number(value)?,
     })
 }
@@ -330,7 +337,7 @@ fn constant(text: &str) -> Result<(String, Rational), String> {
         return Err("expected a name before `=`".into());
     }
     match Rational::parse_decimal(digits) {
-        Some(value) => Ok((name.to_owned(), &value * &sign)),
+        Some(value) => Ok((normalized(name).into_owned(), &value * &sign)),
         None => Err(format!("`{value}` is not a number (as in 8, 2.5, 1e-3)")),
     }
 }

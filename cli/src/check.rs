@@ -1,15 +1,16 @@
 //! `lagrangian check`: everything that is wrong with a spec, and printed equations against the
 //! derived ones.
 
-use lagrangian_spec::compare::{self, Comparison};
+use lagrangian_spec::compare::{self, Comparison, Quoted};
 use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::mechanics::{Freedom, Independent, freedom as freedom_of};
 use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use serde::Serialize;
 use serde_json::json;
 
 use crate::call;
-use crate::diagnostics::{self, Entry};
+use crate::diagnostics::{self, Entry, counted};
 use crate::failure::Failure;
 use crate::output;
 use crate::reading::Reading;
@@ -24,6 +25,11 @@ struct Published {
     add: Vec<String>,
     /// Terms to drop from the print.
     drop: Vec<String>,
+    /// On which side of an equals sign each of `add` belongs, with the sign that it has there; empty
+    /// where there are no two sides.
+    add_side: Vec<&'static str>,
+    /// On which side each of `drop` stands.
+    drop_side: Vec<&'static str>,
     /// Those of the terms to drop that become one of the terms to add by a slip.
     change: Vec<Change>,
     /// Where the print adds what has different units.
@@ -33,21 +39,26 @@ struct Published {
 /// A term of the print with a slip in it.
 #[derive(Debug, Serialize)]
 struct Change {
-    /// The term, which is among those to drop.
+    /// The term, which is among those to drop; or a rate that is zero, where a dot is too much.
     from: String,
     /// The term as it should be, which is among those to add.
     to: String,
+    /// On which side of the equals sign; none where there are no two sides.
+    side: Option<&'static str>,
 }
 
 /// Runs the command.
 ///
 /// # Errors
-/// If the spec is wrong. A print that is wrong is a result, and no error.
+/// If the spec is wrong. A print that is wrong is a result, and so are warnings: they are errors if
+/// the call says so.
 pub fn run(call: &call::Check) -> Result<(), Failure> {
     let dag = Dag::new();
     let mut reading = Reading::open(&call.spec)?;
     let model = reading.model(&dag);
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
+    let freedom = compiled.as_ref();
+    let freedom = freedom.map(|compiled| freedom_of(&compiled.model, &compiled.equations));
     let comparisons = match &compiled {
         Some(compiled) => compare::compare(&compiled.model, &compiled.equations),
         None => Vec::new(),
@@ -60,69 +71,150 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
         let entries = diagnostics::entries(&reading.report, &reading.sources);
         output::line(format_args!(
             "{:#}",
-            json!({ "diagnostics": entries, "published": published })
+            json!({ "diagnostics": entries, "freedom": freedom.map(Degrees::new), "published": published })
         ));
     } else {
         diagnostics::print(&reading.report, &reading.sources);
-        if let Some(compiled) = &compiled {
-            summarize(compiled);
+        if let (Some(compiled), Some(freedom)) = (&compiled, freedom) {
+            summarize(compiled, freedom, reading.report.warnings().len());
         }
         for block in published.chunk_by(|a, b| a.block == b.block) {
             block.iter().for_each(print);
             conclude(block);
         }
     }
-    if reading.report.has_errors() {
+    let differs = published.iter().any(|formula| !formula.agrees);
+    let is_denied =
+        (call.strict && differs) || (call.deny_warnings && !reading.report.warnings().is_empty());
+    if reading.report.has_errors() || is_denied {
         Err(Failure::Said)
     } else {
         Ok(())
     }
 }
 
-fn summarize(compiled: &Compiled) {
+fn summarize(compiled: &Compiled, freedom: Freedom, warnings: usize) {
     let model = &compiled.model;
     output::line(format_args!(
-        "{}: {}, {}, {}; nothing is wrong",
+        "{}: {}, {}{}, {}; {}",
         model.name,
         counted(model.coordinates.len(), "coordinate", "coordinates"),
+        constrained(freedom),
         counted(model.bodies.len(), "body", "bodies"),
         counted(model.parameters.len(), "parameter", "parameters"),
+        match warnings {
+            0 => "nothing is wrong".to_owned(),
+            warnings => counted(warnings, "warning", "warnings"),
+        },
     ));
 }
 
-fn counted(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
+/// Constraints and degrees of freedom, where there are constraints.
+fn constrained(freedom: Freedom) -> String {
+    if freedom.constraints == 0 {
+        return String::new();
+    }
+    let mut text = counted(freedom.constraints, "constraint", "constraints");
+    if let (Some(Independent { generic, at_start }), Some(degrees)) =
+        (freedom.independent, freedom.degrees())
+    {
+        if generic < freedom.constraints {
+            text.push_str(&format!(" ({generic} independent)"));
+        }
+        if at_start < generic {
+            text.push_str(&format!(" ({at_start} independent at the start)"));
+        }
+        let degrees = counted(degrees, "degree", "degrees");
+        text.push_str(&format!(", {degrees} of freedom"));
+    }
+    text + ", "
+}
+
+/// The freedom of a machine, in `check --json`; null where it is not known.
+#[derive(Debug, Serialize)]
+struct Degrees {
+    coordinates: usize,
+    constraints: usize,
+    independent: Option<usize>,
+    independent_at_start: Option<usize>,
+    degrees_of_freedom: Option<usize>,
+}
+
+impl Degrees {
+    fn new(freedom: Freedom) -> Degrees {
+        let (independent, at_start) = match (freedom.constraints, freedom.independent) {
+            (0, _) => (Some(0), Some(0)),
+            (_, known) => (
+                known.map(|known| known.generic),
+                known.map(|known| known.at_start),
+            ),
+        };
+        Degrees {
+            coordinates: freedom.coordinates,
+            constraints: freedom.constraints,
+            independent,
+            independent_at_start: at_start,
+            degrees_of_freedom: freedom.degrees(),
+        }
+    }
 }
 
 impl Published {
     fn new(comparison: Comparison<'_>, sources: &Sources) -> Published {
-        let (add, drop) = (comparison.add(), comparison.drop());
+        let terms = comparison.terms();
+        let has_sides = comparison.has_two_sides();
+        let side = |term: &Quoted| match term.on_the_right {
+            true => "right",
+            false => "left",
+        };
+        let sides = |terms: &[Quoted]| match has_sides {
+            true => terms.iter().map(side).collect(),
+            false => Vec::new(),
+        };
+        let [add_side, drop_side] = [sides(&terms[0]), sides(&terms[1])];
+        let [add, drop] = terms.map(|terms| {
+            let texts = terms.into_iter().map(|term| term.text);
+            texts.collect::<Vec<String>>()
+        });
         let change = |(from, to): (usize, usize)| Change {
             from: drop[from].clone(),
             to: add[to].clone(),
+            side: drop_side.get(from).copied(),
         };
+        let undotted = comparison.undotted.iter().map(|undotted| Change {
+            from: undotted.from.clone(),
+            to: undotted.to.clone(),
+            side: None,
+        });
         let remarks = comparison.remarks.iter();
         Published {
-            change: comparison.changes().into_iter().map(change).collect(),
+            change: undotted
+                .chain(comparison.changes().into_iter().map(change))
+                .collect(),
             remarks: remarks
                 .map(|remark| diagnostics::entry(remark, sources))
                 .collect(),
             add,
             drop,
+            add_side,
+            drop_side,
             block: comparison.block,
             item: comparison.item,
             agrees: comparison.agrees,
         }
     }
 
-    /// Terms of a list that no change accounts for.
+    /// Terms of a list that no change accounts for, with a word on where they stand.
     fn left<'a>(
         &'a self,
         list: &'a [String],
-        side: fn(&Change) -> &String,
-    ) -> impl Iterator<Item = &'a String> {
-        let is_changed = move |term: &String| self.change.iter().any(|c| side(c) == term);
-        list.iter().filter(move |term| !is_changed(term))
+        sides: &'a [&'static str],
+        of: fn(&Change) -> &String,
+    ) -> impl Iterator<Item = (&'a String, String)> {
+        let is_changed = move |term: &String| self.change.iter().any(|c| of(c) == term);
+        let list = list.iter().enumerate();
+        list.filter(move |(_, term)| !is_changed(term))
+            .map(|(k, term)| (term, on(sides.get(k).copied())))
     }
 }
 
@@ -134,18 +226,24 @@ fn print(published: &Published) {
         "differs"
     };
     output::line(format_args!("{block}: {item}: {verdict}"));
-    for Change { from, to } in &published.change {
-        output::line(format_args!("    change {from} to {to}"));
+    for Change { from, to, side } in &published.change {
+        let on = on(*side);
+        output::line(format_args!("    change {from} to {to}{on}"));
     }
-    for term in published.left(&published.drop, |change| &change.from) {
-        output::line(format_args!("    drop {term}"));
+    for (term, on) in published.left(&published.drop, &published.drop_side, |c| &c.from) {
+        output::line(format_args!("    drop {term}{on}"));
     }
-    for term in published.left(&published.add, |change| &change.to) {
-        output::line(format_args!("    add {term}"));
+    for (term, on) in published.left(&published.add, &published.add_side, |c| &c.to) {
+        output::line(format_args!("    add {term}{on}"));
     }
     for remark in &published.remarks {
         output::line(format_args!("    units: {remark}"));
     }
+}
+
+/// Where a term stands.
+fn on(side: Option<&str>) -> String {
+    side.map_or_else(String::new, |side| format!(" on the {side}"))
 }
 
 /// How many formulas of a block are wrong.

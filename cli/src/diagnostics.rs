@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::IsTerminal;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
-use lagrangian_spec::diagnostic::{Diagnostic, Report};
+use lagrangian_spec::diagnostic::{Diagnostic, Report, Severity};
 use lagrangian_spec::source::{Sources, Span};
 use serde::Serialize;
 
@@ -13,6 +13,7 @@ use crate::output;
 /// One diagnostic in `check --json`.
 #[derive(Debug, Serialize)]
 pub struct Entry {
+    severity: &'static str,
     code: &'static str,
     message: String,
     help: Option<String>,
@@ -21,9 +22,9 @@ pub struct Entry {
     column: usize,
 }
 
-/// The diagnostics of a report, in the order of their places.
+/// The errors and warnings of a report, in the order of their places.
 pub fn entries(report: &Report, sources: &Sources) -> Vec<Entry> {
-    let diagnostics = report.diagnostics().into_iter();
+    let diagnostics = report.messages().into_iter();
     diagnostics
         .map(|diagnostic| entry(diagnostic, sources))
         .collect()
@@ -33,6 +34,7 @@ pub fn entries(report: &Report, sources: &Sources) -> Vec<Entry> {
 pub fn entry(diagnostic: &Diagnostic, sources: &Sources) -> Entry {
     let (line, column) = sources.line_column(diagnostic.span);
     Entry {
+        severity: diagnostic.code.severity().as_str(),
         code: diagnostic.code.as_str(),
         message: diagnostic.message.clone(),
         help: diagnostic.help.clone(),
@@ -63,19 +65,44 @@ pub fn print(report: &Report, sources: &Sources) {
     } else {
         Renderer::plain()
     };
-    for diagnostic in report.diagnostics() {
+    for diagnostic in report.messages() {
         output::complain(format_args!("{}\n", render(diagnostic, sources, &renderer)));
     }
-    match report.diagnostics().len() + report.omitted() {
-        0 => {}
-        1 => output::complain("1 error"),
-        errors => output::complain(format_args!("{errors} errors")),
+    let errors = report.diagnostics().len() + report.omitted();
+    if errors > 0 {
+        output::complain(counted(errors, "error", "errors"));
     }
+}
+
+/// Whether something is to be said of parameters that a call gives; the first error, in the words
+/// of the spec, is returned, and warnings are printed.
+///
+/// # Errors
+/// What a machine cannot have: a negative mass.
+pub fn refused(said: &[Diagnostic]) -> Result<(), String> {
+    for diagnostic in said {
+        match diagnostic.code.severity() {
+            Severity::Error => return Err(format!("{} [{}]", diagnostic.message, diagnostic.code)),
+            Severity::Warning => {
+                output::complain(format_args!("warning: {}", diagnostic.message));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `1 error`, `2 errors`.
+pub fn counted(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
 }
 
 fn render(diagnostic: &Diagnostic, sources: &Sources, renderer: &Renderer) -> String {
     let title = format!("{} [{}]", diagnostic.message, diagnostic.code);
-    let mut group = Group::with_title(Level::ERROR.primary_title(&title)).element(snippet(
+    let level = match diagnostic.code.severity() {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+    };
+    let mut group = Group::with_title(level.primary_title(&title)).element(snippet(
         sources,
         diagnostic.span,
         AnnotationKind::Primary,

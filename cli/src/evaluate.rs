@@ -9,15 +9,18 @@ use lagrangian::{
     ContactForce, Error, Machine, Pivot, State, StepError, System, check_equations, contact_forces,
     least_multipliers,
 };
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::Dag;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::call;
 use crate::contacts;
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output;
-use crate::reading;
 pub use crate::reading::set_start;
+use crate::reading::{self, Reading};
 use points::{Entry, Numbers, Point};
 
 /// The numbers at a state.
@@ -48,7 +51,9 @@ struct Numbered {
 /// If the spec is wrong or the points are no list of points. A point that is wrong, or at which the machine is singular,
 /// is a result.
 pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
-    let machine = reading::machine(reading::program(&call.spec)?, &call.start)?;
+    let dag = Dag::new();
+    let compiled = Reading::open(&call.spec)?.compile(&dag)?;
+    let machine = reading::machine(&compiled, &call.start)?;
     // A wrong name is a fault of the call, not of each point.
     set_start(&mut machine.start(), &call.start)?;
     let points = match &call.at {
@@ -72,14 +77,19 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
         }
     };
     let results = points.into_iter().map(|point| {
-        let result = point.and_then(|point| at(&machine, &call.start, point));
+        let result = point.and_then(|point| at(&compiled.model, &machine, &call.start, point));
         result.unwrap_or_else(|error| serde_json::json!({ "error": error }))
     });
     output::line(format_args!("{:#}", Value::Array(results.collect())));
     Ok(())
 }
 
-fn at(machine: &InterpretedMachine, start: &call::Start, point: Point) -> Result<Value, String> {
+fn at(
+    model: &Model<'_>,
+    machine: &InterpretedMachine,
+    start: &call::Start,
+    point: Point,
+) -> Result<Value, String> {
     let mut machine = machine.clone();
     for (name, entry) in point.parameters.iter().chain(&point.inputs) {
         for (name, value) in named(name, entry) {
@@ -91,6 +101,9 @@ fn at(machine: &InterpretedMachine, start: &call::Start, point: Point) -> Result
     machine
         .check_parameters()
         .map_err(|missing| missing.to_string())?;
+    if !point.parameters.is_empty() {
+        diagnostics::refused(&model.refused_values(machine.parameter_values()))?;
+    }
     // The start may depend on parameters, the point's own among them.
     let mut state = machine.start();
     set_start(&mut state, start).map_err(|_| "no such coordinate")?;

@@ -13,7 +13,7 @@ use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Machine, System};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::model::Variable;
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_spec::program::Role;
 use lagrangian_symbolic::Dag;
 use nalgebra::Complex;
 use serde_json::{Map, Value, json};
@@ -31,7 +31,8 @@ use spectrum::{Mode, Modes};
 /// # Errors
 /// If the spec or the call is at fault, or the machine has no equilibrium near its start.
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
-    let machine = reading::machine(program(&call.spec)?, &call.start)?;
+    let dag = Dag::new();
+    let machine = reading::machine(&compiled(&call.spec, &dag)?, &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
@@ -81,10 +82,9 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
 }
 
 /// The program with derivatives by all coordinates and rates, whatever the spec asks for.
-fn program(spec: &call::Spec) -> Result<Program, Failure> {
-    let dag = Dag::new();
+fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure> {
     let mut reading = Reading::open(spec)?;
-    let model = reading.model(&dag);
+    let model = reading.model(dag);
     if model
         .as_ref()
         .is_some_and(|model| !model.sliding.is_empty())
@@ -99,7 +99,10 @@ fn program(spec: &call::Spec) -> Result<Program, Failure> {
     });
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {
-        Some(compiled) => Ok(compiled.program),
+        Some(compiled) => {
+            reading.warn();
+            Ok(compiled)
+        }
         None => Err(reading.failure()),
     }
 }

@@ -13,6 +13,7 @@ use lagrangian_spec::unit::Unit;
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::call::{self, Assignment};
+use crate::diagnostics;
 use crate::failure::Failure;
 use crate::output::{Destination, keep_apart};
 
@@ -25,6 +26,8 @@ pub struct Reading {
     pub sources: Sources,
     /// What is wrong.
     pub report: Report,
+    /// Whether warnings were printed for the same spec already.
+    is_warned: bool,
 }
 
 impl Reading {
@@ -43,6 +46,7 @@ impl Reading {
             constants: spec.constants.clone(),
             sources: Sources::new(),
             report: Report::new(),
+            is_warned: false,
         })
     }
 
@@ -68,6 +72,7 @@ impl Reading {
         let base = base.replace('\\', "\\\\").replace('"', "\\\"");
         let variant = spec.path.with_file_name("controlled.machine");
         let mut reading = Reading::open(spec)?;
+        reading.is_warned = true;
         reading.name = variant.to_string_lossy().into_owned();
         reading.text = format!(
             "machine Controlled extends \"{base}\" {{ inputs {{ {inputs} }} forces {{ {forces} }} }}"
@@ -83,6 +88,7 @@ impl Reading {
             constants,
             sources,
             report,
+            ..
         } = self;
         lagrangian_spec::model(dag, name, text, constants, &mut Disk, sources, report)
     }
@@ -107,7 +113,17 @@ impl Reading {
         let model = self.model(dag);
         self.keep_from(destinations)?;
         let compiled = model.and_then(|model| Compiled::new(model, &mut self.report));
+        if compiled.is_some() {
+            self.warn();
+        }
         compiled.ok_or_else(|| self.failure())
+    }
+
+    /// Prints the warnings of a spec that is right.
+    pub fn warn(&mut self) {
+        if !std::mem::replace(&mut self.is_warned, true) {
+            diagnostics::print(&self.report, &self.sources);
+        }
     }
 
     /// Refuses to write a file that the spec is made from: its own, or one that it extends. To be called when the model was
@@ -147,9 +163,12 @@ pub fn program(spec: &call::Spec) -> Result<Program, Failure> {
 /// The machine with the parameters of a call.
 ///
 /// # Errors
-/// If the call names a parameter or a coordinate that the machine does not have.
-pub fn machine(program: Program, start: &call::Start) -> Result<InterpretedMachine, Failure> {
-    let mut machine = InterpretedMachine::new(program);
+/// If the call names a parameter or a coordinate that the machine does not have, or gives a value that no machine has.
+pub fn machine(
+    compiled: &Compiled<'_>,
+    start: &call::Start,
+) -> Result<InterpretedMachine, Failure> {
+    let mut machine = InterpretedMachine::new(compiled.program.clone());
     for set in families_first(&start.parameters) {
         if let Err(unknown) = machine.set(&set.name, set.value) {
             let is_coordinate = is_named(&machine.start().q, &set.name);
@@ -170,6 +189,10 @@ pub fn machine(program: Program, start: &call::Start) -> Result<InterpretedMachi
             false => is_parameter.then_some("it is a parameter or an input, which --set sets"),
         };
         return Err(unknown_name("coordinate", &unknown, other));
+    }
+    if !start.parameters.is_empty() {
+        let said = compiled.model.refused_values(machine.parameter_values());
+        diagnostics::refused(&said).map_err(Failure::Call)?;
     }
     Ok(machine)
 }

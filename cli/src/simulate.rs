@@ -101,7 +101,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile_beside(&dag, files.all())?;
-    let machine = reading::machine(compiled.program.clone(), &call.start)?;
+    let machine = reading::machine(&compiled, &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",

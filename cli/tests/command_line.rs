@@ -74,7 +74,7 @@ fn the_library_is_without_mistakes() {
         if path.extension().is_none_or(|ending| ending != "machine") {
             continue;
         }
-        let output = lagrangian(&["check", path.to_str().expect("text")]);
+        let output = lagrangian(&["check", path.to_str().expect("text"), "--deny-warnings"]);
         assert_eq!(status(&output), 0, "{}: {}", path.display(), err(&output));
     }
 }
@@ -171,8 +171,24 @@ fn the_papers_misprints_are_told() {
         text.ends_with("Part I: 16 of 31 formulas differ\n"),
         "{text}"
     );
-    let line = "    change -m*y0*der(x)*der(theta) to -m0*y0*der(x)*der(theta)\n";
-    assert!(text.contains(line), "{text}");
+    for line in [
+        "    change -m*y0*der(x)*der(theta) to -m0*y0*der(x)*der(theta)\n",
+        "    change der(m0) to m0\n",
+        "    change m0*e*omega^2*cos(omega*der(t)) to m0*e*omega^2*cos(omega*t) on the right\n",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+    let strict = lagrangian(&["check", "machines/paper_crusher.machine", "--strict"]);
+    assert_eq!(status(&strict), 1);
+    let page = out(&lagrangian(&[
+        "derive",
+        "machines/paper_crusher.machine",
+        "--as",
+        "html",
+    ]));
+    for print in ["omega*der(t)", "der(m0)"] {
+        assert!(page.contains(print), "the page loses {print}");
+    }
 }
 
 #[test]
@@ -564,4 +580,224 @@ fn a_run_that_is_stiff_says_so_at_once() {
     assert!(out(&output).contains("warning: the machine is stiff"));
     let implicit = lagrangian(&[&arguments[..], &["--method", "radau5"]].concat());
     assert_eq!(err(&implicit), "");
+}
+
+/// A cart on a spring, in units of the workshop, and in those of the SI.
+const WORKSHOP: &str = "machine Cart in plane {
+    parameters { m: g = 500, k: N/mm = 0.2, d: mm = 5, n: rpm = 1500 }
+    inputs { pull: kN = 0.001 }
+    coordinates { x: m = 20*mm, phi: rad = 30*deg, der(phi): rad/s = 60*rpm }
+    bodies { cart { mass: m, at: (x, 0) }, wheel { mass: m, inertia: m*d^2, at: (x, d), angle: phi } }
+    springs { wall { stiffness: k, stretch: x - d } }
+    torsion_springs { shaft { stiffness: 2*N*mm/deg, twist: phi - n*t } }
+    forces { rope { on: x, value: pull } }
+    outputs { far: cm = x - d, turned: deg = phi, speed: km/h = der(x), turns: Hz = der(phi)/(2*pi) }
+    derivatives { d, coordinates }
+}";
+
+const IN_SI: &str = "machine Cart in plane {
+    parameters { m: kg = 0.5, k: N/m = 200, d: m = 0.005, n: rad/s = 50*pi }
+    inputs { pull: N = 1 }
+    coordinates { x: m = 0.02, phi: rad = pi/6, der(phi): rad/s = 2*pi }
+    bodies { cart { mass: m, at: (x, 0) }, wheel { mass: m, inertia: m*d^2, at: (x, d), angle: phi } }
+    springs { wall { stiffness: k, stretch: x - d } }
+    torsion_springs { shaft { stiffness: 0.36/pi, twist: phi - n*t } }
+    forces { rope { on: x, value: pull } }
+    outputs { far: m = x - d, turned: rad = phi, speed: m/s = der(x), turns: Hz = der(phi)/(2*pi) }
+    derivatives { d, coordinates }
+}";
+
+#[test]
+fn a_declared_unit_is_what_numbers_are_measured_in_outside() {
+    let workshop = Scratch::new("workshop.machine", WORKSHOP);
+    let si = Scratch::new("si.machine", IN_SI);
+    let pi = std::f64::consts::PI;
+    for (theirs, ours) in [
+        (vec![], vec![]),
+        (
+            vec![
+                "--set",
+                "d=7",
+                "--set",
+                "pull=0.003",
+                "--set",
+                "n=60",
+                "--rate",
+                "x=2",
+            ],
+            vec![
+                "--set", "d=0.007", "--set", "pull=3", "--set", "n=2*pi", "--rate", "x=2",
+            ],
+        ),
+    ] {
+        let run = |spec: &Scratch, more: &[&str]| {
+            json(&lagrangian(&[&["evaluate", spec.path()], more].concat()))[0].clone()
+        };
+        let (theirs, ours) = (run(&workshop, &theirs), run(&si, &ours));
+        // Ten operations lie between them at most.
+        let same = |a: f64, b: f64| {
+            assert!(
+                (a - b).abs() <= 10.0 * f64::EPSILON * b.abs(),
+                "{a} and {b}: {theirs} {ours}"
+            );
+        };
+        for k in 0..2 {
+            same(number(&theirs["q"][k]), number(&ours["q"][k]));
+            same(number(&theirs["v"][k]), number(&ours["v"][k]));
+            same(
+                number(&theirs["accelerations"][k]),
+                number(&ours["accelerations"][k]),
+            );
+        }
+        let outputs = |name: &str| [&theirs, &ours].map(|run| number(&run["outputs"][name]));
+        for (name, factor) in [
+            ("far", 100.0),
+            ("turned", 180.0 / pi),
+            ("speed", 3.6),
+            ("turns", 1.0),
+        ] {
+            let [theirs, ours] = outputs(name);
+            same(theirs, factor * ours);
+        }
+    }
+    // In points of a list too, and in the code.
+    let points = |d: &str| format!("[{{\"parameters\": {{\"d\": {d}}}}}]");
+    let at = |spec: &Scratch, d: &str| {
+        let output = with_input(&["evaluate", spec.path(), "--at", "-"], &points(d));
+        number(&json(&output)[0]["accelerations"][0])
+    };
+    let (theirs, ours) = (at(&workshop, "7"), at(&si, "0.007"));
+    assert!((theirs - ours).abs() <= 10.0 * f64::EPSILON * ours.abs());
+    let code = out(&lagrangian(&["derive", workshop.path(), "--as", "rust"]));
+    assert!(code.contains("/// `d`. Unit: `mm`. Default: 5."), "{code}");
+    let page = out(&lagrangian(&["derive", workshop.path()]));
+    assert!(page.contains("mm"), "{page}");
+}
+
+#[test]
+fn warnings_are_told_and_denied_on_demand() {
+    let text = "machine Drop in plane { parameters { m: kg = 1, k: N/m = 2, w: rad = 90 } \
+                coordinates { y: m } bodies { block { mass: m, at: (0.1*sin(w), y) } } \
+                springs { s { stiffness: -k, stretch: y } } inputs { u: N } }";
+    let spec = Scratch::new("drop.machine", text);
+    let output = lagrangian(&["check", spec.path()]);
+    assert_eq!(status(&output), 0);
+    for code in [
+        "unused",
+        "looks-like-degrees",
+        "no-gravity",
+        "negative-coefficient",
+    ] {
+        assert!(
+            err(&output).contains(&format!("[{code}]")),
+            "{}",
+            err(&output)
+        );
+    }
+    assert!(out(&output).ends_with("; 4 warnings\n"), "{}", out(&output));
+    assert_eq!(
+        status(&lagrangian(&["check", spec.path(), "--deny-warnings"])),
+        1
+    );
+    let document = json(&lagrangian(&["check", spec.path(), "--json"]));
+    let diagnostics = document["diagnostics"].as_array().expect("a list");
+    assert_eq!(diagnostics.len(), 4);
+    assert!(
+        diagnostics
+            .iter()
+            .all(|diagnostic| diagnostic["severity"] == "warning")
+    );
+    // Other commands do what they are asked, and say it on the other channel.
+    let output = lagrangian(&["evaluate", spec.path()]);
+    assert_eq!(status(&output), 0);
+    assert!(json(&output)[0]["accelerations"][0].is_number());
+    assert!(err(&output).contains("warning: "));
+    // Every warning has its answer.
+    let meant = text
+        .replace("w: rad = 90", "w: rad = 90*rad")
+        .replace("u: N", "_u: N");
+    let open = meant.strip_suffix('}').expect("a brace");
+    let meant = format!("{open} gravity none; assume {{ -k < 0 }} }}");
+    let spec = Scratch::new("meant.machine", &meant);
+    let output = lagrangian(&["check", spec.path(), "--deny-warnings"]);
+    assert_eq!(status(&output), 0, "{}", err(&output));
+}
+
+#[test]
+fn the_freedom_that_constraints_leave_is_told() {
+    let check = |name: &str| lagrangian(&["check", name, "--json"]);
+    let freedom = &json(&check("machines/slider_crank.machine"))["freedom"];
+    assert_eq!(freedom["coordinates"], 3);
+    assert_eq!(freedom["independent"], 2);
+    assert_eq!(freedom["degrees_of_freedom"], 1);
+    let text = out(&lagrangian(&["check", "machines/slider_crank.machine"]));
+    assert!(
+        text.contains("3 coordinates, 2 constraints, 1 degree of freedom, "),
+        "{text}"
+    );
+    let chapter = out(&lagrangian(&["derive", "machines/slider_crank.machine"]));
+    let said = "It has three generalized coordinates and two constraints: one degree of freedom.";
+    assert!(chapter.contains(said), "{chapter}");
+}
+
+#[test]
+fn what_a_spec_may_not_say_may_not_be_set() {
+    let text = "machine Block in plane { parameters { m: kg = 2, mu: 1 = 0.3, hold: 1 = 0.4, k: N/m = 5 } \
+                coordinates { x: m } frames { block = ground.shift(x, 0) } \
+                bodies { block { mass: m, frame: block } } gravity (0, -9.81); \
+                springs { s { stiffness: k, stretch: x } } \
+                sliding { floor { body: block, on: ground, direction: (1, 0), friction: mu, \
+                static_friction: hold } } }";
+    let spec = Scratch::new("block.machine", text);
+    assert_eq!(status(&lagrangian(&["evaluate", spec.path()])), 0);
+    for (set, default, words) in [
+        ("m=-2", "m: kg = 2", "a mass is positive, found -2"),
+        (
+            "mu=-0.1",
+            "mu: 1 = 0.3",
+            "a coefficient of friction is not negative, found -0.1",
+        ),
+        (
+            "hold=0.2",
+            "hold: 1 = 0.4",
+            "what sticks is held by no less friction than what slides, found 0.2 below 0.3",
+        ),
+    ] {
+        let (name, value) = set.split_once('=').expect("an assignment");
+        // From outside, and in the spec: the same words.
+        let output = lagrangian(&["simulate", spec.path(), "--until", "0.1", "--set", set]);
+        assert_eq!(status(&output), 2, "{set}");
+        assert!(err(&output).contains(words), "{set}: {}", err(&output));
+        let said = format!("{} = {value}", default.split(" =").next().expect("a name"));
+        let wrong = Scratch::new("wrong.machine", &text.replace(default, &said));
+        let output = lagrangian(&["check", wrong.path()]);
+        assert_eq!(status(&output), 1, "{said}");
+        assert!(err(&output).contains(words), "{said}: {}", err(&output));
+        let point = format!("[{{\"parameters\": {{\"{name}\": {value}}}}}]");
+        let output = with_input(&["evaluate", spec.path(), "--at", "-"], &point);
+        let error = json(&output)[0]["error"].to_string();
+        assert!(error.contains(words), "{error}");
+    }
+    let output = lagrangian(&["evaluate", spec.path(), "--set", "k=-5"]);
+    assert_eq!(status(&output), 0);
+    assert!(err(&output).contains("warning: a spring of negative stiffness pushes away, found -5"));
+    let output = lagrangian(&["evaluate", spec.path(), "--set", "x=1"]);
+    assert_eq!(status(&output), 2);
+    assert!(err(&output).contains("--start"), "{}", err(&output));
+}
+
+#[test]
+fn a_name_is_one_in_both_spellings() {
+    let text = "machine One in plane { parameters { m\u{e9}: kg = 2 } coordinates { x: m } \
+                bodies { block { mass: me\u{301}, at: (x, 0) } } forces { f { on: x, value: 6*N } } }";
+    let spec = Scratch::new("one.machine", text);
+    for set in ["m\u{e9}=3", "me\u{301}=3"] {
+        let output = lagrangian(&["evaluate", spec.path(), "--set", set]);
+        assert_eq!(
+            number(&json(&output)[0]["accelerations"][0]),
+            2.0,
+            "{}",
+            err(&output)
+        );
+    }
 }

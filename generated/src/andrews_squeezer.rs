@@ -51,89 +51,89 @@
 /// the signs of the multipliers as in the Test set for initial value problem solvers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AndrewsSqueezer<S = f64> {
-    /// `m1`. Unit: kg. Default: 0.04325.
+    /// `m1`. Unit: `kg`. Default: 0.04325.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 0.00365.
+    /// `m2`. Unit: `kg`. Default: 0.00365.
     pub m2: S,
-    /// `m3`. Unit: kg. Default: 0.02373.
+    /// `m3`. Unit: `kg`. Default: 0.02373.
     pub m3: S,
-    /// `m4`. Unit: kg. Default: 0.00706.
+    /// `m4`. Unit: `kg`. Default: 0.00706.
     pub m4: S,
-    /// `m5`. Unit: kg. Default: 0.0705.
+    /// `m5`. Unit: `kg`. Default: 0.0705.
     pub m5: S,
-    /// `m6`. Unit: kg. Default: 0.00706.
+    /// `m6`. Unit: `kg`. Default: 0.00706.
     pub m6: S,
-    /// `m7`. Unit: kg. Default: 0.05498.
+    /// `m7`. Unit: `kg`. Default: 0.05498.
     pub m7: S,
-    /// `I1`. Unit: kg*m^2. Default: 0.000002194.
+    /// `I1`. Unit: `kg*m^2`. Default: 0.000002194.
     pub I1: S,
-    /// `I2`. Unit: kg*m^2. Default: 0.000000441.
+    /// `I2`. Unit: `kg*m^2`. Default: 0.000000441.
     pub I2: S,
-    /// `I3`. Unit: kg*m^2. Default: 0.000005255.
+    /// `I3`. Unit: `kg*m^2`. Default: 0.000005255.
     pub I3: S,
-    /// `I4`. Unit: kg*m^2. Default: 0.0000005667.
+    /// `I4`. Unit: `kg*m^2`. Default: 0.0000005667.
     pub I4: S,
-    /// `I5`. Unit: kg*m^2. Default: 0.00001169.
+    /// `I5`. Unit: `kg*m^2`. Default: 0.00001169.
     pub I5: S,
-    /// `I6`. Unit: kg*m^2. Default: 0.0000005667.
+    /// `I6`. Unit: `kg*m^2`. Default: 0.0000005667.
     pub I6: S,
-    /// `I7`. Unit: kg*m^2. Default: 0.00001912.
+    /// `I7`. Unit: `kg*m^2`. Default: 0.00001912.
     pub I7: S,
-    /// `xa`. Unit: m. Default: -0.06934.
+    /// `xa`. Unit: `m`. Default: -0.06934.
     pub xa: S,
-    /// `ya`. Unit: m. Default: -0.00227.
+    /// `ya`. Unit: `m`. Default: -0.00227.
     pub ya: S,
-    /// `xb`. Unit: m. Default: -0.03635.
+    /// `xb`. Unit: `m`. Default: -0.03635.
     pub xb: S,
-    /// `yb`. Unit: m. Default: 0.03273.
+    /// `yb`. Unit: `m`. Default: 0.03273.
     pub yb: S,
-    /// `xc`. Unit: m. Default: 0.014.
+    /// `xc`. Unit: `m`. Default: 0.014.
     pub xc: S,
-    /// `yc`. Unit: m. Default: 0.072.
+    /// `yc`. Unit: `m`. Default: 0.072.
     pub yc: S,
-    /// `d`. Unit: m. Default: 0.028.
+    /// `d`. Unit: `m`. Default: 0.028.
     pub d: S,
-    /// `da`. Unit: m. Default: 0.0115.
+    /// `da`. Unit: `m`. Default: 0.0115.
     pub da: S,
-    /// `e`. Unit: m. Default: 0.02.
+    /// `e`. Unit: `m`. Default: 0.02.
     pub e: S,
-    /// `ea`. Unit: m. Default: 0.01421.
+    /// `ea`. Unit: `m`. Default: 0.01421.
     pub ea: S,
-    /// `zf`. Unit: m. Default: 0.02.
+    /// `zf`. Unit: `m`. Default: 0.02.
     pub zf: S,
-    /// `fa`. Unit: m. Default: 0.01421.
+    /// `fa`. Unit: `m`. Default: 0.01421.
     pub fa: S,
-    /// `rr`. Unit: m. Default: 0.007.
+    /// `rr`. Unit: `m`. Default: 0.007.
     pub rr: S,
-    /// `ra`. Unit: m. Default: 0.00092.
+    /// `ra`. Unit: `m`. Default: 0.00092.
     pub ra: S,
-    /// `ss`. Unit: m. Default: 0.035.
+    /// `ss`. Unit: `m`. Default: 0.035.
     pub ss: S,
-    /// `sa`. Unit: m. Default: 0.01874.
+    /// `sa`. Unit: `m`. Default: 0.01874.
     pub sa: S,
-    /// `sb`. Unit: m. Default: 0.01043.
+    /// `sb`. Unit: `m`. Default: 0.01043.
     pub sb: S,
-    /// `sc`. Unit: m. Default: 0.018.
+    /// `sc`. Unit: `m`. Default: 0.018.
     pub sc: S,
-    /// `sd`. Unit: m. Default: 0.02.
+    /// `sd`. Unit: `m`. Default: 0.02.
     pub sd: S,
-    /// `zt`. Unit: m. Default: 0.04.
+    /// `zt`. Unit: `m`. Default: 0.04.
     pub zt: S,
-    /// `ta`. Unit: m. Default: 0.02308.
+    /// `ta`. Unit: `m`. Default: 0.02308.
     pub ta: S,
-    /// `tb`. Unit: m. Default: 0.00916.
+    /// `tb`. Unit: `m`. Default: 0.00916.
     pub tb: S,
-    /// `u`. Unit: m. Default: 0.04.
+    /// `u`. Unit: `m`. Default: 0.04.
     pub u: S,
-    /// `ua`. Unit: m. Default: 0.01228.
+    /// `ua`. Unit: `m`. Default: 0.01228.
     pub ua: S,
-    /// `ub`. Unit: m. Default: 0.00449.
+    /// `ub`. Unit: `m`. Default: 0.00449.
     pub ub: S,
-    /// Stiffness and free length of the spring. Unit: N/m. Default: 4530.
+    /// Stiffness and free length of the spring. Unit: `N/m`. Default: 4530.
     pub c0: S,
-    /// `l0`. Unit: m. Default: 0.07785.
+    /// `l0`. Unit: `m`. Default: 0.07785.
     pub l0: S,
-    /// Torque on the crank. Unit: N*m. Default: 0.033.
+    /// Torque on the crank. Unit: `N*m`. Default: 0.033.
     pub mom: S,
 }
 
@@ -427,19 +427,19 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
 /// The coordinates of [`AndrewsSqueezer`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `beta`. Unit: rad.
+    /// `beta`. Unit: `rad`.
     pub beta: S,
-    /// `Theta`. Unit: rad.
+    /// `Theta`. Unit: `rad`.
     pub Theta: S,
-    /// `gamma`. Unit: rad.
+    /// `gamma`. Unit: `rad`.
     pub gamma: S,
-    /// `Phi`. Unit: rad.
+    /// `Phi`. Unit: `rad`.
     pub Phi: S,
-    /// `delta`. Unit: rad.
+    /// `delta`. Unit: `rad`.
     pub delta: S,
-    /// `Omega`. Unit: rad.
+    /// `Omega`. Unit: `rad`.
     pub Omega: S,
-    /// `epsilon`. Unit: rad.
+    /// `epsilon`. Unit: `rad`.
     pub epsilon: S,
 }
 

@@ -62,14 +62,14 @@
 /// its x axis would have to carry all of the angular momentum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AsymmetricTop<S = f64> {
-    /// Mass. Nothing depends on it, since nothing weighs. Unit: kg. Default: 2.
+    /// Mass. Nothing depends on it, since nothing weighs. Unit: `kg`. Default: 2.
     pub m: S,
     /// Moments of inertia about the body's x, y and z axes: the least, the greatest, the
-    /// middle one. Unit: kg*m^2. Default: 0.02.
+    /// middle one. Unit: `kg*m^2`. Default: 0.02.
     pub A: S,
-    /// `B`. Unit: kg*m^2. Default: 0.04.
+    /// `B`. Unit: `kg*m^2`. Default: 0.04.
     pub B: S,
-    /// `C`. Unit: kg*m^2. Default: 0.03.
+    /// `C`. Unit: `kg*m^2`. Default: 0.03.
     pub C: S,
 }
 
@@ -150,11 +150,11 @@ impl<S: ::lagrangian::Scalar> AsymmetricTop<S> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
     /// Turn about the vertical, then about the body's y axis, then about its x axis.
-    /// Spun about the middle axis, but for a wobble of a hundredth. Unit: rad.
+    /// Spun about the middle axis, but for a wobble of a hundredth. Unit: `rad`.
     pub yaw: S,
-    /// `pitch`. Unit: rad.
+    /// `pitch`. Unit: `rad`.
     pub pitch: S,
-    /// `roll`. Unit: rad.
+    /// `roll`. Unit: `rad`.
     pub roll: S,
 }
 
@@ -190,14 +190,14 @@ pub struct Inputs {}
 /// What can be observed of a [`AsymmetricTop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum along the ground's axes: conserved. Unit: J*s.
+    /// Angular momentum along the ground's axes: conserved. Unit: `J*s`.
     pub momentum_x: S,
-    /// `momentum_y`. Unit: J*s.
+    /// `momentum_y`. Unit: `J*s`.
     pub momentum_y: S,
-    /// `momentum_z`. Unit: J*s.
+    /// `momentum_z`. Unit: `J*s`.
     pub momentum_z: S,
     /// Cosine of the angle between the body's z axis and the vertical: -1 where it stands
-    /// on its head. Unit: 1.
+    /// on its head. Unit: `1`.
     pub upright: S,
 }
 
@@ -428,7 +428,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     S::from_f64(0.5) * t4
 }
 
-/// Angular momentum along the ground's axes: conserved. Unit: J*s.
+/// Angular momentum along the ground's axes: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// momentum_x = A*cos(pitch)*cos(yaw)*(der(roll) - sin(pitch)*der(yaw)) +
@@ -455,7 +455,7 @@ pub fn output_momentum_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
 }
 
-/// `momentum_y`. Unit: J*s.
+/// `momentum_y`. Unit: `J*s`.
 ///
 /// ```text
 /// momentum_y = A*cos(pitch)*sin(yaw)*(der(roll) - sin(pitch)*der(yaw)) +
@@ -482,7 +482,7 @@ pub fn output_momentum_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
     t5 - (sin_roll * pitch_dot - cos_roll * t0) * t4
 }
 
-/// `momentum_z`. Unit: J*s.
+/// `momentum_z`. Unit: `J*s`.
 ///
 /// ```text
 /// momentum_z = A*sin(pitch)^2*der(yaw) + C*cos(roll)^2*cos(pitch)^2*der(yaw)
@@ -505,7 +505,7 @@ pub fn output_momentum_z<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v
 }
 
 /// Cosine of the angle between the body's z axis and the vertical: -1 where it stands
-/// on its head. Unit: 1.
+/// on its head. Unit: `1`.
 ///
 /// ```text
 /// upright = cos(roll)*cos(pitch)

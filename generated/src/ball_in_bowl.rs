@@ -42,17 +42,17 @@
 /// is turned by three angles; that it touches is one constraint, that it does not slip two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallInBowl<S = f64> {
-    /// `m`. Unit: kg. Default: 0.3.
+    /// `m`. Unit: `kg`. Default: 0.3.
     pub m: S,
-    /// `r`. Unit: m. Default: 0.05.
+    /// `r`. Unit: `m`. Default: 0.05.
     pub r: S,
-    /// Inertia of the ball about any axis; that of a uniform one. Unit: kg*m^2. Default: 0.0003.
+    /// Inertia of the ball about any axis; that of a uniform one. Unit: `kg*m^2`. Default: 0.0003.
     pub J: S,
-    /// Radius of the bowl. Unit: m. Default: 0.55.
+    /// Radius of the bowl. Unit: `m`. Default: 0.55.
     pub R: S,
-    /// Rate at which the bowl turns. Unit: rad/s. Default: 2.
+    /// Rate at which the bowl turns. Unit: `rad/s`. Default: 2.
     pub Omega: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -159,17 +159,17 @@ impl<S: ::lagrangian::Scalar> BallInBowl<S> {
 /// The coordinates of [`BallInBowl`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Centre of the ball, from that of the bowl. Unit: m.
+    /// Centre of the ball, from that of the bowl. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `z`. Unit: m.
+    /// `z`. Unit: `m`.
     pub z: S,
-    /// Angles of the ball, about x, then y, then z of itself. Unit: rad.
+    /// Angles of the ball, about x, then y, then z of itself. Unit: `rad`.
     pub a: S,
-    /// `b`. Unit: rad.
+    /// `b`. Unit: `rad`.
     pub b: S,
-    /// `c`. Unit: rad.
+    /// `c`. Unit: `rad`.
     pub c: S,
 }
 

@@ -35,17 +35,17 @@
 /// coefficient of friction, and then slides with what is left of its weight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlockOnIncline<S = f64> {
-    /// Mass of the block. Unit: kg. Default: 2.
+    /// Mass of the block. Unit: `kg`. Default: 2.
     pub m: S,
-    /// Angle of the incline at t = 0. Unit: rad. Default: 0.3.
+    /// Angle of the incline at t = 0. Unit: `rad`. Default: 0.3.
     pub alpha: S,
-    /// How fast the incline is raised. Unit: rad/s. Default: 0.
+    /// How fast the incline is raised. Unit: `rad/s`. Default: 0.
     pub rate: S,
-    /// Coefficient of friction while it slides. Unit: 1. Default: 0.4.
+    /// Coefficient of friction while it slides. Unit: `1`. Default: 0.4.
     pub mu: S,
-    /// Coefficient of friction while it sticks. Unit: 1. Default: 0.5.
+    /// Coefficient of friction while it sticks. Unit: `1`. Default: 0.5.
     pub mu0: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -131,7 +131,7 @@ impl<S: ::lagrangian::Scalar> BlockOnIncline<S> {
 /// The coordinates of [`BlockOnIncline`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// How far the block has slid down, along the incline. Unit: m.
+    /// How far the block has slid down, along the incline. Unit: `m`.
     pub s: S,
 }
 

@@ -49,13 +49,13 @@
 /// Library of computational benchmark problems of the IFToMM, problem A04.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bricard<S = f64> {
-    /// Length, width and mass of a bar. Unit: m. Default: 1.
+    /// Length, width and mass of a bar. Unit: `m`. Default: 1.
     pub l: S,
-    /// `w`. Unit: m. Default: 0.1.
+    /// `w`. Unit: `m`. Default: 0.1.
     pub w: S,
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -191,7 +191,7 @@ impl<S: ::lagrangian::Scalar> Bricard<S> {
 /// The coordinates of [`Bricard`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `q`. Unit: rad. Members: `q[1]` to `q[5]`.
+    /// `q`. Unit: `rad`. Members: `q[1]` to `q[5]`.
     pub q: [S; 5],
 }
 
@@ -221,11 +221,11 @@ pub struct Inputs {}
 /// What can be observed of a [`Bricard`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// `x3`. Unit: m.
+    /// `x3`. Unit: `m`.
     pub x3: S,
-    /// `y3`. Unit: m.
+    /// `y3`. Unit: `m`.
     pub y3: S,
-    /// `z3`. Unit: m.
+    /// `z3`. Unit: `m`.
     pub z3: S,
 }
 
@@ -2408,7 +2408,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
     -(p.k14 * t4 + (p.k14 * (p.k1 * t2 + p.l * t1) + t3))
 }
 
-/// `x3`. Unit: m.
+/// `x3`. Unit: `m`.
 ///
 /// ```text
 /// x3 = l*cos(q[1])*sin(q[2])*sin(q[3]) + l*cos(q[1])*sin(q[2]) + l*cos(q[1])
@@ -2425,7 +2425,7 @@ pub fn output_x3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     (t0 * sin_q_3 + sin_q_1 * cos_q_3 + (cos_q_1 + t0)) * p.l
 }
 
-/// `y3`. Unit: m.
+/// `y3`. Unit: `m`.
 ///
 /// ```text
 /// y3 = -l*cos(q[2])*sin(q[3]) - l*cos(q[2])
@@ -2438,7 +2438,7 @@ pub fn output_y3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     p.k35 * (cos_q_2 + sin_q_3 * cos_q_2)
 }
 
-/// `z3`. Unit: m.
+/// `z3`. Unit: `m`.
 ///
 /// ```text
 /// z3 = l*cos(q[1])*cos(q[3]) - l*sin(q[1])*sin(q[2])*sin(q[3]) - l*sin(q[1])*sin(q[2])

@@ -40,20 +40,20 @@
 /// from the upward vertical, so that a controller balances it at zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CartPole<S = f64> {
-    /// Mass of the cart. Unit: kg. Default: 1.
+    /// Mass of the cart. Unit: `kg`. Default: 1.
     pub cart: S,
-    /// Mass of the pole. Unit: kg. Default: 0.1.
+    /// Mass of the pole. Unit: `kg`. Default: 0.1.
     pub pole: S,
-    /// Half the length of the pole. Unit: m. Default: 0.5.
+    /// Half the length of the pole. Unit: `m`. Default: 0.5.
     pub l: S,
     /// Inertia of the pole about its mass centre: pole (2 l)^2 / 12 for a uniform one. Unit:
-    /// kg*m^2. Default: 1/120.
+    /// `kg*m^2`. Default: 1/120.
     pub J: S,
-    /// Viscous friction of the rail and of the hinge. Unit: N*s/m. Default: 0.05.
+    /// Viscous friction of the rail and of the hinge. Unit: `N*s/m`. Default: 0.05.
     pub rail: S,
-    /// `hinge`. Unit: N*m*s. Default: 0.001.
+    /// `hinge`. Unit: `N*m*s`. Default: 0.001.
     pub hinge: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -145,9 +145,9 @@ impl<S: ::lagrangian::Scalar> CartPole<S> {
 /// The coordinates of [`CartPole`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
 }
 
@@ -177,7 +177,7 @@ impl<S: Copy> Coordinates<S> {
 /// What can be set while a [`CartPole`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
-    /// Force of the motor on the cart. Unit: N. Default: 0.
+    /// Force of the motor on the cart. Unit: `N`. Default: 0.
     pub push: S,
 }
 
@@ -197,9 +197,9 @@ impl<S> Inputs<S> {
 /// What can be observed of a [`CartPole`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Height of the pole's tip above the hinge. Unit: m.
+    /// Height of the pole's tip above the hinge. Unit: `m`.
     pub tip: S,
-    /// Force of the pole on the hinge along the rail. Unit: N.
+    /// Force of the pole on the hinge along the rail. Unit: `N`.
     pub hinge_force: S,
 }
 
@@ -426,7 +426,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) ->
     x_dot * (x_dot * p.rail) + theta_dot * (theta_dot * p.hinge)
 }
 
-/// Height of the pole's tip above the hinge. Unit: m.
+/// Height of the pole's tip above the hinge. Unit: `m`.
 ///
 /// ```text
 /// tip = 2*l*cos(theta)
@@ -437,7 +437,7 @@ pub fn output_tip<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     p.k0 * cos_theta
 }
 
-/// Force of the pole on the hinge along the rail. Unit: N.
+/// Force of the pole on the hinge along the rail. Unit: `N`.
 ///
 /// ```text
 /// hinge_force = -pole*(der(der(x)) + (l*cos(theta)*der(der(theta)) - l*sin(theta)*der(theta)^2))

@@ -34,13 +34,13 @@
 /// A chain of N uniform bars hanging from a hinge. Angles are absolute, from the downward vertical.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chain<S = f64> {
-    /// Length, mass and inertia (about its middle) of a bar. Unit: m. Default: 0.2.
+    /// Length, mass and inertia (about its middle) of a bar. Unit: `m`. Default: 0.2.
     pub l: S,
-    /// `m`. Unit: kg. Default: 0.5.
+    /// `m`. Unit: `kg`. Default: 0.5.
     pub m: S,
-    /// `J`. Unit: kg*m^2. Default: 1/600.
+    /// `J`. Unit: `kg*m^2`. Default: 1/600.
     pub J: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -186,7 +186,7 @@ impl<S: ::lagrangian::Scalar> Chain<S> {
 /// The coordinates of [`Chain`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `q`. Unit: rad. Members: `q[1]` to `q[8]`.
+    /// `q`. Unit: `rad`. Members: `q[1]` to `q[8]`.
     pub q: [S; 8],
 }
 
@@ -218,7 +218,7 @@ pub struct Inputs {}
 /// What can be observed of a [`Chain`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Height of the chain's end above the hinge. Unit: m.
+    /// Height of the chain's end above the hinge. Unit: `m`.
     pub end: S,
 }
 
@@ -1094,7 +1094,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
     -((p.k0 * cos_q_8 + p.l * (cos_q_7 + t5) + t7) * p.k1 + cos_q_1 * p.k2)
 }
 
-/// Height of the chain's end above the hinge. Unit: m.
+/// Height of the chain's end above the hinge. Unit: `m`.
 ///
 /// ```text
 /// end = -l*cos(q[1]) - l*cos(q[2]) - l*cos(q[3]) - l*cos(q[4]) - l*cos(q[5]) - l*cos(q[6])

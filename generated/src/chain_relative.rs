@@ -33,13 +33,13 @@
 /// The chain once more, each angle measured from the bar before it. Same motion, other coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChainRelative<S = f64> {
-    /// Length, mass and inertia (about its middle) of a bar. Unit: m. Default: 0.2.
+    /// Length, mass and inertia (about its middle) of a bar. Unit: `m`. Default: 0.2.
     pub l: S,
-    /// `m`. Unit: kg. Default: 0.5.
+    /// `m`. Unit: `kg`. Default: 0.5.
     pub m: S,
-    /// `J`. Unit: kg*m^2. Default: 1/600.
+    /// `J`. Unit: `kg*m^2`. Default: 1/600.
     pub J: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -176,7 +176,7 @@ impl<S: ::lagrangian::Scalar> ChainRelative<S> {
 /// The coordinates of [`ChainRelative`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `q`. Unit: rad. Members: `q[1]` to `q[8]`.
+    /// `q`. Unit: `rad`. Members: `q[1]` to `q[8]`.
     pub q: [S; 8],
 }
 

@@ -40,11 +40,11 @@
 /// mass centre is ahead of the blade. It turns until it runs with the mass centre in front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChaplyginSleigh<S = f64> {
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Inertia about the mass centre. Unit: kg*m^2. Default: 0.05.
+    /// Inertia about the mass centre. Unit: `kg*m^2`. Default: 0.05.
     pub J: S,
-    /// Distance of the mass centre ahead of the blade. Unit: m. Default: 0.3.
+    /// Distance of the mass centre ahead of the blade. Unit: `m`. Default: 0.3.
     pub a: S,
 }
 
@@ -116,11 +116,11 @@ impl<S: ::lagrangian::Scalar> ChaplyginSleigh<S> {
 /// The coordinates of [`ChaplyginSleigh`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Where the blade touches the ice. Unit: m.
+    /// Where the blade touches the ice. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// Direction of the blade. Unit: rad.
+    /// Direction of the blade. Unit: `rad`.
     pub phi: S,
 }
 
@@ -156,7 +156,7 @@ pub struct Inputs {}
 /// What can be observed of a [`ChaplyginSleigh`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Speed along the blade. Unit: m/s.
+    /// Speed along the blade. Unit: `m/s`.
     pub along: S,
 }
 
@@ -401,7 +401,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
     S::from_f64(0.5) * t3
 }
 
-/// Speed along the blade. Unit: m/s.
+/// Speed along the blade. Unit: `m/s`.
 ///
 /// ```text
 /// along = cos(phi)*der(x) + sin(phi)*der(y)

@@ -41,16 +41,16 @@
 /// absolute, from the line through the pins; two constraints leave three degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosedPendulum<S = f64> {
-    /// Length and mass of a bar, inertia about its middle, distance of the pins. Unit: m. Default:
-    /// 1.
+    /// Length and mass of a bar, inertia about its middle, distance of the pins. Unit: `m`.
+    /// Default: 1.
     pub l: S,
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// `J`. Unit: kg*m^2. Default: 1/12.
+    /// `J`. Unit: `kg*m^2`. Default: 1/12.
     pub J: S,
-    /// `d`. Unit: m. Default: 2.
+    /// `d`. Unit: `m`. Default: 2.
     pub d: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -195,7 +195,7 @@ impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
 /// The coordinates of [`ClosedPendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `q`. Unit: rad. Members: `q[1]` to `q[5]`.
+    /// `q`. Unit: `rad`. Members: `q[1]` to `q[5]`.
     pub q: [S; 5],
 }
 

@@ -38,57 +38,57 @@
 /// spring-dampers that keep the polar coordinates away from s = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crusher9<S = f64> {
-    /// Mass and inertia of the platform. Unit: kg. Default: 450.
+    /// Mass and inertia of the platform. Unit: `kg`. Default: 450.
     pub m: S,
-    /// `J`. Unit: kg*m^2. Default: 60.
+    /// `J`. Unit: `kg*m^2`. Default: 60.
     pub J: S,
-    /// Mass of the debalance, its eccentricity, its axis on the platform, its speed. Unit: kg.
+    /// Mass of the debalance, its eccentricity, its axis on the platform, its speed. Unit: `kg`.
     /// Default: 25.
     pub m0: S,
-    /// `e`. Unit: m. Default: 0.04.
+    /// `e`. Unit: `m`. Default: 0.04.
     pub e: S,
-    /// `x0`. Unit: m. Default: 0.1.
+    /// `x0`. Unit: `m`. Default: 0.1.
     pub x0: S,
-    /// `y0`. Unit: m. Default: -0.25.
+    /// `y0`. Unit: `m`. Default: -0.25.
     pub y0: S,
-    /// `w`. Unit: rad/s. Default: 100.
+    /// `w`. Unit: `rad/s`. Default: 100.
     pub w: S,
-    /// Mass and inertia of the mortar, and of the pestle. Unit: kg. Default: 120.
+    /// Mass and inertia of the mortar, and of the pestle. Unit: `kg`. Default: 120.
     pub m1: S,
-    /// `J1`. Unit: kg*m^2. Default: 2.4.
+    /// `J1`. Unit: `kg*m^2`. Default: 2.4.
     pub J1: S,
-    /// `m2`. Unit: kg. Default: 60.
+    /// `m2`. Unit: `kg`. Default: 60.
     pub m2: S,
-    /// `J2`. Unit: kg*m^2. Default: 0.5.
+    /// `J2`. Unit: `kg*m^2`. Default: 0.5.
     pub J2: S,
-    /// Springs of the platform and where they act. Unit: N/m. Default: 200000.
+    /// Springs of the platform and where they act. Unit: `N/m`. Default: 200000.
     pub cx: S,
-    /// `cy`. Unit: N/m. Default: 160000.
+    /// `cy`. Unit: `N/m`. Default: 160000.
     pub cy: S,
-    /// `xc`. Unit: m. Default: 0.35.
+    /// `xc`. Unit: `m`. Default: 0.35.
     pub xc: S,
-    /// `yc`. Unit: m. Default: -0.05.
+    /// `yc`. Unit: `m`. Default: -0.05.
     pub yc: S,
-    /// Dampers of the platform and where they act. Unit: N*s/m. Default: 400.
+    /// Dampers of the platform and where they act. Unit: `N*s/m`. Default: 400.
     pub bx: S,
-    /// `by`. Unit: N*s/m. Default: 350.
+    /// `by`. Unit: `N*s/m`. Default: 350.
     pub by: S,
-    /// `xb`. Unit: m. Default: 0.35.
+    /// `xb`. Unit: `m`. Default: 0.35.
     pub xb: S,
-    /// `yb`. Unit: m. Default: 0.04.
+    /// `yb`. Unit: `m`. Default: 0.04.
     pub yb: S,
-    /// Radial stiffness, damping and free distance of the mortar, and of the pestle. Unit: N/m.
+    /// Radial stiffness, damping and free distance of the mortar, and of the pestle. Unit: `N/m`.
     /// Default: 50000.
     pub k1: S,
-    /// `d1`. Unit: N*s/m. Default: 60.
+    /// `d1`. Unit: `N*s/m`. Default: 60.
     pub d1: S,
-    /// `r1`. Unit: m. Default: 0.15.
+    /// `r1`. Unit: `m`. Default: 0.15.
     pub r1: S,
-    /// `k2`. Unit: N/m. Default: 20000.
+    /// `k2`. Unit: `N/m`. Default: 20000.
     pub k2: S,
-    /// `d2`. Unit: N*s/m. Default: 30.
+    /// `d2`. Unit: `N*s/m`. Default: 30.
     pub d2: S,
-    /// `r2`. Unit: m. Default: 0.1.
+    /// `r2`. Unit: `m`. Default: 0.1.
     pub r2: S,
 }
 
@@ -289,23 +289,23 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
 /// The coordinates of [`Crusher9`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
-    /// `s1`. Unit: m.
+    /// `s1`. Unit: `m`.
     pub s1: S,
-    /// `phi1`. Unit: rad.
+    /// `phi1`. Unit: `rad`.
     pub phi1: S,
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `s2`. Unit: m.
+    /// `s2`. Unit: `m`.
     pub s2: S,
-    /// `phi2`. Unit: rad.
+    /// `phi2`. Unit: `rad`.
     pub phi2: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
 

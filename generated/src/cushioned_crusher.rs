@@ -43,69 +43,69 @@
 /// spring and a damper along the line of centres, and drags on whatever slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CushionedCrusher<S = f64> {
-    /// Mass of the platform. Unit: kg. Default: 600.
+    /// Mass of the platform. Unit: `kg`. Default: 600.
     pub m: S,
-    /// Mass of the debalance. Unit: kg. Default: 40.
+    /// Mass of the debalance. Unit: `kg`. Default: 40.
     pub m0: S,
-    /// `m1`. Unit: kg. Default: 180.
+    /// `m1`. Unit: `kg`. Default: 180.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 120.
+    /// `m2`. Unit: `kg`. Default: 120.
     pub m2: S,
-    /// `J`. Unit: kg*m^2. Default: 60.
+    /// `J`. Unit: `kg*m^2`. Default: 60.
     pub J: S,
-    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    /// `J0`. Unit: `kg*m^2`. Default: 0.2.
     pub J0: S,
-    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    /// `J1`. Unit: `kg*m^2`. Default: 9.225.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    /// `J2`. Unit: `kg*m^2`. Default: 1.536.
     pub J2: S,
-    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    /// Eccentricity of the debalance. Unit: `m`. Default: 0.1.
     pub e: S,
-    /// `x0`. Unit: m. Default: 0.05.
+    /// `x0`. Unit: `m`. Default: 0.05.
     pub x0: S,
-    /// `y0`. Unit: m. Default: 0.03.
+    /// `y0`. Unit: `m`. Default: 0.03.
     pub y0: S,
-    /// `omega`. Unit: rad/s. Default: 50*pi.
+    /// `omega`. Unit: `rad/s`. Default: 50*pi.
     pub omega: S,
-    /// `cx`. Unit: N/m. Default: 300000.
+    /// `cx`. Unit: `N/m`. Default: 300000.
     pub cx: S,
-    /// `cy`. Unit: N/m. Default: 300000.
+    /// `cy`. Unit: `N/m`. Default: 300000.
     pub cy: S,
-    /// `bx`. Unit: N*s/m. Default: 1500.
+    /// `bx`. Unit: `N*s/m`. Default: 1500.
     pub bx: S,
-    /// `by`. Unit: N*s/m. Default: 1500.
+    /// `by`. Unit: `N*s/m`. Default: 1500.
     pub by: S,
-    /// `xc`. Unit: m. Default: 0.4.
+    /// `xc`. Unit: `m`. Default: 0.4.
     pub xc: S,
-    /// `yc`. Unit: m. Default: 0.3.
+    /// `yc`. Unit: `m`. Default: 0.3.
     pub yc: S,
     /// Distance of the mortar's centre from the platform's at which the material is unstrained:
-    /// the radius of the cylinder less that of the mortar. Unit: m. Default: 0.02.
+    /// the radius of the cylinder less that of the mortar. Unit: `m`. Default: 0.02.
     pub gap1: S,
     /// Distance of the pestle's centre from the mortar's at which the material is unstrained. Unit:
-    /// m. Default: 0.03.
+    /// `m`. Default: 0.03.
     pub gap2: S,
     /// Stiffness of the material between cylinder and mortar, and between mortar and pestle. Unit:
-    /// N/m. Default: 6000000.
+    /// `N/m`. Default: 6000000.
     pub k1: S,
-    /// `k2`. Unit: N/m. Default: 4000000.
+    /// `k2`. Unit: `N/m`. Default: 4000000.
     pub k2: S,
-    /// Damping of the material along the line of centres. Unit: N*s/m. Default: 8000.
+    /// Damping of the material along the line of centres. Unit: `N*s/m`. Default: 8000.
     pub d1: S,
-    /// `d2`. Unit: N*s/m. Default: 6000.
+    /// `d2`. Unit: `N*s/m`. Default: 6000.
     pub d2: S,
-    /// Drag of the material on the surfaces that slip along it. Unit: N*s/m. Default: 400.
+    /// Drag of the material on the surfaces that slip along it. Unit: `N*s/m`. Default: 400.
     pub drag1: S,
-    /// `drag2`. Unit: N*s/m. Default: 300.
+    /// `drag2`. Unit: `N*s/m`. Default: 300.
     pub drag2: S,
     /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of the pestle.
-    /// Unit: m. Default: 0.27.
+    /// Unit: `m`. Default: 0.27.
     pub R: S,
-    /// `r1`. Unit: m. Default: 0.25.
+    /// `r1`. Unit: `m`. Default: 0.25.
     pub r1: S,
-    /// `rho`. Unit: m. Default: 0.2.
+    /// `rho`. Unit: `m`. Default: 0.2.
     pub rho: S,
-    /// `r2`. Unit: m. Default: 0.17.
+    /// `r2`. Unit: `m`. Default: 0.17.
     pub r2: S,
 }
 
@@ -332,23 +332,23 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
 /// The coordinates of [`CushionedCrusher`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
-    /// `s1`. Unit: m.
+    /// `s1`. Unit: `m`.
     pub s1: S,
-    /// `phi1`. Unit: rad.
+    /// `phi1`. Unit: `rad`.
     pub phi1: S,
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `s2`. Unit: m.
+    /// `s2`. Unit: `m`.
     pub s2: S,
-    /// `phi2`. Unit: rad.
+    /// `phi2`. Unit: `rad`.
     pub phi2: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
 
@@ -406,11 +406,11 @@ pub struct Inputs {}
 /// What can be observed of a [`CushionedCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Force with which the mortar presses on the cylinder, positive outwards. Unit: N.
+    /// Force with which the mortar presses on the cylinder, positive outwards. Unit: `N`.
     pub mortar_force: S,
-    /// Force with which the pestle presses on the mortar: the crushing force. Unit: N.
+    /// Force with which the pestle presses on the mortar: the crushing force. Unit: `N`.
     pub crushing_force: S,
-    /// Distance of the platform's centre from where it rests. Unit: m.
+    /// Distance of the platform's centre from where it rests. Unit: `m`.
     pub amplitude: S,
 }
 
@@ -1146,7 +1146,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v:
     (t4 * t4 + t2 * t2) * p.bx + t6 * (t6 * p.drag2) + t9
 }
 
-/// Force with which the mortar presses on the cylinder, positive outwards. Unit: N.
+/// Force with which the mortar presses on the cylinder, positive outwards. Unit: `N`.
 ///
 /// ```text
 /// mortar_force = d1*der(s1) + k1*(s1 - gap1)
@@ -1157,7 +1157,7 @@ pub fn output_mortar_force<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9],
     (s1 - p.gap1) * p.k1 + p.d1 * s1_dot
 }
 
-/// Force with which the pestle presses on the mortar: the crushing force. Unit: N.
+/// Force with which the pestle presses on the mortar: the crushing force. Unit: `N`.
 ///
 /// ```text
 /// crushing_force = d2*der(s2) + k2*(s2 - gap2)
@@ -1172,7 +1172,7 @@ pub fn output_crushing_force<S: ::lagrangian::Scalar>(
     (s2 - p.gap2) * p.k2 + p.d2 * s2_dot
 }
 
-/// Distance of the platform's centre from where it rests. Unit: m.
+/// Distance of the platform's centre from where it rests. Unit: `m`.
 ///
 /// ```text
 /// amplitude = sqrt(x^2 + y^2)

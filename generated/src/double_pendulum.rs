@@ -36,15 +36,15 @@
 /// downward vertical. From large angles the motion is chaotic; energy is conserved throughout.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoublePendulum<S = f64> {
-    /// Mass of the upper and of the lower bob. Unit: kg. Default: 1.
+    /// Mass of the upper and of the lower bob. Unit: `kg`. Default: 1.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 1.
+    /// `m2`. Unit: `kg`. Default: 1.
     pub m2: S,
-    /// Length of the upper and of the lower rod. Unit: m. Default: 1.
+    /// Length of the upper and of the lower rod. Unit: `m`. Default: 1.
     pub l1: S,
-    /// `l2`. Unit: m. Default: 1.
+    /// `l2`. Unit: `m`. Default: 1.
     pub l2: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -136,9 +136,9 @@ impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
 /// The coordinates of [`DoublePendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
 

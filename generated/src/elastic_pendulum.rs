@@ -50,13 +50,13 @@
 /// momentum m r^2 der(theta) is conserved as well, and the mass can run in a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticPendulum<S = f64> {
-    /// Mass of the bob. Unit: kg. Default: 1.
+    /// Mass of the bob. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Stiffness of the spring. Unit: N/m. Default: 39.24.
+    /// Stiffness of the spring. Unit: `N/m`. Default: 39.24.
     pub k: S,
-    /// Length of the spring without load. Unit: m. Default: 0.75.
+    /// Length of the spring without load. Unit: `m`. Default: 0.75.
     pub l0: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -130,9 +130,9 @@ impl<S: ::lagrangian::Scalar> ElasticPendulum<S> {
 /// The coordinates of [`ElasticPendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Length of the spring. Unit: m.
+    /// Length of the spring. Unit: `m`.
     pub r: S,
-    /// Angle of the spring from the downward vertical. Unit: rad.
+    /// Angle of the spring from the downward vertical. Unit: `rad`.
     pub theta: S,
 }
 
@@ -166,7 +166,7 @@ pub struct Inputs {}
 /// What can be observed of a [`ElasticPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum about the pivot: conserved where nothing weighs. Unit: J*s.
+    /// Angular momentum about the pivot: conserved where nothing weighs. Unit: `J*s`.
     pub momentum: S,
 }
 
@@ -335,7 +335,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     t0 * (t0 * p.k2) - cos_theta * (p.k1 * r)
 }
 
-/// Angular momentum about the pivot: conserved where nothing weighs. Unit: J*s.
+/// Angular momentum about the pivot: conserved where nothing weighs. Unit: `J*s`.
 ///
 /// ```text
 /// momentum = m*r^2*der(theta)

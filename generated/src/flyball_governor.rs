@@ -48,17 +48,17 @@
 /// links are of one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlyballGovernor<S = f64> {
-    /// Lengths of an arm and of a link. Unit: m. Default: 0.2.
+    /// Lengths of an arm and of a link. Unit: `m`. Default: 0.2.
     pub l: S,
-    /// `b`. Unit: m. Default: 0.2.
+    /// `b`. Unit: `m`. Default: 0.2.
     pub b: S,
-    /// Masses of a ball and of the sleeve. Unit: kg. Default: 0.5.
+    /// Masses of a ball and of the sleeve. Unit: `kg`. Default: 0.5.
     pub m: S,
-    /// `M`. Unit: kg. Default: 2.
+    /// `M`. Unit: `kg`. Default: 2.
     pub M: S,
-    /// Inertia of the shaft, with what it drives, about its axis. Unit: kg*m^2. Default: 0.02.
+    /// Inertia of the shaft, with what it drives, about its axis. Unit: `kg*m^2`. Default: 0.02.
     pub J: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -176,11 +176,11 @@ impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
 /// The coordinates of [`FlyballGovernor`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Angle of the shaft, and of the arms from it. Unit: rad.
+    /// Angle of the shaft, and of the arms from it. Unit: `rad`.
     pub phi: S,
-    /// `alpha`. Unit: rad.
+    /// `alpha`. Unit: `rad`.
     pub alpha: S,
-    /// Depth of the sleeve below the hinge of the arms. Unit: m.
+    /// Depth of the sleeve below the hinge of the arms. Unit: `m`.
     pub s: S,
 }
 
@@ -212,7 +212,7 @@ impl<S: Copy> Coordinates<S> {
 /// What can be set while a [`FlyballGovernor`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
-    /// Torque on the shaft. Unit: N*m. Default: 0.
+    /// Torque on the shaft. Unit: `N*m`. Default: 0.
     pub drive: S,
 }
 

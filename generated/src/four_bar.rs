@@ -43,23 +43,23 @@
 /// absolute. With the lengths given the crank turns over and the rocker swings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourBar<S = f64> {
-    /// Lengths of crank, coupler and rocker, distance of the fixed pins. Unit: m. Default: 0.3.
+    /// Lengths of crank, coupler and rocker, distance of the fixed pins. Unit: `m`. Default: 0.3.
     pub a: S,
-    /// `b`. Unit: m. Default: 0.8.
+    /// `b`. Unit: `m`. Default: 0.8.
     pub b: S,
-    /// `c`. Unit: m. Default: 0.6.
+    /// `c`. Unit: `m`. Default: 0.6.
     pub c: S,
-    /// `d`. Unit: m. Default: 1.
+    /// `d`. Unit: `m`. Default: 1.
     pub d: S,
-    /// `m1`. Unit: kg. Default: 1.
+    /// `m1`. Unit: `kg`. Default: 1.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 2.
+    /// `m2`. Unit: `kg`. Default: 2.
     pub m2: S,
-    /// `m3`. Unit: kg. Default: 1.5.
+    /// `m3`. Unit: `kg`. Default: 1.5.
     pub m3: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// Rate of the crank when the run starts. Unit: rad/s. Default: 12.
+    /// Rate of the crank when the run starts. Unit: `rad/s`. Default: 12.
     pub omega: S,
 }
 
@@ -197,11 +197,11 @@ impl<S: ::lagrangian::Scalar> FourBar<S> {
 /// The coordinates of [`FourBar`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `crank`. Unit: rad.
+    /// `crank`. Unit: `rad`.
     pub crank: S,
-    /// `coupler`. Unit: rad.
+    /// `coupler`. Unit: `rad`.
     pub coupler: S,
-    /// `rocker`. Unit: rad.
+    /// `rocker`. Unit: `rad`.
     pub rocker: S,
 }
 

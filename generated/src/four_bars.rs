@@ -47,13 +47,13 @@
 /// each other, and every window could as well leave the parallelogram.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourBars<S = f64> {
-    /// Length and mass of a bar. Unit: m. Default: 1.
+    /// Length and mass of a bar. Unit: `m`. Default: 1.
     pub l: S,
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// Speed of the tops when the run starts. Unit: m/s. Default: 1.
+    /// Speed of the tops when the run starts. Unit: `m/s`. Default: 1.
     pub v0: S,
 }
 
@@ -151,9 +151,9 @@ impl<S: ::lagrangian::Scalar> FourBars<S> {
 /// The coordinates of [`FourBars`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `crank`. Unit: rad. Members: `crank[0]` to `crank[2]`.
+    /// `crank`. Unit: `rad`. Members: `crank[0]` to `crank[2]`.
     pub crank: [S; 3],
-    /// `coupler`. Unit: rad. Members: `coupler[1]` to `coupler[2]`.
+    /// `coupler`. Unit: `rad`. Members: `coupler[1]` to `coupler[2]`.
     pub coupler: [S; 2],
 }
 

@@ -48,55 +48,55 @@
 /// direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrainCrusher<S = f64> {
-    /// Mass of the platform. Unit: kg. Default: 600.
+    /// Mass of the platform. Unit: `kg`. Default: 600.
     pub m: S,
-    /// Mass of the debalance. Unit: kg. Default: 40.
+    /// Mass of the debalance. Unit: `kg`. Default: 40.
     pub m0: S,
-    /// `m1`. Unit: kg. Default: 180.
+    /// `m1`. Unit: `kg`. Default: 180.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 120.
+    /// `m2`. Unit: `kg`. Default: 120.
     pub m2: S,
-    /// `J`. Unit: kg*m^2. Default: 60.
+    /// `J`. Unit: `kg*m^2`. Default: 60.
     pub J: S,
-    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    /// `J0`. Unit: `kg*m^2`. Default: 0.2.
     pub J0: S,
-    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    /// `J1`. Unit: `kg*m^2`. Default: 9.225.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    /// `J2`. Unit: `kg*m^2`. Default: 1.536.
     pub J2: S,
-    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    /// Eccentricity of the debalance. Unit: `m`. Default: 0.1.
     pub e: S,
-    /// `x0`. Unit: m. Default: 0.05.
+    /// `x0`. Unit: `m`. Default: 0.05.
     pub x0: S,
-    /// `y0`. Unit: m. Default: 0.03.
+    /// `y0`. Unit: `m`. Default: 0.03.
     pub y0: S,
-    /// `omega`. Unit: rad/s. Default: 50*pi.
+    /// `omega`. Unit: `rad/s`. Default: 50*pi.
     pub omega: S,
-    /// `cx`. Unit: N/m. Default: 300000.
+    /// `cx`. Unit: `N/m`. Default: 300000.
     pub cx: S,
-    /// `cy`. Unit: N/m. Default: 300000.
+    /// `cy`. Unit: `N/m`. Default: 300000.
     pub cy: S,
-    /// `bx`. Unit: N*s/m. Default: 1500.
+    /// `bx`. Unit: `N*s/m`. Default: 1500.
     pub bx: S,
-    /// `by`. Unit: N*s/m. Default: 1500.
+    /// `by`. Unit: `N*s/m`. Default: 1500.
     pub by: S,
-    /// `xc`. Unit: m. Default: 0.4.
+    /// `xc`. Unit: `m`. Default: 0.4.
     pub xc: S,
-    /// `yc`. Unit: m. Default: 0.3.
+    /// `yc`. Unit: `m`. Default: 0.3.
     pub yc: S,
-    /// Radius of the platform's cylinder. Unit: m. Default: 0.27.
+    /// Radius of the platform's cylinder. Unit: `m`. Default: 0.27.
     pub R: S,
-    /// Radii of the mortar, outside and inside. Unit: m. Default: 0.25.
+    /// Radii of the mortar, outside and inside. Unit: `m`. Default: 0.25.
     pub r1: S,
-    /// `rho`. Unit: m. Default: 0.2.
+    /// `rho`. Unit: `m`. Default: 0.2.
     pub rho: S,
-    /// Radius of the pestle. Unit: m. Default: 0.16.
+    /// Radius of the pestle. Unit: `m`. Default: 0.16.
     pub r2: S,
-    /// Thickness of the bed. Unit: m. Default: 0.01.
+    /// Thickness of the bed. Unit: `m`. Default: 0.01.
     pub delta: S,
-    /// Rates at which mortar and pestle go about when the run starts. Unit: rad/s. Default: 40.
+    /// Rates at which mortar and pestle go about when the run starts. Unit: `rad/s`. Default: 40.
     pub whirl1: S,
-    /// `whirl2`. Unit: rad/s. Default: 25.
+    /// `whirl2`. Unit: `rad/s`. Default: 25.
     pub whirl2: S,
 }
 
@@ -359,23 +359,23 @@ impl<S: ::lagrangian::Scalar> GrainCrusher<S> {
 /// The coordinates of [`GrainCrusher`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
-    /// `s1`. Unit: m.
+    /// `s1`. Unit: `m`.
     pub s1: S,
-    /// `phi1`. Unit: rad.
+    /// `phi1`. Unit: `rad`.
     pub phi1: S,
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `s2`. Unit: m.
+    /// `s2`. Unit: `m`.
     pub s2: S,
-    /// `phi2`. Unit: rad.
+    /// `phi2`. Unit: `rad`.
     pub phi2: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
 
@@ -433,7 +433,7 @@ pub struct Inputs {}
 /// What can be observed of a [`GrainCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Spin of a grain. Unit: rad/s.
+    /// Spin of a grain. Unit: `rad/s`.
     pub grain_spin: S,
 }
 
@@ -1427,7 +1427,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
     (t5 * t5 + t3 * t3) * p.by + (t4 * t4 + t2 * t2) * p.bx
 }
 
-/// Spin of a grain. Unit: rad/s.
+/// Spin of a grain. Unit: `rad/s`.
 ///
 /// ```text
 /// grain_spin = der(phi2) + 2*rho*(der(theta1) - der(phi2))/delta

@@ -67,31 +67,31 @@
 /// the device itself: gimbal lock, in which rotor and outer gimbal turn about one line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GyroscopeInGimbals<S = f64> {
-    /// Inertia of the outer gimbal about its axis, the vertical. Unit: kg*m^2. Default: 0.002.
+    /// Inertia of the outer gimbal about its axis, the vertical. Unit: `kg*m^2`. Default: 0.002.
     pub A1: S,
     /// Inertia of the inner gimbal: about its axis, about the rotor's, about the third. Unit:
-    /// kg*m^2. Default: 0.0012.
+    /// `kg*m^2`. Default: 0.0012.
     pub A2: S,
-    /// `B2`. Unit: kg*m^2. Default: 0.0008.
+    /// `B2`. Unit: `kg*m^2`. Default: 0.0008.
     pub B2: S,
-    /// `C2`. Unit: kg*m^2. Default: 0.0008.
+    /// `C2`. Unit: `kg*m^2`. Default: 0.0008.
     pub C2: S,
-    /// Inertia of the rotor: across its axis, and about it. Unit: kg*m^2. Default: 0.0015.
+    /// Inertia of the rotor: across its axis, and about it. Unit: `kg*m^2`. Default: 0.0015.
     pub A3: S,
-    /// `C3`. Unit: kg*m^2. Default: 0.0025.
+    /// `C3`. Unit: `kg*m^2`. Default: 0.0025.
     pub C3: S,
     /// Masses of the gimbals and of the rotor. Their centres rest, so nothing depends on
-    /// them. Unit: kg. Default: 0.5.
+    /// them. Unit: `kg`. Default: 0.5.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 0.4.
+    /// `m2`. Unit: `kg`. Default: 0.4.
     pub m2: S,
-    /// `m3`. Unit: kg. Default: 1.2.
+    /// `m3`. Unit: `kg`. Default: 1.2.
     pub m3: S,
-    /// Mass of the weight, and its distance from the centre. Unit: kg. Default: 0.05.
+    /// Mass of the weight, and its distance from the centre. Unit: `kg`. Default: 0.05.
     pub w: S,
-    /// `d`. Unit: m. Default: 0.12.
+    /// `d`. Unit: `m`. Default: 0.12.
     pub d: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -206,12 +206,12 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
 /// The coordinates of [`GyroscopeInGimbals`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Turn of the outer gimbal about the vertical. Unit: rad.
+    /// Turn of the outer gimbal about the vertical. Unit: `rad`.
     pub alpha: S,
-    /// Inclination of the rotor's axis, upwards from the horizontal. Unit: rad.
+    /// Inclination of the rotor's axis, upwards from the horizontal. Unit: `rad`.
     pub beta: S,
     /// Turn of the rotor in the inner gimbal.
-    /// Its speed: fast beside the rates that the weight makes. Unit: rad.
+    /// Its speed: fast beside the rates that the weight makes. Unit: `rad`.
     pub gamma: S,
 }
 
@@ -247,9 +247,9 @@ pub struct Inputs {}
 /// What can be observed of a [`GyroscopeInGimbals`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum of the rotor about its axis, H: conserved. Unit: J*s.
+    /// Angular momentum of the rotor about its axis, H: conserved. Unit: `J*s`.
     pub rotor_momentum: S,
-    /// Angular momentum of everything about the vertical: conserved. Unit: J*s.
+    /// Angular momentum of everything about the vertical: conserved. Unit: `J*s`.
     pub vertical_momentum: S,
 }
 
@@ -466,7 +466,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     p.k4 * sin_beta
 }
 
-/// Angular momentum of the rotor about its axis, H: conserved. Unit: J*s.
+/// Angular momentum of the rotor about its axis, H: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// rotor_momentum = C3*(sin(beta)*der(alpha) + der(gamma))
@@ -483,7 +483,7 @@ pub fn output_rotor_momentum<S: ::lagrangian::Scalar>(
     (sin_beta * alpha_dot + gamma_dot) * p.C3
 }
 
-/// Angular momentum of everything about the vertical: conserved. Unit: J*s.
+/// Angular momentum of everything about the vertical: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// vertical_momentum = (B2 + C3)*sin(beta)^2*der(alpha) + (C2 + A3 + w*d^2)*cos(beta)^2*der(alpha)

@@ -45,16 +45,16 @@
 /// vertical and about the top's axis, since psi and phi are cyclic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeavyTop<S = f64> {
-    /// `m`. Unit: kg. Default: 15.
+    /// `m`. Unit: `kg`. Default: 15.
     pub m: S,
-    /// Distance of the mass centre from the fixed point. Unit: m. Default: 1.
+    /// Distance of the mass centre from the fixed point. Unit: `m`. Default: 1.
     pub l: S,
-    /// Inertia about the mass centre: across the axis of the top, and about it. Unit: kg*m^2.
+    /// Inertia about the mass centre: across the axis of the top, and about it. Unit: `kg*m^2`.
     /// Default: 0.234375.
     pub A: S,
-    /// `C`. Unit: kg*m^2. Default: 0.46875.
+    /// `C`. Unit: `kg*m^2`. Default: 0.46875.
     pub C: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -137,12 +137,12 @@ impl<S: ::lagrangian::Scalar> HeavyTop<S> {
 /// The coordinates of [`HeavyTop`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `psi`. Unit: rad.
+    /// `psi`. Unit: `rad`.
     pub psi: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
     /// The spin with which it is let go: fast enough to carry it, at m g l/(C spin) = 2 rad/s.
-    /// Unit: rad.
+    /// Unit: `rad`.
     pub phi: S,
 }
 
@@ -178,9 +178,9 @@ pub struct Inputs {}
 /// What can be observed of a [`HeavyTop`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum about the vertical: conserved. Unit: J*s.
+    /// Angular momentum about the vertical: conserved. Unit: `J*s`.
     pub vertical_momentum: S,
-    /// Angular momentum about the top's axis: conserved. Unit: J*s.
+    /// Angular momentum about the top's axis: conserved. Unit: `J*s`.
     pub axial_momentum: S,
 }
 
@@ -377,7 +377,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
     p.k2 * cos_theta
 }
 
-/// Angular momentum about the vertical: conserved. Unit: J*s.
+/// Angular momentum about the vertical: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// vertical_momentum = C*cos(theta)^2*der(psi) + (m*l^2 + A)*sin(theta)^2*der(psi)
@@ -397,7 +397,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
     t0 * phi_dot + t1
 }
 
-/// Angular momentum about the top's axis: conserved. Unit: J*s.
+/// Angular momentum about the top's axis: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// axial_momentum = C*(cos(theta)*der(psi) + der(phi))

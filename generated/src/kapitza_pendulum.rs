@@ -52,16 +52,16 @@
 /// pendulum swings with half the frequency of its pivot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KapitzaPendulum<S = f64> {
-    /// Mass of the bob. It cancels. Unit: kg. Default: 1.
+    /// Mass of the bob. It cancels. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Length of the rod. Unit: m. Default: 1.
+    /// Length of the rod. Unit: `m`. Default: 1.
     pub l: S,
-    /// Amplitude of the pivot. Unit: m. Default: 0.1.
+    /// Amplitude of the pivot. Unit: `m`. Default: 0.1.
     pub a: S,
     /// Frequency of the pivot: it shakes with twice the least that holds the pendulum up. Unit:
-    /// rad/s. Default: 88.
+    /// `rad/s`. Default: 88.
     pub omega: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -147,7 +147,7 @@ impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
 /// The coordinates of [`KapitzaPendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Angle of the rod from the upward vertical. Unit: rad.
+    /// Angle of the rod from the upward vertical. Unit: `rad`.
     pub theta: S,
 }
 
@@ -177,7 +177,7 @@ pub struct Inputs {}
 /// What can be observed of a [`KapitzaPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Force that shakes the pivot, upwards. Unit: N.
+    /// Force that shakes the pivot, upwards. Unit: `N`.
     pub force: S,
 }
 
@@ -366,7 +366,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     (t3 + (cos_t0 - t1 * sin_t0) * p.k1) * (t2 * p.k8) - t2 * p.k7
 }
 
-/// Force that shakes the pivot, upwards. Unit: N.
+/// Force that shakes the pivot, upwards. Unit: `N`.
 ///
 /// ```text
 /// force = m*((-(l*sin(theta)*der(der(theta)) + l*cos(theta)*der(theta)^2) -

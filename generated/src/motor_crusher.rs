@@ -77,54 +77,54 @@
 /// `vibrating_crusher.machine`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorCrusher<S = f64> {
-    /// Mass of the platform. Unit: kg. Default: 600.
+    /// Mass of the platform. Unit: `kg`. Default: 600.
     pub m: S,
-    /// Mass of the debalance. Unit: kg. Default: 40.
+    /// Mass of the debalance. Unit: `kg`. Default: 40.
     pub m0: S,
-    /// `m1`. Unit: kg. Default: 180.
+    /// `m1`. Unit: `kg`. Default: 180.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 120.
+    /// `m2`. Unit: `kg`. Default: 120.
     pub m2: S,
-    /// `J`. Unit: kg*m^2. Default: 60.
+    /// `J`. Unit: `kg*m^2`. Default: 60.
     pub J: S,
-    /// `J0`. Unit: kg*m^2. Default: 0.2.
+    /// `J0`. Unit: `kg*m^2`. Default: 0.2.
     pub J0: S,
-    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    /// `J1`. Unit: `kg*m^2`. Default: 9.225.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    /// `J2`. Unit: `kg*m^2`. Default: 1.536.
     pub J2: S,
-    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    /// Eccentricity of the debalance. Unit: `m`. Default: 0.1.
     pub e: S,
-    /// `x0`. Unit: m. Default: 0.05.
+    /// `x0`. Unit: `m`. Default: 0.05.
     pub x0: S,
-    /// `y0`. Unit: m. Default: 0.03.
+    /// `y0`. Unit: `m`. Default: 0.03.
     pub y0: S,
-    /// Synchronous speed of the motor. Unit: rad/s. Default: 50*pi.
+    /// Synchronous speed of the motor. Unit: `rad/s`. Default: 50*pi.
     pub omega: S,
-    /// `cx`. Unit: N/m. Default: 300000.
+    /// `cx`. Unit: `N/m`. Default: 300000.
     pub cx: S,
-    /// `cy`. Unit: N/m. Default: 300000.
+    /// `cy`. Unit: `N/m`. Default: 300000.
     pub cy: S,
-    /// `bx`. Unit: N*s/m. Default: 1500.
+    /// `bx`. Unit: `N*s/m`. Default: 1500.
     pub bx: S,
-    /// `by`. Unit: N*s/m. Default: 1500.
+    /// `by`. Unit: `N*s/m`. Default: 1500.
     pub by: S,
-    /// `xc`. Unit: m. Default: 0.4.
+    /// `xc`. Unit: `m`. Default: 0.4.
     pub xc: S,
-    /// `yc`. Unit: m. Default: 0.3.
+    /// `yc`. Unit: `m`. Default: 0.3.
     pub yc: S,
-    /// Breakdown torque of the motor. Unit: N*m. Default: 400.
+    /// Breakdown torque of the motor. Unit: `N*m`. Default: 400.
     pub Mk: S,
-    /// Slip at which it breaks down. Unit: 1. Default: 0.2.
+    /// Slip at which it breaks down. Unit: `1`. Default: 0.2.
     pub sk: S,
     /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of pestle. Unit:
-    /// m. Default: 0.27.
+    /// `m`. Default: 0.27.
     pub R: S,
-    /// `r1`. Unit: m. Default: 0.25.
+    /// `r1`. Unit: `m`. Default: 0.25.
     pub r1: S,
-    /// `rho`. Unit: m. Default: 0.2.
+    /// `rho`. Unit: `m`. Default: 0.2.
     pub rho: S,
-    /// `r2`. Unit: m. Default: 0.17.
+    /// `r2`. Unit: `m`. Default: 0.17.
     pub r2: S,
 }
 
@@ -308,25 +308,25 @@ impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
 /// The coordinates of [`MotorCrusher`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
-    /// `s1`. Unit: m.
+    /// `s1`. Unit: `m`.
     pub s1: S,
-    /// `phi1`. Unit: rad.
+    /// `phi1`. Unit: `rad`.
     pub phi1: S,
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `s2`. Unit: m.
+    /// `s2`. Unit: `m`.
     pub s2: S,
-    /// `phi2`. Unit: rad.
+    /// `phi2`. Unit: `rad`.
     pub phi2: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
-    /// Angle of the debalance against the ground. Unit: rad.
+    /// Angle of the debalance against the ground. Unit: `rad`.
     pub psi: S,
 }
 
@@ -387,13 +387,13 @@ pub struct Inputs {}
 /// What can be observed of a [`MotorCrusher`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Speed of the debalance. Unit: rad/s.
+    /// Speed of the debalance. Unit: `rad/s`.
     pub speed: S,
-    /// Torque of the motor. Unit: N*m.
+    /// Torque of the motor. Unit: `N*m`.
     pub motor_torque: S,
-    /// Power of the motor. Unit: W.
+    /// Power of the motor. Unit: `W`.
     pub motor_power: S,
-    /// Distance of the platform's centre from where it rests. Unit: m.
+    /// Distance of the platform's centre from where it rests. Unit: `m`.
     pub amplitude: S,
 }
 
@@ -1008,7 +1008,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -
     (t5 * t5 + t3 * t3) * p.by + (t4 * t4 + t2 * t2) * p.bx
 }
 
-/// Speed of the debalance. Unit: rad/s.
+/// Speed of the debalance. Unit: `rad/s`.
 ///
 /// ```text
 /// speed = der(psi)
@@ -1018,7 +1018,7 @@ pub fn output_speed<S: ::lagrangian::Scalar>(v: &[S; 10]) -> S {
     psi_dot
 }
 
-/// Torque of the motor. Unit: N*m.
+/// Torque of the motor. Unit: `N*m`.
 ///
 /// ```text
 /// motor_torque = 2*Mk*sk*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
@@ -1029,7 +1029,7 @@ pub fn output_motor_torque<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]
     t0 * p.k2 / (t0 * (t0 * p.k0) + p.k1)
 }
 
-/// Power of the motor. Unit: W.
+/// Power of the motor. Unit: `W`.
 ///
 /// ```text
 /// motor_power = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
@@ -1040,7 +1040,7 @@ pub fn output_motor_power<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10])
     t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
 }
 
-/// Distance of the platform's centre from where it rests. Unit: m.
+/// Distance of the platform's centre from where it rests. Unit: `m`.
 ///
 /// ```text
 /// amplitude = sqrt(x^2 + y^2)

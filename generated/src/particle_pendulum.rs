@@ -39,15 +39,15 @@
 /// scaled so that their multipliers are the forces in the rods, positive where a rod presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ParticlePendulum<S = f64> {
-    /// `m1`. Unit: kg. Default: 1.
+    /// `m1`. Unit: `kg`. Default: 1.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 1.
+    /// `m2`. Unit: `kg`. Default: 1.
     pub m2: S,
-    /// `l1`. Unit: m. Default: 1.
+    /// `l1`. Unit: `m`. Default: 1.
     pub l1: S,
-    /// `l2`. Unit: m. Default: 1.
+    /// `l2`. Unit: `m`. Default: 1.
     pub l2: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -152,13 +152,13 @@ impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
 /// The coordinates of [`ParticlePendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x1`. Unit: m.
+    /// `x1`. Unit: `m`.
     pub x1: S,
-    /// `y1`. Unit: m.
+    /// `y1`. Unit: `m`.
     pub y1: S,
-    /// `x2`. Unit: m.
+    /// `x2`. Unit: `m`.
     pub x2: S,
-    /// `y2`. Unit: m.
+    /// `y2`. Unit: `m`.
     pub y2: S,
 }
 

@@ -39,17 +39,17 @@
 /// give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prisms<S = f64> {
-    /// Mass of the prism that slides down. Unit: kg. Default: 32/13.
+    /// Mass of the prism that slides down. Unit: `kg`. Default: 32/13.
     pub m: S,
-    /// Mass of the prism on the floor. Unit: kg. Default: 20/13.
+    /// Mass of the prism on the floor. Unit: `kg`. Default: 20/13.
     pub M: S,
-    /// Angle of the rough side to the horizontal. Unit: rad. Default: 0.25*pi.
+    /// Angle of the rough side to the horizontal. Unit: `rad`. Default: 0.25*pi.
     pub alpha: S,
-    /// Coefficient of friction between the prisms. Unit: 1. Default: 0.1.
+    /// Coefficient of friction between the prisms. Unit: `1`. Default: 0.1.
     pub mu1: S,
-    /// Coefficient of friction on the floor. Unit: 1. Default: 0.02.
+    /// Coefficient of friction on the floor. Unit: `1`. Default: 0.02.
     pub mu2: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -166,9 +166,9 @@ impl<S: ::lagrangian::Scalar> Prisms<S> {
 /// The coordinates of [`Prisms`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// How far the prism on the floor has moved. Unit: m.
+    /// How far the prism on the floor has moved. Unit: `m`.
     pub q1: S,
-    /// How far the other has moved on it, horizontally and to the other side. Unit: m.
+    /// How far the other has moved on it, horizontally and to the other side. Unit: `m`.
     pub q2: S,
 }
 

@@ -42,26 +42,26 @@
 /// against those of its shape. Spun one way it begins to rattle and turns round.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rattleback<S = f64> {
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Half axes of the ellipsoid. Unit: m. Default: 0.2.
+    /// Half axes of the ellipsoid. Unit: `m`. Default: 0.2.
     pub a: S,
-    /// `b`. Unit: m. Default: 0.03.
+    /// `b`. Unit: `m`. Default: 0.03.
     pub b: S,
-    /// `c`. Unit: m. Default: 0.02.
+    /// `c`. Unit: `m`. Default: 0.02.
     pub c: S,
-    /// Height of the ellipsoid's centre above the mass centre. Unit: m. Default: 0.01.
+    /// Height of the ellipsoid's centre above the mass centre. Unit: `m`. Default: 0.01.
     pub h: S,
     /// Inertias about the mass centre along the axes of the shape, and what couples the first two.
-    /// Unit: kg*m^2. Default: 0.0002.
+    /// Unit: `kg*m^2`. Default: 0.0002.
     pub A: S,
-    /// `B`. Unit: kg*m^2. Default: 0.0016.
+    /// `B`. Unit: `kg*m^2`. Default: 0.0016.
     pub B: S,
-    /// `C`. Unit: kg*m^2. Default: 0.0017.
+    /// `C`. Unit: `kg*m^2`. Default: 0.0017.
     pub C: S,
-    /// `D`. Unit: kg*m^2. Default: -0.00002.
+    /// `D`. Unit: `kg*m^2`. Default: -0.00002.
     pub D: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -173,17 +173,17 @@ impl<S: ::lagrangian::Scalar> Rattleback<S> {
 /// The coordinates of [`Rattleback`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Mass centre. Unit: m.
+    /// Mass centre. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `z`. Unit: m.
+    /// `z`. Unit: `m`.
     pub z: S,
-    /// Spin about the vertical, then roll and pitch of what spins. Unit: rad.
+    /// Spin about the vertical, then roll and pitch of what spins. Unit: `rad`.
     pub psi: S,
-    /// `roll`. Unit: rad.
+    /// `roll`. Unit: `rad`.
     pub roll: S,
-    /// `pitch`. Unit: rad.
+    /// `pitch`. Unit: `rad`.
     pub pitch: S,
 }
 

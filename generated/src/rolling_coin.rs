@@ -41,16 +41,16 @@
 /// roll. What touches stands still: two constraints on rates alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCoin<S = f64> {
-    /// `m`. Unit: kg. Default: 1.
+    /// `m`. Unit: `kg`. Default: 1.
     pub m: S,
-    /// `r`. Unit: m. Default: 0.1.
+    /// `r`. Unit: `m`. Default: 0.1.
     pub r: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// Inertia about the axis, and across it; those of a uniform disc. Unit: kg*m^2. Default:
+    /// Inertia about the axis, and across it; those of a uniform disc. Unit: `kg*m^2`. Default:
     /// 0.005.
     pub C: S,
-    /// `A`. Unit: kg*m^2. Default: 0.0025.
+    /// `A`. Unit: `kg*m^2`. Default: 0.0025.
     pub A: S,
 }
 
@@ -147,15 +147,15 @@ impl<S: ::lagrangian::Scalar> RollingCoin<S> {
 /// The coordinates of [`RollingCoin`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `heading`. Unit: rad.
+    /// `heading`. Unit: `rad`.
     pub heading: S,
-    /// `lean`. Unit: rad.
+    /// `lean`. Unit: `rad`.
     pub lean: S,
-    /// `roll`. Unit: rad.
+    /// `roll`. Unit: `rad`.
     pub roll: S,
 }
 

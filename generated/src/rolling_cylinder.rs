@@ -42,15 +42,15 @@
 /// as it presses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingCylinder<S = f64> {
-    /// `m`. Unit: kg. Default: 180.
+    /// `m`. Unit: `kg`. Default: 180.
     pub m: S,
-    /// `J`. Unit: kg*m^2. Default: 9.225.
+    /// `J`. Unit: `kg*m^2`. Default: 9.225.
     pub J: S,
-    /// Radii of the fixed cylinder and of the one that rolls. Unit: m. Default: 0.27.
+    /// Radii of the fixed cylinder and of the one that rolls. Unit: `m`. Default: 0.27.
     pub R: S,
-    /// `r`. Unit: m. Default: 0.25.
+    /// `r`. Unit: `m`. Default: 0.25.
     pub r: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -145,11 +145,11 @@ impl<S: ::lagrangian::Scalar> RollingCylinder<S> {
 /// The coordinates of [`RollingCylinder`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Distance of the axes, and its direction from the one that points down. Unit: m.
+    /// Distance of the axes, and its direction from the one that points down. Unit: `m`.
     pub s: S,
-    /// `phi`. Unit: rad.
+    /// `phi`. Unit: `rad`.
     pub phi: S,
-    /// Angle of the cylinder. Unit: rad.
+    /// Angle of the cylinder. Unit: `rad`.
     pub theta: S,
 }
 

@@ -47,11 +47,11 @@
 /// turn over and over. E. T. Whittaker, Analytical Dynamics, 4th ed. 1937, section 44.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimplePendulum<S = f64> {
-    /// Mass of the bob. It cancels: light and heavy bobs swing alike. Unit: kg. Default: 1.
+    /// Mass of the bob. It cancels: light and heavy bobs swing alike. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Length of the rod. Unit: m. Default: 1.
+    /// Length of the rod. Unit: `m`. Default: 1.
     pub l: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -117,7 +117,7 @@ impl<S: ::lagrangian::Scalar> SimplePendulum<S> {
 /// The coordinates of [`SimplePendulum`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Angle of the rod from the downward vertical. Unit: rad.
+    /// Angle of the rod from the downward vertical. Unit: `rad`.
     pub theta: S,
 }
 
@@ -148,7 +148,7 @@ pub struct Inputs {}
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
     /// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
-    /// of a swing from 90 degrees. Unit: N.
+    /// of a swing from 90 degrees. Unit: `N`.
     pub tension: S,
 }
 
@@ -260,7 +260,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) ->
 }
 
 /// Tension of the rod; negative where the bob presses on it. It is 3 m g at the bottom
-/// of a swing from 90 degrees. Unit: N.
+/// of a swing from 90 degrees. Unit: `N`.
 ///
 /// ```text
 /// tension = m*l*der(theta)^2 + m*g*cos(theta)

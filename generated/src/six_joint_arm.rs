@@ -41,30 +41,30 @@
 /// a wrist of three axes. Masses and sizes are those of a desk-sized arm that carries 5 kg.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SixJointArm<S = f64> {
-    /// Heights and lengths: column, upper arm, forearm, wrist to flange. Unit: m. Default: 0.35.
+    /// Heights and lengths: column, upper arm, forearm, wrist to flange. Unit: `m`. Default: 0.35.
     pub h: S,
-    /// `a`. Unit: m. Default: 0.4.
+    /// `a`. Unit: `m`. Default: 0.4.
     pub a: S,
-    /// `b`. Unit: m. Default: 0.42.
+    /// `b`. Unit: `m`. Default: 0.42.
     pub b: S,
-    /// `c`. Unit: m. Default: 0.1.
+    /// `c`. Unit: `m`. Default: 0.1.
     pub c: S,
-    /// Masses: column, upper arm, forearm, wrist, hand, flange with its load. Unit: kg. Default:
+    /// Masses: column, upper arm, forearm, wrist, hand, flange with its load. Unit: `kg`. Default:
     /// 12.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 9.
+    /// `m2`. Unit: `kg`. Default: 9.
     pub m2: S,
-    /// `m3`. Unit: kg. Default: 6.
+    /// `m3`. Unit: `kg`. Default: 6.
     pub m3: S,
-    /// `m4`. Unit: kg. Default: 1.5.
+    /// `m4`. Unit: `kg`. Default: 1.5.
     pub m4: S,
-    /// `m5`. Unit: kg. Default: 1.
+    /// `m5`. Unit: `kg`. Default: 1.
     pub m5: S,
-    /// `m6`. Unit: kg. Default: 5.2.
+    /// `m6`. Unit: `kg`. Default: 5.2.
     pub m6: S,
-    /// Viscous friction in each joint. Unit: N*m*s. Default: 0.4.
+    /// Viscous friction in each joint. Unit: `N*m*s`. Default: 0.4.
     pub friction: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -281,7 +281,7 @@ impl<S: ::lagrangian::Scalar> SixJointArm<S> {
 /// The coordinates of [`SixJointArm`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `q`. Unit: rad. Members: `q[1]` to `q[6]`.
+    /// `q`. Unit: `rad`. Members: `q[1]` to `q[6]`.
     pub q: [S; 6],
 }
 
@@ -309,7 +309,7 @@ impl<S: Copy> Coordinates<S> {
 /// What can be set while a [`SixJointArm`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
-    /// Torques of the motors. Unit: N*m. Members: `tau[1]` to `tau[6]`.
+    /// Torques of the motors. Unit: `N*m`. Members: `tau[1]` to `tau[6]`.
     pub tau: [S; 6],
 }
 
@@ -333,7 +333,7 @@ impl<S> Inputs<S> {
 /// What can be observed of a [`SixJointArm`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Height of the flange above the floor. Unit: m.
+    /// Height of the flange above the floor. Unit: `m`.
     pub height: S,
 }
 
@@ -1432,7 +1432,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) ->
     (q_6_dot * q_6_dot + q_5_dot * q_5_dot + t1) * p.friction
 }
 
-/// Height of the flange above the floor. Unit: m.
+/// Height of the flange above the floor. Unit: `m`.
 ///
 /// ```text
 /// height = a*cos(q[2]) - c*cos(q[4])*sin(q[5])*sin(q[2] + q[3]) + c*cos(q[5])*cos(q[2] + q[3])

@@ -48,23 +48,23 @@
 /// slider carries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderCrank<S = f64> {
-    /// Lengths of crank and rod. Unit: m. Default: 0.15.
+    /// Lengths of crank and rod. Unit: `m`. Default: 0.15.
     pub a: S,
-    /// `b`. Unit: m. Default: 0.35.
+    /// `b`. Unit: `m`. Default: 0.35.
     pub b: S,
-    /// `m1`. Unit: kg. Default: 0.5.
+    /// `m1`. Unit: `kg`. Default: 0.5.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 0.8.
+    /// `m2`. Unit: `kg`. Default: 0.8.
     pub m2: S,
-    /// `m3`. Unit: kg. Default: 1.2.
+    /// `m3`. Unit: `kg`. Default: 1.2.
     pub m3: S,
-    /// Inertias about the mass centres. Unit: kg*m^2. Default: 0.001.
+    /// Inertias about the mass centres. Unit: `kg*m^2`. Default: 0.001.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 0.008.
+    /// `J2`. Unit: `kg*m^2`. Default: 0.008.
     pub J2: S,
-    /// `g`. Unit: m/s^2. Default: 9.81.
+    /// `g`. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
-    /// Rate of the crank when the run starts. Unit: rad/s. Default: 20.
+    /// Rate of the crank when the run starts. Unit: `rad/s`. Default: 20.
     pub omega: S,
 }
 
@@ -182,11 +182,11 @@ impl<S: ::lagrangian::Scalar> SliderCrank<S> {
 /// The coordinates of [`SliderCrank`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Angles of crank and rod from the rail. Unit: rad.
+    /// Angles of crank and rod from the rail. Unit: `rad`.
     pub theta: S,
-    /// `phi`. Unit: rad.
+    /// `phi`. Unit: `rad`.
     pub phi: S,
-    /// Position of the slider. Unit: m.
+    /// Position of the slider. Unit: `m`.
     pub s: S,
 }
 

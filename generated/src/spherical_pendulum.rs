@@ -60,11 +60,11 @@
 /// angular momentum never gets there; one without it is the simple pendulum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphericalPendulum<S = f64> {
-    /// Mass of the bob. Unit: kg. Default: 1.
+    /// Mass of the bob. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Length of the rod. Unit: m. Default: 1.
+    /// Length of the rod. Unit: `m`. Default: 1.
     pub l: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -143,9 +143,9 @@ impl<S: ::lagrangian::Scalar> SphericalPendulum<S> {
 pub struct Coordinates<S = f64> {
     /// Direction in which the pendulum hangs, about the upward vertical.
     /// A little less than what makes it a conical pendulum, sqrt(g/(l cos(theta))) = 4.4. Unit:
-    /// rad.
+    /// `rad`.
     pub phi: S,
-    /// Angle of the rod from the downward vertical. Unit: rad.
+    /// Angle of the rod from the downward vertical. Unit: `rad`.
     pub theta: S,
 }
 
@@ -179,11 +179,11 @@ pub struct Inputs {}
 /// What can be observed of a [`SphericalPendulum`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum about the vertical: conserved. Unit: J*s.
+    /// Angular momentum about the vertical: conserved. Unit: `J*s`.
     pub vertical_momentum: S,
-    /// Height of the bob above the fixed point. Unit: m.
+    /// Height of the bob above the fixed point. Unit: `m`.
     pub height: S,
-    /// Tension of the rod. Unit: N.
+    /// Tension of the rod. Unit: `N`.
     pub tension: S,
 }
 
@@ -348,7 +348,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     p.k5 * cos_theta
 }
 
-/// Angular momentum about the vertical: conserved. Unit: J*s.
+/// Angular momentum about the vertical: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// vertical_momentum = m*l^2*sin(theta)^2*der(phi)
@@ -364,7 +364,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
     sin_theta * (sin_theta * (p.k0 * phi_dot))
 }
 
-/// Height of the bob above the fixed point. Unit: m.
+/// Height of the bob above the fixed point. Unit: `m`.
 ///
 /// ```text
 /// height = -l*cos(theta)
@@ -375,7 +375,7 @@ pub fn output_height<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S 
     p.k7 * cos_theta
 }
 
-/// Tension of the rod. Unit: N.
+/// Tension of the rod. Unit: `N`.
 ///
 /// ```text
 /// tension = m*(l*(sin(theta)^2*der(phi)^2 + der(theta)^2) + g*cos(theta))

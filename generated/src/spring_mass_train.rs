@@ -56,11 +56,11 @@
 /// the coupling in front of car i by (i/N) F/k in the mean: it draws i of the N cars.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpringMassTrain<S = f64> {
-    /// Mass of a car. Unit: kg. Default: 20.
+    /// Mass of a car. Unit: `kg`. Default: 20.
     pub m: S,
-    /// Stiffness of a coupling. Unit: N/m. Default: 8000.
+    /// Stiffness of a coupling. Unit: `N/m`. Default: 8000.
     pub k: S,
-    /// Distance of two cars at rest. Unit: m. Default: 0.5.
+    /// Distance of two cars at rest. Unit: `m`. Default: 0.5.
     pub d: S,
 }
 
@@ -143,7 +143,7 @@ impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
 /// The coordinates of [`SpringMassTrain`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Way of each car from its place. Unit: m. Members: `u[1]` to `u[8]`.
+    /// Way of each car from its place. Unit: `m`. Members: `u[1]` to `u[8]`.
     pub u: [S; 8],
 }
 
@@ -171,7 +171,7 @@ impl<S: Copy> Coordinates<S> {
 /// What can be set while a [`SpringMassTrain`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
-    /// Pull of the engine. Unit: N. Default: 200.
+    /// Pull of the engine. Unit: `N`. Default: 200.
     pub pull: S,
 }
 
@@ -191,7 +191,7 @@ impl<S> Inputs<S> {
 /// What can be observed of a [`SpringMassTrain`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Tension of the coupling behind the engine. Unit: N.
+    /// Tension of the coupling behind the engine. Unit: `N`.
     pub drawbar: S,
 }
 
@@ -439,7 +439,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
     u.pull * u_8_dot
 }
 
-/// Tension of the coupling behind the engine. Unit: N.
+/// Tension of the coupling behind the engine. Unit: `N`.
 ///
 /// ```text
 /// drawbar = k*(u[8] - u[7])

@@ -34,17 +34,17 @@
 /// loose, it slips back, and is caught again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StickSlip<S = f64> {
-    /// Mass of the block. Unit: kg. Default: 1.
+    /// Mass of the block. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Stiffness of the spring. Unit: N/m. Default: 1.
+    /// Stiffness of the spring. Unit: `N/m`. Default: 1.
     pub k: S,
-    /// Speed of the belt. Unit: m/s. Default: 0.2.
+    /// Speed of the belt. Unit: `m/s`. Default: 0.2.
     pub v_b: S,
-    /// Coefficient of friction while the block slips. Unit: 1. Default: 0.5.
+    /// Coefficient of friction while the block slips. Unit: `1`. Default: 0.5.
     pub mu: S,
-    /// Coefficient of friction while it sticks. Unit: 1. Default: 1.
+    /// Coefficient of friction while it sticks. Unit: `1`. Default: 1.
     pub mu0: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 1.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 1.
     pub g: S,
 }
 
@@ -119,7 +119,7 @@ impl<S: ::lagrangian::Scalar> StickSlip<S> {
 /// The coordinates of [`StickSlip`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Stretch of the spring. Unit: m.
+    /// Stretch of the spring. Unit: `m`.
     pub x: S,
 }
 

@@ -56,12 +56,12 @@
 /// through at der(phi)^2 = G (m1 + m2)/r^3. From rest the bodies would fall together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoBodyOrbit<S = f64> {
-    /// Mass of the first body, and of the second. Unit: kg. Default: 3.
+    /// Mass of the first body, and of the second. Unit: `kg`. Default: 3.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 1.
+    /// `m2`. Unit: `kg`. Default: 1.
     pub m2: S,
     /// Constant of gravitation, 6.674e-11 in SI units. Lengths, masses and times are chosen
-    /// here to make it 1. Unit: N*m^2/kg^2. Default: 1.
+    /// here to make it 1. Unit: `N*m^2/kg^2`. Default: 1.
     pub G: S,
 }
 
@@ -143,10 +143,10 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
 /// The coordinates of [`TwoBodyOrbit`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Distance of the bodies. Unit: m.
+    /// Distance of the bodies. Unit: `m`.
     pub r: S,
     /// Direction of the second body, seen from the first.
-    /// They start at the pericentre of an ellipse of e = 0.6. Unit: rad.
+    /// They start at the pericentre of an ellipse of e = 0.6. Unit: `rad`.
     pub phi: S,
 }
 
@@ -177,11 +177,11 @@ pub struct Inputs {}
 /// What can be observed of a [`TwoBodyOrbit`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Angular momentum about the mass centre: conserved. Unit: J*s.
+    /// Angular momentum about the mass centre: conserved. Unit: `J*s`.
     pub momentum: S,
-    /// The eccentricity vector in ground axes: conserved. Unit: 1.
+    /// The eccentricity vector in ground axes: conserved. Unit: `1`.
     pub eccentricity_x: S,
-    /// `eccentricity_y`. Unit: 1.
+    /// `eccentricity_y`. Unit: `1`.
     pub eccentricity_y: S,
 }
 
@@ -339,7 +339,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     p.k7 / r
 }
 
-/// Angular momentum about the mass centre: conserved. Unit: J*s.
+/// Angular momentum about the mass centre: conserved. Unit: `J*s`.
 ///
 /// ```text
 /// momentum = m1*m2*r^2*der(phi)/(m1 + m2)
@@ -350,7 +350,7 @@ pub fn output_momentum<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
     r * p.k2 * (r * phi_dot)
 }
 
-/// The eccentricity vector in ground axes: conserved. Unit: 1.
+/// The eccentricity vector in ground axes: conserved. Unit: `1`.
 ///
 /// ```text
 /// eccentricity_x = r^2*sin(phi)*der(r)*der(phi)/((m1 + m2)*G)
@@ -371,7 +371,7 @@ pub fn output_eccentricity_x<S: ::lagrangian::Scalar>(
     sin_phi * (t1 * r_dot) - cos_phi * (S::ONE - t0 * t1)
 }
 
-/// `eccentricity_y`. Unit: 1.
+/// `eccentricity_y`. Unit: `1`.
 ///
 /// ```text
 /// eccentricity_y = r^3*sin(phi)*der(phi)^2/((m1 + m2)*G)

@@ -54,50 +54,50 @@
 /// (m + 2 m0) x″ + 2 bx x′ + 2 cx x = 2 m0 e ω² cos ωt
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoDebalanceCrusher<S = f64> {
-    /// Mass of the platform. Unit: kg. Default: 600.
+    /// Mass of the platform. Unit: `kg`. Default: 600.
     pub m: S,
-    /// Mass of each debalance: half of the one that it takes the place of. Unit: kg. Default: 20.
+    /// Mass of each debalance: half of the one that it takes the place of. Unit: `kg`. Default: 20.
     pub m0: S,
-    /// `m1`. Unit: kg. Default: 180.
+    /// `m1`. Unit: `kg`. Default: 180.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 120.
+    /// `m2`. Unit: `kg`. Default: 120.
     pub m2: S,
-    /// `J`. Unit: kg*m^2. Default: 60.
+    /// `J`. Unit: `kg*m^2`. Default: 60.
     pub J: S,
-    /// `J0`. Unit: kg*m^2. Default: 0.1.
+    /// `J0`. Unit: `kg*m^2`. Default: 0.1.
     pub J0: S,
-    /// `J1`. Unit: kg*m^2. Default: 9.225.
+    /// `J1`. Unit: `kg*m^2`. Default: 9.225.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 1.536.
+    /// `J2`. Unit: `kg*m^2`. Default: 1.536.
     pub J2: S,
-    /// Eccentricity of the debalance. Unit: m. Default: 0.1.
+    /// Eccentricity of the debalance. Unit: `m`. Default: 0.1.
     pub e: S,
-    /// `x0`. Unit: m. Default: 0.05.
+    /// `x0`. Unit: `m`. Default: 0.05.
     pub x0: S,
-    /// `y0`. Unit: m. Default: 0.03.
+    /// `y0`. Unit: `m`. Default: 0.03.
     pub y0: S,
-    /// `omega`. Unit: rad/s. Default: 50*pi.
+    /// `omega`. Unit: `rad/s`. Default: 50*pi.
     pub omega: S,
-    /// `cx`. Unit: N/m. Default: 300000.
+    /// `cx`. Unit: `N/m`. Default: 300000.
     pub cx: S,
-    /// `cy`. Unit: N/m. Default: 300000.
+    /// `cy`. Unit: `N/m`. Default: 300000.
     pub cy: S,
-    /// `bx`. Unit: N*s/m. Default: 1500.
+    /// `bx`. Unit: `N*s/m`. Default: 1500.
     pub bx: S,
-    /// `by`. Unit: N*s/m. Default: 1500.
+    /// `by`. Unit: `N*s/m`. Default: 1500.
     pub by: S,
-    /// `xc`. Unit: m. Default: 0.4.
+    /// `xc`. Unit: `m`. Default: 0.4.
     pub xc: S,
-    /// `yc`. Unit: m. Default: 0.3.
+    /// `yc`. Unit: `m`. Default: 0.3.
     pub yc: S,
     /// Inner radius of the cylinder, outer and inner radius of the mortar, radius of pestle. Unit:
-    /// m. Default: 0.27.
+    /// `m`. Default: 0.27.
     pub R: S,
-    /// `r1`. Unit: m. Default: 0.25.
+    /// `r1`. Unit: `m`. Default: 0.25.
     pub r1: S,
-    /// `rho`. Unit: m. Default: 0.2.
+    /// `rho`. Unit: `m`. Default: 0.2.
     pub rho: S,
-    /// `r2`. Unit: m. Default: 0.17.
+    /// `r2`. Unit: `m`. Default: 0.17.
     pub r2: S,
 }
 
@@ -269,23 +269,23 @@ impl<S: ::lagrangian::Scalar> TwoDebalanceCrusher<S> {
 /// The coordinates of [`TwoDebalanceCrusher`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// `x`. Unit: m.
+    /// `x`. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
-    /// `theta`. Unit: rad.
+    /// `theta`. Unit: `rad`.
     pub theta: S,
-    /// On the line, where the platform does not reach it: |x| stays below s1. Unit: m.
+    /// On the line, where the platform does not reach it: |x| stays below s1. Unit: `m`.
     pub s1: S,
-    /// `phi1`. Unit: rad.
+    /// `phi1`. Unit: `rad`.
     pub phi1: S,
-    /// `theta1`. Unit: rad.
+    /// `theta1`. Unit: `rad`.
     pub theta1: S,
-    /// `s2`. Unit: m.
+    /// `s2`. Unit: `m`.
     pub s2: S,
-    /// `phi2`. Unit: rad.
+    /// `phi2`. Unit: `rad`.
     pub phi2: S,
-    /// `theta2`. Unit: rad.
+    /// `theta2`. Unit: `rad`.
     pub theta2: S,
 }
 

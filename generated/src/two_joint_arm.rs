@@ -54,23 +54,23 @@
 /// pendulum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoJointArm<S = f64> {
-    /// Length of each link. Unit: m. Default: 0.4.
+    /// Length of each link. Unit: `m`. Default: 0.4.
     pub l1: S,
-    /// `l2`. Unit: m. Default: 0.35.
+    /// `l2`. Unit: `m`. Default: 0.35.
     pub l2: S,
-    /// Distance of each link's mass centre from its joint. Unit: m. Default: 0.2.
+    /// Distance of each link's mass centre from its joint. Unit: `m`. Default: 0.2.
     pub c1: S,
-    /// `c2`. Unit: m. Default: 0.16.
+    /// `c2`. Unit: `m`. Default: 0.16.
     pub c2: S,
-    /// Mass of each link. Unit: kg. Default: 4.
+    /// Mass of each link. Unit: `kg`. Default: 4.
     pub m1: S,
-    /// `m2`. Unit: kg. Default: 2.5.
+    /// `m2`. Unit: `kg`. Default: 2.5.
     pub m2: S,
-    /// Inertia of each link about its mass centre. Unit: kg*m^2. Default: 0.06.
+    /// Inertia of each link about its mass centre. Unit: `kg*m^2`. Default: 0.06.
     pub J1: S,
-    /// `J2`. Unit: kg*m^2. Default: 0.03.
+    /// `J2`. Unit: `kg*m^2`. Default: 0.03.
     pub J2: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -160,9 +160,9 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
 /// The coordinates of [`TwoJointArm`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// Shoulder: angle of the upper arm from the horizontal. Unit: rad.
+    /// Shoulder: angle of the upper arm from the horizontal. Unit: `rad`.
     pub q1: S,
-    /// Elbow: angle of the forearm from the upper arm. Unit: rad.
+    /// Elbow: angle of the forearm from the upper arm. Unit: `rad`.
     pub q2: S,
 }
 
@@ -189,9 +189,9 @@ impl<S: Copy> Coordinates<S> {
 /// What can be set while a [`TwoJointArm`] runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs<S = f64> {
-    /// Torque of the motor in the shoulder, and in the elbow. Unit: N*m. Default: 0.
+    /// Torque of the motor in the shoulder, and in the elbow. Unit: `N*m`. Default: 0.
     pub tau1: S,
-    /// `tau2`. Unit: N*m. Default: 0.
+    /// `tau2`. Unit: `N*m`. Default: 0.
     pub tau2: S,
 }
 
@@ -217,12 +217,12 @@ impl<S> Inputs<S> {
 /// What can be observed of a [`TwoJointArm`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs<S = f64> {
-    /// Where the tip is. Unit: m.
+    /// Where the tip is. Unit: `m`.
     pub x: S,
-    /// `y`. Unit: m.
+    /// `y`. Unit: `m`.
     pub y: S,
     /// Area of the tip's motions when both joints move at 1 rad/s: 0 where the arm is
-    /// stretched out or folded, and the tip cannot be moved along it. Unit: m^2.
+    /// stretched out or folded, and the tip cannot be moved along it. Unit: `m^2`.
     pub manipulability: S,
 }
 
@@ -447,7 +447,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
     u.tau2 * q2_dot + u.tau1 * q1_dot
 }
 
-/// Where the tip is. Unit: m.
+/// Where the tip is. Unit: `m`.
 ///
 /// ```text
 /// x = l1*cos(q1) + l2*cos(q1 + q2)
@@ -461,7 +461,7 @@ pub fn output_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     cos_t0 * p.l2 + cos_q1 * p.l1
 }
 
-/// `y`. Unit: m.
+/// `y`. Unit: `m`.
 ///
 /// ```text
 /// y = l1*sin(q1) + l2*sin(q1 + q2)
@@ -476,7 +476,7 @@ pub fn output_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
 }
 
 /// Area of the tip's motions when both joints move at 1 rad/s: 0 where the arm is
-/// stretched out or folded, and the tip cannot be moved along it. Unit: m^2.
+/// stretched out or folded, and the tip cannot be moved along it. Unit: `m^2`.
 ///
 /// ```text
 /// manipulability = l1*l2*abs(sin(q2))

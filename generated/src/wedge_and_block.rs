@@ -30,17 +30,17 @@
 /// accelerate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WedgeAndBlock<S = f64> {
-    /// Mass of the wedge. Unit: kg. Default: 3.
+    /// Mass of the wedge. Unit: `kg`. Default: 3.
     pub M: S,
-    /// Mass of the block. Unit: kg. Default: 1.
+    /// Mass of the block. Unit: `kg`. Default: 1.
     pub m: S,
-    /// Angle of the wedge. Unit: rad. Default: (1/6)*pi.
+    /// Angle of the wedge. Unit: `rad`. Default: (1/6)*pi.
     pub alpha: S,
-    /// Coefficient of friction between block and wedge. Unit: 1. Default: 0.1.
+    /// Coefficient of friction between block and wedge. Unit: `1`. Default: 0.1.
     pub mu1: S,
-    /// Coefficient of friction between wedge and table. Unit: 1. Default: 0.02.
+    /// Coefficient of friction between wedge and table. Unit: `1`. Default: 0.02.
     pub mu2: S,
-    /// Acceleration of gravity. Unit: m/s^2. Default: 9.81.
+    /// Acceleration of gravity. Unit: `m/s^2`. Default: 9.81.
     pub g: S,
 }
 
@@ -150,9 +150,9 @@ impl<S: ::lagrangian::Scalar> WedgeAndBlock<S> {
 /// The coordinates of [`WedgeAndBlock`], or their rates, by name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S = f64> {
-    /// How far the wedge has moved. Unit: m.
+    /// How far the wedge has moved. Unit: `m`.
     pub x: S,
-    /// How far the block has slid down the wedge. Unit: m.
+    /// How far the block has slid down the wedge. Unit: `m`.
     pub s: S,
 }
 

@@ -40,22 +40,57 @@ pub struct Comparison<'d> {
     pub mend: Vec<Difference<'d>>,
     /// Where the print adds what has different units.
     pub remarks: Vec<Diagnostic>,
+    /// Rates of what has none, for which it is meant itself: `der(m0)` for `m0`. The other mends hold
+    /// with these in place.
+    pub undotted: Vec<Undotted>,
     /// The terms as they stand in the print, for each component.
     printed: Vec<Vec<PrintedTerm<'d>>>,
 }
 
+/// A term of a print, quoted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Quoted {
+    /// As the spec writes it, with the sign that it has on its side.
+    pub text: String,
+    /// Whether it stands, or is to stand, right of the equals sign.
+    pub on_the_right: bool,
+}
+
+/// A dot too much, over what does not change, so that a term is zero.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Undotted {
+    /// As printed: `der(m0)`.
+    pub from: String,
+    /// As it should be: `m0`.
+    pub to: String,
+    /// The term without the dot, all terms brought to the left of an equals sign.
+    pub term: String,
+}
+
 impl<'d> Comparison<'d> {
-    /// The terms to add to what is printed, as the spec writes them; terms of a vector as vectors:
-    /// `(0, e*sin(phi))`.
+    /// Whether something stands right of an equals sign, so that it is to be said where terms are.
+    pub fn has_two_sides(&self) -> bool {
+        let mut terms = self.printed.iter().flatten();
+        terms.any(|term| term.on_the_right && term.value().is_some_and(|value| !value.is_zero()))
+    }
+
+    /// The terms to add and the terms to drop, each on the side of the equals sign on which it
+    /// stands, or on which what it replaces does; any other on the left.
+    pub fn terms(&self) -> [Vec<Quoted>; 2] {
+        self.words(true)
+    }
+
+    /// The terms to add to what is printed, all brought to the left of an equals sign, as the spec
+    /// writes them; terms of a vector as vectors: `(0, e*sin(phi))`.
     pub fn add(&self) -> Vec<String> {
-        let [add, _] = self.words();
-        add
+        let [add, _] = self.words(false);
+        add.into_iter().map(|term| term.text).collect()
     }
 
     /// The terms to drop from what is printed: as they stand there, where they do.
     pub fn drop(&self) -> Vec<String> {
-        let [_, drop] = self.words();
-        drop
+        let [_, drop] = self.words(false);
+        drop.into_iter().map(|term| term.text).collect()
     }
 
     /// Which of the terms to drop becomes which of the terms to add by a slip or two: their places
@@ -73,23 +108,27 @@ impl<'d> Comparison<'d> {
         all
     }
 
-    fn words(&self) -> [Vec<String>; 2] {
+    fn words(&self, own_sides: bool) -> [Vec<Quoted>; 2] {
         let dimension = self.mend.len();
         let mut all = [Vec::new(), Vec::new()];
         for (position, mend) in self.mend.iter().enumerate() {
             let printed = self.printed.get(position).map_or(&[][..], Vec::as_slice);
             let pairs = changes::pairs(&mend.drop, &mend.add);
-            let words = wording::words(mend, &pairs, printed);
+            let words = wording::words(mend, &pairs, printed, own_sides);
             for (all, words) in all.iter_mut().zip(words) {
-                all.extend(words.into_iter().map(|term| {
-                    let component = |k| if k == position { term.as_str() } else { "0" };
-                    match dimension {
-                        1 => term,
-                        _ => {
-                            let components = (0..dimension).map(component).collect::<Vec<_>>();
-                            format!("({})", components.join(", "))
-                        }
+                all.extend(words.into_iter().map(|mut term| {
+                    if dimension > 1 {
+                        let component = |k| {
+                            if k == position {
+                                term.text.as_str()
+                            } else {
+                                "0"
+                            }
+                        };
+                        let components = (0..dimension).map(component).collect::<Vec<_>>();
+                        term.text = format!("({})", components.join(", "));
                     }
+                    term
                 }));
             }
         }
@@ -102,19 +141,73 @@ pub fn compare<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Comparis
     let mut comparisons = Vec::new();
     for block in &model.published {
         comparisons.extend(block.items.iter().map(|item| {
-            let mend = mend(model, equations, item);
+            let (mend, undotted) = without_dots(model, equations, item);
             Comparison {
                 block: block.title.clone(),
                 item: item.text.clone(),
                 span: item.span,
-                agrees: mend.iter().all(Difference::is_empty),
+                agrees: undotted.is_empty() && mend.iter().all(Difference::is_empty),
                 mend,
+                undotted,
                 remarks: item.remarks.clone(),
                 printed: item.terms.clone(),
             }
         }));
     }
     comparisons
+}
+
+/// What mends a printed formula, after those dots over parameters are taken away without which less
+/// is to be mended.
+fn without_dots<'d>(
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+    item: &PublishedItem<'d>,
+) -> (Vec<Difference<'d>>, Vec<Undotted>) {
+    let mut item = item.clone();
+    let mut mends = mend(model, equations, &item);
+    let mut undotted = Vec::new();
+    let count = |mends: &[Difference<'d>]| -> usize {
+        mends.iter().map(|m| m.add.len() + m.drop.len()).sum()
+    };
+    for component in 0..item.terms.len() {
+        for place in 0..item.terms[component].len() {
+            let Some((found, term)) = without_dot(model, &item.terms[component][place]) else {
+                continue;
+            };
+            let mut candidate = item.clone();
+            let Some(value) = term.value() else { continue };
+            candidate.printed[component] = candidate.printed[component] + value;
+            let fewer = mend(model, equations, &candidate);
+            if count(&fewer) < count(&mends) {
+                undotted.push(found);
+                (item, mends) = (candidate, fewer);
+            }
+        }
+    }
+    (mends, undotted)
+}
+
+/// A term that is zero because of one dot over a parameter, without that dot.
+fn without_dot<'d>(
+    model: &Model<'d>,
+    term: &PrintedTerm<'d>,
+) -> Option<(Undotted, PrintedTerm<'d>)> {
+    let mut zeros = term.factors.iter().enumerate();
+    let (place, factor) = zeros.find(|(_, factor)| factor.value.is_zero())?;
+    let name = factor.text.strip_prefix("der(")?.strip_suffix(')')?;
+    let mut parameters = model.parameters.iter();
+    let parameter = parameters.find(|parameter| parameter.name.to_string() == name)?;
+    let mut mended = term.clone();
+    mended.factors[place].value = parameter.symbol;
+    name.clone_into(&mut mended.factors[place].text);
+    let undotted = Undotted {
+        from: factor.text.clone(),
+        to: name.to_owned(),
+        term: mended.text(),
+    };
+    let is_zero = mended.value().is_none_or(|value| value.is_zero());
+    (!factor.divides && !is_zero).then_some((undotted, mended))
 }
 
 /// What mends a printed formula, component by component.

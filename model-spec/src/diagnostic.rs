@@ -140,6 +140,8 @@ codes! {
     UnitMismatch => "unit-mismatch",
     /// A power whose unit cannot be told.
     UnitOfPower => "unit-of-power",
+    /// A coordinate that is not declared in an SI unit.
+    UnitOfState => "unit-of-state",
 
     // Numbers.
     /// A division by what is zero.
@@ -186,6 +188,47 @@ codes! {
     NoExpansion => "no-expansion",
     /// An energy or an equation that has no value anywhere.
     Undefined => "undefined",
+
+    // Warnings.
+    /// Something is declared that nothing uses.
+    Unused => "unused",
+    /// An angle that is in degrees by its looks, where radians stand.
+    LooksLikeDegrees => "looks-like-degrees",
+    /// A machine whose bodies hang, and that has no gravity.
+    NoGravity => "no-gravity",
+    /// A spring that pushes away, or a damper that drives.
+    NegativeCoefficient => "negative-coefficient",
+}
+
+/// How much a message weighs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The spec is wrong, and nothing comes of it.
+    Error,
+    /// The spec means something, but perhaps not what was meant.
+    Warning,
+}
+
+impl Severity {
+    /// `error` or `warning`.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        }
+    }
+}
+
+impl Code {
+    /// How much messages of this kind weigh.
+    pub fn severity(self) -> Severity {
+        match self {
+            Code::Unused | Code::LooksLikeDegrees | Code::NoGravity | Code::NegativeCoefficient => {
+                Severity::Warning
+            }
+            _ => Severity::Error,
+        }
+    }
 }
 
 impl std::fmt::Display for Code {
@@ -234,10 +277,11 @@ impl Diagnostic {
     }
 }
 
-/// Everything that is wrong with a spec.
+/// Everything that is wrong with a spec, and what it may not have meant.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     diagnostics: Vec<Diagnostic>,
+    warnings: Vec<Diagnostic>,
     /// What was said already: the members of a family all make the same mistake in the same place.
     said: BTreeSet<(Span, Code, String)>,
     omitted: usize,
@@ -255,15 +299,20 @@ impl Report {
         if self.said.contains(&key) {
             return;
         }
-        if self.diagnostics.len() >= REPORT_LIMIT {
-            self.omitted += 1;
+        let is_error = diagnostic.code.severity() == Severity::Error;
+        let list = match is_error {
+            true => &mut self.diagnostics,
+            false => &mut self.warnings,
+        };
+        if list.len() >= REPORT_LIMIT {
+            self.omitted += usize::from(is_error);
             return;
         }
         self.said.insert(key);
-        self.diagnostics.push(diagnostic);
+        list.push(diagnostic);
     }
 
-    /// True as soon as something is wrong.
+    /// True as soon as something is wrong; a warning is not.
     pub fn has_errors(&self) -> bool {
         !self.diagnostics.is_empty()
     }
@@ -274,17 +323,31 @@ impl Report {
         list.any(|diagnostic| diagnostic.code == code && diagnostic.span.source == source)
     }
 
-    /// The messages by position: file after file, from top to bottom.
+    /// The errors by position: file after file, from top to bottom.
     pub fn diagnostics(&self) -> Vec<&Diagnostic> {
-        let mut list: Vec<&Diagnostic> = self.diagnostics.iter().collect();
-        list.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
-        list
+        by_position(&self.diagnostics)
     }
 
-    /// How many messages were left out because of [`REPORT_LIMIT`].
+    /// The warnings by position. There may be some of a spec that is right.
+    pub fn warnings(&self) -> Vec<&Diagnostic> {
+        by_position(&self.warnings)
+    }
+
+    /// Errors and warnings by position.
+    pub fn messages(&self) -> Vec<&Diagnostic> {
+        by_position(self.diagnostics.iter().chain(&self.warnings))
+    }
+
+    /// How many errors were left out because of [`REPORT_LIMIT`].
     pub fn omitted(&self) -> usize {
         self.omitted
     }
+}
+
+fn by_position<'a>(list: impl IntoIterator<Item = &'a Diagnostic>) -> Vec<&'a Diagnostic> {
+    let mut list: Vec<&Diagnostic> = list.into_iter().collect();
+    list.sort_by_key(|diagnostic| (diagnostic.span, diagnostic.code));
+    list
 }
 
 /// The candidate that `name` was most likely meant to be, if one is near enough.

@@ -20,6 +20,10 @@ use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
 
+pub mod bounds;
+
+use bounds::Bound;
+
 /// When a value becomes known: the order in which work can be done once and kept.
 pub mod stage {
     use lagrangian_symbolic::Stage;
@@ -113,6 +117,8 @@ pub struct Model<'d> {
     pub destination: Vec<Expr<'d>>,
     /// Equations that somebody printed.
     pub published: Vec<Published<'d>>,
+    /// What masses, coefficients and the like must obey.
+    pub bounds: Vec<Bound<'d>>,
     /// The headings of the sections that the machine and its bases have, where each is said first.
     pub sections: Vec<(SectionKind, Span)>,
 }
@@ -677,8 +683,10 @@ pub struct PublishedItem<'d> {
 /// A term of a printed formula, as it stands there.
 #[derive(Clone, Debug)]
 pub struct PrintedTerm<'d> {
-    /// Whether it is subtracted; what stands right of an equals sign is.
+    /// Whether it is subtracted, with everything brought to the left of an equals sign.
     pub negative: bool,
+    /// Whether it stands right of an equals sign.
+    pub on_the_right: bool,
     /// Its factors, in the order of the print.
     pub factors: Vec<PrintedFactor<'d>>,
 }
@@ -700,6 +708,14 @@ impl<'d> PrintedTerm<'d> {
         let factors = self.factors.iter();
         let factors = factors.map(|factor| (factor.text.as_str(), factor.divides));
         crate::compare::product(self.negative, factors)
+    }
+
+    /// The same with the other sign.
+    pub fn opposite(&self) -> PrintedTerm<'d> {
+        PrintedTerm {
+            negative: !self.negative,
+            ..self.clone()
+        }
     }
 
     /// What it is; none for a term without factors.

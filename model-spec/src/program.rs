@@ -128,6 +128,16 @@ pub struct Slot {
     pub default: Option<Default>,
 }
 
+impl Slot {
+    /// The unit as a label beside its number: as the spec writes it where that is no SI unit.
+    pub fn label(&self) -> String {
+        match self.unit.is_scaled() {
+            true => self.unit_text.clone(),
+            false => self.unit.to_string(),
+        }
+    }
+}
+
 /// The default of a parameter or an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Default {

@@ -15,12 +15,15 @@
 //! | [`frames`] | frames and points |
 //! | [`items`] | bodies, springs, forces, … |
 //! | [`rates`] | rates at the start |
+//! | [`bounds`] | numbers that no machine has |
+//! | [`warnings`] | what may not be meant |
 //! | [`relaxation`] | the same machine with its guides relaxed |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`stages`] | which of their stages are to be computed by themselves |
 //! | [`brachistochrone`] | where the fastest motion ends |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
+mod bounds;
 mod brachistochrone;
 mod derivatives;
 mod expression;
@@ -34,6 +37,7 @@ mod relaxation;
 mod stages;
 mod text;
 mod value;
+mod warnings;
 mod work;
 
 pub use names::MEMBER_LIMIT;
@@ -44,6 +48,7 @@ use lagrangian_symbolic::{Dag, Expr, Rational, Symbol, Tangent};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, nearest};
+use crate::model::bounds::Bound;
 use crate::model::{Model, Pose, PoseId, Space, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, SectionKind, Spec};
@@ -74,7 +79,7 @@ impl<'d> Model<'d> {
     /// Finds out what a spec means.
     ///
     /// `constants` replaces the values of constants, by name: `N = 64`. `files` is where `extends`
-    /// finds the base. There is a model only if the whole report is empty.
+    /// finds the base. There is a model only if the report has no errors.
     pub fn resolve(
         spec: Spec,
         dag: &'d Dag,
@@ -132,6 +137,11 @@ struct Resolver<'a, 'd, 'r> {
     /// The symbols that are to be used again, by name.
     symbols: FxHashMap<String, Expr<'d>>,
 
+    /// The groups of which a member is used.
+    used: FxHashSet<usize>,
+    /// Numbers that are bounded.
+    bounds: Vec<Bound<'d>>,
+
     /// How many nodes there were before.
     first_node: usize,
     steps: usize,
@@ -169,6 +179,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             pose_of: FxHashMap::default(),
             guides: Vec::new(),
             symbols: FxHashMap::default(),
+            used: FxHashSet::default(),
+            bounds: Vec::new(),
             steps: 0,
             exhausted: false,
         }
@@ -229,12 +241,13 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
 
         coordinates.extend(self.relaxed_coordinates());
 
-        self.check_masses(&bodies, &parameters);
+        let bounds = self.check_bounds(&assumptions, &parameters);
         self.check_not_empty(machine);
         if self.report.has_errors() {
             return None;
         }
-        Some(Model {
+        self.notice_unused(layers);
+        let model = Model {
             dag: self.dag,
             name: machine.name.text.clone(),
             docs: machine.docs.clone(),
@@ -249,7 +262,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             coordinates,
             inputs,
             assumptions,
-            poses: self.poses,
+            poses: std::mem::take(&mut self.poses),
             frames,
             bodies: bodies.into_iter().map(|(_, body)| body).collect(),
             gravity,
@@ -279,8 +292,11 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             },
             destination,
             published,
+            bounds,
             sections: sections_of(layers),
-        })
+        };
+        self.notice_weight(&model, layers);
+        Some(model)
     }
 
     /// Works out each member of a section, in order.
@@ -331,7 +347,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             }
             said = spec.gravity.as_ref().or(said);
         }
-        let said = said?;
+        let said = said?.value.as_ref()?;
         let scope = Scope {
             index: None,
             limit: &limits::GRAVITY,
@@ -340,7 +356,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let unit = Unit::METRE.rate().rate();
         let why = "gravity is an acceleration, in m/s^2";
         let gravity =
-            self.settle(|resolver| resolver.vector_in(&said.value, "a vector", unit, why, scope));
+            self.settle(|resolver| resolver.vector_in(said, "a vector", unit, why, scope));
         Some(gravity?.components)
     }
 

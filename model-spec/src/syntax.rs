@@ -29,7 +29,7 @@
 //! derivatives = "derivatives" "{" list(declared) "}"
 //! stages      = "stages" "{" list(declared) "}"
 //! brachistochrone = "brachistochrone" "{" list(declared "=" expression) "}"
-//! gravity     = "gravity" expression ";"
+//! gravity     = "gravity" (expression | "none") ";"
 //! published   = "published" TEXT "{" list(print) "}"
 //! print       = ("potential_energy" | "dissipation" | "kinetic_energy" [declared]
 //!               | ("position" | "velocity" | "force" | "friction") declared) "=" expression
@@ -62,6 +62,10 @@ mod item;
 mod machine;
 mod parse;
 mod unit;
+
+/// What to write instead of a branch.
+pub(crate) const NO_BRANCHES: &str =
+    "expressions have no branches: write them with `max`, `min`, `abs` or `sign`";
 
 pub use ast::*;
 pub use expression::NESTING_LIMIT;

@@ -4,6 +4,10 @@
 //! of its tokens into one of ours, literals by [`literal`], and brackets that a `macro_rules!`
 //! made invisible into parentheses. After that nobody can tell where a spec came from.
 
+use std::borrow::Cow;
+
+use unicode_normalization::{UnicodeNormalization, is_nfc};
+
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SOURCE_LIMIT, SourceId, Span};
 
@@ -106,6 +110,15 @@ pub fn literal(text: &str, span: Span, report: &mut Report) -> Token {
         text: text.into(),
         span,
         joint: false,
+    }
+}
+
+/// A name as the Rust compiler reads it, in the normalization form C: `é` is one name, whether it is
+/// written as one character or as `e` and an accent.
+pub fn normalized(name: &str) -> Cow<'_, str> {
+    match is_nfc(name) {
+        true => Cow::Borrowed(name),
+        false => Cow::Owned(name.nfc().collect()),
     }
 }
 
@@ -299,9 +312,28 @@ impl<'a> Lexer<'a> {
             (Some(c), Some('\'')) => Some(c.len_utf8() + 1),
             _ => None,
         };
+        let before = self.tokens.last();
+        let is_behind_name = before.is_some_and(|token| {
+            token.kind == TokenKind::Ident && token.span.end as usize == start
+        });
+        let is_word = inside.starts_with(continues_word);
+        if is_behind_name && length.is_none() && !is_word {
+            return self.prime(start);
+        }
         self.at += length.unwrap_or(0);
         self.eat_while(continues_word);
         self.push_literal(start);
+    }
+
+    /// `x'`, which is no derivative here.
+    fn prime(&mut self, start: usize) {
+        let name = self.tokens.last().map_or("x", |token| &token.text);
+        let message = "a prime means nothing in a spec";
+        let help = format!("the time derivative is `der({name})`");
+        let span = self.span(start);
+        self.report
+            .push(Diagnostic::new(Code::UnexpectedToken, span, message).help(help));
+        self.push(TokenKind::Unknown, "'", start);
     }
 
     /// A name, or a raw name `r#type`.
@@ -314,7 +346,7 @@ impl<'a> Lexer<'a> {
         let name = self.at;
         self.eat_while(continues_word);
         let text = self.text.get(name..self.at).unwrap_or("");
-        self.push(TokenKind::Ident, text, start);
+        self.push(TokenKind::Ident, &normalized(text), start);
     }
 
     /// A number as Rust cuts it out: `1..N` is `1`, `.`, `.`, `N`, and a suffix belongs to it.

@@ -178,7 +178,10 @@ fn constants_from_outside() {
         let mut sources = Sources::new();
         let dag = Dag::new();
         let (_, report) = resolve(&dag, BASE, &[(name, Rational::from(4))], &mut sources);
-        report.render_short(&sources)
+        let errors = report.diagnostics().into_iter();
+        errors
+            .map(|error| error.render_short(&sources) + "\n")
+            .collect::<String>()
     };
     assert_eq!(text("N"), "");
     assert!(
@@ -894,5 +897,77 @@ fn damaged_examples_end_in_messages() {
             let outcome = std::panic::catch_unwind(|| example(&damaged));
             assert!(outcome.is_ok(), "round {round}:\n{damaged}");
         }
+    }
+}
+
+/// Units and how many SI units they are, as decimal fractions or quotients of two.
+const CONVERSIONS: [(&str, &str, &str, &str); 8] = [
+    // Two names of what is measured in the same, and how many of the second the first is.
+    ("mm", "m", "1", "1000"),
+    ("km", "inch", "1000", "0.0254"),
+    ("kg", "lb", "1", "0.45359237"),
+    ("h", "ms", "3600000", "1"),
+    ("kN", "lbf", "1000", "4.4482216152605"),
+    ("rev", "deg", "360", "1"),
+    ("kWh", "MJ", "3.6", "1"),
+    ("mA", "uA", "1000", "1"),
+];
+
+#[test]
+fn a_number_with_a_unit_is_converted_exactly() {
+    let mut seed = 7u64;
+    let mut random = move |below: u64| {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) % below
+    };
+    for case in 0..200 {
+        let number =
+            Rational::new(1 + random(1000) as i64, 1 + random(9) as i64).expect("a number");
+        let (mut from, mut to, mut expected) = (Vec::new(), Vec::new(), number.clone());
+        for _ in 0..1 + random(3) {
+            let (first, second, above, below) = CONVERSIONS[random(8) as usize];
+            let power = [1, 2, -1, -2, 3][random(5) as usize];
+            let decimal = |text| Rational::parse_decimal(text).expect("a number");
+            let ratio = decimal(above).checked_div(&decimal(below));
+            let ratio = ratio
+                .and_then(|ratio| ratio.pow(power))
+                .expect("no unit is zero");
+            expected = &expected * &ratio;
+            from.push(format!("{first}^({power})"));
+            to.push(format!("{second}^({power})"));
+        }
+        let (from, to) = (from.join("*"), to.join("*"));
+        // As a default, as a value with a unit, and from outside.
+        let text = format!(
+            "machine Test in plane {{
+                parameters {{ a: {to} = {number}*{from}, b: {from} = {number} }}
+                constants {{ c: {from} = 1 }}
+                coordinates {{ x: m }}
+                bodies {{ cart {{ mass: 1, at: (x, 0) }} }}
+                outputs {{ d: {to} = b, e: {to} = c, f: {from} = c }}
+            }}"
+        );
+        let (dag, mut sources) = (Dag::new(), Sources::new());
+        let (model, report) = resolve(&dag, &text, &[("c", number.clone())], &mut sources);
+        let model = model.unwrap_or_else(|| panic!("{}", report.render_short(&sources)));
+        let default = model.parameters[0]
+            .default
+            .and_then(|default| default.as_constant());
+        assert_eq!(default, Some(expected.clone()), "case {case}: {text}");
+        let symbol = model.parameters[1].symbol;
+        let ratio = expected.checked_div(&number).expect("a number");
+        assert_eq!(
+            model.outputs[0].value / symbol,
+            dag.constant(ratio),
+            "{text}"
+        );
+        assert_eq!(
+            model.outputs[1].value.as_constant(),
+            Some(expected),
+            "{text}"
+        );
+        assert_eq!(model.outputs[2].value.as_constant(), Some(number), "{text}");
     }
 }

@@ -192,7 +192,8 @@ fn families_keep_their_ranges() {
         Some("i")
     );
     assert_eq!(
-        spec.gravity.map(|gravity| bracketed(&gravity.value)),
+        spec.gravity
+            .and_then(|gravity| gravity.value.as_ref().map(bracketed)),
         Some("<0, -g>".into())
     );
 }
@@ -422,11 +423,11 @@ fn unknown_field() {
 #[test]
 fn unknown_unit() {
     let (spec, _) = inside(
-        "parameters { a: kgg*mm = 2, b: kN }",
+        "parameters { a: kgg*Nm = 2, b: tonne }",
         &[
             (UnknownUnit, "kgg"),
-            (UnknownUnit, "mm"),
-            (UnknownUnit, "kN"),
+            (UnknownUnit, "Nm"),
+            (UnknownUnit, "tonne"),
         ],
     );
     assert!(spec.parameters[0].content.unit.is_none());
@@ -860,4 +861,44 @@ fn the_reference_prints_what_the_parser_reads() {
         }
     }
     assert_eq!(machines, 4);
+}
+
+#[test]
+fn habits_of_other_languages_are_answered() {
+    let branch = "expressions have no branches: write them with `max`, `min`, `abs` or `sign`";
+    for (text, expected) in [
+        (
+            "body { a { mass: 1, at: (x, 0) } }",
+            "did you mean `bodies`?",
+        ),
+        ("define { a = x\' + 1 }", "the time derivative is `der(x)`"),
+        ("define { a = if x > 0 { 1 } else { 2 } }", branch),
+        ("define { a = if(x > 0, 1, 2) }", branch),
+        ("define { a = x > 0 ? 1 : 2 }", branch),
+        ("define { a = 30 deg }", "a product needs its `*`: `30*deg`"),
+        ("define { a = 30deg }", "a product needs its `*`: `30*deg`"),
+    ] {
+        let said = help(text);
+        assert!(said.iter().any(|help| help == expected), "{text}: {said:?}");
+    }
+    let nameless = "give it a name: `machine Name extends \"base.machine\" { … }`";
+    for text in [
+        "extends \"b\" { }",
+        "machine extends \"b\" { gravity none; }",
+    ] {
+        let (mut sources, mut report) = (Sources::new(), Report::new());
+        lagrangian_spec::parse(&mut sources, "test", text, &mut report);
+        let shown = report.render_short(&sources);
+        assert!(shown.contains(nameless), "{text}: {shown}");
+    }
+}
+
+#[test]
+fn two_spellings_of_a_letter_are_one_name() {
+    let mut report = Report::new();
+    let text = "m\u{e9} me\u{301} q\u{307} \u{2126}";
+    let tokens = lagrangian_spec::token::lex(Default::default(), text, &mut report);
+    let texts: Vec<&str> = tokens.iter().map(|token| &*token.text).collect();
+    assert_eq!(texts, ["m\u{e9}", "m\u{e9}", "q\u{307}", "\u{3a9}"]);
+    assert!(!report.has_errors());
 }

@@ -59,7 +59,7 @@ fn printed(specs: &BTreeMap<String, String>, name: &str) -> (String, Vec<Code>) 
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));
     assert_eq!(compiled.is_none(), report.has_errors(), "{name}");
     let codes = report
-        .diagnostics()
+        .messages()
         .iter()
         .map(|diagnostic| diagnostic.code)
         .collect();

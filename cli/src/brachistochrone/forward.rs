@@ -42,7 +42,7 @@ pub fn arrival(
         coordinates: Vec::new(),
         rates: Vec::new(),
     };
-    let machine = reading::machine(compiled.program, &start).map_err(|_| said.to_owned())?;
+    let machine = reading::machine(&compiled, &start).map_err(|_| said.to_owned())?;
     let motion = &found.motion;
     let forces = Chebyshev::new(motion.time(), |t| motion.at(t).control);
     let [from, to] = [0, found.moments.len() - 1].map(|k| &found.moments[k].q);

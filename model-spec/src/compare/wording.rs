@@ -3,6 +3,7 @@
 use lagrangian_symbolic::normal::Difference;
 use lagrangian_symbolic::{Expr, Node, Rational, text};
 
+use super::Quoted;
 use super::changes::{Factor, Term, differ_by_a_slip};
 use crate::model::PrintedTerm;
 
@@ -10,11 +11,15 @@ use crate::model::PrintedTerm;
 ///
 /// A term to drop that stands in the print is written as it stands there, and the term that it is
 /// changed to in the same order. All others are written in the usual order.
+///
+/// With `own_sides` what stands right of an equals sign has the sign that it has there; without, all
+/// is brought to the left.
 pub(super) fn words<'d>(
     mend: &Difference<'d>,
     changes: &[(usize, usize)],
     printed: &[PrintedTerm<'d>],
-) -> [Vec<String>; 2] {
+    own_sides: bool,
+) -> [Vec<Quoted>; 2] {
     let values: Vec<Expr<'d>> = printed.iter().filter_map(PrintedTerm::value).collect();
     let find = |&term: &Expr<'d>| {
         let place = values.iter().position(|&value| value == term)?;
@@ -22,13 +27,30 @@ pub(super) fn words<'d>(
     };
     let found: Vec<Option<&PrintedTerm<'d>>> = mend.drop.iter().map(find).collect();
     let usual = |term: Expr<'d>| text(term, term.dag());
+    let is_right = |found: &Option<&PrintedTerm<'d>>| found.is_some_and(|term| term.on_the_right);
+    let signed = |term: Expr<'d>, right: bool| if right && own_sides { -term } else { term };
     let dropped = mend.drop.iter().zip(&found);
-    let drop = dropped.map(|(&term, found)| found.map_or_else(|| usual(term), PrintedTerm::text));
+    let drop = dropped.map(|(&term, found)| {
+        let on_the_right = is_right(found);
+        let said = |found: &&PrintedTerm<'d>| match on_the_right && own_sides {
+            true => found.opposite().text(),
+            false => found.text(),
+        };
+        Quoted {
+            text: found.as_ref().map_or_else(|| usual(term), said),
+            on_the_right,
+        }
+    });
     let added = mend.add.iter().enumerate().map(|(k, &term)| {
         let change = changes.iter().find(|(_, to)| *to == k);
         let partner = change.and_then(|&(from, _)| found[from]);
+        let on_the_right = is_right(&partner);
+        let term = signed(term, on_the_right);
         let ordered = partner.and_then(|partner| in_the_order_of(partner, term));
-        ordered.unwrap_or_else(|| usual(term))
+        Quoted {
+            text: ordered.unwrap_or_else(|| usual(term)),
+            on_the_right,
+        }
     });
     [added.collect(), drop.collect()]
 }

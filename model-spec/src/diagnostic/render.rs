@@ -16,7 +16,8 @@ impl Diagnostic {
     /// and other places, indented.
     pub fn render_short(&self, sources: &Sources) -> String {
         let place = place(sources, self.span);
-        let mut text = format!("{place}: error: {} [{}]", self.message, self.code);
+        let severity = self.code.severity().as_str();
+        let mut text = format!("{place}: {severity}: {} [{}]", self.message, self.code);
         if let Some(help) = &self.help {
             let _ = write!(text, "\n    help: {help}");
         }
@@ -45,9 +46,11 @@ impl Diagnostic {
         };
         let lines = places().map(|span| sources.line_column(span).0);
         let margin = lines.max().unwrap_or(1).to_string().len();
-        let mut text = format!("error: {} [{}]", self.message, self.code);
+        let severity = self.code.severity().as_str();
+        let mut text = format!("{severity}: {} [{}]", self.message, self.code);
         if let Some(help) = &self.help {
-            let _ = write!(text, "\n       help: {help}");
+            let indent = severity.len() + 2;
+            let _ = write!(text, "\n{:indent$}help: {help}", "");
         }
         text.push_str(&snippet(sources, self.span, margin, '^'));
         for (span, note) in &self.notes {
@@ -59,19 +62,19 @@ impl Diagnostic {
 }
 
 impl Report {
-    /// The short form of every message, by position.
+    /// The short form of every error and warning, by position.
     pub fn render_short(&self, sources: &Sources) -> String {
         self.lines(|diagnostic| diagnostic.render_short(sources))
     }
 
-    /// Every message with its words underlined, by position, and an empty line after each.
+    /// Every error and warning with its words underlined, by position, and an empty line after each.
     pub fn render(&self, sources: &Sources) -> String {
         self.lines(|diagnostic| diagnostic.render(sources) + "\n")
     }
 
     fn lines(&self, render: impl Fn(&Diagnostic) -> String) -> String {
         let mut text = String::new();
-        for diagnostic in self.diagnostics() {
+        for diagnostic in self.messages() {
             text.push_str(&render(diagnostic));
             text.push('\n');
         }

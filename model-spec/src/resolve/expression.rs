@@ -4,7 +4,7 @@
 //! its value, so that whatever else is wrong is found too; anything else is [`Value::Unknown`] from
 //! there on, and nothing more is said about it.
 
-use lagrangian_symbolic::{Expr, Function, Rational, Symbol, Tangent};
+use lagrangian_symbolic::{Expr, Function, Node, Rational, Symbol, Tangent};
 
 use super::Resolver;
 use super::names::{Namespace, suggestion, with_help};
@@ -16,7 +16,7 @@ use crate::source::Span;
 use crate::syntax::{
     Call, Expression, ExpressionKind, Factor, Ident, Reference, SectionKind, Term,
 };
-use crate::unit::Unit;
+use crate::unit::{Measure, Unit};
 
 /// The largest exponent of what is no constant: nothing in mechanics grows with a higher power, and
 /// code would be a page long for it.
@@ -87,6 +87,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Scalar<'d>> {
         let scalar = self.scalar(expression, scope.hinting(unit))?;
         self.demand(scalar.unit, unit, expression.span, why);
+        if scalar.unit.is_none() {
+            self.notice_angle(&scalar, unit, expression.span);
+        }
         Some(scalar)
     }
 
@@ -136,14 +139,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// Reports a unit other than the one demanded; a bare number takes any.
     pub fn demand(&mut self, found: Option<Unit>, expected: Unit, span: Span, why: &str) {
-        if let Some(found) = found.filter(|&found| found != expected) {
+        if let Some(found) = found.filter(|found| !found.fits(expected)) {
             let message = format!(
                 "expected {}, found {}",
                 unit_text(expected),
                 unit_text(found)
             );
             let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-            self.push(diagnostic.help(with_factors(why, found)));
+            self.push(diagnostic.help(with_factors(why, found, expected)));
         }
     }
 
@@ -319,6 +322,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             scope.hint,
             "what is added or subtracted has one unit",
         );
+        let parts = values.iter();
+        self.no_bare_number(
+            parts.map(|(value, term)| (value.is_bare(), term.value.span)),
+            unit,
+        );
         let (Some((_, first)), Some((_, last)), true) = (values.first(), values.last(), complete)
         else {
             return Value::Unknown;
@@ -376,25 +384,139 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         // Of equally frequent ones the first: `max_by_key` would take the last.
         let most = || counts.iter().rev().max_by_key(|(_, count, _)| *count);
         let &(unit, _, example) = hinted.or_else(most)?;
-        for (other, span) in parts {
-            if other != unit {
+        for &(other, span) in &parts {
+            if !other.fits(unit) {
                 let message = format!("expected {}, found {}", unit_text(unit), unit_text(other));
                 let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
-                let diagnostic = diagnostic.help(with_factors(why, other));
+                let diagnostic = diagnostic.help(with_factors(why, other, unit));
                 self.push(diagnostic.note(example, format!("this is in {}", unit_text(unit))));
             }
         }
-        Some(unit)
+        let scaled = parts.iter().any(|(unit, _)| unit.is_scaled());
+        Some(unit.as_written(scaled))
+    }
+
+    /// Refuses bare numbers beside what is not given in SI units: nobody can tell what they are
+    /// measured in. Zero is zero in any unit.
+    pub fn no_bare_number(
+        &mut self,
+        parts: impl Iterator<Item = (bool, Span)>,
+        unit: Option<Unit>,
+    ) {
+        let Some(unit) = unit.filter(|unit| unit.is_scaled() && self.remarks.is_none()) else {
+            return;
+        };
+        for (_, span) in parts.filter(|(bare, _)| *bare) {
+            let message = "this number needs a unit beside what is not in SI units";
+            let diagnostic = Diagnostic::new(Code::MissingUnit, span, message);
+            let unit = unit.to_string();
+            let help = match unit.as_str() {
+                "1" => "write `2*rad` or `2*deg`, whichever it is".to_owned(),
+                unit => format!("write what it is measured in: `2*{unit}`"),
+            };
+            self.push(diagnostic.help(help));
+        }
+    }
+
+    /// A number of degrees where one of radians stands, and the other way round.
+    pub fn notice_angle(&mut self, bare: &Scalar<'d>, unit: Unit, span: Span) {
+        if !unit.is_angle() || self.remarks.is_some() {
+            return;
+        }
+        let exact = bare.expr.as_constant();
+        let large = bare.number.is_some_and(|x| x.abs() > std::f64::consts::TAU);
+        if !unit.is_scaled() && exact.is_some() && large {
+            let number = bare.number.unwrap_or(0.0);
+            let message = format!("this is an angle of {number} rad, and looks like degrees");
+            let diagnostic = Diagnostic::new(Code::LooksLikeDegrees, span, message);
+            let help = format!("write `{number}*deg`, or `{number}*rad` if it is meant");
+            self.push(diagnostic.help(help));
+        } else if unit.is_scaled() && power_of_pi(bare.expr) != 0 {
+            let message = "this is an angle in radians by its looks, where the unit is another";
+            let diagnostic = Diagnostic::new(Code::LooksLikeDegrees, span, message);
+            self.push(diagnostic.help("write the number of them, or `…*rad`"));
+        }
+    }
+
+    /// A unit behind a number, `30*deg`, where nothing declared bears its name.
+    fn unit_factor(&mut self, factor: &'a Expression, scope: Scope<'a>) -> Option<Measure> {
+        match &factor.kind {
+            ExpressionKind::Name(reference) if reference.index.is_none() => {
+                let word = reference.base.text.as_str();
+                let is_index = scope.index.is_some_and(|(variable, _)| variable == word);
+                let is_taken = is_index || matches!(word, "t" | "pi" | "ground");
+                let namespaces = [Namespace::Values, Namespace::FRAMES, Namespace::BODIES];
+                let is_declared = || {
+                    let mut found = namespaces.into_iter();
+                    found.any(|namespace| self.find_group(namespace, word).is_some())
+                };
+                match is_taken || self.incomplete || is_declared() {
+                    true => None,
+                    false => Measure::named(word),
+                }
+            }
+            ExpressionKind::Power(base, exponent) => {
+                let (sign, exponent) = match &exponent.kind {
+                    ExpressionKind::Negative(inner) => (-1, &inner.kind),
+                    other => (1, other),
+                };
+                let ExpressionKind::Number(power) = exponent else {
+                    return None;
+                };
+                let power = power.parse::<i32>().ok().filter(|power| *power <= 12)?;
+                self.unit_factor(base, scope)?.power(sign * power)
+            }
+            ExpressionKind::Product(factors) => {
+                factors.iter().try_fold(Measure::ONE, |product, factor| {
+                    let next = self.unit_factor(&factor.value, scope)?;
+                    product.times(&if factor.divides {
+                        next.power(-1)?
+                    } else {
+                        next
+                    })
+                })
+            }
+            _ => None,
+        }
     }
 
     fn product(&mut self, factors: &'a [Factor], span: Span, scope: Scope<'a>) -> Value<'d> {
         let mut unit: Option<Unit> = None;
+        let mut pi = 0;
         let mut number = Some(1.0);
         let mut exprs = Vec::with_capacity(factors.len());
         let mut vector: Option<Vector<'d>> = None;
         let mut complete = true;
-        for factor in factors {
-            let found = match self.value(&factor.value, scope) {
+        // Whether there are only numbers so far, and units: then a unit may follow.
+        let mut measured = true;
+        for (place, factor) in factors.iter().enumerate() {
+            let measure = match measured && place > 0 {
+                true => self.unit_factor(&factor.value, scope),
+                false => None,
+            };
+            let value = match &measure {
+                Some(measure) => Value::Scalar(Scalar {
+                    expr: measure.in_si(self.dag),
+                    unit: Some(measure.unit),
+                    number: Some(measure.to_f64()),
+                }),
+                None => self.value(&factor.value, scope),
+            };
+            measured &= measure.is_some() || value.unit().is_none();
+            let turns = match &value {
+                Value::Scalar(scalar) if scalar.unit.is_none_or(|unit| unit.is_one()) => {
+                    let is_bare = measure.is_none() && scalar.expr.stage() == stage::CONSTANT;
+                    let is_angle = scalar.unit.is_some_and(Unit::is_angle);
+                    if is_bare && !is_angle {
+                        power_of_pi(scalar.expr)
+                    } else {
+                        0
+                    }
+                }
+                _ => 0,
+            };
+            pi += if factor.divides { -turns } else { turns };
+            let found = match value {
                 Value::Scalar(scalar) => {
                     complete &= !factor.divides || self.check_divisor(&scalar, factor.value.span);
                     let value = scalar.number;
@@ -448,6 +570,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if !complete {
             return Value::Unknown;
         }
+        let unit = unit.map(|unit| unit.times_pi(pi));
         let scale = self
             .dag
             .product(exprs.iter().map(|&(expr, power)| match power {
@@ -581,6 +704,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             scope.hint,
             "the components of a vector have one unit",
         );
+        let parts = values.iter().zip(components);
+        let is_bare = |value: &Option<Scalar<'d>>| value.is_some_and(|value| value.is_bare());
+        self.no_bare_number(parts.map(|(value, part)| (is_bare(value), part.span)), unit);
         let components: Option<Vec<Expr<'d>>> =
             values.iter().map(|value| Some((*value)?.expr)).collect();
         match components {
@@ -678,6 +804,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             Function::Sqrt => self.unit_of_root(x.unit, argument.span),
             Function::Sin | Function::Cos | Function::Tan => {
                 self.demand_pure(x.unit, "an angle in rad", argument.span);
+                if x.unit.is_none() {
+                    self.notice_angle(&x, Unit::RADIAN, argument.span);
+                }
                 x.unit.map(|_| Unit::ONE)
             }
             _ => {
@@ -712,7 +841,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     fn demand_pure(&mut self, unit: Option<Unit>, expected: &str, span: Span) {
         if let Some(unit) = unit.filter(|unit| !unit.is_one()) {
             let message = format!("expected {expected}, found {}", unit_text(unit));
-            self.error(Code::UnitMismatch, span, message);
+            let diagnostic = Diagnostic::new(Code::UnitMismatch, span, message);
+            self.push(with_help(diagnostic, about_turns(unit, Unit::ONE)));
         }
     }
 
@@ -731,6 +861,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let why = format!("both arguments of `{}` have one unit", function.name());
         let parts = [(x.unit, first.span), (y.unit, second.span)];
         let common = self.common_unit(parts.into_iter(), None, &why);
+        let parts = [(x.is_bare(), first.span), (y.is_bare(), second.span)];
+        self.no_bare_number(parts.into_iter(), common);
         let unit = match function {
             Function::Atan2 => common.map(|_| Unit::RADIAN),
             _ => common,
@@ -934,8 +1066,62 @@ impl Value<'_> {
     }
 }
 
+impl Scalar<'_> {
+    /// Whether it is a number without a unit, and not 0.
+    pub fn is_bare(&self) -> bool {
+        self.unit.is_none() && !self.expr.is_zero()
+    }
+}
+
+impl Value<'_> {
+    /// Whether it is a number or a vector without a unit, and not 0.
+    fn is_bare(&self) -> bool {
+        match self {
+            Value::Scalar(scalar) => scalar.is_bare(),
+            Value::Vector(vector) => {
+                vector.unit.is_none() && vector.components.iter().any(|c| !c.is_zero())
+            }
+            _ => false,
+        }
+    }
+}
+
+/// With which power π multiplies a constant.
+fn power_of_pi(constant: Expr<'_>) -> i32 {
+    let dag = constant.dag();
+    let product = match constant.node() {
+        Node::Sum(terms) if terms.len() == 1 => dag.expr(terms[0].0),
+        _ => constant,
+    };
+    let pi = dag.pi();
+    match product.node() {
+        _ if product == pi => 1,
+        Node::Product(factors) => {
+            let mut powers = factors.iter();
+            let found = powers.find(|(id, _)| dag.expr(*id) == pi);
+            found.map_or(0, |(_, power)| *power)
+        }
+        _ => 0,
+    }
+}
+
+/// What to do about cycles where radians belong, and the other way round.
+fn about_turns(found: Unit, expected: Unit) -> Option<String> {
+    let help = match found.cycles_beyond(expected)? {
+        1.. => {
+            "a hertz is a cycle per second: multiply by `2*pi` for radians; a rate of anything \
+             else is in `1/s`"
+        }
+        _ => "a hertz is a cycle per second: divide radians by `2*pi`",
+    };
+    Some(help.to_owned())
+}
+
 /// A help line, with a word about what is most often behind a missing unit.
-fn with_factors(why: &str, found: Unit) -> String {
+fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
+    if let Some(help) = about_turns(found, expected) {
+        return help;
+    }
     match found.to_string() == "1" {
         true => {
             format!(

@@ -386,6 +386,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let mut components = Vec::with_capacity(dimension);
         let mut units = Vec::with_capacity(dimension);
+        let mut bare = Vec::with_capacity(dimension);
         for argument in arguments {
             let scalar = self.scalar(argument, scope.hinting(unit));
             if let (Some(scalar), Some(unit)) = (scalar, unit) {
@@ -394,7 +395,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             components.push(scalar.map(|scalar| scalar.expr));
             units.push((scalar.and_then(|scalar| scalar.unit), argument.span));
+            bare.push((scalar.is_some_and(|scalar| scalar.is_bare()), argument.span));
         }
+        let mut said = units.iter().filter_map(|(unit, _)| *unit);
+        let scaled = said.find(|unit| unit.is_scaled());
+        self.no_bare_number(bare.into_iter(), scaled);
         let unit = match unit {
             Some(unit) => Some(unit),
             None => self.common_unit(

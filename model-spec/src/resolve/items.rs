@@ -1,15 +1,15 @@
 //! Items: what a machine is made of, each field in its unit and of its kind.
 
-use lagrangian_symbolic::{Expr, Id, Node, Rational, evaluate, nearest};
-use rustc_hash::FxHashMap;
+use lagrangian_symbolic::{Expr, Id, Node, Rational, nearest};
 
 use super::Resolver;
 use super::expression::unit_text;
-use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
+use super::names::{Content, Namespace, declared_measure, declared_unit, suggestion, with_help};
 use super::value::{Limit, MemberId, Scalar, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::mechanics::circles;
+use crate::model::bounds::BoundKind;
 use crate::model::{
     Action, Approximation, ApproximationKind, Body, Circle, Constant, Constraint, Contact,
     ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Name, Output,
@@ -17,19 +17,12 @@ use crate::model::{
 };
 use crate::source::Span;
 use crate::syntax::{self, Expression, ExpressionKind, Quantity, Record, SectionKind};
-use crate::unit::Unit;
+use crate::unit::{Measure, Unit};
 
 const STIFFNESS: Unit = Unit::base(1, 0, -2);
 const DAMPING: Unit = Unit::base(1, 0, -1);
 const INERTIA: Unit = Unit::base(1, 2, 0);
 const VELOCITY: Unit = Unit::base(0, 1, -1);
-
-/// A mass or a moment of inertia.
-struct Checked<'d> {
-    value: Expr<'d>,
-    said: Span,
-    is_mass: bool,
-}
 
 /// The two energies that an elastic element has a share in: ½ c x², ½ b ẋ².
 #[derive(Clone, Copy)]
@@ -41,6 +34,15 @@ struct ElasticKind {
     /// The unit of coefficient times stretch squared.
     product: Unit,
     limit: &'static Limit,
+}
+
+impl ElasticKind {
+    fn bound<'d>(self) -> BoundKind<'d> {
+        match self.coefficient {
+            "damping" => BoundKind::Damping,
+            _ => BoundKind::Stiffness,
+        }
+    }
 }
 
 const SPRING: ElasticKind = ElasticKind {
@@ -73,7 +75,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    fn quantity(&self, member: MemberId) -> Option<&'a Quantity> {
+    pub fn quantity(&self, member: MemberId) -> Option<&'a Quantity> {
         match self.declaration(member).content {
             Content::Quantity(quantity) => Some(quantity),
             _ => None,
@@ -145,34 +147,70 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// The value of a constant: what the caller sets, or what the spec says.
     pub fn constant_value(&mut self, member: MemberId, quantity: &'a Quantity) -> Value<'d> {
-        let unit = declared_unit(quantity);
+        let measure = declared_measure(quantity);
+        let unit = measure.as_ref().map(|measure| measure.unit);
         let name = self.name(member).to_string();
         let set = self.overrides.iter().find(|(known, _)| *known == name);
         let mut scalar = match (set, &quantity.value) {
             (Some((_, value)), _) => self.bare(value.clone()),
             (None, Some(value)) => {
                 let scope = self.scope(member, &limits::CONSTANT);
-                let Some(scalar) = self.quantity_value(value, unit, scope) else {
+                let Some(scalar) = self.quantity_value(value, measure.as_ref(), scope) else {
                     return Value::Unknown;
                 };
                 scalar
             }
             (None, None) => return Value::Unknown, // the parser has said that it is missing
         };
+        if let Some(measure) = measure.filter(|measure| !measure.is_si()) {
+            scalar.expr = measure.in_si(self.dag) * scalar.expr;
+            scalar.number = scalar.number.map(|number| number * measure.to_f64());
+        }
         scalar.unit = unit.or(scalar.unit);
         Value::Scalar(scalar)
     }
 
-    /// A value in the unit that is declared for it.
+    /// A value, measured in the unit that is declared for it: what is made of bare numbers is, and
+    /// anything else is converted.
     pub fn quantity_value(
         &mut self,
         value: &'a Expression,
-        unit: Option<Unit>,
+        measure: Option<&Measure>,
         scope: Scope<'a>,
     ) -> Option<Scalar<'d>> {
-        match unit {
-            Some(unit) => self.scalar_in(value, unit, "as its declaration says", scope),
-            None => self.scalar(value, scope),
+        let Some(measure) = measure else {
+            return self.scalar(value, scope);
+        };
+        let unit = measure.unit;
+        let mut scalar = self.scalar(value, scope.hinting(unit))?;
+        self.demand(scalar.unit, unit, value.span, "as its declaration says");
+        if scalar.unit.is_none() {
+            self.notice_angle(&scalar, unit, value.span);
+        } else if !measure.is_si() {
+            scalar.expr = measure.of_si(self.dag) * scalar.expr;
+            scalar.number = scalar.number.map(|number| number / measure.to_f64());
+        }
+        Some(scalar)
+    }
+
+    /// Refuses a name that is that of a unit too, where no unit would tell the two apart: with an
+    /// `h: s = 5`, `2*h` could be two hours.
+    fn check_unit_name(&mut self, member: MemberId, value: &Scalar<'d>) {
+        let name = &self.declaration(member).name.base;
+        let measure = Measure::named(&name.text);
+        let Some(measure) = measure.filter(|_| self.members[member].index.is_none()) else {
+            return;
+        };
+        let alike = value.unit.unwrap_or(Unit::ONE) == measure.unit;
+        // Who has written `deg = pi/180` means what the language means.
+        let is_same = value.expr.stage() == stage::CONSTANT
+            && (nearest(value.expr) - measure.to_f64()).abs() <= 1e-15 * measure.to_f64();
+        if alike && !is_same {
+            let unit = name.text.as_str();
+            let message = format!("`{unit}` is a unit of the same kind as what is declared here");
+            let diagnostic = Diagnostic::new(Code::ReservedName, name.span, message);
+            let help = format!("`2*{unit}` could be either: give it another name");
+            self.push(diagnostic.help(help));
         }
     }
 
@@ -187,23 +225,31 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let Value::Scalar(scalar) = self.value_of(member, self.span(member)) else {
             return None;
         };
+        self.check_unit_name(member, &scalar);
         let unit = scalar.unit.unwrap_or(Unit::ONE);
+        let measure = self.quantity(member).and_then(declared_measure);
+        let measure = measure.filter(|measure| !measure.is_si());
         Some(Constant {
             name: self.name(member),
             docs: self.docs(member),
             unit,
             unit_text: self.unit_text(member, unit),
-            value: scalar.expr,
+            value: match measure {
+                Some(measure) => measure.of_si(self.dag) * scalar.expr,
+                None => scalar.expr,
+            },
             span: self.span(member),
         })
     }
 
     pub fn parameter(&mut self, member: MemberId) -> Option<Parameter<'d>> {
         let quantity = self.quantity(member)?;
-        let unit = declared_unit(quantity);
+        let measure = declared_measure(quantity);
+        let unit = measure.as_ref().map(|measure| measure.unit);
+        self.check_symbol_name(member);
         let scope = self.scope(member, &limits::DEFAULT);
         let default = match &quantity.value {
-            Some(value) => Some(self.quantity_value(value, unit, scope)?.expr),
+            Some(value) => Some(self.quantity_value(value, measure.as_ref(), scope)?.expr),
             None => None,
         };
         let [symbol, ..] = self.members[member].symbols?;
@@ -220,12 +266,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     pub fn coordinate(&mut self, member: MemberId) -> Option<Coordinate<'d>> {
         let quantity = self.quantity(member)?;
-        let unit = declared_unit(quantity);
+        let measure = declared_measure(quantity);
+        let unit = measure.as_ref().map(|measure| measure.unit);
+        self.check_symbol_name(member);
+        let is_state = self.is_unit_of_state(quantity, unit);
         let scope = self.scope(member, &limits::START);
         let start = match &quantity.value {
-            Some(value) => self.quantity_value(value, unit, scope)?.expr,
+            Some(value) => self.quantity_value(value, measure.as_ref(), scope)?.expr,
             None => self.dag.zero(),
         };
+        if !is_state {
+            return None;
+        }
         let [q, v, a] = self.members[member].symbols?;
         Some(Coordinate {
             name: self.name(member),
@@ -243,10 +295,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     pub fn input(&mut self, member: MemberId) -> Option<Input<'d>> {
         let quantity = self.quantity(member)?;
-        let unit = declared_unit(quantity);
+        let measure = declared_measure(quantity);
+        let unit = measure.as_ref().map(|measure| measure.unit);
+        self.check_symbol_name(member);
         let scope = self.scope(member, &limits::DEFAULT);
         let default = match &quantity.value {
-            Some(value) => self.quantity_value(value, unit, scope)?.expr,
+            Some(value) => self.quantity_value(value, measure.as_ref(), scope)?.expr,
             None => self.dag.zero(),
         };
         let [symbol, ..] = self.members[member].symbols?;
@@ -263,9 +317,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     pub fn output(&mut self, member: MemberId) -> Option<Output<'d>> {
         let quantity = self.quantity(member)?;
-        let unit = declared_unit(quantity);
+        let measure = declared_measure(quantity);
+        let unit = measure.as_ref().map(|measure| measure.unit);
         let scope = self.scope(member, &limits::OUTPUT);
-        let value = self.quantity_value(quantity.value.as_ref()?, unit, scope)?;
+        let value = self.quantity_value(quantity.value.as_ref()?, measure.as_ref(), scope)?;
         let unit = unit?;
         Some(Output {
             name: self.name(member),
@@ -279,7 +334,39 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
 
     /// A definition is worked out even if nothing uses it: what is wrong in it is wrong.
     pub fn definition(&mut self, member: MemberId) {
-        self.value_of(member, self.span(member));
+        if let Value::Scalar(scalar) = self.value_of(member, self.span(member)) {
+            self.check_unit_name(member, &scalar);
+        }
+    }
+
+    fn check_symbol_name(&mut self, member: MemberId) {
+        if let Value::Scalar(scalar) = self.members[member].value.clone() {
+            self.check_unit_name(member, &scalar);
+        }
+    }
+
+    /// Whether a coordinate, or its rate, is declared in an SI unit. The state of a run is in SI
+    /// units: tolerances, matrices and modes of it are.
+    pub fn is_unit_of_state(&mut self, quantity: &'a Quantity, unit: Option<Unit>) -> bool {
+        let (Some(written), Some(unit)) = (&quantity.unit, unit) else {
+            return true; // which has been reported
+        };
+        if !unit.is_scaled() {
+            return true;
+        }
+        let base = unit.as_written(false);
+        let message = format!("a coordinate and its rate are in SI units, here {base}");
+        let diagnostic = Diagnostic::new(Code::UnitOfState, written.span, message);
+        let number = match quantity.value.as_ref().map(|value| &value.kind) {
+            Some(ExpressionKind::Number(number)) => number.as_str(),
+            _ => "30",
+        };
+        let help = match written.factors.first() {
+            Some(first) if first.power > 0 => format!("write `{base} = {number}*{written}`"),
+            _ => format!("write `{base}`, and convert the value"),
+        };
+        self.push(diagnostic.help(help));
+        false
     }
 
     // Frames and bodies.
@@ -375,16 +462,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mass = self.field(member, record, "mass")?;
         let scope = self.scope(member, &limits::MASS);
         let scalar = self.scalar_in(mass, Unit::KILOGRAM, "a mass is in kg", scope)?;
-        if scalar.number.is_some_and(|number| number <= 0.0) {
-            self.not_positive(mass.span, "a mass", &scalar);
-        }
+        self.bound(BoundKind::Mass, scalar.expr, mass.span);
         Some(scalar.expr)
-    }
-
-    fn not_positive(&mut self, span: Span, what: &str, found: &Scalar<'d>) {
-        let number = found.number.unwrap_or(0.0);
-        let message = format!("{what} is positive, found {number}");
-        self.error(Code::NotPositive, span, message);
     }
 
     fn inertia(&mut self, member: MemberId, record: &'a Record) -> Option<Inertia<'d>> {
@@ -416,6 +495,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                         let [a, b, c] = moments.components[..] else {
                             return None;
                         };
+                        for moment in [a, b, c] {
+                            self.bound(BoundKind::Moment, moment, inertia.span);
+                        }
                         let zero = self.dag.zero();
                         Some(Inertia::Tensor([a, b, c, zero, zero, zero]))
                     }
@@ -447,10 +529,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<Expr<'d>> {
         let scalar = self.scalar_in(part, INERTIA, "an inertia is in kg*m^2", scope)?;
         // A thin rod has none about its axis; so zero is fine.
-        if diagonal && scalar.number.is_some_and(|number| number < 0.0) {
-            let number = scalar.number.unwrap_or(0.0);
-            let message = format!("a moment of inertia is not negative, found {number}");
-            self.error(Code::NotPositive, part.span, message);
+        if diagonal {
+            self.bound(BoundKind::Moment, scalar.expr, part.span);
         }
         Some(scalar.expr)
     }
@@ -573,6 +653,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let (coefficient, coefficient_span) = coefficient?;
         let coefficient = coefficient?;
         self.check_elastic(kind, &coefficient, coefficient_span, &stretch, stretch_span);
+        self.bound(kind.bound(), coefficient.expr, coefficient_span);
         Some(Elastic {
             name: self.name(member),
             docs: self.docs(member),
@@ -658,7 +739,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let twist = self.field(member, record, "twist");
         let scope = self.scope(member, &limits::STIFFNESS);
         let why = "a torsional stiffness is in N*m, per radian";
-        let stiffness = stiffness.and_then(|k| self.scalar_in(k, Unit::JOULE, why, scope));
+        let stiffness = stiffness.and_then(|k| {
+            let scalar = self.scalar_in(k, Unit::JOULE, why, scope)?;
+            self.bound(BoundKind::Stiffness, scalar.expr, k.span);
+            Some(scalar)
+        });
         let scope = self.scope(member, &limits::STRETCH);
         let why = "a twist is an angle in rad";
         let twist = twist.and_then(|angle| self.scalar_in(angle, Unit::RADIAN, why, scope));
@@ -968,6 +1053,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         if let Some(unit) = first.unit {
             self.demand(second.unit, unit, right.span, "both sides have one unit");
         }
+        let scaled = [first, second].into_iter().filter_map(|side| side.unit);
+        let scaled = scaled.into_iter().find(|unit| unit.is_scaled());
+        let sides = [(first.is_bare(), left.span), (second.is_bare(), right.span)];
+        self.no_bare_number(sides.into_iter(), scaled);
         let unit = first.unit.or(second.unit).unwrap_or(Unit::ONE);
         Some(([first.expr, second.expr], unit))
     }
@@ -995,7 +1084,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let normal = normal.map(|normal| self.vector(normal, "a vector", scope));
         let friction = friction.and_then(|friction| self.friction(member, friction));
         let sticking = record.get("static_friction");
-        let sticking = sticking.map(|friction| self.friction(member, friction));
+        let sticking = sticking.map(|said| {
+            let sticking = self.friction(member, said);
+            if let (Some(sticking), Some(friction)) = (sticking, friction) {
+                self.bound(BoundKind::StaticFriction(friction), sticking, said.span);
+            }
+            sticking
+        });
         Some(Sliding {
             name: self.name(member),
             body: self.ordinal(body?)?,
@@ -1028,10 +1123,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let scope = self.scope(member, limit);
         let why = "a coefficient of friction has no unit";
         let scalar = self.scalar_in(friction, Unit::ONE, why, scope)?;
-        if scalar.number.is_some_and(|number| number < 0.0) {
-            let message = "a coefficient of friction is not negative";
-            self.error(Code::NotPositive, friction.span, message);
-        }
+        self.bound(BoundKind::Friction, scalar.expr, friction.span);
         Some(scalar.expr)
     }
 
@@ -1052,9 +1144,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         });
         let radius = radius.and_then(|radius| {
             let scalar = self.scalar_in(radius, Unit::METRE, "a radius is in m", scope)?;
-            if scalar.number.is_some_and(|number| number <= 0.0) {
-                self.not_positive(radius.span, "a radius", &scalar);
-            }
+            self.bound(BoundKind::Radius, scalar.expr, radius.span);
             Some(scalar.expr)
         });
         Some(Circle {
@@ -1203,13 +1293,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let scope = self.scope(member, &limits::RESTITUTION);
         let why = "a coefficient of restitution has no unit";
         let scalar = self.scalar_in(value, Unit::ONE, why, scope)?;
-        if scalar
-            .number
-            .is_some_and(|number| !(0.0..=1.0).contains(&number))
-        {
-            let message = "a coefficient of restitution lies between 0 and 1";
-            self.error(Code::OutsideDomain, value.span, message);
-        }
+        self.bound(BoundKind::Restitution, scalar.expr, value.span);
         Some(scalar.expr)
     }
 
@@ -1276,91 +1360,5 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             section == SectionKind::Coordinates
         });
         members
-    }
-
-    /// Reports masses and inertias that are not positive at the defaults of the parameters.
-    pub fn check_masses(
-        &mut self,
-        bodies: &[(MemberId, Body<'d>)],
-        parameters: &[(MemberId, Parameter<'d>)],
-    ) {
-        let mut values = FxHashMap::default();
-        for (_, parameter) in parameters {
-            let number = parameter.default.map(|default| nearest(default));
-            if let (Some(symbol), Some(number)) = (parameter.symbol.as_symbol(), number) {
-                values.insert(symbol, number);
-            }
-        }
-        let checked = self.masses_and_moments(bodies);
-        let quantities: Vec<Expr<'d>> = checked.iter().map(|checked| checked.value).collect();
-        let numbers = evaluate(self.dag, &quantities, |symbol| {
-            // Without a default nothing can be said: NaN is not below zero.
-            values.get(&symbol).copied().unwrap_or(f64::NAN)
-        });
-        for (
-            Checked {
-                value,
-                said,
-                is_mass,
-            },
-            number,
-        ) in checked.into_iter().zip(numbers)
-        {
-            let wrong = number < 0.0 || (is_mass && number == 0.0);
-            // A constant was looked at where it was resolved.
-            if !wrong || value.stage() == stage::CONSTANT {
-                continue;
-            }
-            let message = match is_mass {
-                true => format!("a mass is positive, found {number}"),
-                false => format!("a moment of inertia is not negative, found {number}"),
-            };
-            let alone = parameters
-                .iter()
-                .find(|(_, parameter)| parameter.symbol == value);
-            let default =
-                alone.and_then(|(parameter, _)| self.quantity(*parameter)?.value.as_ref());
-            self.push(match default {
-                Some(default) => Diagnostic::new(Code::NotPositive, default.span, message)
-                    .note(said, "this is where it is used"),
-                None => Diagnostic::new(Code::NotPositive, said, message)
-                    .help("this is its value for the defaults of the parameters"),
-            });
-        }
-    }
-
-    /// Every mass and every moment of inertia, and where the spec says it.
-    fn masses_and_moments(&self, bodies: &[(MemberId, Body<'d>)]) -> Vec<Checked<'d>> {
-        let mut found = Vec::new();
-        for (member, body) in bodies {
-            let Some(record) = self.record(*member) else {
-                continue;
-            };
-            if let Some(mass) = record.get("mass") {
-                found.push(Checked {
-                    value: body.mass,
-                    said: mass.span,
-                    is_mass: true,
-                });
-            }
-            let Some(inertia) = record.get("inertia") else {
-                continue;
-            };
-            let part = |k: usize| match &inertia.kind {
-                ExpressionKind::Tuple(parts) => parts.get(k).map_or(inertia.span, |part| part.span),
-                _ => inertia.span,
-            };
-            let moments = match &body.inertia {
-                Inertia::Particle => &[],
-                Inertia::Planar(moment) => std::slice::from_ref(moment),
-                Inertia::Tensor(entries) => &entries[..3],
-            };
-            found.extend(moments.iter().enumerate().map(|(k, &value)| Checked {
-                value,
-                said: part(k),
-                is_mass: false,
-            }));
-        }
-        found
     }
 }

@@ -14,7 +14,7 @@ use crate::syntax::{
     Approximation, Declared, Equation, Expression, Ident, Index, Item, Quantity, Range, Record,
     Reference, Remove, SectionKind, Spanned, Spec,
 };
-use crate::unit::Unit;
+use crate::unit::{Measure, Unit};
 
 /// The most members that all families of a machine may have together.
 ///
@@ -32,6 +32,9 @@ const COMPARED: usize = 1000;
 
 /// Names that stand for something everywhere in an expression.
 const RESERVED_VALUES: [(&str, &str); 2] = [("t", "the time"), ("pi", "the number π")];
+
+/// What to write instead of a branch.
+pub(super) const NO_BRANCHES: &str = crate::syntax::NO_BRANCHES;
 
 /// Words that are no identifiers in Rust, raw or not.
 const NO_RUST_NAMES: [&str; 5] = ["self", "Self", "super", "crate", "_"];
@@ -495,17 +498,24 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             symbols[1] = self.symbol(&rate, stage::VELOCITY);
             symbols[2] = self.symbol(&format!("der({rate})"), stage::ACCELERATION);
         }
-        let unit = match content {
-            Content::Quantity(quantity) => declared_unit(quantity),
+        let measure = match content {
+            Content::Quantity(quantity) => declared_measure(quantity),
             _ => None,
         };
+        let dag = self.dag;
         let member = &mut self.members[member];
         member.symbols = Some(symbols);
         member.state = State::Done;
-        if let Some(unit) = unit {
+        if let Some(measure) = measure {
+            // The symbol is measured as declared, and so is whatever the user gives and sees;
+            // formulas are in SI units.
+            let is_si = measure.is_si() || section == SectionKind::Coordinates;
             member.value = Value::Scalar(Scalar {
-                expr: symbols[0],
-                unit: Some(unit),
+                expr: match is_si {
+                    true => symbols[0],
+                    false => measure.in_si(dag) * symbols[0],
+                },
+                unit: Some(measure.unit),
                 number: None,
             });
         }
@@ -572,6 +582,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             return None;
         }
+        self.used.insert(group);
         let alone = self.groups[group].members.get(&None).copied();
         let Some(index) = index else {
             if alone.is_none() {
@@ -669,6 +680,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let whole = value.as_ref().and_then(|value| value.as_integer());
         if whole.is_none() {
             let message = match (value, scalar.number) {
+                (Some(value), _) if value.is_integer() => {
+                    "an index has at most 18 digits, and this has more".to_owned()
+                }
                 (Some(value), _) => format!("an index is a whole number, found {value}"),
                 (None, Some(number)) => format!("an index is a whole number, found {number}"),
                 (None, None) => "an index is a whole number".to_owned(),
@@ -698,20 +712,64 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             .iter()
             .filter(|group| namespaces.contains(&group.namespace))
             .map(|group| group.base);
+        let habit = match namespaces.contains(&Namespace::Values) {
+            true => self.habit(&name.text),
+            false => None,
+        };
         let help = match elsewhere {
             _ if self.report.omitted() > 0 => None, // nobody will see it
+            _ if habit.is_some() => habit,
             Some(section) if namespaces.contains(&Namespace::Values) => Some(format!(
                 "`{}` is {}, which formulas cannot use: put what they share under `define`",
                 name.text,
                 section.item()
             )),
-            _ => suggestion(&name.text, candidates),
+            _ => {
+                let word = name.text.as_str();
+                let is_value = namespaces.contains(&Namespace::Values);
+                let unit = Measure::named(word).filter(|_| is_value);
+                let candidates: Vec<&str> = candidates.take(COMPARED).collect();
+                match unit {
+                    Some(_) if nearest(word, candidates.iter().copied()).is_none() => Some(
+                        format!("`{word}` is a unit: it stands behind a number, `2*{word}`"),
+                    ),
+                    _ => suggestion(word, candidates),
+                }
+            }
         };
         let message = format!("{what} named `{}`", name.text);
         self.push(with_help(
             Diagnostic::new(Code::UnknownName, name.span, message),
             help,
         ));
+    }
+
+    /// What to write for a word that other languages have.
+    fn habit(&self, word: &str) -> Option<String> {
+        let is_coordinate = |base: &str| {
+            let mut declarations = self.declarations.iter();
+            declarations.any(|declaration| {
+                declaration.section == SectionKind::Coordinates
+                    && declaration.name.base.text == base
+            })
+        };
+        let twice = ["_ddot", "ddot", "dotdot", "_dotdot"];
+        let ends = twice.map(|end| (end, 2)).into_iter();
+        for (end, order) in ends.chain([("_dot", 1), ("dot", 1)]) {
+            let base = word.strip_suffix(end);
+            if let Some(base) = base.filter(|base| is_coordinate(base)) {
+                return Some(match order {
+                    1 => format!("the rate of `{base}` is `der({base})`"),
+                    _ => format!("the acceleration of `{base}` is `der(der({base}))`"),
+                });
+            }
+        }
+        match word {
+            "time" => Some("the time is `t`".to_owned()),
+            "PI" | "Pi" | "π" => Some("the number π is `pi`".to_owned()),
+            "if" | "else" | "then" | "where" => Some(NO_BRANCHES.to_owned()),
+            _ => None,
+        }
     }
 
     /// The group that a reference names, reporting what is unknown.
@@ -777,10 +835,17 @@ pub(super) fn with_help(diagnostic: Diagnostic, help: Option<String>) -> Diagnos
 
 /// The unit of a declaration; `None` where it is missing or unknown, which has been reported.
 pub(super) fn declared_unit(quantity: &Quantity) -> Option<Unit> {
-    let mut unit = Unit::ONE;
+    Some(declared_measure(quantity)?.unit)
+}
+
+/// The same, with how many SI units it is.
+pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
+    let mut measure = Measure::ONE;
     for factor in &quantity.unit.as_ref()?.factors {
-        let named = Unit::named(&factor.name.text)?;
-        unit = unit.times(named.power(factor.power.into(), 1)?);
+        let named = Measure::named(&factor.name.text)?;
+        measure = measure.times(&named.power(factor.power)?)?;
     }
-    Some(unit)
+    // `km/m` is no SI unit, and `mm*km/m` is one again.
+    measure.unit = measure.unit.as_written(!measure.is_si());
+    Some(measure)
 }

@@ -190,13 +190,13 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let mut components = Vec::new();
         match statement {
             Statement::Equation(Equation { left, right }) => {
-                components.push(vec![(false, left), (true, right)]);
+                components.push(vec![(false, false, left), (true, true, right)]);
             }
             Statement::Value(value) => match &value.kind {
                 ExpressionKind::Tuple(parts) => {
-                    components.extend(parts.iter().map(|part| vec![(false, part)]));
+                    components.extend(parts.iter().map(|part| vec![(false, false, part)]));
                 }
-                _ if dimension == 1 => components.push(vec![(false, value)]),
+                _ if dimension == 1 => components.push(vec![(false, false, value)]),
                 _ => return None,
             },
         }
@@ -204,14 +204,23 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for mut open in components {
             let mut terms = Vec::new();
             open.reverse();
-            while let Some((negative, expression)) = open.pop() {
+            while let Some((negative, right, expression)) = open.pop() {
                 match &expression.kind {
                     ExpressionKind::Sum(inner) => {
                         let inner = inner.iter().rev();
-                        open.extend(inner.map(|term| (negative != term.negative, &term.value)));
+                        let term = |term: &'a syntax::Term| {
+                            (negative != term.negative, right, &term.value)
+                        };
+                        open.extend(inner.map(term));
                     }
-                    ExpressionKind::Negative(inner) => open.push((!negative, inner)),
-                    _ => terms.push(self.printed_term(negative, expression, scope)?),
+                    ExpressionKind::Negative(inner) => open.push((!negative, right, inner)),
+                    _ => {
+                        let term = self.printed_term(negative, expression, scope)?;
+                        terms.push(PrintedTerm {
+                            on_the_right: right,
+                            ..term
+                        });
+                    }
                 }
             }
             all.push(terms);
@@ -249,6 +258,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         Some(PrintedTerm {
             negative,
+            on_the_right: false,
             factors: printed,
         })
     }

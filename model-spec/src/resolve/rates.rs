@@ -4,7 +4,7 @@ use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;
 
 use super::Resolver;
-use super::names::{Namespace, declared_unit, show};
+use super::names::{Namespace, declared_measure, show};
 use super::published::variable;
 use super::value::{MemberId, Scope, limits};
 use crate::diagnostic::{Code, Diagnostic};
@@ -87,7 +87,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             let message = format!("there is no `{}`", show(&name.text, index));
             self.error(Code::IndexOutOfRange, item.name.span, message);
         }
-        let unit = declared_unit(&item.content);
+        let measure = declared_measure(&item.content);
+        let unit = measure.as_ref().map(|measure| measure.unit);
+        if !self.is_unit_of_state(&item.content, unit) {
+            return None;
+        }
         let mut rates = Vec::new();
         for member in members {
             if !self.is_coordinate(member) {
@@ -105,7 +109,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 self.demand(unit, rate, written.span, why);
             }
             let value = item.content.value.as_ref()?;
-            let value = self.quantity_value(value, Some(rate), scope)?.expr;
+            let why = "as its declaration says";
+            let value = self.scalar_in(value, rate, why, scope)?.expr;
             rates.extend(self.ordinal(member).map(|coordinate| (coordinate, value)));
         }
         Some(rates)

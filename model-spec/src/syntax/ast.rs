@@ -181,6 +181,18 @@ sections! {
 }
 
 impl SectionKind {
+    /// The section that a word most likely means which heads none.
+    pub fn meant_by(word: &str) -> Option<SectionKind> {
+        Some(match word {
+            "body" | "mass" | "masses" | "particles" | "links" => SectionKind::Bodies,
+            "param" | "params" | "variables" => SectionKind::Parameters,
+            "dofs" | "states" | "generalized_coordinates" => SectionKind::Coordinates,
+            "definitions" | "let" => SectionKind::Define,
+            "assumptions" => SectionKind::Assume,
+            _ => return None,
+        })
+    }
+
     /// The section that a word heads.
     pub fn named(word: &str) -> Option<SectionKind> {
         SectionKind::ALL
@@ -356,7 +368,7 @@ impl fmt::Display for Unit {
 /// A power of a named unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnitFactor {
-    /// A name that [`Unit::named`](crate::unit::Unit::named) knows; any other word was reported,
+    /// A name that [`Measure::named`](crate::unit::Measure::named) knows; any other word was reported,
     /// and the whole unit is as if left out.
     pub name: Ident,
     /// The exponent, negative below the line.
@@ -444,8 +456,8 @@ pub enum Comparison {
 pub struct Gravity {
     /// Documentation.
     pub docs: String,
-    /// The acceleration of gravity, a vector in the ground frame.
-    pub value: Expression,
+    /// The acceleration of gravity, a vector in the ground frame; none where the spec says `none`.
+    pub value: Option<Expression>,
     /// From the keyword to the vector.
     pub span: Span,
 }

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+use crate::syntax::NO_BRANCHES;
 use crate::syntax::ast::*;
 use crate::syntax::parse::{Group, Parser};
 use crate::token::{Delimiter, TokenKind};
@@ -165,6 +166,17 @@ impl Parser<'_> {
             return self.error(start);
         };
         let mut index = None;
+        let follows = self.peek().map(|word| word.kind);
+        let is_operand = matches!(
+            follows,
+            Some(TokenKind::Ident | TokenKind::Number | TokenKind::Open(Delimiter::Parenthesis))
+        );
+        if base.text == "if" && is_operand {
+            let message = "expected an expression, found `if`";
+            let branch = Diagnostic::new(Code::UnexpectedToken, base.span, message);
+            self.fail(branch.help(NO_BRANCHES));
+            return self.error(start);
+        }
         if self.is_open(Delimiter::Parenthesis) {
             let Some(arguments) = self.arguments() else {
                 return self.error(start);

@@ -6,7 +6,7 @@ use crate::syntax::ast::*;
 use crate::syntax::brackets::Word;
 use crate::syntax::parse::{Group, Parser};
 use crate::token::{Delimiter, TokenKind, shown};
-use crate::unit;
+use crate::unit::Measure;
 
 impl Parser<'_> {
     /// The items of a section: documentation, a name, and what `content` reads.
@@ -225,7 +225,7 @@ impl Parser<'_> {
         needs_value: bool,
     ) -> Quantity {
         let mut has_unit = self.eat_mark(':');
-        let is_unit = |word: Word| unit::Unit::named(word.text).is_some();
+        let is_unit = |word: Word| Measure::named(word.text).is_some();
         if !has_unit && self.peek().is_some_and(is_unit) {
             let help = Some(format!(
                 "write `{word}: {}`",

@@ -46,9 +46,11 @@ impl Parser<'_> {
         let message = format!("expected `machine`, found {}", self.found());
         let wrong = Diagnostic::new(Code::NoMachine, word.span, message);
         let is_slip = nearest(word.text, ["machine"]).is_some();
-        self.complain(wrong.help(match is_slip {
-            true => "did you mean `machine`?",
-            false => help,
+        let is_variant = word.text == "extends";
+        self.complain(wrong.help(match (is_slip, is_variant) {
+            (true, _) => "did you mean `machine`?",
+            (_, true) => "give it a name: `machine Name extends \"base.machine\" { … }`",
+            _ => help,
         }));
         while self.peek().is_some() && !self.is_word("machine") && !is_slip {
             self.skip_word();
@@ -65,8 +67,11 @@ impl Parser<'_> {
             ..Spec::default()
         };
         if self.is_word("in") || self.is_word("extends") {
-            let help = "write `machine Name in plane { … }`".to_owned();
-            self.unexpected_because("the name of the machine", Some(help));
+            let help = match self.is_word("in") {
+                true => "write `machine Name in plane { … }`",
+                false => "give it a name: `machine Name extends \"base.machine\" { … }`",
+            };
+            self.unexpected_because("the name of the machine", Some(help.to_owned()));
             self.failed = false;
         } else if let Some(name) = self.ident("the name of the machine") {
             spec.name = name;
@@ -202,7 +207,8 @@ impl Parser<'_> {
         let message = format!("there is no section {}", shown(&heading.text));
         let mut unknown = Diagnostic::new(Code::UnknownSection, heading.span, message);
         let names = || SectionKind::ALL.iter().map(|kind| kind.as_str());
-        let near = nearest(&heading.text, names().chain(["remove"]));
+        let meant = SectionKind::meant_by(&heading.text).map(SectionKind::as_str);
+        let near = meant.or_else(|| nearest(&heading.text, names().chain(["remove"])));
         unknown.help = Some(match near {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("the sections are {}", one_of(names())),
@@ -270,8 +276,11 @@ impl Parser<'_> {
             self.unexpected_because("a vector", Some(help.to_owned()));
             return;
         }
-        let value = self.expression();
-        let span = heading.to(value.span);
+        let value = match self.eat_word("none") {
+            true => None,
+            false => Some(self.expression()),
+        };
+        let span = heading.to(self.before());
         let gravity = Gravity { docs, value, span };
         match &spec.gravity {
             Some(first) => self.complain_twice(heading, "gravity", first.span),

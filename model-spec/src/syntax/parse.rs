@@ -6,6 +6,7 @@
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{SourceId, Span};
+use crate::syntax::NO_BRANCHES;
 use crate::syntax::ast::*;
 use crate::syntax::brackets::{Word, balance, opening};
 use crate::token::{Delimiter, Token, TokenKind, shown};
@@ -335,6 +336,9 @@ impl<'t> Parser<'t> {
                 };
                 let (left, right) = (shown(*before), shown(word));
                 Some(format!("a product needs its `*`: `{left}*{right}`"))
+            }
+            _ if self.is_mark('?') || self.is_mark('<') || self.is_mark('>') => {
+                Some(NO_BRANCHES.to_owned())
             }
             (Some(_), _) if self.is_pair('.', '.') => {
                 Some("a range stands only in the index of a declaration: `q[1..N]`".to_owned())

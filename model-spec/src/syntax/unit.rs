@@ -4,7 +4,7 @@ use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::syntax::ast::{Unit, UnitFactor};
 use crate::syntax::parse::Parser;
 use crate::token::{Delimiter, TokenKind, shown};
-use crate::unit;
+use crate::unit::Measure;
 
 impl Parser<'_> {
     /// `kg*m^2/s`; none where a part of it is unknown.
@@ -70,7 +70,7 @@ impl Parser<'_> {
         let Some(name) = self.ident("a unit") else {
             return false;
         };
-        let known = unit::Unit::named(&name.text).is_some();
+        let known = Measure::named(&name.text).is_some();
         if !known {
             let message = format!("there is no unit {}", shown(&name.text));
             let unknown = Diagnostic::new(Code::UnknownUnit, name.span, message);
@@ -107,28 +107,41 @@ impl Parser<'_> {
 
 /// What to do about a unit that the language does not have.
 fn unit_help(name: &str) -> String {
-    let base = match name {
-        "mm" | "cm" | "km" | "um" | "nm" | "dm" => "m",
-        "g" | "t" | "mg" => "kg",
-        "ms" | "us" | "min" | "h" | "hour" => "s",
-        "deg" | "degree" | "degrees" | "grad" => "rad",
-        "kN" | "MN" | "mN" | "kp" => "N",
-        "kJ" | "MJ" => "J",
-        "kW" | "MW" | "PS" | "hp" => "W",
-        "kPa" | "MPa" | "GPa" | "bar" => "Pa",
-        "kHz" | "MHz" | "rpm" => "Hz",
-        "Nm" => return "write `N*m`".to_owned(),
-        "rads" => return "write `rad/s`".to_owned(),
+    let known = || Measure::names().chain(["mm", "cm", "km", "kN", "MPa", "kW", "ms", "kHz"]);
+    let help = match name {
+        "Nm" => "write `N*m`",
+        "Nms" => "write `N*m*s`",
+        "rads" => "write `rad/s`",
+        "kmh" | "kph" => "write `km/h`",
+        "mps" => "write `m/s`",
+        "t" | "to" | "ton" | "tonne" => "`t` is the time: a tonne is `Mg`, or `1000*kg`",
+        "l" | "L" | "liter" | "litre" => "a litre is `dm^3`",
+        "sec" | "second" | "seconds" => "write `s`",
+        "hour" | "hours" => "write `h`",
+        "minute" | "minutes" => "write `min`",
+        "meter" | "metre" | "meters" => "write `m`",
+        "degree" | "degrees" | "grad" | "°" => "write `deg`",
+        "radian" | "radians" => "write `rad`",
+        "turn" | "turns" | "U" => "write `rev`, which is 2π rad",
+        "rps" => "write `rev/s`, or `Hz` for turns that are counted",
+        "kp" => "write `kgf`",
+        "hp" => "there are several: write `PS`, or `550*lbf*ft/s`",
+        "in" => "write `inch`",
+        "psi" => "write `lbf/inch^2`",
+        "degC" | "celsius" | "Celsius" => "temperatures are in `K`",
+        "Ohm" => "write `ohm`",
         _ => {
-            let names = unit::Unit::NAMES.iter().map(|&(name, _)| name);
-            return match nearest(name, names.clone()) {
+            return match nearest(name, known()) {
                 Some(near) => format!("did you mean `{near}`?"),
-                None => format!(
-                    "the units are {} and `1`",
-                    names.collect::<Vec<_>>().join(", ")
-                ),
+                None => {
+                    let names: Vec<&str> = Measure::names().collect();
+                    format!(
+                        "the units are {} and `1`, many with prefixes: `mm`, `kN`, `MPa`",
+                        names.join(", ")
+                    )
+                }
             };
         }
     };
-    format!("units are those of the SI without prefixes: give the value in `{base}`")
+    help.to_owned()
 }

@@ -3,6 +3,7 @@
 mod approximations;
 mod by_hand;
 mod energy;
+mod freedom;
 mod friction;
 mod harness;
 mod oracle;

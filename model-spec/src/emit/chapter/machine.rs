@@ -7,6 +7,7 @@ use super::{
     Chapter, Shown, code, counted, head, line, listed, paragraph, prose, shown, unit, words,
 };
 use crate::emit::document::{Block, Row, Run, Words};
+use crate::mechanics::{Freedom, Independent, freedom};
 use crate::model::{ApproximationKind, Name, Space};
 
 /// A row of a table of symbols.
@@ -27,10 +28,14 @@ impl<'d> Chapter<'_, 'd> {
             Space::Space => "in space",
         };
         let n = model.coordinates.len();
-        let text = format!(
-            "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
-            counted(n, "degree"),
-        );
+        let freedom = freedom(model, &self.compiled.equations);
+        let text = match freedom.constraints {
+            0 => format!(
+                "The machine moves {place}. It has {} of freedom, as many as generalized coordinates.",
+                counted(n, "degree"),
+            ),
+            _ => format!("The machine moves {place}. {}", constrained(freedom)),
+        };
         blocks.push(paragraph([words![text]]));
         blocks.push(self.table(
             &["", "coordinate", "unit", "start", ""],
@@ -245,6 +250,37 @@ impl<'d> Chapter<'_, 'd> {
         blocks.push(Block::Formula(rows));
         blocks
     }
+}
+
+/// How freely a machine with constraints moves.
+fn constrained(freedom: Freedom) -> String {
+    let coordinates = counted(freedom.coordinates, "generalized coordinate");
+    let constraints = counted(freedom.constraints, "constraint");
+    let Some(Independent { generic, at_start }) = freedom.independent else {
+        return format!(
+            "It has {coordinates} and {constraints}, of which it is not known how many are independent."
+        );
+    };
+    let left = counted(freedom.coordinates.saturating_sub(generic), "degree");
+    let mut text = format!("It has {coordinates} and {constraints}");
+    if generic < freedom.constraints {
+        text.push_str(&format!(", of which {} independent", of_all(generic)));
+    }
+    text.push_str(&format!(": {left} of freedom."));
+    if at_start < generic {
+        text.push_str(&format!(
+            " At the start {} independent, and motions may fork there.",
+            of_all(at_start)
+        ));
+    }
+    text
+}
+
+/// `one is`, `two are`.
+fn of_all(count: usize) -> String {
+    let number = counted(count, "");
+    let number = number.trim_end_matches(['s', ' ']);
+    format!("{number} {}", if count == 1 { "is" } else { "are" })
 }
 
 fn is_blank(words: &Words) -> bool {

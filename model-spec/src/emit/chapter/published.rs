@@ -4,7 +4,7 @@ use lagrangian_symbolic::print::Sign;
 use lagrangian_symbolic::{Expr, Math, math_as_built};
 
 use super::{Chapter, READABLE, capital, code, counted, listed, paragraph, words};
-use crate::compare::{Comparison, compare};
+use crate::compare::{Comparison, Quoted, Undotted, compare};
 use crate::emit::document::{Block, Row};
 
 impl<'d> Chapter<'_, 'd> {
@@ -57,23 +57,49 @@ impl<'d> Chapter<'_, 'd> {
             add.extend(mend.add.iter().map(|&term| (term, axis)));
         }
         let changes = comparison.changes();
-        let mut rows = Vec::new();
-        for &(from, to) in &changes {
-            let change = self
-                .shown(drop[from].0)
-                .then(Sign::To, self.shown(add[to].0));
-            rows.extend(Row::lines(&change, 0, &format!("change{}", drop[from].1)));
-        }
-        let mut alone = |note: &str, terms: &[(Expr<'d>, &str)], changed: &[usize]| {
-            let left = (0..terms.len()).filter(|k| !changed.contains(k));
-            for (term, axis) in left.map(|k| terms[k]) {
-                rows.extend(Row::lines(&self.shown(term), 0, &format!("{note}{axis}")));
-            }
+        let [added, dropped] = comparison.terms();
+        let side = |term: &Quoted| match (comparison.has_two_sides(), term.on_the_right) {
+            (false, _) => "",
+            (true, true) => ", on the right",
+            (true, false) => ", on the left",
         };
+        let mut rows = Vec::new();
+        for Undotted { from, to, .. } in &comparison.undotted {
+            let change = Math::text(from.clone()).then(Sign::To, Math::text(to.clone()));
+            rows.extend(Row::lines(&change, 0, "change"));
+        }
+        for &(from, to) in &changes {
+            let [left, right] = [
+                self.quoted(drop[from].0, &dropped[from]),
+                self.quoted(add[to].0, &added[to]),
+            ];
+            let note = format!("change{}{}", drop[from].1, side(&dropped[from]));
+            rows.extend(Row::lines(&left.then(Sign::To, right), 0, &note));
+        }
+        let mut alone =
+            |note: &str, terms: &[(Expr<'d>, &str)], said: &[Quoted], changed: &[usize]| {
+                for k in (0..terms.len()).filter(|k| !changed.contains(k)) {
+                    let term = self.quoted(terms[k].0, &said[k]);
+                    let note = format!("{note}{}{}", terms[k].1, side(&said[k]));
+                    rows.extend(Row::lines(&term, 0, &note));
+                }
+            };
         let (from, to): (Vec<usize>, Vec<usize>) = changes.iter().copied().unzip();
-        alone("add", &add, &to);
-        alone("drop", &drop, &from);
+        alone("add", &add, &added, &to);
+        alone("drop", &drop, &dropped, &from);
         rows
+    }
+
+    /// A term on its side. What the algebra has simplified, as it does ṫ to 1, is shown as printed.
+    fn quoted(&self, term: Expr<'d>, said: &Quoted) -> Math {
+        let dots = |text: &str| text.matches("der(").count();
+        let term = if said.on_the_right { -term } else { term };
+        let is_lost = term.size() <= READABLE
+            && dots(&said.text) != dots(&lagrangian_symbolic::text(term, self.model.dag));
+        match is_lost {
+            true => Math::text(said.text.clone()),
+            false => self.shown(term),
+        }
     }
 
     fn shown(&self, term: Expr<'d>) -> Math {

@@ -155,7 +155,7 @@ impl Emitter<'_> {
                 Variable::Input(i) => &self.program.inputs[*i],
                 Variable::Parameter(i) => &self.program.parameters[*i],
             };
-            format!("({:?}, {:?})", slot.name.to_string(), slot.unit.to_string())
+            format!("({:?}, {:?})", slot.name.to_string(), slot.label())
         });
         let table = Layout::array(names);
         let width = others.len();

@@ -64,7 +64,7 @@ pub(super) fn slot_docs(name: &Name, slot: &Slot, with_default: bool) -> String 
             .lines()
             .any(|line| line.starts_with(['-', '*', '|', '#', '>']));
     docs.push_str(if is_plain { " " } else { "\n\n" });
-    let _ = write!(docs, "Unit: {}.", slot.unit_text); // writing to a String cannot fail
+    let _ = write!(docs, "Unit: `{}`.", slot.unit_text); // writing to a String cannot fail
     if let Some(default) = slot.default.as_ref().filter(|_| with_default) {
         let _ = write!(docs, " Default: {}.", default.text);
     }

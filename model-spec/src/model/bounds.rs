@@ -1,0 +1,148 @@
+//! What the numbers of a machine must obey: masses are positive, friction does not drive.
+//!
+//! A spec is held against this where it is read, with the defaults of its parameters; a command,
+//! with the values that it is given. Both say the same words.
+
+use lagrangian_symbolic::{Dag, Expr, Symbol, evaluate};
+
+use super::{Model, stage};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::source::Span;
+
+/// A number of the machine, and what mechanics demands of it.
+#[derive(Clone, Debug)]
+pub struct Bound<'d> {
+    /// What it is.
+    pub kind: BoundKind<'d>,
+    /// Its value, of parameters alone.
+    pub value: Expr<'d>,
+    /// Where the spec says it.
+    pub said: Span,
+}
+
+/// What a number is.
+#[derive(Clone, Copy, Debug)]
+pub enum BoundKind<'d> {
+    /// A mass, which is positive.
+    Mass,
+    /// A moment of inertia, which is not negative.
+    Moment,
+    /// A radius, which is positive.
+    Radius,
+    /// A coefficient of friction, which is not negative.
+    Friction,
+    /// A coefficient of static friction, which is not below that of friction.
+    StaticFriction(Expr<'d>),
+    /// A coefficient of restitution, which is between 0 and 1.
+    Restitution,
+    /// A stiffness, which may be negative where that is meant.
+    Stiffness,
+    /// A damping coefficient, which may be negative where that is meant.
+    Damping,
+}
+
+impl BoundKind<'_> {
+    /// Whether a machine may break it, if its spec says so.
+    pub(crate) fn may_be_meant(self) -> bool {
+        matches!(self, BoundKind::Stiffness | BoundKind::Damping)
+    }
+
+    /// What is wrong with a value; nothing can be said of one that is not known, which is NaN.
+    fn complaint(self, value: f64, other: f64) -> Option<(Code, String)> {
+        let (is_wrong, code, words) = match self {
+            BoundKind::Mass => (value <= 0.0, Code::NotPositive, "a mass is positive"),
+            BoundKind::Moment => (
+                value < 0.0,
+                Code::NotPositive,
+                "a moment of inertia is not negative",
+            ),
+            BoundKind::Radius => (value <= 0.0, Code::NotPositive, "a radius is positive"),
+            BoundKind::Friction => (
+                value < 0.0,
+                Code::NotPositive,
+                "a coefficient of friction is not negative",
+            ),
+            BoundKind::StaticFriction(_) => {
+                let words = "what sticks is held by no less friction than what slides";
+                let message = format!("{words}, found {value} below {other}");
+                return (value < other).then_some((Code::OutsideDomain, message));
+            }
+            BoundKind::Restitution => (
+                value < 0.0 || value > 1.0,
+                Code::OutsideDomain,
+                "a coefficient of restitution lies between 0 and 1",
+            ),
+            BoundKind::Stiffness => (
+                value < 0.0,
+                Code::NegativeCoefficient,
+                "a spring of negative stiffness pushes away",
+            ),
+            BoundKind::Damping => (
+                value < 0.0,
+                Code::NegativeCoefficient,
+                "a damper of negative damping drives",
+            ),
+        };
+        is_wrong.then(|| (code, format!("{words}, found {value}")))
+    }
+}
+
+/// The bounds that are broken, by their places, with what to say of each.
+pub(crate) fn broken(
+    dag: &Dag,
+    bounds: &[Bound<'_>],
+    value: impl FnMut(Symbol) -> f64,
+) -> Vec<(usize, Code, String)> {
+    let other = |bound: &Bound<'_>| match bound.kind {
+        BoundKind::StaticFriction(friction) => friction.id(),
+        _ => bound.value.id(),
+    };
+    let pairs = bounds
+        .iter()
+        .flat_map(|bound| [bound.value.id(), other(bound)]);
+    let values: Vec<Expr<'_>> = pairs.map(|id| dag.expr(id)).collect();
+    let numbers = evaluate(dag, &values, value);
+    let all = bounds.iter().zip(numbers.chunks(2)).enumerate();
+    all.filter_map(|(place, (bound, pair))| {
+        let (code, message) = bound.kind.complaint(pair[0], pair[1])?;
+        Some((place, code, message))
+    })
+    .collect()
+}
+
+impl<'d> Model<'d> {
+    /// What is to be said of parameters that somebody gives: errors as a spec has them with these
+    /// values as defaults, and warnings. Values in the order of [`Model::parameters`], in the units
+    /// declared there; NaN for one that is not known.
+    pub fn refused_values(&self, parameters: &[f64]) -> Vec<Diagnostic> {
+        let value = |symbol| {
+            let mut known = self.parameters.iter().zip(parameters);
+            let found = known.find(|(parameter, _)| parameter.symbol.as_symbol() == Some(symbol));
+            found.map_or(f64::NAN, |(_, value)| *value)
+        };
+        let broken = broken(self.dag, &self.bounds, value).into_iter();
+        broken
+            .map(|(place, code, message)| {
+                let diagnostic = Diagnostic::new(code, self.bounds[place].said, message);
+                match self.bounds[place].kind.may_be_meant() {
+                    true => diagnostic.help(MEANT),
+                    false => diagnostic,
+                }
+            })
+            .collect()
+    }
+}
+
+/// How to say that a negative coefficient is meant.
+pub(crate) const MEANT: &str = "if it is meant, say so: `assume { c < 0 }`, with a name for it";
+
+impl Bound<'_> {
+    /// Whether it can be told from parameters alone.
+    pub(crate) fn is_of_parameters(&self) -> bool {
+        let other = match self.kind {
+            BoundKind::StaticFriction(friction) => friction.stage(),
+            _ => stage::CONSTANT,
+        };
+        self.value.stage().max(other) <= stage::PARAMETER
+    }
+}

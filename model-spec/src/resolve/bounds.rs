@@ -1,0 +1,62 @@
+//! Numbers that no machine has, at the defaults of its parameters.
+
+use lagrangian_symbolic::Expr;
+use rustc_hash::FxHashMap;
+
+use super::Resolver;
+use super::value::MemberId;
+use crate::diagnostic::Diagnostic;
+use crate::model::bounds::{Bound, BoundKind, MEANT, broken};
+use crate::model::{Assumption, Parameter, stage};
+use crate::source::Span;
+
+impl<'d> Resolver<'_, 'd, '_> {
+    /// Remembers a number that is bounded, if it depends on nothing but parameters.
+    pub fn bound(&mut self, kind: BoundKind<'d>, value: Expr<'d>, said: Span) {
+        let bound = Bound { kind, value, said };
+        if bound.is_of_parameters() {
+            self.bounds.push(bound);
+        }
+    }
+
+    /// Reports numbers beyond their bounds at the defaults of the parameters, and returns all
+    /// bounds.
+    pub fn check_bounds(
+        &mut self,
+        assumptions: &[Assumption<'d>],
+        parameters: &[(MemberId, Parameter<'d>)],
+    ) -> Vec<Bound<'d>> {
+        let mut bounds = std::mem::take(&mut self.bounds);
+        // Who assumes that a stiffness is negative means it.
+        let is_meant = |value: Expr<'d>| assumptions.iter().any(|fact| fact.excess == -value);
+        bounds.retain(|bound| !bound.kind.may_be_meant() || !is_meant(bound.value));
+        let mut values = FxHashMap::default();
+        for (_, parameter) in parameters {
+            let default = parameter.default;
+            let number = default.map_or(f64::NAN, lagrangian_symbolic::nearest);
+            values.extend(parameter.symbol.as_symbol().map(|symbol| (symbol, number)));
+        }
+        let value = |symbol| values.get(&symbol).copied().unwrap_or(f64::NAN);
+        for (place, code, message) in broken(self.dag, &bounds, value) {
+            let Bound { kind, value, said } = bounds[place];
+            // The default is wrong where it is that number itself, and no formula of several.
+            let mut parameters = parameters.iter();
+            let alone = parameters.find(|(_, parameter)| parameter.symbol == value);
+            let default =
+                alone.and_then(|(parameter, _)| self.quantity(*parameter)?.value.as_ref());
+            let diagnostic = match default {
+                Some(default) => Diagnostic::new(code, default.span, message)
+                    .note(said, "this is where it is used"),
+                None => Diagnostic::new(code, said, message),
+            };
+            self.push(match (kind.may_be_meant(), default) {
+                (true, _) => diagnostic.help(MEANT),
+                (false, None) if value.stage() > stage::CONSTANT => {
+                    diagnostic.help("this is its value for the defaults of the parameters")
+                }
+                _ => diagnostic,
+            });
+        }
+        bounds
+    }
+}

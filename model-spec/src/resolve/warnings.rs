@@ -1,0 +1,150 @@
+//! What a spec says and may not have meant: names that nothing uses, and bodies without weight.
+
+use lagrangian_symbolic::{Expr, evaluate};
+
+use super::Resolver;
+use super::names::Namespace;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::mechanics::experiment;
+use crate::model::{Action, Model, Space, stage};
+use crate::syntax::{SectionKind, Spec};
+use crate::unit::Unit;
+
+/// The most heights and coordinates, multiplied, that are looked at: a machine of more has its
+/// gravity or is a test of something else.
+const MOST_PAIRS: usize = 4096;
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// Reports parameters, constants, inputs, definitions and frames that nothing uses. A name that
+    /// begins with an underscore is meant to be unused.
+    pub fn notice_unused(&mut self, layers: &'a [Spec]) {
+        let has_gravity = layers.iter().any(|spec| spec.gravity.is_some());
+        let mut unused = Vec::new();
+        for (index, group) in self.groups.iter().enumerate() {
+            let is_checked = matches!(group.namespace, Namespace::Values | Namespace::FRAMES);
+            if !is_checked || self.used.contains(&index) || group.base.starts_with('_') {
+                continue;
+            }
+            let Some(&member) = group.members.values().next() else {
+                continue;
+            };
+            let declaration = self.declaration(member);
+            if declaration.section != SectionKind::Coordinates {
+                unused.push((group.base, declaration));
+            }
+        }
+        for (base, declaration) in unused {
+            let section = declaration.section;
+            let message = format!("nothing uses {} `{base}`", the(section));
+            let span = declaration.name.base.span;
+            let diagnostic = Diagnostic::new(Code::Unused, span, message);
+            let acceleration = Unit::METRE.rate().rate();
+            let is_acceleration = match declaration.content {
+                super::names::Content::Quantity(quantity) => {
+                    super::names::declared_unit(quantity) == Some(acceleration)
+                }
+                _ => false,
+            };
+            self.push(diagnostic.help(if is_acceleration && !has_gravity {
+                format!("is it gravity? write `gravity (0, -{base});`")
+            } else if declaration.layer + 1 < self.layer_count {
+                format!("take it away with `remove {section}.{base};`")
+            } else {
+                format!("if it is meant, call it `_{base}`")
+            }));
+        }
+    }
+
+    /// Reports a machine whose bodies hang or are carried, and that says nothing about gravity.
+    pub fn notice_weight(&mut self, model: &Model<'d>, layers: &'a [Spec]) {
+        let says = |spec: &Spec| {
+            let mut removed = spec.remove.iter().map(|remove| remove.section.value);
+            spec.gravity.is_some() || removed.any(|section| section == SectionKind::Gravity)
+        };
+        let is_weight = |action: &Action<'_>| matches!(action, Action::Point { .. });
+        if layers.iter().any(says)
+            || !model.potentials.is_empty()
+            || model.forces.iter().any(|force| is_weight(&force.action))
+        {
+            return;
+        }
+        let Some((span, what)) = hanging(model).or_else(|| carried(model)) else {
+            return;
+        };
+        let message = format!("{what}, and the machine has no gravity");
+        let diagnostic = Diagnostic::new(Code::NoGravity, span, message);
+        let down = match model.space {
+            Space::Plane => "gravity (0, -9.81);",
+            Space::Space => "gravity (0, 0, -9.81);",
+        };
+        self.push(diagnostic.help(format!("write `{down}`, or `gravity none;` if it is meant")));
+    }
+}
+
+/// An item of a section, with its article.
+fn the(section: SectionKind) -> &'static str {
+    match section {
+        SectionKind::Parameters => "the parameter",
+        SectionKind::Constants => "the constant",
+        SectionKind::Inputs => "the input",
+        SectionKind::Frames => "the frame",
+        _ => "the definition",
+    }
+}
+
+/// The places of a body: its height, and how far it is to the sides.
+fn height<'a, 'd>(at: &'a [Expr<'d>]) -> Option<(Expr<'d>, &'a [Expr<'d>])> {
+    at.split_last().map(|(height, sides)| (*height, sides))
+}
+
+/// A body whose height is stationary where an angle is zero, and is not constant: it hangs or stands
+/// there, as nothing does that turns in a horizontal plane and counts its angle from an axis.
+fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
+    if model.bodies.len() * model.coordinates.len() > MOST_PAIRS {
+        return None;
+    }
+    for body in &model.bodies {
+        let (height, _) = height(&body.at)?;
+        for angle in model.coordinates.iter().filter(|q| q.unit.is_one()) {
+            let symbol = angle.q.as_symbol();
+            let Some(symbol) = symbol.filter(|&symbol| height.depends_on(symbol)) else {
+                continue;
+            };
+            let slope = height.diff(symbol);
+            let curvature = slope.diff(symbol);
+            let stationary = (0..4).all(|point| {
+                let value = |other| match other == symbol {
+                    true => 0.0,
+                    false => experiment::number(point, other),
+                };
+                let values = evaluate(model.dag, &[slope, curvature], value);
+                values[0].abs() <= 1e-12 * values[1].abs()
+            });
+            if stationary {
+                let what = format!(
+                    "the body `{}` hangs or stands at {} = 0",
+                    body.name, angle.name
+                );
+                return Some((body.span, what));
+            }
+        }
+    }
+    None
+}
+
+/// A machine whose bodies move along the vertical alone, carried by springs.
+fn carried(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
+    let moves = |e: Expr<'_>| e.stage() >= stage::POSITION;
+    let mut bodies = model.bodies.iter();
+    let rests = bodies.all(|body| {
+        height(&body.at).is_some_and(|(_, sides)| !sides.iter().any(|&side| moves(side)))
+    });
+    let mut bodies = model.bodies.iter();
+    let body = bodies.find(|body| height(&body.at).is_some_and(|(height, _)| moves(height)))?;
+    let spring = model.springs.iter().find(|spring| !spring.torsional)?;
+    let what = format!(
+        "the spring `{}` carries the body `{}`",
+        spring.name, body.name
+    );
+    rests.then_some((body.span, what))
+}
