@@ -12,7 +12,7 @@ mod timing;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::emit::rust;
 use lagrangian_spec::mechanics::Equations;
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_spec::program::{Program, Proved, Role};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 use support::library;
@@ -31,13 +31,15 @@ struct Times {
     derive: f64,
     /// Equations to a program.
     lower: f64,
+    /// The program held against Lagrange's equations.
+    prove: f64,
     /// Program to Rust.
     emit: f64,
 }
 
 impl Times {
     fn total(&self) -> f64 {
-        self.resolve + self.derive + self.lower + self.emit
+        self.resolve + self.derive + self.lower + self.prove + self.emit
     }
 }
 
@@ -53,9 +55,9 @@ struct Outcome {
 
 fn main() {
     println!(
-        "| machine | n | read, ms | derive, ms | program, ms | Rust, ms | all, ms | nodes | operations | Rust, kB |"
+        "| machine | n | read, ms | derive, ms | program, ms | proof, ms | proof, share | Rust, ms | all, ms | nodes | operations | Rust, kB |"
     );
-    println!("| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: |");
+    println!("| --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |");
     for machine in [
         "vibrating_crusher",
         "crusher9",
@@ -82,11 +84,14 @@ fn row(machine: &str, constants: &[(&str, i64)]) {
     }
     let of = |stage: fn(&Times) -> f64| 1e3 * median(all.iter().map(stage).collect());
     println!(
-        "| {machine} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} |",
+        "| {machine} | {} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} |",
         outcome.coordinates,
         of(|times| times.resolve),
         of(|times| times.derive),
         of(|times| times.lower),
+        of(|times| times.prove),
+        // Of the derivation in all: from the text to a program.
+        of(|times| times.prove) / of(|times| times.resolve + times.derive + times.lower),
         of(|times| times.emit),
         of(Times::total),
         outcome.nodes,
@@ -118,6 +123,8 @@ fn compile(machine: &str, constants: &[(&str, i64)]) -> (Times, Outcome) {
     let (derive, equations) = seconds(|| Equations::derive(&model, &mut report));
     let equations = equations.expect("a machine of the library can be derived");
     let (lower, program) = seconds(|| Program::lower(&model, &equations));
+    let (prove, program) = seconds(|| Proved::new(program, &model, &equations));
+    let program = program.expect("a machine of the library is proved");
     let (emit, rust) = seconds(|| rust::module(&program, &rust::Options::default()));
     let accelerations = program
         .function(Role::Accelerations)
@@ -133,6 +140,7 @@ fn compile(machine: &str, constants: &[(&str, i64)]) -> (Times, Outcome) {
             resolve,
             derive,
             lower,
+            prove,
             emit,
         },
         outcome,

@@ -13,7 +13,7 @@ use std::hint::black_box;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Abreast, LaneVector, Lanes, Machine, Number, Several, System, Vector};
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_spec::program::{Program, Proved, Role};
 use support::accuracy::Judge;
 use support::library;
 use support::sampling::{Random, Sample};
@@ -52,7 +52,7 @@ fn main() {
     for_each_constrained_machine!(measure);
 }
 
-fn row<M: Machine>(machine: &M, program: &Program)
+fn row<M: Machine>(machine: &M, program: &Proved)
 where
     M::System: Abreast<2> + Abreast<4> + Abreast<8>,
 {

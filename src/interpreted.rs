@@ -12,7 +12,7 @@ use std::vec::Vec;
 
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
-use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Role, Shape, Slot};
+use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Proved, Role, Shape, Slot};
 
 use crate::{
     Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
@@ -85,7 +85,8 @@ pub struct MissingParameters {
 impl InterpretedMachine {
     /// The machine of a program, its parameters and inputs at their defaults. A parameter without a
     /// default is not a number until [`set`](Self::set).
-    pub fn new(program: Program) -> InterpretedMachine {
+    pub fn new(program: Proved) -> InterpretedMachine {
+        let program = program.into_program();
         let default = |slot: &Slot, otherwise: f64| {
             slot.default
                 .as_ref()

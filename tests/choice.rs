@@ -7,7 +7,7 @@ use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_native::Fused;
 use lagrangian_scalar::DoubleDouble;
 use lagrangian_spec::program::{
-    Arguments, Candidate, Interpreter, MOST_ROUNDING, Program, Role, Slot,
+    Arguments, Candidate, Interpreter, MOST_ROUNDING, Proved, Role, Slot,
 };
 use support::library::{self, CONSTRAINED, MACHINES};
 use support::random::SplitMix;
@@ -23,7 +23,7 @@ const NEAR: usize = 16;
 /// ‖Δr‖/‖r‖ of the results of a function in units of 2⁻⁵³, against double-double numbers: its
 /// logarithm at each of the states where there are any results. The root of the mean square over
 /// points near the state, which differ from it, parameters and all, in the sixth digit.
-fn measured(program: &Program, role: Role) -> Vec<f64> {
+fn measured(program: &Proved, role: Role) -> Vec<f64> {
     let machine = InterpretedMachine::new(program.clone());
     let default = |slot: &Slot| slot.default.as_ref().expect("a default").value;
     let parameters: Vec<f64> = program.parameters.iter().map(default).collect();

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_spec::emit;
-use lagrangian_spec::program::{LONGEST_SCHEDULED, Program, Slot};
+use lagrangian_spec::program::{LONGEST_SCHEDULED, Program, Proved, Slot};
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
@@ -46,7 +46,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();
-    let source = source(&program, &lanes, call.straight);
+    let source = source(&program, &lanes, call.straight)?;
     if let Some(file) = &of_source {
         file.write_text(&source)?;
     }
@@ -60,7 +60,7 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
         parameters,
         inputs,
         ..
-    } = &program;
+    } = &*program;
     if call.spec.json {
         let names = |slots: &[Slot]| -> Vec<String> {
             slots.iter().map(|slot| slot.name.to_string()).collect()
@@ -109,7 +109,7 @@ const VECTOR: &str = include_str!("../../native/src/vector.rs");
 const X86: &str = include_str!("../../native/src/x86.rs");
 
 /// The whole library as one file of Rust.
-fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
+fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, Failure> {
     let options = emit::rust::Options {
         shortest_rolled: match is_straight {
             true => usize::MAX,
@@ -123,7 +123,7 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
         longest_whole: 12_000,
         ..Default::default()
     };
-    let machine = emit::rust::library(program, &options);
+    let machine = emit::rust::library(program, &options).map_err(Failure::run)?;
     // Of the crate of numbers the trait, behind its list of modules; of the plain numbers `f64`, before `f32`, and with the
     // functions of the C library.
     let after = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[at..]);
@@ -165,7 +165,7 @@ fn source(program: &Program, lanes: &[u8], is_straight: bool) -> String {
     let several = lanes.iter().map(|n| format!("eval{n}: {n};"));
     let several = several.collect::<Vec<_>>().join(" ");
     let _ = writeln!(source, "\nseveral! {{ {several} }}");
-    source
+    Ok(source)
 }
 
 /// `rustc`, or what `RUSTC` names.

@@ -7,7 +7,7 @@ use lagrangian::{Machine, State};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
-use lagrangian_spec::program::Program;
+use lagrangian_spec::program::Proved;
 use lagrangian_spec::source::{Disk, Files, SourceId, Sources};
 use lagrangian_spec::unit::Unit;
 use lagrangian_symbolic::{Dag, Rational};
@@ -155,7 +155,7 @@ impl Reading {
 ///
 /// # Errors
 /// If there is no such file or the spec is wrong.
-pub fn program(spec: &call::Spec) -> Result<Program, Failure> {
+pub fn program(spec: &call::Spec) -> Result<Proved, Failure> {
     let dag = Dag::new();
     Ok(Reading::open(spec)?.compile(&dag)?.program)
 }

@@ -9,7 +9,7 @@ use lagrangian::{Machine, Number, Pivot, System};
 use lagrangian_machines as machines;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Role, Singular};
+use lagrangian_spec::program::{Arguments, Interpreter, Program, Proved, Role, Singular};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 
@@ -17,7 +17,7 @@ use lagrangian_symbolic::Dag;
 const STATES: u64 = 20;
 
 /// The program of a machine of the library.
-fn program(file: &str) -> Program {
+fn program(file: &str) -> Proved {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!("{}/../machines/{file}.machine", env!("CARGO_MANIFEST_DIR"));
     let (name, text) = Disk.read(&path, None).expect("the library is there");

@@ -7,7 +7,7 @@ use crate::emit::formulas;
 use crate::mechanics::Equations;
 use crate::mechanics::refusal::refuse_large;
 use crate::model::Model;
-use crate::program::{self, Basis, Program, Role};
+use crate::program::{self, Basis, Program, Proved, Role};
 
 /// A machine, through every stage.
 #[derive(Clone)]
@@ -16,12 +16,13 @@ pub struct Compiled<'d> {
     pub model: Model<'d>,
     /// Its equations of motion, in the form that the accelerations are computed from.
     pub equations: Equations<'d>,
-    /// How they are computed.
-    pub program: Program,
+    /// How they are computed; held against Lagrange's equations of this machine.
+    pub program: Proved,
 }
 
 impl<'d> Compiled<'d> {
-    /// Derives the equations of a model and lowers them; `None` where the report says why not.
+    /// Derives the equations of a model, lowers them, and proves what comes out; `None` where the
+    /// report says why not.
     pub fn new(model: Model<'d>, report: &mut Report) -> Option<Compiled<'d>> {
         let equations = Equations::derive(&model, report)?;
         if report.has_errors() {
@@ -34,6 +35,13 @@ impl<'d> Compiled<'d> {
             refuse_large(&model, report);
             return None;
         }
+        let program = match Proved::new(program, &model, &equations) {
+            Ok(program) => program,
+            Err(unproved) => {
+                report.push(unproved.diagnostic(&model));
+                return None;
+            }
+        };
         let choice = program.choice(program.solving());
         let is_expanded = choice.is_some_and(|c| {
             let form = c.chosen().form;

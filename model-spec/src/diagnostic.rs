@@ -188,6 +188,8 @@ codes! {
     NoExpansion => "no-expansion",
     /// An energy or an equation that has no value anywhere.
     Undefined => "undefined",
+    /// A program that is not what Lagrange's equations say: a defect of the compiler.
+    Internal => "internal-error",
 
     // Warnings.
     /// Something is declared that nothing uses.

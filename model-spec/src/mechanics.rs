@@ -9,7 +9,8 @@
 //! Two routes lead there. [`Oracle`] is Lagrange's equations of the second kind, term by term;
 //! [`Equations::derive`] takes the cheap route of [`projected`] wherever it holds, which is always
 //! but under approximations. Tests prove both equal, at random points of a prime field, for every
-//! machine. The numbers (E1), (E2), … are those of `docs/equations.md`.
+//! machine of the library; what is made of any machine is proved on its way out against [`literal`],
+//! the same equations evaluated and not expanded. The numbers (E1), (E2), … are those of `docs/equations.md`.
 //!
 //! What holds here: every expression is defined; `M` has no `v`, `a` or inputs in it, `h` no `a`
 //! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
@@ -27,6 +28,7 @@ pub mod groups;
 pub mod integrals;
 mod kinematics;
 mod lagrange;
+pub(crate) mod literal;
 mod lumps;
 mod power;
 mod projected;

@@ -51,6 +51,7 @@ mod rounding;
 mod schedule;
 mod solve;
 mod stages;
+mod validate;
 mod verify;
 
 pub use choose::{Basis, Candidate, Choice, Form, MOST_ROUNDING, best};
@@ -65,6 +66,7 @@ pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
 pub(crate) use schedule::with_operands;
+pub use validate::{Proved, STATES, Unproved, Witness};
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::diagnostic::{Code, Report};
+use lagrangian_spec::diagnostic::{Code, Report, Severity};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_symbolic::Dag;
 
@@ -33,7 +33,10 @@ fn compile(text: &str) -> (AllocationInfo, Vec<Code>) {
         );
         let compiled = model.and_then(|model| Compiled::new(model, &mut report));
         assert_eq!(compiled.is_none(), report.has_errors(), "{text}");
-        codes = report.diagnostics().iter().map(|d| d.code).collect();
+        let errors = report.diagnostics().into_iter().map(|d| d.code);
+        codes = errors
+            .filter(|code| code.severity() == Severity::Error)
+            .collect();
     });
     (used, codes)
 }

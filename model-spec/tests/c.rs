@@ -13,12 +13,12 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::emit;
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Role};
+use lagrangian_spec::program::{Arguments, Interpreter, Program, Proved, Role};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// A machine of the library that asks for stages as C, and its program.
-fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Program) {
+fn compiled(machine: &str, constants: &[(String, Rational)]) -> (String, Proved) {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!(
         "{}/../machines/{machine}.machine",

@@ -3,12 +3,12 @@
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::emit::rust;
-use lagrangian_spec::program::{Function, Op, Program, Repeat, Role, Shape, Source, Steps, Value};
+use lagrangian_spec::program::{Function, Op, Proved, Repeat, Role, Shape, Source, Steps, Value};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
 /// The program of a chain, whose links differ.
-fn chain(spec: &str, links: i64) -> Program {
+fn chain(spec: &str, links: i64) -> Proved {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let path = format!("{}/../{spec}.machine", env!("CARGO_MANIFEST_DIR"));
     let (name, text) = Disk.read(&path, None).expect("it is there");
@@ -28,8 +28,8 @@ fn chain(spec: &str, links: i64) -> Program {
 
 /// The code of a library: its text without the tables of names and the rows that the parameters are
 /// read from, which have an entry for each.
-fn code(program: &Program) -> String {
-    let text = rust::library(program, &rust::Options::default());
+fn code(program: &Proved) -> String {
+    let text = rust::library(program, &rust::Options::default()).expect("a proof");
     let after = text.find("/// Computes what").expect("it prepares");
     let before = text.find("/// What is prepared of").expect("it has a row");
     let rest = text.find("/// The inputs.").expect("it has inputs");

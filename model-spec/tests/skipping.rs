@@ -10,7 +10,7 @@ use std::path::Path;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::emit;
-use lagrangian_spec::program::{Counts, Op, Program, Role, Source};
+use lagrangian_spec::program::{Counts, Op, Program, Proved, Role, Source};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::Dag;
 
@@ -33,7 +33,7 @@ struct Row {
 
 /// Emitted text, and the program that it was made from.
 struct Made {
-    program: Program,
+    program: Proved,
     rust: String,
     c: String,
 }

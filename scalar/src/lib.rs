@@ -2,9 +2,10 @@
 //!
 //! One trait, [`Scalar`], is all that generated code, the interpreter and the evaluator of expressions ask of a number.
 //! A number type decides by itself how exact it is: `f64` rounds, [`DoubleDouble`] rounds far later, [`Interval`] encloses,
-//! [`Dual`] carries a derivative, [`Residue`] is exact in a prime field and so proves identities.
+//! [`Ball`] bounds its error, [`Dual`] carries a derivative, [`Residue`] is exact in a prime field and so proves identities.
 #![no_std]
 
+pub mod ball;
 pub mod double_double;
 pub mod dual;
 mod exact;
@@ -13,6 +14,7 @@ mod kernel;
 mod real;
 pub mod residue;
 
+pub use ball::Ball;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use interval::Interval;

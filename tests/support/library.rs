@@ -5,7 +5,7 @@ use lagrangian::interpreted::InterpretedMachine;
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::mechanics::Equations;
-use lagrangian_spec::program::{Candidate, Program};
+use lagrangian_spec::program::{Candidate, Program, Proved};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
@@ -124,7 +124,7 @@ pub fn text(machine: &str) -> String {
 }
 
 /// The program of a machine of the library, with other constants where some are given.
-pub fn program(machine: &str, constants: &[(&str, i64)]) -> Program {
+pub fn program(machine: &str, constants: &[(&str, i64)]) -> Proved {
     compile(&path(machine), &text(machine), constants)
 }
 
@@ -133,13 +133,14 @@ pub fn program_by(
     machine: &str,
     constants: &[(&str, i64)],
     choose: &dyn Fn(&[Candidate]) -> usize,
-) -> Program {
+) -> Proved {
     compile_by(&path(machine), &text(machine), constants, &|compiled| {
         let model = &compiled.model;
         // Those of `compiled` may have been multiplied out already.
         let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
         let expanded = equations.expanded();
-        Program::lower_by(model, &equations, expanded.as_ref(), choose)
+        let program = Program::lower_by(model, &equations, expanded.as_ref(), choose);
+        Proved::new(program, model, &equations).expect("a proof")
     })
 }
 
@@ -154,7 +155,7 @@ pub fn machine(text: &str) -> InterpretedMachine {
 }
 
 /// The program of a text.
-pub fn compile(path: &str, text: &str, constants: &[(&str, i64)]) -> Program {
+pub fn compile(path: &str, text: &str, constants: &[(&str, i64)]) -> Proved {
     compile_by(path, text, constants, &|compiled| compiled.program.clone())
 }
 
@@ -162,8 +163,8 @@ fn compile_by(
     path: &str,
     text: &str,
     constants: &[(&str, i64)],
-    program: &dyn Fn(&Compiled<'_>) -> Program,
-) -> Program {
+    program: &dyn Fn(&Compiled<'_>) -> Proved,
+) -> Proved {
     let constants: Vec<(String, Rational)> = constants
         .iter()
         .map(|&(name, value)| (name.to_owned(), Rational::from(value)))

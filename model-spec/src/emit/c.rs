@@ -8,7 +8,7 @@ use super::body::{self, Binding, Expression, Language, Rounded};
 use super::cut::{self, Cut, Piece, Place};
 use super::layout::{Writer, width};
 use super::names::{Field, Scope, fields, flat, snake_case};
-use crate::program::{Function, Guard, Op, Program, Reads, Role, Shape, Slot, Source};
+use crate::program::{Function, Guard, Op, Program, Proved, Reads, Role, Shape, Slot, Source};
 
 /// What C keeps for itself, and the functions of its library that the code calls.
 const RESERVED: &[&str] = &[
@@ -84,11 +84,7 @@ const RESERVED: &[&str] = &[
 ];
 
 /// The text of the file. `origin` are lines for its head, `formulas` those that the comments show.
-pub fn file(
-    program: &Program,
-    origin: &[String],
-    formulas: &BTreeMap<Role, Vec<String>>,
-) -> String {
+pub fn file(program: &Proved, origin: &[String], formulas: &BTreeMap<Role, Vec<String>>) -> String {
     let emitter = Emitter::new(program);
     let mut writer = Writer::default();
     emitter.head(&mut writer, origin);

@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use super::body::Plan;
 use super::layout::Writer;
 use super::names::{Field, Scope, identifier, snake_case};
-use crate::program::{Counts, Function, Op, Program, Role};
+use crate::program::{Counts, Function, Op, Program, Proved, Role, Unproved};
 use docs::prose;
 use types::{Group, Types};
 
@@ -76,22 +76,30 @@ pub fn module_name(machine: &str) -> String {
 }
 
 /// The content of the module of a machine.
-pub fn module(program: &Program, options: &Options) -> String {
+pub fn module(program: &Proved, options: &Options) -> String {
     Emitter::new(program, options).module()
 }
 
 /// The content of a module for a library that is called from C: the accelerations alone, and what they need.
 ///
 /// It has the functions `prepared` and `evaluate`, the type `Prepared` and the tables `COORDINATES`, `PARAMETERS`, `INPUTS`.
-pub fn library(program: &Program, options: &Options) -> String {
-    let program = program.restricted(Role::Accelerations);
-    Emitter::new(&program, options).library()
+///
+/// # Errors
+/// If the accelerations alone are not what they were among all functions, which is a defect of the compiler.
+pub fn library(program: &Proved, options: &Options) -> Result<String, Unproved> {
+    let program = program.restricted(Role::Accelerations)?;
+    Ok(Emitter::new(&program, options).library())
 }
 
 /// What the macro expands to: the module of a machine, and the machine's type beside it.
 ///
 /// The type is an alias and no `use`: it resolves in the body of a function too, and beside a crate of the same name.
-pub fn expansion(program: &Program, options: &Options) -> String {
+pub fn expansion(program: &Proved, options: &Options) -> String {
+    unproved_expansion(program, options)
+}
+
+/// The same of any program: of one that stands where a spec is wrong, and computes nothing.
+fn unproved_expansion(program: &Program, options: &Options) -> String {
     let emitter = Emitter::new(program, options);
     let (name, scalar) = (emitter.types.machine.clone(), emitter.types.scalar.clone());
     let module = module_name(&program.name);

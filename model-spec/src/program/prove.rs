@@ -52,6 +52,22 @@ pub enum Disagreement {
         /// The number of the point.
         point: u64,
     },
+    /// The normal reaction of this guide does not balance what would open it.
+    Reaction {
+        /// The index of the contact.
+        contact: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// A coordinate was taken to be settled by a constraint that does not settle it.
+    Settled {
+        /// The index of the coordinate.
+        coordinate: usize,
+        /// The index of the constraint.
+        constraint: usize,
+        /// The number of the point.
+        point: u64,
+    },
     /// The pivots that are guarded are not those of the mass matrix.
     Pivots {
         /// The number of the point.
@@ -83,6 +99,19 @@ impl fmt::Display for Disagreement {
                 write!(
                     f,
                     "the accelerations break constraint {constraint} at point {point}"
+                )
+            }
+            Disagreement::Reaction { contact, point } => {
+                write!(f, "the normal reaction {contact} differs at point {point}")
+            }
+            Disagreement::Settled {
+                coordinate,
+                constraint,
+                point,
+            } => {
+                write!(
+                    f,
+                    "constraint {constraint} does not settle coordinate {coordinate} at point {point}"
                 )
             }
             Disagreement::Pivots { point } => {
@@ -436,10 +465,11 @@ impl<'a, 'd> Point<'a, 'd> {
             for (left, g) in left.iter_mut().zip(row) {
                 *left = *left - g * *multiplier;
             }
-            if self.evaluate(&[constraint.residual], a)?[0] != Residue::ZERO {
-                let constraint = 0;
-                return Err(Disagreement::Constraint { constraint, point }.into());
-            }
+        }
+        let residuals: Vec<Expr<'d>> = oracle.constraints.iter().map(|c| c.residual).collect();
+        let open = self.evaluate(&residuals, a)?;
+        if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
+            return Err(Disagreement::Constraint { constraint, point }.into());
         }
         for (contact, friction) in oracle.sliding.iter().zip(&frictions) {
             let row = self.evaluate(&contact.row, a)?;
@@ -694,8 +724,9 @@ impl<'a, 'd> Point<'a, 'd> {
 
 /// A program whose accelerations are the pivots and their scales instead, in the order of the
 /// guards: those of `prepare` first; and whose stages have theirs behind their results.
-fn with_guarded_values(program: &Program) -> Program {
-    let mut probe = program.clone();
+pub(super) fn with_guarded_values(program: &Program) -> Program {
+    let mut probe = program
+        .with_functions(|role| role == program.solving() || program.staged_roles().contains(&role));
     let values = |function: &Function| {
         function
             .guards
@@ -734,7 +765,7 @@ fn with_guarded_values(program: &Program) -> Program {
 }
 
 /// The coordinates of the guards, in the order of [`with_guarded_values`].
-fn guarded_coordinates(program: &Program) -> Vec<usize> {
+pub(super) fn guarded_coordinates(program: &Program) -> Vec<usize> {
     let functions = [Some(&program.prepare), program.function(program.solving())];
     let guards = functions
         .into_iter()
@@ -744,15 +775,15 @@ fn guarded_coordinates(program: &Program) -> Vec<usize> {
 }
 
 /// The determinant of a symmetric matrix, by its lower triangle.
-fn determinant(lower: &[Residue], n: usize) -> Residue {
+pub(super) fn determinant<R: Scalar>(lower: &[R], n: usize) -> R {
     let entry = |i: usize, j: usize| lower[Shape::index(i.max(j), i.min(j))];
     let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
-    let mut left: Vec<Vec<Residue>> = (0..n).map(row).collect();
-    let mut determinant = Residue::ONE;
+    let mut left: Vec<Vec<R>> = (0..n).map(row).collect();
+    let mut determinant = R::ONE;
     for k in 0..n {
         // Rows are exchanged: without inertia of its own a coordinate has no pivot in its place.
-        let Some(found) = (k..n).find(|&i| left[i][k] != Residue::ZERO) else {
-            return Residue::ZERO;
+        let Some(found) = (k..n).find(|&i| left[i][k] != R::ZERO) else {
+            return R::ZERO;
         };
         if found != k {
             left.swap(found, k);
@@ -761,7 +792,7 @@ fn determinant(lower: &[Residue], n: usize) -> Residue {
         let pivot = left[k].clone();
         determinant = determinant * pivot[k];
         for row in &mut left[k + 1..] {
-            if row[k] != Residue::ZERO {
+            if row[k] != R::ZERO {
                 let l = row[k] / pivot[k];
                 for (x, y) in row.iter_mut().zip(&pivot).skip(k) {
                     *x = *x - l * *y;

@@ -48,6 +48,32 @@ impl Program {
     }
 }
 
+impl Program {
+    /// The same with some of the functions, beside [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and all prepared values.
+    pub(super) fn with_functions(&self, is_kept: impl Fn(Role) -> bool) -> Program {
+        let functions = self.functions.iter().filter(|f| is_kept(f.role));
+        Program {
+            name: self.name.clone(),
+            docs: String::new(),
+            parameters: self.parameters.clone(),
+            coordinates: self.coordinates.clone(),
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            assumptions: self.assumptions.clone(),
+            constraints: self.constraints.clone(),
+            contacts: self.contacts.clone(),
+            derivatives: self.derivatives.clone(),
+            stages: self.stages,
+            prepare: self.prepare.clone(),
+            prepared: self.prepared.clone(),
+            start: self.start.clone(),
+            functions: functions.cloned().collect(),
+            choices: Vec::new(),
+        }
+    }
+}
+
 /// A function with those operations only that a result or a guard needs.
 fn without_the_unused(function: Function) -> Function {
     let Function {

@@ -466,7 +466,7 @@ impl Symbols {
 
 /// G. L. Steele, D. Lea and C. H. Flood, *Fast splittable pseudorandom number generators*, OOPSLA
 /// 2014: the same numbers everywhere.
-struct SplitMix(u64);
+pub(super) struct SplitMix(pub u64);
 
 impl SplitMix {
     fn next(&mut self) -> u64 {
@@ -477,7 +477,7 @@ impl SplitMix {
         z ^ (z >> 31)
     }
 
-    fn uniform(&mut self, from: f64, to: f64) -> f64 {
+    pub fn uniform(&mut self, from: f64, to: f64) -> f64 {
         // 53 bits of a fraction.
         let unit = (self.next() >> 11) as f64 * (f64::EPSILON / 2.0);
         from + (to - from) * unit

@@ -3,20 +3,21 @@
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::mechanics::Equations;
-use lagrangian_spec::program::{Candidate, Choice, MOST_ROUNDING, Program, Role};
+use lagrangian_spec::program::{Candidate, Choice, MOST_ROUNDING, Program, Proved, Role};
 
 use crate::harness::{all_machines, machine, program, program_of_output};
 use crate::machines::{assert_mistakes_are_found, assert_proved, mistakes_found};
 
 /// The programs of a machine: in the first all functions are their first candidates, in the
 /// second their second ones, or their last where there are fewer.
-fn every_program(machine: &Compiled<'_>) -> Vec<Program> {
+fn every_program(machine: &Compiled<'_>) -> Vec<Proved> {
     let model = &machine.model;
     // Those of `machine` may have been multiplied out already.
     let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
     let expanded = equations.expanded();
     let lower = |choose: &dyn Fn(&[Candidate]) -> usize| {
-        Program::lower_by(model, &equations, expanded.as_ref(), choose)
+        let program = Program::lower_by(model, &equations, expanded.as_ref(), choose);
+        Proved::new(program, model, &equations).expect("a proof")
     };
     let taken = &machine.program;
     let ways = taken.choices.iter().map(|choice| choice.candidates.len());

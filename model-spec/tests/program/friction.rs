@@ -109,7 +109,7 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
                 Op::Sub(a, b) => Op::Add(a, b),
                 _ => continue,
             };
-            let mut wrong = machine.program.clone();
+            let mut wrong = machine.program.clone().into_program();
             for function in &mut wrong.functions {
                 if function.role == Role::Friction {
                     function.code[place] = turned.clone();

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_spec::program::{Proved, Role};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
@@ -50,12 +50,12 @@ pub fn machine<R>(
 }
 
 /// The program of a text.
-pub fn program(text: &str) -> Program {
+pub fn program(text: &str) -> Proved {
     compiled(text, &[], |machine| machine.program.clone())
 }
 
 /// The program of a ball on a line, with other lines of the spec, and one output.
-pub fn program_of_output(parameters: &str, output: &str) -> Program {
+pub fn program_of_output(parameters: &str, output: &str) -> Proved {
     let text = format!(
         "machine Test in plane {{
             parameters {{ mass: kg = 2, length: m = 1, {parameters} }}

@@ -10,5 +10,6 @@ mod harness;
 mod held;
 mod lowering;
 mod machines;
+mod proved;
 mod running;
 mod stages;

@@ -4,7 +4,7 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::mechanics::Oracle;
 use lagrangian_spec::program::{
-    Arguments, Candidate, Counts, Function, Interpreter, Mutant, Op, Program, Role, Source,
+    Arguments, Candidate, Counts, Function, Interpreter, Mutant, Op, Program, Proved, Role, Source,
     mutants, prove,
 };
 
@@ -70,6 +70,7 @@ fn every_way_to_compute_in_stages_leads_to_the_accelerations() {
                     _ => 0,
                 };
                 let program = Program::lower_by(model, equations, expanded.as_ref(), &choose);
+                let program = Proved::new(program, model, equations).expect("a proof");
                 assert_proved(&Compiled {
                     program,
                     ..machine.clone()

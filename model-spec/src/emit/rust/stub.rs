@@ -2,7 +2,7 @@
 
 use lagrangian_symbolic::Rational;
 
-use super::{Options, expansion};
+use super::{Options, unproved_expansion};
 use crate::model::{Name, Stages};
 use crate::program::{self, Function, Op, Program, Role, Shape, Slot, Value};
 use crate::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
@@ -14,7 +14,7 @@ pub fn stub(spec: &Spec, options: &Options) -> String {
     if spec.name.text.is_empty() {
         String::new()
     } else {
-        expansion(&standstill(spec), options)
+        unproved_expansion(&standstill(spec), options)
     }
 }
 
