@@ -77,8 +77,8 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
         ("wedge_and_block", 5),
         ("prisms", 7),
         ("two_body_orbit", 3),
-        ("small_angle_crusher", 151),
-        ("frozen_crusher", 151),
+        ("small_angle_crusher", 61),
+        ("frozen_crusher", 61),
         ("rolling_cylinder", 2),
     ] {
         machine(name, &[], |machine| assert_stopped(machine, stride));
