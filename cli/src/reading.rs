@@ -7,7 +7,6 @@ use lagrangian::{Machine, State};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
-use lagrangian_spec::program::Proved;
 use lagrangian_spec::source::{Disk, Files, SourceId, Sources};
 use lagrangian_spec::unit::Unit;
 use lagrangian_symbolic::{Dag, Rational};
@@ -149,15 +148,6 @@ impl Reading {
     pub fn failure(self) -> Failure {
         Failure::Spec(Box::new((self.report, self.sources)))
     }
-}
-
-/// The program of a spec.
-///
-/// # Errors
-/// If there is no such file or the spec is wrong.
-pub fn program(spec: &call::Spec) -> Result<Proved, Failure> {
-    let dag = Dag::new();
-    Ok(Reading::open(spec)?.compile(&dag)?.program)
 }
 
 /// The machine with the parameters of a call.

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::emit;
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_spec::program::{Proved, Role};
 use nalgebra::{Complex, DMatrix};
 use serde_json::{Value, json};
 
@@ -286,7 +286,7 @@ fn pair(random: &mut Random, number: usize) -> Option<[(Machine, Expected); 2]> 
 }
 
 /// Machines and their programs, until there are enough.
-fn several(count: usize, tag: u64) -> Vec<(Machine, Program, Expected)> {
+fn several(count: usize, tag: u64) -> Vec<(Machine, Proved, Expected)> {
     let mut list = Vec::new();
     let mut random = Random(seed() ^ tag);
     for number in 0..40 * count {
@@ -309,7 +309,7 @@ fn numbers(values: &[DoubleDouble]) -> String {
 }
 
 /// Holds accelerations that were printed, machine after machine, one number a line.
-fn hold_printed(printed: &str, list: &[(Machine, Program, Expected)], what: &str) {
+fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str) {
     let mut lines = printed
         .lines()
         .map(|line| line.parse::<f64>().unwrap_or(f64::NAN));
@@ -365,7 +365,7 @@ pub fn as_c() {
     hold_printed(&printed.expect("no machine is singular"), &list, "C");
 }
 
-fn c_call(k: usize, program: &Program, expected: &Expected) -> String {
+fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
     let prefix = emit::snake_case(&program.name);
     let defaults = |slots: &[lagrangian_spec::program::Slot]| {
         let value =

@@ -8,7 +8,7 @@ use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model;
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Role};
+use lagrangian_spec::program::{Arguments, Interpreter, Proved, Role};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_spec::syntax::SectionKind;
 use lagrangian_symbolic::Dag;
@@ -65,7 +65,7 @@ pub fn is_unprepared(report: &str) -> bool {
 }
 
 /// Compiles a spec, as the command line does.
-pub fn compile(text: &str, files: &[(String, String)]) -> Result<Program, String> {
+pub fn compile(text: &str, files: &[(String, String)]) -> Result<Proved, String> {
     let compiled = catch_unwind(AssertUnwindSafe(|| compile_or_panic(text, files)));
     compiled.unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
@@ -74,7 +74,7 @@ pub fn compile(text: &str, files: &[(String, String)]) -> Result<Program, String
     })
 }
 
-fn compile_or_panic(text: &str, files: &[(String, String)]) -> Result<Program, String> {
+fn compile_or_panic(text: &str, files: &[(String, String)]) -> Result<Proved, String> {
     let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
     let mut disk = InMemory::new();
     for (name, text) in files {
@@ -351,7 +351,7 @@ impl Held<'_> {
 }
 
 /// Holds a program against what is expected of it.
-pub fn hold(program: &Program, expected: &Expected) -> Vec<String> {
+pub fn hold(program: &Proved, expected: &Expected) -> Vec<String> {
     let mut failures = Vec::new();
     // A result is off by the roundings of its terms, which are not larger than the largest squared, and solving makes that
     // larger by the condition of what is solved.
@@ -419,7 +419,7 @@ pub fn hold(program: &Program, expected: &Expected) -> Vec<String> {
 
 /// The accelerations, stage by stage.
 fn in_stages(
-    program: &Program,
+    program: &Proved,
     interpreter: &mut Interpreter<Wide>,
     arguments: Arguments<'_, Wide>,
     n: usize,
@@ -441,7 +441,7 @@ fn in_stages(
 }
 
 impl Held<'_> {
-    fn multipliers(&mut self, program: &Program, found: &[Wide], expected: &Expected) {
+    fn multipliers(&mut self, program: &Proved, found: &[Wide], expected: &Expected) {
         for (name, value) in &expected.multipliers {
             let place = program.constraints.iter().position(|one| one.name == *name);
             match place {
@@ -456,7 +456,7 @@ impl Held<'_> {
     }
 
     /// The same as a run sees it, in plain numbers.
-    fn as_run(&mut self, program: &Program, expected: &Expected) {
+    fn as_run(&mut self, program: &Proved, expected: &Expected) {
         let machine = InterpretedMachine::new(program.clone());
         let system = machine.prepare();
         let State { t, q, v } = &expected.state;
@@ -516,7 +516,7 @@ impl Held<'_> {
 }
 
 /// Matrix, forces and derivatives of a machine as it is.
-fn hold_equations(program: &Program, case: &Case, random: &mut Random) -> Vec<String> {
+fn hold_equations(program: &Proved, case: &Case, random: &mut Random) -> Vec<String> {
     let mut failures = Vec::new();
     let truth = &case.truth;
     let size = truth.size.max(1.0);

@@ -505,7 +505,7 @@ fn expanded<R: Scalar>(f: Small<R>) -> Varied<R> {
 
 /// What has no value.
 fn unknown<S: Scalar>() -> S {
-    S::ZERO / S::ZERO
+    S::ONE / S::ZERO
 }
 
 /// `t + τ`.

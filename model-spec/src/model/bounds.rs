@@ -68,7 +68,7 @@ impl BoundKind<'_> {
                 return (value < other).then_some((Code::OutsideDomain, message));
             }
             BoundKind::Restitution => (
-                value < 0.0 || value > 1.0,
+                !(0.0..=1.0).contains(&value),
                 Code::OutsideDomain,
                 "a coefficient of restitution lies between 0 and 1",
             ),

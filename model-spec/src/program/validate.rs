@@ -543,7 +543,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let mut results = vec![R::ZERO; len];
         match interpreter.call(role, arguments, &mut results) {
             Ok(()) => results,
-            Err(_) => vec![R::ZERO / R::ZERO; len],
+            Err(_) => vec![R::ONE / R::ZERO; len],
         }
     }
 
@@ -587,10 +587,10 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             self.compare(role, 0, found, expected)?;
         }
         let mut inertia = Sum::products(w, &computed.bias);
-        for i in 0..n {
+        for (i, &w) in w.iter().enumerate() {
             let along = row(&computed.mass_matrix, n, i).zip(&at.a);
             for (m, &a) in along {
-                inertia = inertia.plus(w[i] * m * a);
+                inertia = inertia.plus(w * m * a);
             }
         }
         if !literal.inertia.is_finite() || !literal.applied.is_finite() {
@@ -630,19 +630,19 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if let Some(i) = biases.iter().zip(&computed.bias).position(differs) {
             return self.wrong(Role::Bias, i);
         }
-        for i in 0..n {
+        for (i, &bias) in biases.iter().enumerate() {
             let found = Sum::of(
                 row(&computed.mass_matrix, n, i)
                     .zip(&at.a)
                     .map(|(m, &a)| m * a),
             );
-            let expected = self.literal(at, i).inertia - biases[i];
+            let expected = self.literal(at, i).inertia - bias;
             if matches!(found.plus(-expected).vanishes(), Ok(false)) {
                 let entry = |j: usize| {
                     let mut one = coasting.clone();
                     one.a[j] = R::ONE;
                     let found = computed.mass_matrix[Shape::index(i, j)];
-                    (found, self.literal(&one, i).inertia - biases[i])
+                    (found, self.literal(&one, i).inertia - bias)
                 };
                 let j = first_difference(n, entry);
                 return self.wrong(Role::MassMatrix, Shape::index(i, j));

@@ -6,7 +6,7 @@ use lagrangian_spec::mechanics::{Freedom, Independent, freedom};
 use crate::harness::{derived, library, text_of};
 
 fn of(text: &str) -> Freedom {
-    derived(text, |model, equations| freedom(model, equations))
+    derived(text, freedom)
 }
 
 fn counts(text: &str) -> (usize, usize, Option<(usize, usize)>) {

@@ -246,7 +246,7 @@ impl Machine {
                     inertia: random.chance(50).then_some([1.0; 6]),
                 });
             }
-            let is_on_arm = bodies.len() > 0 && random.chance(20) && k >= coordinates;
+            let is_on_arm = !bodies.is_empty() && random.chance(20) && k >= coordinates;
             bodies.push(Body {
                 frame: if is_on_arm {
                     bodies[random.below(bodies.len())].frame

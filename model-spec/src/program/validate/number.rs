@@ -114,7 +114,7 @@ impl Number for Ball {
     fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Ball> {
         let model = machine.model;
         let mut random = SplitMix(number.wrapping_add(1).wrapping_mul(0x5851_f42d_4c95_7f2d));
-        let share = if number % 2 == 0 { 0.01 } else { 0.05 };
+        let share = if number.is_multiple_of(2) { 0.01 } else { 0.05 };
         let mut known = |default: Option<Expr<'_>>| match default.map(nearest) {
             Some(0.0) => random.uniform(-share, share),
             Some(default) => default * (1.0 + random.uniform(-share, share)),
