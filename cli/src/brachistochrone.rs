@@ -81,7 +81,10 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         true => output::line(format_args!("{:#}", found.document())),
         false => found.print(machine.name()),
     }
-    Ok(())
+    match found.is_motion() {
+        true => Ok(()),
+        false => Err(Failure::Said),
+    }
 }
 
 /// The files that the call asks for.

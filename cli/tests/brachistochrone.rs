@@ -3,7 +3,7 @@
 mod support;
 
 use serde_json::Value;
-use support::{Page, Scratch, floats, lagrangian};
+use support::{Page, Scratch, floats, lagrangian, root};
 
 const BEAD: &str = "machine Bead in plane {
     parameters { m: kg = 1, g: m/s^2 = 9.81 }
@@ -35,6 +35,32 @@ fn close(value: &Value, expected: f64, relative: f64) {
         (value / expected - 1.0).abs() < relative,
         "{value}, not {expected}"
     );
+}
+
+#[test]
+fn what_is_no_motion_of_the_machine_is_not_called_the_fastest() {
+    let prisms = std::fs::read_to_string(root().join("machines/prisms.machine")).expect("a spec");
+    let built_on = "wedge.shift(-q2, -q2*tan(alpha))";
+    assert!(prisms.contains(built_on));
+    // Written by coordinates, nothing says which body a force on q2 acts on, nor what the floor carries of it.
+    let unsaid = prisms.replace(built_on, "ground.shift(q1 - q2, -q2*tan(alpha))");
+    for (spec, options, why) in [
+        (&prisms, &["--to", "q1=-8"][..], "slides backwards"),
+        (&unsaid, &[][..], "cannot be derived"),
+    ] {
+        let spec = Scratch::new("prisms.machine", spec);
+        let arguments = [&["brachistochrone", spec.path()], options].concat();
+        let output = lagrangian(&arguments);
+        let text = String::from_utf8(output.stdout).expect("text");
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("no least time is claimed"), "{text}");
+        assert!(!text.contains("is the least time"), "{text}");
+        assert!(text.contains(why), "{text}");
+        let output = lagrangian(&[&arguments[..], &["--json"]].concat());
+        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(document["is_motion"], false);
+        assert_eq!(output.status.code(), Some(1));
+    }
 }
 
 #[test]

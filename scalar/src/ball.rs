@@ -400,7 +400,13 @@ mod tests {
             // Multiplied by the denominator it is an integer, and that has no error.
             let whole = found * Ball::from_ratio(denominator, 1);
             assert!(whole.contains(numerator as f64), "{a} {b} {c} {d}");
-            assert!(whole.radius() < 1e-24, "{whole:?}");
+            // Some ten operations, each bounded by a few roundings of the greatest terms, and as much again.
+            let size = (15 * a.abs() + 5 * b.abs()) * c * c + 21 * (a * b * d).abs();
+            let size = size as f64;
+            assert!(
+                whole.radius() < 256.0 * 0.5f64.powi(104) * size,
+                "{whole:?}"
+            );
             let (a, b) = (numerator as f64, 1e-18 * numerator as f64);
             assert!(numerator == 0 || !(whole - Ball::from_f64(a)).contains(b));
             tried += 1;

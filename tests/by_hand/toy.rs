@@ -1,4 +1,4 @@
-//! Small machines whose equations fit into a line.
+// Small machines whose equations fit into a line.
 
 use lagrangian::{Assumption, Machine, Quantity, Singular, State, System};
 

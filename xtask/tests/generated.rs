@@ -125,6 +125,9 @@ fn odd_names_and_long_words_are_as_rustfmt_leaves_them() {
             bodies {
                 a { mass: type, inertia: type*move[1]^2, at: (PARAMETERS + t0, singular + loop*sin(der_)), angle: q[1] },
                 b { mass: 2*type, at: a.at + polar(None, q[12] - q[2]) + (p, f64_) },
+                first { mass: type, at: (t0, loop) },
+                second { mass: type, at: (p, f64_) },
+                third { mass: type, at: (move[1]*der_, move[1]*q[12]) },
                 c { mass: 3*type, at: b.at + polar(the_displacement_of_the_block, h_q_1) },
                 d[i in 3..11] { mass: type, inertia: type*move[i]^2, at: (move[i]*cos(q[i]), 0), angle: q[i] + q[2] },
             }

@@ -199,6 +199,12 @@ impl<'a, 'd> Found<'a, 'd> {
         numbers
     }
 
+    /// Whether it is a motion of the machine: the guides do nothing that Coulomb's law does not allow, and the machine
+    /// arrives under the control forces. Of what is none, no time is the least.
+    pub fn is_motion(&self) -> bool {
+        self.motion.lapses().is_empty() && self.arrival.is_ok()
+    }
+
     /// What the guides do that Coulomb's law does not allow, and what may be better than this.
     pub fn warnings(&self) -> Vec<String> {
         let told = |lapse: &Lapse| match lapse.backwards {
@@ -246,6 +252,7 @@ impl<'a, 'd> Found<'a, 'd> {
         let path: Vec<Value> = (0..self.moments.len()).map(|k| self.moment(k)).collect();
         json!({
             "time": self.motion.time(),
+            "is_motion": self.is_motion(),
             "parameters": parameters,
             "start": path[0],
             "end": path[path.len() - 1],
@@ -362,10 +369,13 @@ impl<'a, 'd> Found<'a, 'd> {
 
     pub fn print(&self, machine: &str) {
         let motion = &self.motion;
-        output::line(format_args!(
-            "{machine}: {} s is the least time",
-            shortest(motion.time())
-        ));
+        let time = shortest(motion.time());
+        match self.is_motion() {
+            true => output::line(format_args!("{machine}: {time} s is the least time")),
+            false => output::line(format_args!(
+                "{machine}: no least time is claimed; the equations give {time} s, but the machine does not move so"
+            )),
+        }
         output::line(format_args!("  found in {:.1} µs", 1e6 * self.seconds));
         if let Motion::Direct(direct) = motion {
             output::line(format_args!(

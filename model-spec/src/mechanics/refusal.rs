@@ -110,7 +110,7 @@ pub const MOST_COORDINATES: usize = 256;
 
 /// The most nodes and operands that the expressions of a machine may have: an operand takes 8 to 24
 /// bytes, a node 64, so that they stay below half a gigabyte.
-pub(super) const MOST_SIZE: usize = 2_500_000;
+pub(super) const MOST_SIZE: usize = 8_000_000;
 
 /// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
 /// if refused.

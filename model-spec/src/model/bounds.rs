@@ -23,7 +23,8 @@ pub struct Bound<'d> {
 /// What a number is.
 #[derive(Clone, Copy, Debug)]
 pub enum BoundKind<'d> {
-    /// A mass, which is positive.
+    /// A mass, which is positive; one that parameters decide may vanish, as that of a part which a
+    /// variant lacks.
     Mass,
     /// A moment of inertia, which is not negative.
     Moment,
@@ -104,6 +105,10 @@ pub(crate) fn broken(
     let numbers = evaluate(dag, &values, value);
     let all = bounds.iter().zip(numbers.chunks(2)).enumerate();
     all.filter_map(|(place, (bound, pair))| {
+        let vanishes = matches!(bound.kind, BoundKind::Mass) && pair[0] == 0.0;
+        if vanishes && bound.value.stage() > stage::CONSTANT {
+            return None;
+        }
         let (code, message) = bound.kind.complaint(pair[0], pair[1])?;
         Some((place, code, message))
     })

@@ -47,7 +47,7 @@ const BUDGET: usize = 40_000;
 
 /// How many nodes and operands may be made on the way. What grows more is coupled too densely to be
 /// eliminated along itself.
-const MOST_GROWTH: usize = 2_000_000;
+const MOST_GROWTH: usize = 4_000_000;
 
 /// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
 /// their coordinates.

@@ -815,8 +815,8 @@ fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
 const LARGEST_FACTORED: usize = 200_000;
 
 /// The most multiplications of an elimination that is written down: every one is an instruction, and
-/// takes 2 kB until it is one. 90 coordinates that all depend on each other take as many.
-const MOST_MULTIPLICATIONS: usize = 150_000;
+/// takes 2 kB until it is one. 115 coordinates that all depend on each other take as many.
+const MOST_MULTIPLICATIONS: usize = 250_000;
 
 /// A solution for the coordinates that are left, as one for all coordinates.
 fn embedded<'d>(

@@ -730,9 +730,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 let unit = Measure::named(word).filter(|_| is_value);
                 let candidates: Vec<&str> = candidates.take(COMPARED).collect();
                 match unit {
-                    Some(_) if nearest(word, candidates.iter().copied()).is_none() => Some(
-                        format!("`{word}` is a unit: it stands behind a number, `2*{word}`"),
-                    ),
+                    Some(_) if word.len() > 1 => Some(format!(
+                        "`{word}` is a unit: it stands behind a number, `2*{word}`"
+                    )),
                     _ => suggestion(word, candidates),
                 }
             }

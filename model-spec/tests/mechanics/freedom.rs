@@ -88,11 +88,12 @@ fn a_start_where_motions_fork_is_told() {
     let bars = |start: &str| {
         counts(&format!(
             "machine Bars in plane {{
+                constants {{ l: m = 1 }}
                 coordinates {{ a: rad = {start}, b: rad, c: rad = {start} }}
                 bodies {{
-                    left {{ mass: 1, at: direction(a) }},
-                    rod {{ mass: 1, at: direction(a) + 2*direction(b) }},
-                    right {{ mass: 1, at: (4, 0) + direction(c) }},
+                    left {{ mass: 1, at: l*direction(a) }},
+                    rod {{ mass: 1, at: l*direction(a) + 2*l*direction(b) }},
+                    right {{ mass: 1, at: (4*l, 0) + l*direction(c) }},
                 }}
                 gravity none;
                 constraints {{

@@ -103,7 +103,7 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
             contacts: 5,
         };
         assert_eq!(function.results.len(), layout.len());
-        for (place, op) in function.code.iter().enumerate().step_by(4) {
+        for (place, op) in function.code.iter().enumerate().step_by(7) {
             let turned = match *op {
                 Op::Add(a, b) => Op::Sub(a, b),
                 Op::Sub(a, b) => Op::Add(a, b),
@@ -118,6 +118,6 @@ fn a_wrong_sign_in_what_friction_does_is_found() {
             assert!(prove(&wrong, &machine.model, &oracle).is_err(), "{place}");
             found += 1;
         }
-        assert!(found > 20, "{found}");
+        assert!(found > 15, "{found}");
     });
 }
