@@ -321,7 +321,7 @@ impl<M: Machine, L> Solution<M, L> {
     ///         .run(start)?;
     /// }
     /// // It falls for √(2h/g) = 0.6386 s, and each flight takes four fifths of the one before it.
-    /// assert_eq!((bounces, run.end().t), (6, 4.0));
+    /// assert_eq!((bounces, run.end().t), (5, 4.0));
     /// # Ok::<(), lagrangian::Error>(())
     /// ```
     pub fn resume<'a>(&self) -> Simulation<'a, M, L>
