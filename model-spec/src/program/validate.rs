@@ -914,9 +914,13 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let lower = self.lower(computed);
         let n = at.q.len() + self.parts.program.constraints.len();
         let determinant = determinant(&lower, n);
-        // Of numbers that are rounded nobody knows whether they are singular.
-        let is_singular = !determinant.is_finite() || determinant.look(0.0) == Sight::Zero;
-        match is_singular && !R::IS_ORDERED {
+        let is_singular = match R::IS_ORDERED {
+            false => !determinant.is_finite() || determinant.look(0.0) == Sight::Zero,
+            // Of numbers that are rounded nobody knows a determinant to be 0, but a constraint may
+            // be seen to say nothing that the others do not say.
+            true => has_dependent(&computed.rows, at.q.len()),
+        };
+        match is_singular {
             true => Ok(true),
             false => Err(Verdict::Elsewhere),
         }
@@ -1351,22 +1355,36 @@ fn same_results(whole: &Program, part: &Program, role: Role) -> Result<(), Disag
 
 /// Whether one of some rows of length `n` is a combination of the others.
 fn is_dependent<R: Number>(rows: &[R], n: usize, one: usize) -> bool {
+    let mut ordered: Vec<&[R]> = rows.chunks(n.max(1)).collect();
+    let one = ordered.remove(one);
+    ordered.push(one);
+    vanishing(&ordered).last() == Some(&true)
+}
+
+/// Whether some of the rows are combinations of others.
+fn has_dependent<R: Number>(rows: &[R], n: usize) -> bool {
+    let rows: Vec<&[R]> = rows.chunks(n.max(1)).collect();
+    vanishing(&rows).contains(&true)
+}
+
+/// For each row whether it is a combination of those before it, by elimination; of numbers that are
+/// rounded whatever may be 0 counts as 0.
+fn vanishing<R: Number>(rows: &[&[R]]) -> Vec<bool> {
     let is_zero = |x: &R| !matches!(x.look(0.0), Sight::NotZero);
-    let mut others: Vec<Vec<R>> = rows.chunks(n).map(<[R]>::to_vec).collect();
-    let mut one = others.remove(one);
-    while let Some(row) = others.pop() {
-        let Some(pivot) = row.iter().position(|x| !is_zero(x)) else {
-            continue;
-        };
-        for other in others.iter_mut().chain([&mut one]) {
-            let factor = other[pivot] / row[pivot];
-            for (j, (to, &from)) in other.iter_mut().zip(&row).enumerate() {
-                *to = match j == pivot {
-                    true => R::ZERO,
-                    false => *to + -(factor * from),
-                };
+    let mut pivots: Vec<(usize, Vec<R>)> = Vec::new();
+    let mut vanishing = Vec::with_capacity(rows.len());
+    for row in rows {
+        let mut row = row.to_vec();
+        for (pivot, before) in &pivots {
+            let factor = row[*pivot] / before[*pivot];
+            for (to, &from) in row.iter_mut().zip(before) {
+                *to = *to + -(factor * from);
             }
+            row[*pivot] = R::ZERO;
         }
+        let pivot = row.iter().position(|x| !is_zero(x));
+        vanishing.push(pivot.is_none());
+        pivots.extend(pivot.map(|pivot| (pivot, row)));
     }
-    one.iter().all(is_zero)
+    vanishing
 }
