@@ -9,7 +9,7 @@ use signal_hook::flag;
 /// The exit status of a command that was interrupted: 128 and the number of the signal.
 pub const STATUS: u8 = 128 + SIGINT as u8;
 
-/// Whether somebody pressed Ctrl-C since this was made. Whoever presses it again quits the command at once.
+/// Whether somebody pressed Ctrl-C since this was made. A second press quits the command at once.
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {

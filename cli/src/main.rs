@@ -49,7 +49,7 @@ fn main() -> ExitCode {
     progress::end();
     let status = match output::finish() {
         Ok(()) => status,
-        // Whoever closes the pipe (`| head`) has seen enough.
+        // A reader that closes the pipe (`| head`) has seen enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => match status {
             0 => CLOSED_PIPE,
             status => status,

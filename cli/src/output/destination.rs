@@ -449,7 +449,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["a.txt"]); // The trial is gone.
         let failed = destination.write(|to| {
             to.write_all(b"half")?;
-            // Whoever looks now sees the older file.
+            // A reader sees the older file until now.
             assert_eq!(fs::read_to_string(&path).unwrap(), "older");
             Err(io::Error::from(io::ErrorKind::StorageFull))
         });
