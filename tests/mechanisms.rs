@@ -414,6 +414,137 @@ fn a_start_at_rest_in_a_fork_is_refused() {
     assert!(balance.relative().abs() <= 1e-6, "{balance:?}");
 }
 
+/// The row of linkages in one coordinate, `a`: without constraints, and so without forks.
+fn in_one_coordinate(windows: usize) -> InterpretedMachine {
+    support::library::machine(&format!(
+        "machine Row in plane {{
+            constants {{ N = {windows} }}
+            parameters {{ l: m = 1, m: kg = 1, g: m/s^2 = 9.81 }}
+            coordinates {{ a: rad }}
+            bodies {{
+                crank[i in 0..N] {{ mass: m, inertia: m*l^2/12, at: (i*l, 0) + polar(l/2, a), angle: a }},
+                coupler[i in 1..N] {{ mass: m, at: ((i - 1)*l, 0) + polar(l, a) + (l/2, 0) }},
+            }}
+            gravity (0, -g);
+        }}"
+    ))
+}
+
+/// Coarse steps go over a fork without seeing it. The equations are smooth along the branch, so the errors
+/// of such runs are those that the method has on the same motion in one coordinate, where there is no fork.
+#[test]
+fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
+    let (row, pendulum) = (FourBars::default(), in_one_coordinate(2));
+    let seed = 6;
+    let mut random = SplitMix::new(seed);
+    let runs = 60;
+    // Of energies, of places; the mean logarithm of the ratio of both errors.
+    let mut ratios = [0.0, 0.0];
+    for _ in 0..runs {
+        let rate = -random.uniform(0.2, 3.0);
+        let tolerance = 10f64.powf(random.uniform(-7.0, -4.0));
+        let turned = [FRAC_PI_2, FRAC_PI_2, FRAC_PI_2, 0.0, 0.0];
+        let of_row = Simulation::new(&row)
+            .tolerance(tolerance)
+            .until(4.0)
+            .energy_balance(true)
+            .run(state(&row, 0.0, &turned, &[rate, rate, rate, 0.0, 0.0]))
+            .unwrap_or_else(|error| panic!("seed {seed}, {tolerance:e}, {rate}: {error}"));
+        let alone = |tolerance: f64| {
+            Simulation::new(&pendulum)
+                .tolerance(tolerance)
+                .until(4.0)
+                .energy_balance(true)
+                .run(state(&pendulum, 0.0, &[FRAC_PI_2], &[rate]))
+                .expect("a pendulum swings")
+        };
+        let (exact, coarse) = (alone(1e-13), alone(tolerance));
+        let place = exact.end().q.values[0];
+        // What the integration of the exact motion itself is off by is far below.
+        let floor = 1e-11;
+        let energy = |balance: Option<lagrangian::EnergyBalance>| {
+            balance.expect("it was asked for").relative().abs() + floor
+        };
+        let ratio = energy(of_row.energy_balance()) / energy(coarse.energy_balance());
+        ratios[0] += ratio.ln() / f64::from(runs);
+        let off = |place_found: f64| (place_found - place).abs() + floor;
+        let ratio = off(of_row.end().q.crank[0]) / off(coarse.end().q.values[0]);
+        ratios[1] += ratio.ln() / f64::from(runs);
+    }
+    // Errors scatter by some factor of ten from run to run, so their mean logarithm over 60 runs does by
+    // ln(10)/√60 = 0.3. A branch that were lost, or a step that saw the fork, would be off by powers of ten
+    // in most of the runs.
+    for ratio in ratios {
+        assert!(ratio < 4.0_f64.ln(), "seed {seed}: {ratios:?}");
+    }
+}
+
+/// A motion that comes to rest where two branches cross turns back on its own: inertia has nothing that
+/// pushes across. With just enough to reach the level pose from below.
+#[test]
+fn a_motion_that_comes_to_rest_in_a_fork_turns_back() {
+    let (row, pendulum) = (FourBars::default(), in_one_coordinate(2));
+    // ½ I ω² = V(0) − V(−π/2); I = 3·m l²/3 + 2 m l² and V = m g l (3/2 + 2) sin a.
+    let rate = (2.0 * 9.81 * 3.5 / 3.0_f64).sqrt();
+    let below = [-FRAC_PI_2; 3];
+    let start = [&below[..], &[0.0; 2]].concat();
+    let rates = [rate, rate, rate, 0.0, 0.0];
+    let known = Simulation::new(&pendulum)
+        .tolerance(1e-13)
+        .until(3.0)
+        .run(state(&pendulum, 0.0, &[-FRAC_PI_2], &[rate]))
+        .expect("a pendulum swings");
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13] {
+        let run = Simulation::new(&row)
+            .tolerance(tolerance)
+            .until(3.0)
+            .run(state(&row, 0.0, &start, &rates))
+            .unwrap_or_else(|error| panic!("{tolerance:e}: {error}"));
+        let end = run.end().q;
+        // Some twenty steps of this tolerance at 5 rad/s; and by what rounding across the branch is taken for
+        // while the fork is in sight, 10⁻⁷ m/s: 11 rad/s² take 0.3 s to stop from 0.5 rad, and 0.3 s back.
+        let bound = 100.0 * tolerance + 6e-8;
+        for crank in end.crank {
+            let error = (crank - known.end().q.values[0]).abs();
+            assert!(error <= bound, "{tolerance:e}: {error:e}");
+        }
+        assert!(end.coupler.iter().all(|angle| angle.abs() <= 1e-11));
+    }
+}
+
+/// Windows whose couplers are held level as well: a row that is redundant in each of them, forks or not.
+#[test]
+fn windows_held_level_as_well_move_as_one_pendulum() {
+    for windows in [1, 2, 5] {
+        let machine = support::library::machine(&format!(
+            "machine Level extends \"four_bars.machine\" {{
+                constants {{ N = {windows} }}
+                constraints {{ level[i in 1..N]: coupler[i] = 0 }}
+            }}"
+        ));
+        let pendulum = in_one_coordinate(windows);
+        let known = Simulation::new(&pendulum)
+            .tolerance(1e-13)
+            .until(2.0)
+            .run(state(&pendulum, 0.0, &[FRAC_PI_2], &[-1.0]))
+            .expect("a pendulum swings");
+        let place = known.end().q.values[0];
+        for tolerance in [1e-4, 1e-7, 1e-10, 1e-13] {
+            let run = Simulation::new(&machine)
+                .tolerance(tolerance)
+                .until(2.0)
+                .run(machine.start())
+                .unwrap_or_else(|error| panic!("{windows}, {tolerance:e}: {error}"));
+            let residual = run.statistics().constraint_residual;
+            assert!(residual <= 1e-13, "{windows}, {tolerance:e}: {residual:e}");
+            // Turning over at up to 9 rad/s: neighbours part by a factor of some 10 in 2 s.
+            let bound = 1e3 * tolerance + 1e-11;
+            let error = (run.end().q.values[0] - place).abs();
+            assert!(error <= bound, "{windows}, {tolerance:e}: {error:e}");
+        }
+    }
+}
+
 /// A parallelogram, its constraints and its start to be filled in.
 fn window(constraints: &[String], a: f64, rate: f64) -> String {
     let constraints = constraints.join(", ");
