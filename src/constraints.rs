@@ -440,7 +440,8 @@ impl<V: Vector> Constraints<V> {
         place: &Place<'_, V>,
     ) -> [(f64, usize); 2] {
         let (q, v) = (&*place.q[0], &*place.v[0]);
-        system.residuals(place.t, q, v, room.positions, room.rates);
+        system.constraint_positions(place.t, q, room.positions);
+        system.constraint_rates(place.t, q, v, room.rates);
         system.constraint_matrix(place.t, q, room.matrix);
         let mut most = [(0.0, 0), (0.0, 0)];
         for k in 0..room.m {

@@ -215,6 +215,11 @@ impl InterpretedSystem {
         called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
 
+    /// A function whose values exist at every state: nothing in it can be singular.
+    fn fill(&self, role: Role, arguments: Arguments<'_, f64>, results: &mut [f64]) {
+        let _ = self.call(role, arguments, results);
+    }
+
     /// A function that yields one number, and whose value exists at every state.
     fn number(&self, role: Role, arguments: Arguments<'_, f64>) -> f64 {
         let mut result = [0.0];
@@ -286,34 +291,13 @@ impl System for InterpretedSystem {
         if !self.program.contacts.is_empty() {
             return accelerations_with_friction(self, t, q, v, u, a);
         }
-        self.call(
-            Role::Accelerations,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a: &[],
-            },
-            a,
-        )
+        self.call(Role::Accelerations, at(t, q, v, &u.values), a)
     }
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
         let n = q.len();
         let mut lower = vec![0.0; Shape::Symmetric(n).len()];
-        // Nothing in the matrix itself can be singular.
-        let _ = self.call(
-            Role::MassMatrix,
-            Arguments {
-                t,
-                q,
-                v: &[],
-                u: &[],
-                a: &[],
-            },
-            &mut lower,
-        );
+        self.fill(Role::MassMatrix, at(t, q, &[], &[]), &mut lower);
         for (index, entry) in lower.iter().enumerate() {
             let (i, j) = Shape::place(index);
             for place in [i * n + j, j * n + i] {
@@ -325,110 +309,36 @@ impl System for InterpretedSystem {
     }
 
     fn bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut Vec<f64>) {
-        let _ = self.call(
-            Role::Bias,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &[],
-                a: &[],
-            },
-            bias,
-        );
+        self.fill(Role::Bias, at(t, q, v, &[]), bias);
     }
 
     fn applied(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named, applied: &mut Vec<f64>) {
-        let _ = self.call(
-            Role::Applied,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a: &[],
-            },
-            applied,
-        );
+        self.fill(Role::Applied, at(t, q, v, &u.values), applied);
     }
 
     fn forces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named, forces: &mut Vec<f64>) {
-        let _ = self.call(
-            Role::Forces,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a: &[],
-            },
-            forces,
-        );
+        self.fill(Role::Forces, at(t, q, v, &u.values), forces);
     }
 
     fn kinetic_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
-        self.number(
-            Role::KineticEnergy,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &[],
-                a: &[],
-            },
-        )
+        self.number(Role::KineticEnergy, at(t, q, v, &[]))
     }
 
     fn potential_energy(&self, t: f64, q: &Vec<f64>, u: &Named) -> f64 {
-        self.number(
-            Role::PotentialEnergy,
-            Arguments {
-                t,
-                q,
-                v: &[],
-                u: &u.values,
-                a: &[],
-            },
-        )
+        self.number(Role::PotentialEnergy, at(t, q, &[], &u.values))
     }
 
     fn dissipation(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
-        self.number(
-            Role::Dissipation,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a: &[],
-            },
-        )
+        self.number(Role::Dissipation, at(t, q, v, &u.values))
     }
 
     fn work_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>, u: &Named) -> f64 {
-        self.number(
-            Role::WorkRate,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a,
-            },
-        )
+        let u = &u.values;
+        self.number(Role::WorkRate, Arguments { t, q, v, u, a })
     }
 
     fn dissipation_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &Named) -> f64 {
-        self.number(
-            Role::DissipationRate,
-            Arguments {
-                t,
-                q,
-                v,
-                u: &u.values,
-                a: &[],
-            },
-        )
+        self.number(Role::DissipationRate, at(t, q, v, &u.values))
     }
 
     fn default_inputs(&self) -> Named {
@@ -471,13 +381,7 @@ impl System for InterpretedSystem {
         v: &Vec<f64>,
         u: &Named,
     ) -> impl ExactSizeIterator<Item = Assumption<'_>> {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            u: &u.values,
-            a: &[],
-        };
+        let arguments = at(t, q, v, &u.values);
         let margins: Vec<f64> = (0..self.program.assumptions.len())
             .map(|index| self.number(Role::Assumption(index), arguments))
             .collect();
@@ -499,46 +403,20 @@ impl System for InterpretedSystem {
         })
     }
 
-    fn residuals(
-        &self,
-        t: f64,
-        q: &Vec<f64>,
-        v: &Vec<f64>,
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            u: &[],
-            a: &[],
-        };
-        // Nothing here is inverted.
-        let _ = self.call(Role::ConstraintPositions, arguments, positions);
-        let _ = self.call(Role::ConstraintRates, arguments, rates);
+    fn constraint_positions(&self, t: f64, q: &Vec<f64>, residuals: &mut [f64]) {
+        self.fill(Role::ConstraintPositions, at(t, q, &[], &[]), residuals);
+    }
+
+    fn constraint_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, residuals: &mut [f64]) {
+        self.fill(Role::ConstraintRates, at(t, q, v, &[]), residuals);
     }
 
     fn constraint_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        let arguments = Arguments {
-            t,
-            q,
-            v: &[],
-            u: &[],
-            a: &[],
-        };
-        let _ = self.call(Role::ConstraintMatrix, arguments, matrix);
+        self.fill(Role::ConstraintMatrix, at(t, q, &[], &[]), matrix);
     }
 
     fn constraint_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            u: &[],
-            a: &[],
-        };
-        let _ = self.call(Role::ConstraintDrift, arguments, drift);
+        self.fill(Role::ConstraintDrift, at(t, q, v, &[]), drift);
     }
 
     fn multipliers(
@@ -549,13 +427,7 @@ impl System for InterpretedSystem {
         u: &Named,
         multipliers: &mut [f64],
     ) -> Result<(), Singular> {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            u: &u.values,
-            a: &[],
-        };
+        let arguments = at(t, q, v, &u.values);
         match (&*self.program.constraints, &*self.program.contacts) {
             ([], _) => Ok(()),
             (_, []) => self.call(Role::Multipliers, arguments, multipliers),
@@ -568,7 +440,7 @@ impl System for InterpretedSystem {
     }
 
     fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
-        let _ = self.call(Role::Slips, at(t, q, v, &[]), slips);
+        self.fill(Role::Slips, at(t, q, v, &[]), slips);
     }
 
     fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
@@ -593,11 +465,11 @@ impl System for InterpretedSystem {
     }
 
     fn slip_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
-        let _ = self.call(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
+        self.fill(Role::SlipMatrix, at(t, q, &[], &[]), matrix);
     }
 
     fn slip_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
-        let _ = self.call(Role::SlipDrift, at(t, q, v, &[]), drift);
+        self.fill(Role::SlipDrift, at(t, q, v, &[]), drift);
     }
 
     fn friction(
@@ -725,7 +597,7 @@ impl InterpretedSystem {
     }
 }
 
-/// The arguments of a stage.
+/// The arguments of a call without accelerations.
 fn at<'a>(t: f64, q: &'a [f64], v: &'a [f64], u: &'a [f64]) -> Arguments<'a, f64> {
     Arguments { t, q, v, u, a: &[] }
 }

@@ -199,17 +199,20 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// What is left of the constraints at a state, a number for each: `positions[k] = gₖ(q, t)`, 0
-    /// for one of velocities alone, and `rates[k] = Gₖ v + ∂gₖ/∂t`. All are 0 where the state
-    /// obeys them.
+    /// Residuals of the constraints of positions, `gₖ(q, t)`, a number for each constraint; 0 for one of
+    /// velocities alone. All are 0 where the state obeys them.
     #[inline(always)]
-    fn residuals(
+    fn constraint_positions(&self, _t: f64, _q: &Self::Vector, _residuals: &mut [f64]) {}
+
+    /// Residuals of the constraints at the level of velocities, `φₖ = Gₖ v + ∂gₖ/∂t`, a number for each. All
+    /// are 0 where the state obeys them.
+    #[inline(always)]
+    fn constraint_rates(
         &self,
         _t: f64,
         _q: &Self::Vector,
         _v: &Self::Vector,
-        _positions: &mut [f64],
-        _rates: &mut [f64],
+        _residuals: &mut [f64],
     ) {
     }
 

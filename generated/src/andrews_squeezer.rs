@@ -675,7 +675,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[beta, beta] = m1*ra^2 - 2*m2*da*rr*cos(Theta) + m2*da^2 + m2*rr^2 + I1 + I2
@@ -838,7 +838,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) 
     [f_beta, f_Theta, f_gamma, f_Phi, f_delta, f_Omega, f_epsilon]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[x3] = d*cos(beta + Theta) - rr*cos(beta) + ss*sin(gamma) + xb
@@ -877,7 +877,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]
     [g1, g2, g3, g4, g5, g6]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[x3] = rr*sin(beta)*der(beta) + ss*cos(gamma)*der(gamma)
@@ -942,7 +942,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2, phi3, phi4, phi5, phi6]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[x3, beta] = rr*sin(beta) - d*sin(beta + Theta)
@@ -1008,7 +1008,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -
     ]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[x3] = ss*sin(gamma)*der(gamma)^2 - rr*cos(beta)*der(beta)^2
@@ -1080,7 +1080,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
 /// machine, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 7],
@@ -1685,7 +1685,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) ->
     t2 * (t2 * p.k3)
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = mom*der(beta)
@@ -1844,6 +1844,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 7], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 7], v: &[f64; 7], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 7], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 7], v: &[f64; 7], to: &mut [f64]) {
+        fill(to, &constraint_drift(self, q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 7], v: &[f64; 7]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -1902,35 +1918,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 7],
-        v: &[f64; 7],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 7], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 7], v: &[f64; 7], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(self, q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 7],
         v: &[f64; 7],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

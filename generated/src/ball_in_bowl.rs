@@ -257,7 +257,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m
@@ -329,7 +329,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) 
     [zero, zero, p.k9, f_a, f_b, f_c]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[touching] = 1/2*r - 1/2*x^2/(r - R) - 1/2*y^2/(r - R) - 1/2*z^2/(r - R) - 1/2*R
@@ -343,7 +343,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]
     [g1, zero, zero]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[touching] = -x*der(x)/(r - R) - y*der(y)/(r - R) - z*der(z)/(r - R)
@@ -388,7 +388,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2, phi3]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[touching, x] = x/(R - r)
@@ -443,7 +443,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -
     ]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[touching] = der(x)^2/(r - R) + der(y)^2/(r - R) + der(z)^2/(r - R)
@@ -496,7 +496,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
 /// multiplied out.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 6],
@@ -856,7 +856,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) ->
     p.k6 * z
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = m*der(x)*der(der(x)) + m*der(y)*der(der(y)) + m*der(z)*der(der(z)) + J*der(a)*der(der(a))
@@ -994,6 +994,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 6], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 6], v: &[f64; 6], to: &mut [f64]) {
+        fill(to, &constraint_drift(self, q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 6], v: &[f64; 6]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -1052,35 +1068,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 6],
-        v: &[f64; 6],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 6], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 6], v: &[f64; 6], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(self, q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 6],
         v: &[f64; 6],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

@@ -199,7 +199,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[s, s] = m
@@ -244,21 +244,30 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S;
     [f_s]
 }
 
-/// How fast the contacts slide, `w`, in m/s.
+/// Slips `w` of the guided contacts, in m/s.
+///
+/// ```text
+/// w[face] = der(s)
+/// ```
 pub fn slips<S: ::lagrangian::Scalar>(v: &[S; 1]) -> [S; 1] {
     let s_dot = v[0];
     [s_dot]
 }
 
-/// The matrix `tau = dw/dv` of the slips, row after row.
+/// Slip matrix `tau`, the derivatives of the slips by the rates.
+///
+/// ```text
+/// tau[face, s] = 1
+/// ```
 pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
     let one = S::ONE;
     [one]
 }
 
-/// What there is without friction, and what each unit of friction adds to it: accelerations,
-/// multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of
-/// friction.
+/// What there is without friction, and what a unit of each friction force adds to it:
+/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
+/// coefficients of friction. A machine with contacts has this in place of accelerations and
+/// multipliers.
 ///
 /// A pivot that vanishes is an error.
 pub fn friction<S: ::lagrangian::Number>(
@@ -355,7 +364,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 
     t2 * (p.k8 * s)
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = 2*m*rate^2*s*der(s) - m*rate*g*cos(rate*t + alpha)*s
@@ -475,6 +484,18 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, t, q);
     }
 
+    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], to: &mut [f64]) {
+        fill(to, &slips(v));
+    }
+
+    fn slip_matrix(&self, _: f64, _: &[f64; 1], to: &mut [f64]) {
+        fill(to, &slip_matrix());
+    }
+
+    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], to: &mut [f64]) {
+        to.fill(0.0);
+    }
+
     fn kinetic_energy(&self, t: f64, q: &[f64; 1], v: &[f64; 1]) -> f64 {
         kinetic_energy(self, t, q, v)
     }
@@ -533,18 +554,6 @@ impl ::lagrangian::System for Prepared {
         CONTACTS.iter().copied()
     }
 
-    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], w: &mut [f64]) {
-        fill(w, &slips(v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 1], rows: &mut [f64]) {
-        fill(rows, &slip_matrix());
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], drift: &mut [f64]) {
-        drift.fill(0.0);
-    }
-
     fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
         let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
         let slips: [::lagrangian::scalar::Interval; _] = slips(&v.map(near));
@@ -559,9 +568,9 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 1],
         v: &[f64; 1],
         _: &Inputs,
-        parts: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(parts, &friction(self, t, q, v)?);
+        fill(to, &friction(self, t, q, v)?);
         Ok(())
     }
 

@@ -244,7 +244,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = cart + pole
@@ -311,7 +311,7 @@ pub fn forces<S: ::lagrangian::Scalar>(
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
@@ -405,7 +405,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     x_dot * (x_dot * p.k4) + theta_dot * (theta_dot * p.k3)
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = der(x)*push
@@ -415,10 +415,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
     u.push * x_dot
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = rail*der(x)^2 + hinge*der(theta)^2
+/// R = rail*der(x)^2 + hinge*der(theta)^2
 /// ```
 pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let x_dot = v[0];

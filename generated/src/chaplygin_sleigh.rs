@@ -183,7 +183,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m
@@ -230,7 +230,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     [f_x, f_y, zero]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[blade] = cos(phi)*der(y) - sin(phi)*der(x)
@@ -244,7 +244,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 
     [phi1]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[blade, x] = -sin(phi)
@@ -258,7 +258,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(q: &[S; 3]) -> [S; 3] {
     [g1_1, cos_phi, zero]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[blade] = cos(phi)*der(x)*der(phi) + sin(phi)*der(y)*der(phi)
@@ -276,7 +276,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
 /// machine.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
@@ -506,6 +506,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, _: &[f64; 3], to: &mut [f64]) {
+        to.fill(0.0);
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_rates(q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_matrix(q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_drift(q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -564,35 +580,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        positions.fill(0.0);
-        fill(rates, &constraint_rates(q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 3],
         v: &[f64; 3],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

@@ -317,7 +317,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[q[1], q[1]] = 17/4*l^2*m + J
@@ -500,7 +500,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
     [f_q_1, f_q_2, f_q_3, f_q_4, f_q_5]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[along] = l*cos(q[1]) + l*cos(q[2]) + l*cos(q[3]) + l*cos(q[4]) + l*cos(q[5]) - d
@@ -522,7 +522,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]
     [g1, g2]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[along] = -l*sin(q[1])*der(q[1]) - l*sin(q[2])*der(q[2]) - l*sin(q[3])*der(q[3])
@@ -557,7 +557,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[along, q[1]] = -l*sin(q[1])
@@ -595,7 +595,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -
     [g1_1, g1_2, g1_3, g1_4, g1_5, g2_1, g2_2, g2_3, g2_4, g2_5]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[along] = l*cos(q[1])*der(q[1])^2 + l*cos(q[2])*der(q[2])^2 + l*cos(q[3])*der(q[3])^2
@@ -638,7 +638,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
 /// machine.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
@@ -1262,6 +1262,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_drift(self, q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -1320,35 +1336,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(self, q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 5],
         v: &[f64; 5],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

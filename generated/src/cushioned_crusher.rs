@@ -551,7 +551,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m + m0 + m1 + m2
@@ -816,7 +816,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
@@ -1079,7 +1079,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S;
     (t4 * t4 + t2 * t2) * p.k8 + t6 * (t6 * p.k7) + t9
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
@@ -1113,10 +1113,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     (t5 * (t6 * p.k12 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k20
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = d1*der(s1)^2 + d2*der(s2)^2 + drag1*(s1*der(phi1) - R*der(theta) + r1*der(theta1))^2
+/// R = d1*der(s1)^2 + d2*der(s2)^2 + drag1*(s1*der(phi1) - R*der(theta) + r1*der(theta1))^2
 ///     + drag2*(s2*der(phi2) - rho*der(theta1) + r2*der(theta2))^2 + bx*(der(x) - yc*der(theta))^2
 ///     + bx*(der(x) + yc*der(theta))^2 + by*(der(y) - xc*der(theta))^2
 ///     + by*(der(y) + xc*der(theta))^2

@@ -299,7 +299,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[crank, crank] = 1/3*a^2*m1 + a^2*m2
@@ -377,7 +377,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     [f_crank, f_coupler, f_rocker]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[along] = a*cos(crank) + b*cos(coupler) - c*cos(rocker) - d
@@ -395,7 +395,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]
     [g1, g2]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[along] = c*sin(rocker)*der(rocker) - a*sin(crank)*der(crank) - b*sin(coupler)*der(coupler)
@@ -423,7 +423,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[along, crank] = -a*sin(crank)
@@ -449,7 +449,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -
     [g1_1, g1_2, g1_3, g2_1, g2_2, g2_3]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[along] = a*cos(crank)*der(crank)^2 + b*cos(coupler)*der(coupler)^2
@@ -482,7 +482,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
 /// multiplied out, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
@@ -820,6 +820,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_drift(self, q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -878,35 +894,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 3], v: &[f64; 3], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(self, q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 3],
         v: &[f64; 3],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

@@ -582,7 +582,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m + m0 + m1 + m2
@@ -812,7 +812,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
     [f_x, f_y, f_theta, f_s1, f_phi1, zero, f_s2, f_phi2, zero]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[bed] = rho - s2 - r2 - delta
@@ -827,7 +827,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]
     [g1, zero, g3, zero]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[bed] = -der(s2)
@@ -855,7 +855,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2, phi3, phi4]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[bed, s2] = -1
@@ -910,7 +910,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -
     ]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[mortar_in_cylinder.slip] = -der(s1)*der(phi1)
@@ -926,7 +926,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 9]) -> [S; 4] {
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix,
 /// without the coordinates that constraints settle, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
@@ -1375,7 +1375,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     (t5 * t5 + t3 * t3) * p.k8 + (t4 * t4 + t2 * t2) * p.k7
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = m0*e*omega*cos(omega*t)*der(der(y)) - m0*e*omega*sin(omega*t)*der(der(x))
@@ -1409,10 +1409,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     (t5 * (t6 * p.k9 - (t4 * p.y0 + x_ddot - p.x0 * t3)) - t7) * p.k15
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
 pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
@@ -1609,6 +1609,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, t, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 9], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 9], v: &[f64; 9], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 9], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, _: &[f64; 9], v: &[f64; 9], to: &mut [f64]) {
+        fill(to, &constraint_drift(v));
+    }
+
     fn kinetic_energy(&self, t: f64, q: &[f64; 9], v: &[f64; 9]) -> f64 {
         kinetic_energy(self, t, q, v)
     }
@@ -1671,35 +1687,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 9],
-        v: &[f64; 9],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 9], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 9], v: &[f64; 9], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(v));
-    }
-
     fn multipliers(
         &self,
         t: f64,
         q: &[f64; 9],
         v: &[f64; 9],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, t, q, v)?);
+        fill(to, &multipliers(self, t, q, v)?);
         Ok(())
     }
 

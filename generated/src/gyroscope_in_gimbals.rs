@@ -304,7 +304,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[alpha, alpha] = (B2 + C3)*sin(beta)^2 + (C2 + A3 + w*d^2)*cos(beta)^2 + A1
@@ -377,7 +377,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],

@@ -220,7 +220,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[theta, theta] = m*l^2
@@ -268,7 +268,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S;
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
@@ -341,7 +341,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 
     p.k4 * t1
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = -m*a*omega*sin(omega*t)*(l*(-sin(theta)*der(der(theta)) - cos(theta)*der(theta)^2) -

@@ -488,7 +488,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m + m0 + m1 + m2
@@ -742,7 +742,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 10],
@@ -979,7 +979,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     (t5 * t5 + t3 * t3) * p.k6 + (t4 * t4 + t2 * t2) * p.k5
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
@@ -990,10 +990,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
 pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let x_dot = v[0];

@@ -244,7 +244,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x1, x1] = m1
@@ -279,7 +279,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
     [zero, p.k10, zero, p.k11]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[upper_rod] = 1/2*x1^2/l1 + 1/2*y1^2/l1 - 1/2*l1
@@ -297,7 +297,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]
     [g1, g2]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[upper_rod] = x1*der(x1)/l1 + y1*der(y1)/l1
@@ -321,7 +321,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[upper_rod, x1] = x1/l1
@@ -348,7 +348,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]) -
     [g1_1, g1_2, zero, zero, g2_1, g2_2, g2_3, g2_4]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[upper_rod] = -der(x1)^2/l1 - der(y1)^2/l1
@@ -369,7 +369,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) ->
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
 /// machine, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 4],
@@ -640,6 +640,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 4], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 4], v: &[f64; 4], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 4], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, _: &[f64; 4], v: &[f64; 4], to: &mut [f64]) {
+        fill(to, &constraint_drift(self, v));
+    }
+
     fn kinetic_energy(&self, _: f64, _: &[f64; 4], v: &[f64; 4]) -> f64 {
         kinetic_energy(self, v)
     }
@@ -698,35 +714,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 4],
-        v: &[f64; 4],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 4], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 4], v: &[f64; 4], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(self, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 4],
         v: &[f64; 4],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

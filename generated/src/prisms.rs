@@ -255,7 +255,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[q1, q1] = m + M
@@ -282,7 +282,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
     [zero, p.k0]
 }
 
-/// How fast the contacts slide, `w`, in m/s.
+/// Slips `w` of the guided contacts, in m/s.
+///
+/// ```text
+/// w[floor] = der(q1)
+/// w[incline] = der(q2)/cos(alpha)
+/// ```
 pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     let q1_dot = v[0];
     let q2_dot = v[1];
@@ -290,16 +295,22 @@ pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     [q1_dot, w2]
 }
 
-/// The matrix `tau = dw/dv` of the slips, row after row.
+/// Slip matrix `tau`, the derivatives of the slips by the rates.
+///
+/// ```text
+/// tau[floor, q1] = 1
+/// tau[incline, q2] = 1/cos(alpha)
+/// ```
 pub fn slip_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let one = S::ONE;
     let zero = S::ZERO;
     [one, zero, zero, p.k6]
 }
 
-/// What there is without friction, and what each unit of friction adds to it: accelerations,
-/// multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of
-/// friction.
+/// What there is without friction, and what a unit of each friction force adds to it:
+/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
+/// coefficients of friction. A machine with contacts has this in place of accelerations and
+/// multipliers.
 ///
 /// A pivot that vanishes is an error.
 pub fn friction<S: ::lagrangian::Number>(
@@ -466,6 +477,18 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self);
     }
 
+    fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], to: &mut [f64]) {
+        fill(to, &slips(self, v));
+    }
+
+    fn slip_matrix(&self, _: f64, _: &[f64; 2], to: &mut [f64]) {
+        fill(to, &slip_matrix(self));
+    }
+
+    fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], to: &mut [f64]) {
+        to.fill(0.0);
+    }
+
     fn kinetic_energy(&self, _: f64, _: &[f64; 2], v: &[f64; 2]) -> f64 {
         kinetic_energy(self, v)
     }
@@ -524,18 +547,6 @@ impl ::lagrangian::System for Prepared {
         CONTACTS.iter().copied()
     }
 
-    fn slips(&self, _: f64, _: &[f64; 2], v: &[f64; 2], w: &mut [f64]) {
-        fill(w, &slips(self, v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 2], rows: &mut [f64]) {
-        fill(rows, &slip_matrix(self));
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 2], _: &[f64; 2], drift: &mut [f64]) {
-        drift.fill(0.0);
-    }
-
     fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
         let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
         let p = Prepared {
@@ -577,9 +588,9 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-        parts: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(parts, &friction(self)?);
+        fill(to, &friction(self)?);
         Ok(())
     }
 

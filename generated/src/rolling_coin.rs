@@ -239,7 +239,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m
@@ -351,7 +351,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
     [f_x, f_y, f_heading, f_lean, f_roll]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[ahead] = cos(heading)*der(x) + sin(heading)*der(y) - r*der(roll)
@@ -372,7 +372,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[ahead, x] = cos(heading)
@@ -400,7 +400,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -
     ]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[ahead] = sin(heading)*der(x)*der(heading) - cos(heading)*der(y)*der(heading)
@@ -422,7 +422,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 5], v: &[S; 5]) -> [S; 
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` from the mass matrix
 /// multiplied out, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
@@ -819,6 +819,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, _: &[f64; 5], to: &mut [f64]) {
+        to.fill(0.0);
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], to: &mut [f64]) {
+        fill(to, &constraint_drift(q, v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 5], v: &[f64; 5]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -877,35 +893,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 5],
-        v: &[f64; 5],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        positions.fill(0.0);
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 5], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, q: &[f64; 5], v: &[f64; 5], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(q, v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 5],
         v: &[f64; 5],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

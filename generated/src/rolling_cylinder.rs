@@ -219,7 +219,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[s, s] = m
@@ -280,7 +280,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
     [f_s, f_phi, zero]
 }
 
-/// What is left of the constraints of positions, `g`; 0 for the others.
+/// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
 ///
 /// ```text
 /// g[contact.gap] = R - s - r
@@ -292,7 +292,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]
     [g1, zero]
 }
 
-/// What is left of the constraints at the level of velocities, `G v + dg/dt`.
+/// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
 ///
 /// ```text
 /// phi[contact.gap] = -der(s)
@@ -312,7 +312,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
     [phi1, phi2]
 }
 
-/// The matrix `G` of the constraints, row after row.
+/// Constraint matrix `G`, the derivatives of `phi` by the rates.
 ///
 /// ```text
 /// G[contact.gap, s] = -1
@@ -325,7 +325,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -
     [S::from_f64(-1.0), zero, zero, zero, s, p.r]
 }
 
-/// `gamma` of `G a = gamma`.
+/// Right-hand side `gamma` of `G a = gamma`.
 ///
 /// ```text
 /// gamma[contact.slip] = -der(s)*der(phi)
@@ -341,7 +341,7 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 3]) -> [S; 2] {
 /// Accelerations `a`, the solution of `M a = f + G^T lambda`, `G a = gamma` eliminated along the
 /// machine, without the coordinates that constraints settle.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
@@ -572,6 +572,22 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q, v);
     }
 
+    fn constraint_positions(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_positions(self, q));
+    }
+
+    fn constraint_rates(&self, _: f64, q: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_rates(self, q, v));
+    }
+
+    fn constraint_matrix(&self, _: f64, q: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_matrix(self, q));
+    }
+
+    fn constraint_drift(&self, _: f64, _: &[f64; 3], v: &[f64; 3], to: &mut [f64]) {
+        fill(to, &constraint_drift(v));
+    }
+
     fn kinetic_energy(&self, _: f64, q: &[f64; 3], v: &[f64; 3]) -> f64 {
         kinetic_energy(self, q, v)
     }
@@ -631,35 +647,15 @@ impl ::lagrangian::System for Prepared {
         CONSTRAINTS.iter().map(constraint)
     }
 
-    fn residuals(
-        &self,
-        _: f64,
-        q: &[f64; 3],
-        v: &[f64; 3],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        fill(positions, &constraint_positions(self, q));
-        fill(rates, &constraint_rates(self, q, v));
-    }
-
-    fn constraint_matrix(&self, _: f64, q: &[f64; 3], rows: &mut [f64]) {
-        fill(rows, &constraint_matrix(self, q));
-    }
-
-    fn constraint_drift(&self, _: f64, _: &[f64; 3], v: &[f64; 3], drift: &mut [f64]) {
-        fill(drift, &constraint_drift(v));
-    }
-
     fn multipliers(
         &self,
         _: f64,
         q: &[f64; 3],
         v: &[f64; 3],
         _: &Inputs,
-        lambda: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(lambda, &multipliers(self, q, v)?);
+        fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 

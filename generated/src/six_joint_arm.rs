@@ -486,7 +486,7 @@ pub struct Prepared<S = f64> {
     k56: S,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[q[1], q[1]] = …
@@ -922,7 +922,7 @@ pub fn forces<S: ::lagrangian::Scalar>(
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 6],
@@ -1396,7 +1396,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
     (q_6_dot * q_6_dot + q_5_dot * q_5_dot + t1) * p.k24
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = der(q[1])*tau[1] + der(q[2])*tau[2] + der(q[3])*tau[3] + der(q[4])*tau[4] + der(q[5])*tau[5]
@@ -1414,10 +1414,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 6], u: &Inputs<S>) -> S {
     u.tau[5] * q_6_dot + u.tau[4] * q_5_dot + t1
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = friction*der(q[1])^2 + friction*der(q[2])^2 + friction*der(q[3])^2 + friction*der(q[4])^2
+/// R = friction*der(q[1])^2 + friction*der(q[2])^2 + friction*der(q[3])^2 + friction*der(q[4])^2
 ///     + friction*der(q[5])^2 + friction*der(q[6])^2
 /// ```
 pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {

@@ -440,7 +440,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m + m0 + m1 + m2
@@ -700,7 +700,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     t: S,
@@ -987,7 +987,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     theta_dot * (theta_dot * p.k10) + t0
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = …
@@ -1031,10 +1031,10 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
     t19 - p.k32 * (t13 * p.k31 + t14 * p.k30) - t20
 }
 
-/// Power that dampers take out, in W.
+/// Power `R` that dampers take out, in W.
 ///
 /// ```text
-/// P = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
+/// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
 pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];

@@ -175,7 +175,7 @@ pub struct Prepared<S = f64> {
     singular: Option<::lagrangian::Singular>,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[x, x] = m
@@ -202,22 +202,31 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     [f_x]
 }
 
-/// How fast the contacts slide, `w`, in m/s.
+/// Slips `w` of the guided contacts, in m/s.
+///
+/// ```text
+/// w[belt] = der(x) - v_b
+/// ```
 pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
     let x_dot = v[0];
     let w1 = x_dot - p.v_b;
     [w1]
 }
 
-/// The matrix `tau = dw/dv` of the slips, row after row.
+/// Slip matrix `tau`, the derivatives of the slips by the rates.
+///
+/// ```text
+/// tau[belt, x] = 1
+/// ```
 pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
     let one = S::ONE;
     [one]
 }
 
-/// What there is without friction, and what each unit of friction adds to it: accelerations,
-/// multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of
-/// friction.
+/// What there is without friction, and what a unit of each friction force adds to it:
+/// accelerations, multipliers, `dw/dt` and the normal reaction of each contact; behind these the
+/// coefficients of friction. A machine with contacts has this in place of accelerations and
+/// multipliers.
 ///
 /// A pivot that vanishes is an error.
 pub fn friction<S: ::lagrangian::Number>(
@@ -374,6 +383,18 @@ impl ::lagrangian::System for Prepared {
         *result = forces(self, q);
     }
 
+    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], to: &mut [f64]) {
+        fill(to, &slips(self, v));
+    }
+
+    fn slip_matrix(&self, _: f64, _: &[f64; 1], to: &mut [f64]) {
+        fill(to, &slip_matrix());
+    }
+
+    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], to: &mut [f64]) {
+        to.fill(0.0);
+    }
+
     fn kinetic_energy(&self, _: f64, _: &[f64; 1], v: &[f64; 1]) -> f64 {
         kinetic_energy(self, v)
     }
@@ -432,18 +453,6 @@ impl ::lagrangian::System for Prepared {
         CONTACTS.iter().copied()
     }
 
-    fn slips(&self, _: f64, _: &[f64; 1], v: &[f64; 1], w: &mut [f64]) {
-        fill(w, &slips(self, v));
-    }
-
-    fn slip_matrix(&self, _: f64, _: &[f64; 1], rows: &mut [f64]) {
-        fill(rows, &slip_matrix());
-    }
-
-    fn slip_drift(&self, _: f64, _: &[f64; 1], _: &[f64; 1], drift: &mut [f64]) {
-        drift.fill(0.0);
-    }
-
     fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
         let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
         let p = Prepared {
@@ -471,9 +480,9 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 1],
         _: &[f64; 1],
         _: &Inputs,
-        parts: &mut [f64],
+        to: &mut [f64],
     ) -> Result<(), ::lagrangian::Singular> {
-        fill(parts, &friction(self, q)?);
+        fill(to, &friction(self, q)?);
         Ok(())
     }
 

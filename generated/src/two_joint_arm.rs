@@ -261,7 +261,7 @@ pub struct Prepared<S = f64> {
     k9: S,
 }
 
-/// Mass matrix `M`, row by row.
+/// Mass matrix `M`.
 ///
 /// ```text
 /// M[q1, q1] = 2*l1*c2*m2*cos(q2) + l1^2*m2 + c1^2*m1 + c2^2*m2 + J1 + J2
@@ -334,7 +334,7 @@ pub fn forces<S: ::lagrangian::Scalar>(
 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
-/// What is known to be zero is not computed; a pivot that vanishes is an error.
+/// A pivot that vanishes is an error.
 pub fn accelerations<S: ::lagrangian::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
@@ -436,7 +436,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     p.k2 * (sin_t0 * p.c2 + sin_q1 * p.l1) + sin_q1 * p.k1
 }
 
-/// Power that drives, forces and inputs put in, in W.
+/// Power `P` that drives, forces and inputs put in, in W.
 ///
 /// ```text
 /// P = der(q1)*tau1 + der(q2)*tau2

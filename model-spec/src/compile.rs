@@ -60,6 +60,6 @@ impl<'d> Compiled<'d> {
 
     /// For each function the formulas that its documentation shows.
     pub fn formulas(&self) -> BTreeMap<Role, Vec<String>> {
-        formulas::formulas(&self.model, &self.equations)
+        formulas::formulas(&self.program, &self.model, &self.equations)
     }
 }

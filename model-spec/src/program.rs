@@ -15,6 +15,7 @@
 //!
 //! * code is in static single assignment form: the value of the operation at index k is [`Value`]
 //!   k, and the operands of an operation have smaller indices than it;
+//! * a function reads no arguments but those in its row of the [table of quantities](quantity);
 //! * every operation is used, directly or not, by a result or a guard of its function;
 //! * only [`Program::prepare`] and [`Program::start`] read parameters, and they read nothing else;
 //!   all other functions read prepared values instead, and contain no operation whose operands are
@@ -45,6 +46,7 @@ mod mutate;
 mod net;
 mod pairs;
 mod prove;
+pub mod quantity;
 mod repeats;
 mod restrict;
 mod rounding;
@@ -62,6 +64,7 @@ pub use interpret::{Arguments, Interpreter};
 pub use lower::{Quantity, quantities};
 pub use mutate::{Mutant, mutants};
 pub use prove::{Disagreement, POINTS, prove, prove_quantities};
+pub use quantity::Role;
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
@@ -169,130 +172,6 @@ pub struct Constraint {
     pub multiplier_unit: String,
     /// Whether it constrains positions, not velocities alone.
     pub holonomic: bool,
-}
-
-/// What a function computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Role {
-    /// Prepared values, of the parameters.
-    Prepare,
-    /// The coordinates at the start, and their rates, of the parameters.
-    Start,
-    /// The mass matrix M(q, t).
-    MassMatrix,
-    /// The bias h(q, v, t).
-    Bias,
-    /// The applied generalized forces Q(q, v, u, t).
-    Applied,
-    /// The forces f = Q − h.
-    Forces,
-    /// What is left of the constraints of positions, g(q, t); 0 for the others.
-    ConstraintPositions,
-    /// What is left of the constraints at the level of velocities, φ(q, v, t).
-    ConstraintRates,
-    /// The matrix G = ∂φ/∂v of the constraints, row after row.
-    ConstraintMatrix,
-    /// γ(q, v, t): the accelerations obey G a = γ.
-    ConstraintDrift,
-    /// The accelerations: M a = f, and where there are constraints M a = f + Gᵀ λ.
-    Accelerations,
-    /// Lagrange's multipliers λ of the constraints.
-    Multipliers,
-    /// How fast the guided contacts slide, w(q, v, t).
-    Slips,
-    /// The matrix τ = ∂w/∂v of the slips, row after row.
-    SlipMatrix,
-    /// dw/dt at a = 0.
-    SlipDrift,
-    /// What follows from the frictions of the contacts, see [`FrictionLayout`]. A machine with
-    /// contacts has this in place of [`Role::Accelerations`] and [`Role::Multipliers`].
-    Friction,
-    /// The accelerations, and their derivatives by [`Program::derivatives`]: a matrix whose first
-    /// column are the accelerations, and every other their derivatives by one variable.
-    Derivatives,
-    /// What time alone decides of the accelerations: whatever the next stage reads of it.
-    AtTime,
-    /// What time and coordinates decide of the accelerations: whatever the rates are met with.
-    AtPosition,
-    /// The accelerations, of what the stage before has left.
-    AccelerationsAt,
-    /// The kinetic energy T.
-    KineticEnergy,
-    /// The potential energy V.
-    PotentialEnergy,
-    /// The dissipation function D.
-    Dissipation,
-    /// The power that drives, forces and inputs put in.
-    WorkRate,
-    /// The power that dampers take out.
-    DissipationRate,
-    /// A quantity to observe, by its index in [`Program::outputs`].
-    Output(usize),
-    /// What a fact says is positive, by its index in [`Program::assumptions`].
-    Assumption(usize),
-}
-
-impl Role {
-    /// Whether it is one of what guided contacts with friction need.
-    pub fn is_of_contacts(self) -> bool {
-        matches!(
-            self,
-            Role::Slips | Role::SlipMatrix | Role::SlipDrift | Role::Friction
-        )
-    }
-
-    /// The name of a function of this role; outputs and assumptions are numbered.
-    pub fn name(self) -> String {
-        match self {
-            Role::Prepare => "prepare".into(),
-            Role::Start => "start".into(),
-            Role::MassMatrix => "mass_matrix".into(),
-            Role::Bias => "bias".into(),
-            Role::Applied => "applied".into(),
-            Role::Forces => "forces".into(),
-            Role::ConstraintPositions => "constraint_positions".into(),
-            Role::ConstraintRates => "constraint_rates".into(),
-            Role::ConstraintMatrix => "constraint_matrix".into(),
-            Role::ConstraintDrift => "constraint_drift".into(),
-            Role::Accelerations => "accelerations".into(),
-            Role::Multipliers => "multipliers".into(),
-            Role::Slips => "slips".into(),
-            Role::SlipMatrix => "slip_matrix".into(),
-            Role::SlipDrift => "slip_drift".into(),
-            Role::Friction => "friction".into(),
-            Role::Derivatives => "derivatives".into(),
-            Role::AtTime => "at_time".into(),
-            Role::AtPosition => "at_position".into(),
-            Role::AccelerationsAt => "accelerations_at".into(),
-            Role::KineticEnergy => "kinetic_energy".into(),
-            Role::PotentialEnergy => "potential_energy".into(),
-            Role::Dissipation => "dissipation".into(),
-            Role::WorkRate => "work_rate".into(),
-            Role::DissipationRate => "dissipation_rate".into(),
-            Role::Output(index) => format!("output_{index}"),
-            Role::Assumption(index) => format!("assumption_{index}"),
-        }
-    }
-
-    /// Whether a function of this role inverts the mass matrix: it has no value where that is
-    /// singular.
-    pub fn inverts(self) -> bool {
-        matches!(
-            self,
-            Role::Accelerations
-                | Role::Multipliers
-                | Role::Friction
-                | Role::Derivatives
-                | Role::AtPosition
-                | Role::AccelerationsAt
-        )
-    }
-
-    /// Whether a function of this role is called so often that it is to run with whatever
-    /// instructions the processor has.
-    pub fn is_fast(self) -> bool {
-        self.inverts() || self == Role::AtTime
-    }
 }
 
 /// How the results of [`Role::Friction`] are arranged.

@@ -211,17 +211,13 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
             })
     }
 
-    fn residuals(
-        &self,
-        t: f64,
-        q: &[f64; N],
-        v: &[f64; N],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        positions.copy_from_slice(&(self.positions)(t, q, self.p));
-        rates.copy_from_slice(&(self.by_time)(t, q, self.p));
-        for (rate, row) in rates.iter_mut().zip((self.matrix)(t, q, self.p)) {
+    fn constraint_positions(&self, t: f64, q: &[f64; N], residuals: &mut [f64]) {
+        residuals.copy_from_slice(&(self.positions)(t, q, self.p));
+    }
+
+    fn constraint_rates(&self, t: f64, q: &[f64; N], v: &[f64; N], residuals: &mut [f64]) {
+        residuals.copy_from_slice(&(self.by_time)(t, q, self.p));
+        for (rate, row) in residuals.iter_mut().zip((self.matrix)(t, q, self.p)) {
             *rate += row.iter().zip(v).map(|(g, v)| g * v).sum::<f64>();
         }
     }

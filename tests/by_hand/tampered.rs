@@ -139,15 +139,12 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
         System::constraints(&self.machine)
     }
 
-    fn residuals(
-        &self,
-        t: f64,
-        q: &[f64; N],
-        v: &[f64; N],
-        positions: &mut [f64],
-        rates: &mut [f64],
-    ) {
-        self.machine.residuals(t, q, v, positions, rates);
+    fn constraint_positions(&self, t: f64, q: &[f64; N], residuals: &mut [f64]) {
+        self.machine.constraint_positions(t, q, residuals);
+    }
+
+    fn constraint_rates(&self, t: f64, q: &[f64; N], v: &[f64; N], residuals: &mut [f64]) {
+        self.machine.constraint_rates(t, q, v, residuals);
     }
 
     fn constraint_matrix(&self, t: f64, q: &[f64; N], matrix: &mut [f64]) {

@@ -470,10 +470,8 @@ fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
 /// What the functions that a step needs cost.
 fn counts(program: &Program) -> String {
     let functions = program.all_functions().filter(|function| {
-        matches!(
-            function.role,
-            Role::Prepare | Role::Accelerations | Role::Friction
-        ) && !function.results.is_empty()
+        (function.role == Role::Prepare || function.role == program.solving())
+            && !function.results.is_empty()
     });
     let rows: Vec<Vec<Cell>> = functions
         .map(|function| {

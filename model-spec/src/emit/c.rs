@@ -1,6 +1,7 @@
 //! C: one file for one machine, plain C99 over `double`, the same operations in the same order as the Rust.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
@@ -314,22 +315,7 @@ impl<'a> Emitter<'a> {
     fn function(&self, writer: &mut Writer, function: &Function, formulas: Option<&Vec<String>>) {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
-        let keeps = matches!(
-            function.role,
-            Role::Start
-                | Role::Accelerations
-                | Role::Multipliers
-                | Role::Slips
-                | Role::SlipMatrix
-                | Role::SlipDrift
-                | Role::Friction
-                | Role::Derivatives
-                | Role::AtTime
-                | Role::AtPosition
-                | Role::AccelerationsAt
-                | Role::Output(_)
-                | Role::Assumption(_)
-        );
+        let keeps = function.role == Role::Start || function.role.is_kept();
         if !keeps && function.results.iter().all(is_zero) {
             return;
         }
@@ -425,36 +411,35 @@ impl<'a> Emitter<'a> {
     }
 
     fn docs(&self, role: Role) -> String {
+        let mut docs = self.program.docs(role).replace('`', "");
         match role {
             Role::Output(i) => {
-                let slot = &self.program.outputs[i];
-                format!("{} Unit: {}.", slot.docs, slot.unit_text)
-                    .trim()
-                    .to_owned()
+                let unit = &self.program.outputs[i].unit_text;
+                return format!("{docs} Unit: {unit}.").trim().to_owned();
             }
             Role::Derivatives => {
                 let variables = self.program.derivatives.iter();
                 let names: Vec<String> = variables
                     .map(|variable| self.program.variable_name(*variable))
                     .collect();
-                format!(
-                    "Column 0: the accelerations; the others: their derivatives by {}. Returns what the accelerations return.",
+                let _ = write!(
+                    docs,
+                    " Column 0: the accelerations; the others: their derivatives by {}.",
                     names.join(", ")
-                )
+                ); // writing to a String cannot fail
             }
-            Role::Assumption(i) => {
-                format!("By how much {} holds.", self.program.assumptions[i].text)
-            }
-            Role::Accelerations if !self.program.constraints.is_empty() => {
-                "Accelerations, the solution of M a = f + G^T lambda, G a = gamma. Returns 0, or 1 + the number of the \
-                 coordinate whose pivot vanishes; constraints are counted behind all coordinates."
-                    .to_owned()
-            }
-            Role::Start if self.program.start.results.len() > self.program.dimension() => {
-                "Where the coordinates start, and behind them their rates.".to_owned()
-            }
-            role => docs(role).to_owned(),
+            _ => {}
         }
+        if role.inverts() {
+            docs.push_str(match self.program.constraints.is_empty() {
+                true => " Returns 0, or 1 + the number of the coordinate whose pivot vanishes.",
+                false => {
+                    " Returns 0, or 1 + the number of the coordinate whose pivot vanishes; constraints are counted behind all \
+                     coordinates."
+                }
+            });
+        }
+        docs
     }
 
     /// The arguments that a function reads, and how they are passed on.
@@ -721,51 +706,6 @@ fn function_name(function: symbolic::Function) -> &'static str {
         Min => "fmin",
         Max => "fmax",
         Pow => "pow",
-    }
-}
-
-fn docs(role: Role) -> &'static str {
-    match role {
-        Role::Start => "Where the coordinates start; their rates start at 0.",
-        Role::MassMatrix => "Mass matrix M.",
-        Role::Bias => "Bias h: velocity products and explicit time in the inertia forces.",
-        Role::Applied => "Applied generalized forces Q.",
-        Role::Forces => "Right-hand side f = Q - h of M a = f.",
-        Role::Accelerations => {
-            "Accelerations, the solution of M a = f. Returns 0, or 1 + the number of the coordinate whose pivot vanishes."
-        }
-        Role::AtTime => "What time alone decides of the accelerations.",
-        Role::AtPosition => {
-            "What time and coordinates decide of the accelerations. Returns what the accelerations return."
-        }
-        Role::AccelerationsAt => {
-            "Accelerations, of what the stage before has left in `at`. Returns what the accelerations return."
-        }
-        Role::ConstraintPositions => {
-            "What is left of the constraints of positions, g; 0 for the others."
-        }
-        Role::ConstraintRates => {
-            "What is left of the constraints at the level of velocities, G v + dg/dt."
-        }
-        Role::ConstraintMatrix => "The matrix G of the constraints, row after row.",
-        Role::ConstraintDrift => "gamma of G a = gamma.",
-        Role::Slips => "How fast the contacts slide, w.",
-        Role::SlipMatrix => "The matrix tau = dw/dv of the slips, row after row.",
-        Role::SlipDrift => "dw/dt at a = 0.",
-        Role::Friction => {
-            "What there is without friction, and what each unit of friction adds to it: accelerations, \
-             multipliers, dw/dt and the normal reaction of each contact; behind these the coefficients of \
-             friction. Returns 0, or one more than the index of a coordinate whose pivot vanishes."
-        }
-        Role::Multipliers => {
-            "Lagrange's multipliers lambda of M a = f + G^T lambda. Returns what the accelerations return."
-        }
-        Role::KineticEnergy => "Kinetic energy T, in J.",
-        Role::PotentialEnergy => "Potential energy V, in J.",
-        Role::Dissipation => "Dissipation function D, in W.",
-        Role::WorkRate => "Power that drives, forces and inputs put in, in W.",
-        Role::DissipationRate => "Power that dampers take out, in W.",
-        Role::Prepare | Role::Derivatives | Role::Output(_) | Role::Assumption(_) => "",
     }
 }
 

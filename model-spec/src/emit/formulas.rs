@@ -7,7 +7,8 @@ use lagrangian_symbolic::{Expr, text};
 
 use crate::mechanics::Equations;
 use crate::model::Model;
-use crate::program::Role;
+use crate::program::quantity::Entry;
+use crate::program::{Program, Quantity, Role, quantities};
 
 /// The most numbers, symbols and operations of a formula that is shown. Whoever wants to read more derives it as a page.
 const LONGEST_LINE: u64 = 250;
@@ -17,64 +18,39 @@ const LONGEST_COMMENT: u64 = 2500;
 
 /// For each function the lines that say what it computes, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are
 /// left out, and what is long is `…`.
-pub fn formulas<'d>(model: &Model<'d>, equations: &Equations<'d>) -> BTreeMap<Role, Vec<String>> {
-    let names: Vec<String> = model
-        .coordinates
-        .iter()
-        .map(|coordinate| coordinate.name.to_string())
-        .collect();
-    let vector = |letter: &str, values: &[Expr<'_>]| {
-        let named = names.iter().map(|name| format!("{letter}[{name}]"));
-        lines(named.zip(values.iter().copied()))
-    };
-    let scalar = |letter: &str, value| lines([(letter.to_owned(), value)].into_iter());
-    let matrix = equations.mass_matrix.entries();
-    let matrix = matrix.map(|(i, j, &value)| (format!("M[{}, {}]", names[i], names[j]), value));
-    let mut all = BTreeMap::from([
-        (Role::MassMatrix, lines(matrix)),
-        (Role::Bias, vector("h", &equations.bias)),
-        (Role::Applied, vector("Q", &equations.applied)),
-        (Role::KineticEnergy, scalar("T", equations.kinetic_energy)),
-        (
-            Role::PotentialEnergy,
-            scalar("V", equations.potential_energy),
-        ),
-        (Role::Dissipation, scalar("D", equations.dissipation)),
-        (Role::WorkRate, scalar("P", equations.work_rate)),
-        (
-            Role::DissipationRate,
-            scalar("P", equations.dissipation_rate),
-        ),
-    ]);
-    let constraints = &equations.constraints;
-    let of = |letter: &str, value: &dyn Fn(usize) -> Option<Expr<'d>>| {
-        let named = constraints.iter().enumerate();
-        let named = named.filter_map(|(k, c)| Some((format!("{letter}[{}]", c.name), value(k)?)));
-        lines(named)
-    };
-    let rows = constraints.iter().flat_map(|c| {
-        let entries = names.iter().zip(&c.row);
-        entries.map(|(name, &entry)| (format!("G[{}, {name}]", c.name), entry))
-    });
-    all.extend([
-        (
-            Role::ConstraintPositions,
-            of("g", &|k| constraints[k].position),
-        ),
-        (
-            Role::ConstraintRates,
-            of("phi", &|k| Some(constraints[k].rate)),
-        ),
-        (Role::ConstraintMatrix, lines(rows)),
-        (
-            Role::ConstraintDrift,
-            of("gamma", &|k| Some(constraints[k].drift)),
-        ),
-    ]);
-    for (i, (output, &value)) in model.outputs.iter().zip(&equations.outputs).enumerate() {
-        all.insert(Role::Output(i), scalar(&output.name.to_string(), value));
-    }
-    all
+pub fn formulas<'d>(
+    program: &Program,
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+) -> BTreeMap<Role, Vec<String>> {
+    let shown = quantities(model, equations)
+        .into_iter()
+        // `f = Q - h`, and by how much a fact holds, is said in words.
+        .filter(|quantity| !matches!(quantity.role, Role::Forces | Role::Assumption(_)));
+    shown
+        .map(|Quantity { role, values, .. }| {
+            let symbol = match role {
+                Role::Output(i) => model.outputs[i].name.to_string(),
+                role => role.row().symbol.to_owned(),
+            };
+            let name = |index: usize| match program.entry(role, index) {
+                Entry::Of(kind, i) => format!("{symbol}[{}]", program.member((kind, i))),
+                Entry::At(row, column) => {
+                    format!(
+                        "{symbol}[{}, {}]",
+                        program.member(row),
+                        program.member(column)
+                    )
+                }
+                _ => symbol.clone(),
+            };
+            let named = values.into_iter().enumerate();
+            (
+                role,
+                lines(named.map(|(index, value)| (name(index), value))),
+            )
+        })
+        .collect()
 }
 
 fn lines<'d>(values: impl Iterator<Item = (String, Expr<'d>)>) -> Vec<String> {

@@ -9,7 +9,8 @@ use std::fmt::{self, Write as _};
 
 use rustc_hash::FxHashMap;
 
-use super::{Function, Op, Program, Role, Shape, Source, Value};
+use super::quantity::Entry;
+use super::{Function, Op, Program, Role, Source, Value};
 use crate::model::Variable;
 use crate::program::formula::number;
 
@@ -70,43 +71,23 @@ impl Program {
     }
 
     /// The name of a result of a function: `mass_matrix[x, theta]`.
-    pub fn result_name(&self, role: Role, shape: Shape, index: usize) -> String {
-        let coordinate = |i: usize| match self.coordinates.get(i) {
-            Some(slot) if shape.order() == self.dimension() => slot.name.to_string(),
-            _ => i.to_string(),
+    pub fn result_name(&self, role: Role, index: usize) -> String {
+        let name = match role {
+            Role::Prepare => "prepared".into(),
+            role => self.title(role),
         };
-        let name = self.title(role);
-        let constraint = |k: usize| match self.constraints.get(k) {
-            Some(constraint) => constraint.name.clone(),
-            None => k.to_string(),
-        };
-        match (role, shape) {
-            (Role::Prepare, _) => format!("prepared[{index}]"),
-            (Role::ConstraintMatrix, _) => {
-                let (k, i) = (index / self.dimension(), index % self.dimension());
-                format!("{name}[{}, {}]", constraint(k), self.coordinates[i].name)
+        match self.entry(role, index) {
+            Entry::Whole => name,
+            Entry::Of(kind, i) => format!("{name}[{}]", self.member((kind, i))),
+            Entry::At(row, column) => {
+                format!("{name}[{}, {}]", self.member(row), self.member(column))
             }
-            (
-                Role::ConstraintPositions
-                | Role::ConstraintRates
-                | Role::ConstraintDrift
-                | Role::Multipliers,
-                _,
-            ) => format!("{name}[{}]", constraint(index)),
-            (Role::AtTime | Role::AtPosition, _) => format!("{name}[{index}]"),
-            (_, Shape::Scalar) => name,
-            (_, Shape::Vector(_)) => format!("{name}[{}]", coordinate(index)),
-            (_, Shape::Symmetric(_)) => {
-                let (i, j) = Shape::place(index);
-                format!("{name}[{}, {}]", coordinate(i), coordinate(j))
+            Entry::Rate(i) => format!("{name}[der({})]", self.coordinates[i].name),
+            Entry::Derivative(i, variable) => {
+                let coordinate = &self.coordinates[i].name;
+                format!("{name}[{coordinate}, {}]", self.variable_name(variable))
             }
-            (_, Shape::Matrix(_, columns)) => {
-                let (i, j) = (coordinate(index / columns), index % columns);
-                match j.checked_sub(1).and_then(|j| self.derivatives.get(j)) {
-                    Some(variable) => format!("{name}[{i}, {}]", self.variable_name(*variable)),
-                    None => format!("{name}[{i}]"),
-                }
-            }
+            Entry::Index(index) => format!("{name}[{index}]"),
         }
     }
 }
@@ -155,9 +136,9 @@ impl<'a> Listing<'a> {
         let Function {
             role,
             code,
-            shape,
             results,
             guards,
+            ..
         } = self.function;
         let mut text = String::new();
         let name = self.program.title(*role);
@@ -171,7 +152,7 @@ impl<'a> Listing<'a> {
         text.push_str(&self.choice());
         let mut notes: FxHashMap<Value, Vec<String>> = FxHashMap::default();
         for (index, result) in results.iter().enumerate() {
-            let mut note = self.program.result_name(*role, *shape, index);
+            let mut note = self.program.result_name(*role, index);
             if *role == Role::Prepare {
                 let _ = write!(note, " = {}", self.program.prepared[index]);
             }
@@ -222,7 +203,7 @@ impl<'a> Listing<'a> {
                 let _ = writeln!(
                     text,
                     "  {} = {}",
-                    self.program.result_name(*role, *shape, index),
+                    self.program.result_name(*role, index),
                     self.name(*result)
                 );
             }

@@ -13,6 +13,7 @@ use super::choose::{Basis, Candidate, Choice, Form, best};
 use super::formula::formula;
 use super::graph::{Graph, Id, Scaled};
 use super::net::Net;
+use super::quantity::{Needs, Sizes};
 use super::rounding::{Rounding, States};
 use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution, System};
@@ -339,58 +340,68 @@ impl<'a, 'd> Origin<'a, 'd> {
 
 /// What there is to compute of a machine, in the order of [`Role`]; accelerations follow from it.
 pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
-    let n = model.coordinates.len();
-    let scalar = |role, value| Quantity {
-        role,
-        shape: Shape::Scalar,
-        values: vec![value],
-    };
-    let applied = Quantity {
-        role: Role::Applied,
-        shape: Shape::Vector(n),
-        values: equations.applied.clone(),
-    };
-    let mut quantities = matrix_and_forces(model, equations);
-    quantities.insert(2, applied);
-    quantities.extend([
-        scalar(Role::KineticEnergy, equations.kinetic_energy),
-        scalar(Role::PotentialEnergy, equations.potential_energy),
-        scalar(Role::Dissipation, equations.dissipation),
-        scalar(Role::WorkRate, equations.work_rate),
-        scalar(Role::DissipationRate, equations.dissipation_rate),
-    ]);
-    quantities.extend(of_constraints(model, equations));
-    quantities.extend(friction::of_slips(equations));
-    let outputs = equations.outputs.iter().enumerate();
-    quantities.extend(outputs.map(|(index, value)| scalar(Role::Output(index), *value)));
-    let assumptions = model.assumptions.iter().enumerate();
-    quantities
-        .extend(assumptions.map(|(index, fact)| scalar(Role::Assumption(index), fact.excess)));
-    quantities
+    let outputs = (0..equations.outputs.len()).map(Role::Output);
+    let facts = (0..model.assumptions.len()).map(Role::Assumption);
+    let own = Role::all().filter(|role| !matches!(role, Role::Output(_) | Role::Assumption(_)));
+    let roles = own.chain(outputs).chain(facts);
+    roles
+        .filter_map(|role| quantity(model, equations, role))
+        .collect()
 }
 
-/// What there is to compute of constraints.
-fn of_constraints<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
-    let all = &equations.constraints;
-    if all.is_empty() {
-        return Vec::new();
-    }
-    let vector = |role, values: Vec<Expr<'d>>| Quantity {
-        role,
-        shape: Shape::Vector(values.len()),
-        values,
+/// A quantity in expressions; `None` if the machine has it not, or it follows from others.
+fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Option<Quantity<'d>> {
+    let sizes = Sizes {
+        coordinates: model.coordinates.len(),
+        constraints: equations.constraints.len(),
+        contacts: equations.sliding.len(),
+        derivatives: model.derivatives.len(),
     };
+    let is_there = match role.row().needs {
+        Needs::Nothing | Needs::Request => true,
+        Needs::Constraints => sizes.constraints > 0,
+        Needs::Contacts => sizes.contacts > 0,
+    };
+    if !is_there {
+        return None;
+    }
+    let (constraints, sliding) = (equations.constraints.iter(), equations.sliding.iter());
     let zero = model.dag.zero();
-    let positions = all.iter().map(|c| c.position.unwrap_or(zero)).collect();
-    let rates = all.iter().map(|c| c.rate).collect();
-    let matrix = all.iter().flat_map(|c| c.row.iter().copied()).collect();
-    let drift = all.iter().map(|c| c.drift).collect();
-    vec![
-        vector(Role::ConstraintPositions, positions),
-        vector(Role::ConstraintRates, rates),
-        vector(Role::ConstraintMatrix, matrix),
-        vector(Role::ConstraintDrift, drift),
-    ]
+    let values = match role {
+        Role::MassMatrix => equations.mass_matrix.lower().to_vec(),
+        Role::Bias => equations.bias.clone(),
+        Role::Applied => equations.applied.clone(),
+        Role::Forces => equations.forces.clone(),
+        Role::KineticEnergy => vec![equations.kinetic_energy],
+        Role::PotentialEnergy => vec![equations.potential_energy],
+        Role::Dissipation => vec![equations.dissipation],
+        Role::WorkRate => vec![equations.work_rate],
+        Role::DissipationRate => vec![equations.dissipation_rate],
+        Role::ConstraintPositions => constraints.map(|c| c.position.unwrap_or(zero)).collect(),
+        Role::ConstraintRates => constraints.map(|c| c.rate).collect(),
+        Role::ConstraintMatrix => constraints.flat_map(|c| c.row.iter().copied()).collect(),
+        Role::ConstraintDrift => constraints.map(|c| c.drift).collect(),
+        Role::Slips => sliding.map(|s| s.slip).collect(),
+        Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
+        Role::SlipDrift => sliding.map(|s| s.drift).collect(),
+        Role::Output(index) => vec![equations.outputs[index]],
+        Role::Assumption(index) => vec![model.assumptions[index].excess],
+        // These are found by elimination, or are no expressions of the equations.
+        Role::Prepare
+        | Role::Start
+        | Role::Accelerations
+        | Role::Multipliers
+        | Role::Friction
+        | Role::Derivatives
+        | Role::AtTime
+        | Role::AtPosition
+        | Role::AccelerationsAt => return None,
+    };
+    Some(Quantity {
+        role,
+        shape: role.row().extent.shape(sizes)?,
+        values,
+    })
 }
 
 /// What a program says of a constraint.
@@ -436,18 +447,10 @@ fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
 
 /// `M`, `h` and `f`: what is different in equations that are multiplied out.
 fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
-    let n = model.coordinates.len();
-    let quantity = |role, shape, values: &[Expr<'d>]| Quantity {
-        role,
-        shape,
-        values: values.to_vec(),
-    };
-    let matrix = equations.mass_matrix.lower();
-    vec![
-        quantity(Role::MassMatrix, Shape::Symmetric(n), matrix),
-        quantity(Role::Bias, Shape::Vector(n), &equations.bias),
-        quantity(Role::Forces, Shape::Vector(n), &equations.forces),
-    ]
+    [Role::MassMatrix, Role::Bias, Role::Forces]
+        .into_iter()
+        .filter_map(|role| quantity(model, equations, role))
+        .collect()
 }
 
 /// Expressions on their way into the graph.

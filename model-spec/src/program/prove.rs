@@ -77,6 +77,11 @@ pub enum Disagreement {
     Singular(Singular),
     /// No point was found at which everything has a value.
     Undefined,
+    /// Nothing that the proof does looks at this function.
+    Unseen {
+        /// The function.
+        role: Role,
+    },
 }
 
 impl fmt::Display for Disagreement {
@@ -122,6 +127,9 @@ impl fmt::Display for Disagreement {
             }
             Disagreement::Singular(singular) => {
                 write!(f, "called singular in coordinate {}", singular.coordinate)
+            }
+            Disagreement::Unseen { role } => {
+                write!(f, "nothing is compared with {}", role.name())
             }
             Disagreement::Undefined => {
                 f.write_str("no point where everything has a value was found")

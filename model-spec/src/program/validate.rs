@@ -33,6 +33,7 @@
 
 mod number;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Deref;
 
@@ -40,6 +41,7 @@ use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Function as Call, Node, reachable};
 
 use super::prove::{determinant, guarded_coordinates, with_guarded_values};
+use super::quantity::{Entry, Kind, Use};
 use super::{Arguments, Disagreement, FrictionLayout, Interpreter, POINTS, Program, Role, Shape};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::mechanics::literal::{Lagrange, Literal, LiteralSliding, State};
@@ -171,7 +173,9 @@ impl fmt::Display for Unproved {
             | Disagreement::Reaction { point, .. }
             | Disagreement::Settled { point, .. }
             | Disagreement::Pivots { point } => format!(" (random {witness} {point})"),
-            Disagreement::Singular(_) | Disagreement::Undefined => String::new(),
+            Disagreement::Singular(_) | Disagreement::Undefined | Disagreement::Unseen { .. } => {
+                String::new()
+            }
         };
         write!(
             f,
@@ -185,58 +189,40 @@ impl std::error::Error for Unproved {}
 
 /// The subject of a sentence that goes on with what Lagrange's equations say.
 fn told(disagreement: &Disagreement, program: &Program) -> String {
-    let coordinate = |i: usize| match program.coordinates.get(i) {
-        Some(coordinate) => format!("`{}`", coordinate.name),
-        None => format!("coordinate {i}"),
+    let member = |(kind, index): (Kind, usize)| {
+        let name = program.member((kind, index));
+        match kind {
+            Kind::Coordinate => format!("`{name}`"),
+            Kind::Constraint => format!("the constraint `{name}`"),
+            Kind::Contact => format!("the guide `{name}`"),
+        }
     };
-    let constraint = |k: usize| match program.constraints.get(k) {
-        Some(constraint) => format!("the constraint `{}`", constraint.name),
-        None => format!("constraint {k}"),
-    };
-    let contact = |k: usize| match program.contacts.get(k) {
-        Some(contact) => format!("the guide `{contact}`"),
-        None => format!("guide {k}"),
-    };
-    let n = program.dimension().max(1);
+    let coordinate = |i: usize| member((Kind::Coordinate, i));
+    let constraint = |k: usize| member((Kind::Constraint, k));
+    let contact = |k: usize| member((Kind::Contact, k));
     match *disagreement {
         Disagreement::Result { role, index, .. } => {
-            let of = match role {
-                Role::MassMatrix => {
-                    let (i, j) = Shape::place(index);
-                    format!(", in {} and {},", coordinate(i), coordinate(j))
-                }
-                Role::Bias | Role::Applied | Role::Forces | Role::Accelerations => {
-                    format!(", in {},", coordinate(index))
-                }
-                Role::ConstraintPositions
-                | Role::ConstraintRates
-                | Role::ConstraintDrift
-                | Role::Multipliers => format!(", of {},", constraint(index)),
-                Role::ConstraintMatrix => {
-                    let (k, j) = (index / n, index % n);
-                    format!(", of {} by {},", constraint(k), coordinate(j))
-                }
-                Role::Slips | Role::SlipDrift => format!(", of {},", contact(index)),
-                Role::SlipMatrix => {
-                    let (k, j) = (index / n, index % n);
-                    format!(", of {} by {},", contact(k), coordinate(j))
-                }
-                Role::Derivatives => {
-                    let width = 1 + program.derivatives.len();
-                    format!(
-                        ", in {}, column {},",
-                        coordinate(index / width),
-                        index % width
-                    )
-                }
-                Role::Output(k) => match program.outputs.get(k) {
-                    Some(output) => format!(" (`{}`)", output.name),
-                    None => String::new(),
+            let of = match program.entry(role, index) {
+                Entry::Whole => match role {
+                    Role::Output(_) | Role::Assumption(_) => {
+                        format!(" (`{}`)", program.title(role))
+                    }
+                    _ => String::new(),
                 },
-                Role::Start if index >= n => format!(", the rate of {},", coordinate(index - n)),
-                Role::Start => format!(", of {},", coordinate(index)),
-                _ if index > 0 => format!(", result {index},"),
-                _ => String::new(),
+                Entry::Of(Kind::Coordinate, i) => format!(", in {},", coordinate(i)),
+                Entry::Of(kind, i) => format!(", of {},", member((kind, i))),
+                Entry::At(row @ (Kind::Coordinate, _), column) => {
+                    format!(", in {} and {},", member(row), member(column))
+                }
+                Entry::At(row, column) => {
+                    format!(", of {} by {},", member(row), member(column))
+                }
+                Entry::Rate(i) => format!(", the rate of {},", coordinate(i)),
+                Entry::Derivative(i, variable) => {
+                    let by = program.variable_name(variable);
+                    format!(", in {}, by `{by}`,", coordinate(i))
+                }
+                Entry::Index(index) => format!(", result {index},"),
             };
             format!("`{}`{of} is not", role.name())
         }
@@ -267,6 +253,7 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             "the elimination stops at {}, against",
             coordinate(singular.coordinate)
         ),
+        Disagreement::Unseen { role } => format!("nothing holds `{}` against", role.name()),
         Disagreement::Undefined => "no state was found to compare it with".into(),
     }
 }
@@ -418,6 +405,10 @@ struct Prover<'a, 'd, R> {
     number: u64,
     /// For each output whether it had a value yet.
     seen: Vec<bool>,
+    /// The functions that were looked at.
+    called: BTreeSet<Role>,
+    /// Whether accelerations were, at any point.
+    has_moved: bool,
 }
 
 impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
@@ -434,6 +425,8 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             slopes,
             number: 0,
             seen: vec![false; program.outputs.len()],
+            called: BTreeSet::new(),
+            has_moved: false,
             parts,
         }
     }
@@ -451,12 +444,25 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             // An output that has a value hardly anywhere is not waited for all the time.
             let has_seen = self.seen.iter().all(|seen| *seen) || good >= 4 * points;
             if good >= points && has_seen {
-                return Found::Equal;
+                return self.covered();
             }
         }
         match good >= points {
-            true => Found::Equal,
+            true => self.covered(),
             false => Found::Nothing,
+        }
+    }
+
+    /// Whether every function of the program was looked at: a quantity of which the proof knows nothing is
+    /// not proved. Where there are no accelerations, there is nothing to compare with those.
+    fn covered(&self) -> Found {
+        let is_covered = |role: Role| {
+            self.called.contains(&role) || (role.row().called != Use::Seldom && !self.has_moved)
+        };
+        let functions = self.parts.program.functions.iter();
+        match functions.map(|f| f.role).find(|role| !is_covered(*role)) {
+            Some(role) => Found::Wrong(Disagreement::Unseen { role }),
+            None => Found::Equal,
         }
     }
 
@@ -504,6 +510,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if self.has_no_accelerations(&state, &computed)? {
             return Ok(());
         }
+        self.has_moved = true;
         self.check_pivots(&state, &computed)?;
         match literal.sliding.is_empty() {
             true => self.check_motion(&state, &computed)?,
@@ -559,6 +566,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     /// The results of a function.
     fn call(&mut self, role: Role, at: &State<R>, len: usize) -> Result<Vec<R>, Verdict> {
         let results = Self::try_call(&mut self.interpreter, role, at, len);
+        self.called.insert(role);
         match results.iter().all(|x| x.is_finite()) {
             true => Ok(results),
             false => Err(Verdict::Elsewhere),
@@ -794,6 +802,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         for (i, expected) in machine.values(&outputs, at).into_iter().enumerate() {
             let role = Role::Output(i);
             let found = Self::try_call(&mut self.interpreter, role, at, 1)[0];
+            self.called.insert(role);
             if !found.is_finite() || !expected.is_finite() {
                 continue;
             }
@@ -1270,6 +1279,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                 continue;
             };
             let len = function.results.len();
+            self.called.insert(role);
             found = Self::try_call(&mut self.guards, role, at, len + 2 * function.guards.len());
             for (guard, pair) in function.guards.iter().zip(found[len..].chunks_exact(2)) {
                 pivots[guard.coordinate] = Some([pair[0], pair[1]]);

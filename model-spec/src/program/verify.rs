@@ -3,6 +3,7 @@
 
 use rustc_hash::FxHashSet;
 
+use super::quantity::Argument;
 use super::{Function, Op, Program, Role, Source, Value};
 
 impl Program {
@@ -83,6 +84,20 @@ impl Program {
     fn verify_read(&self, role: Role, source: Source) -> Result<(), String> {
         let parameters_only = matches!(role, Role::Prepare | Role::Start);
         let n = self.dimension();
+        let argument = match source {
+            Source::Time => Some(Argument::Time),
+            Source::Coordinate(_) => Some(Argument::Coordinates),
+            Source::Velocity(_) => Some(Argument::Velocities),
+            Source::Acceleration(_) => Some(Argument::Accelerations),
+            Source::Input(_) => Some(Argument::Inputs),
+            Source::Parameter(_)
+            | Source::Prepared(_)
+            | Source::AtTime(_)
+            | Source::AtPosition(_) => None,
+        };
+        if argument.is_some_and(|argument| !role.row().of.contains(&argument)) {
+            return Err(format!("{source:?} is nothing that it may depend on"));
+        }
         // What a stage has left is read by the next one only.
         let roles = self.staged_roles();
         let next = |before| {

@@ -174,11 +174,7 @@ fn derivatives_are_slopes_of_the_accelerations() {
                     assert!(
                         error <= 1e-9 * scale,
                         "{name}: {} is {}, not {slope}",
-                        program.result_name(
-                            Role::Derivatives,
-                            derivatives(machine).shape,
-                            i * width + column
-                        ),
+                        program.result_name(Role::Derivatives, i * width + column),
                         found[i * width + column],
                     );
                 }

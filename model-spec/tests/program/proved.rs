@@ -85,6 +85,38 @@ fn damaged_programs_of_every_kind_of_machine_are_stopped() {
     }
 }
 
+/// A quantity that was added to programs and not to the proof is not proved, and a program of it is stopped.
+#[test]
+fn a_function_that_nothing_is_compared_with_is_stopped() {
+    machine("double_pendulum", &[], |machine| {
+        let mut program = Program::clone(&machine.program);
+        let energy = program.function(Role::KineticEnergy).expect("it is there");
+        let mut unknown = energy.clone();
+        unknown.role = Role::Assumption(program.assumptions.len());
+        let role = unknown.role;
+        program.functions.push(unknown);
+        let unproved = Proved::new(program, &machine.model, &machine.equations)
+            .expect_err("nothing is known of it");
+        assert_eq!(unproved.disagreement, Disagreement::Unseen { role });
+        assert_eq!(unproved.diagnostic(&machine.model).code, Code::Internal);
+    });
+}
+
+/// What a function may depend on stands in its row: the potential energy does not depend on rates.
+#[test]
+fn a_function_reads_what_its_row_says() {
+    machine("double_pendulum", &[], |machine| {
+        let mut program = Program::clone(&machine.program);
+        let kinetic = program.function(Role::KineticEnergy).expect("it is there");
+        let mut wrong = kinetic.clone();
+        wrong.role = Role::PotentialEnergy;
+        let place = program.functions.iter().position(|f| f.role == wrong.role);
+        program.functions[place.expect("it is there")] = wrong;
+        let what = program.verify().expect_err("it reads rates");
+        assert!(what.contains("nothing that it may depend on"), "{what}");
+    });
+}
+
 /// Signs, powers, tables of exponentials and more roots than a field has squares for.
 const ROOTS: &str = "machine Roots in plane {
     parameters { m: kg = 1, k: N/m = 3, c: N = 2, l: m = 1, b: kg/m = 0.1, p: 1 = 2.5 }

@@ -51,51 +51,21 @@ impl Emitter<'_> {
         self.method("constraints", &[], Some(&result), |body| {
             body.line("CONSTRAINTS.iter().map(constraint)");
         });
-        let mut fill = |name: &str, arguments: &[&str], targets: &[(&str, Role)]| {
-            let lines: Vec<String> = targets
-                .iter()
-                .map(|&(target, role)| match self.call(role) {
-                    Some(call) => format!("fill({target}, &{call});"),
-                    None => format!("{target}.fill(0.0);"),
-                })
-                .collect();
-            self.method(name, arguments, None, |body| {
-                lines.into_iter().for_each(|line| body.line(line));
-            });
-        };
-        fill(
-            "residuals",
-            &["t", "q", "v", "positions", "rates"],
-            &[
-                ("positions", Role::ConstraintPositions),
-                ("rates", Role::ConstraintRates),
-            ],
-        );
-        fill(
-            "constraint_matrix",
-            &["t", "q", "rows"],
-            &[("rows", Role::ConstraintMatrix)],
-        );
-        fill(
-            "constraint_drift",
-            &["t", "q", "v", "drift"],
-            &[("drift", Role::ConstraintDrift)],
-        );
         let call = self.call(Role::Multipliers);
         let has_contacts = !self.program.contacts.is_empty();
         let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
         self.method(
             "multipliers",
-            &["t", "q", "v", "u", "lambda"],
+            &["t", "q", "v", "u", "to"],
             Some(&result),
             |body| {
                 if has_contacts {
                     let own = format!("{runtime}::multipliers_with_friction");
-                    body.line(format!("{own}(self, t, q, v, u, lambda)"));
+                    body.line(format!("{own}(self, t, q, v, u, to)"));
                     return;
                 }
                 if let Some(call) = call {
-                    body.line(format!("fill(lambda, &{call}?);"));
+                    body.line(format!("fill(to, &{call}?);"));
                 }
                 body.line("Ok(())");
             },

@@ -38,32 +38,16 @@ impl Emitter<'_> {
         self.method("contacts", &[], Some(&result), |body| {
             body.line("CONTACTS.iter().copied()");
         });
-        for (name, arguments, target, role) in [
-            ("slips", &["t", "q", "v", "w"][..], "w", Role::Slips),
-            ("slip_matrix", &["t", "q", "rows"], "rows", Role::SlipMatrix),
-            (
-                "slip_drift",
-                &["t", "q", "v", "drift"],
-                "drift",
-                Role::SlipDrift,
-            ),
-        ] {
-            let line = match self.call(role) {
-                Some(call) => format!("fill({target}, &{call});"),
-                None => format!("{target}.fill(0.0);"),
-            };
-            self.method(name, arguments, None, |body| body.line(line));
-        }
         self.slip_ranges();
         let call = self.call(Role::Friction);
         let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
         self.method(
             "friction",
-            &["t", "q", "v", "u", "parts"],
+            &["t", "q", "v", "u", "to"],
             Some(&result),
             |body| {
                 if let Some(call) = call {
-                    body.line(format!("fill(parts, &{call}?);"));
+                    body.line(format!("fill(to, &{call}?);"));
                 }
                 body.line("Ok(())");
             },

@@ -10,6 +10,7 @@ use crate::emit::body::{self, Expression as Text, Language, Unchecked};
 use crate::emit::cut::{self, Cut, Piece, Place};
 use crate::emit::layout::{Layout, Writer};
 use crate::emit::names::{Scope, flat};
+use crate::program::quantity::{Entry, Extent, Kind};
 use crate::program::{Function, Op, Reads, Role, Shape, Source};
 
 impl<'a> Emitter<'a> {
@@ -17,9 +18,7 @@ impl<'a> Emitter<'a> {
     pub(super) fn is_emitted(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
-        function.role.is_fast()
-            || matches!(function.role, Role::Output(_) | Role::Assumption(_))
-            || !function.results.iter().all(is_zero)
+        function.role.is_kept() || !function.results.iter().all(is_zero)
     }
 
     /// The function of a role, where it does anything.
@@ -229,110 +228,46 @@ impl<'a> Emitter<'a> {
 
     /// What the results of a function should be called; nothing for a scalar.
     pub(super) fn result_names(&self, function: &Function) -> Vec<String> {
-        let coordinate = |i: usize| flat(&self.program.coordinates[i].name);
-        let each = |name: &dyn Fn(String) -> String| {
-            (0..self.program.dimension())
-                .map(|i| name(coordinate(i)))
-                .collect()
-        };
-        match (function.role, function.shape) {
-            (_, Shape::Scalar) => Vec::new(),
-            (Role::Accelerations | Role::AccelerationsAt, _) => {
-                each(&|name| format!("{name}_ddot"))
-            }
-            (Role::ConstraintMatrix, shape) => {
-                let entries = (0..shape.len()).map(|k| (k / self.program.dimension(), k));
-                entries
-                    .map(|(i, k)| (i + 1, k % self.program.dimension() + 1))
-                    .map(|(i, j)| format!("g{i}_{j}"))
-                    .collect()
-            }
-            (Role::ConstraintPositions, _) => numbered("g", function.shape.len()),
-            (Role::ConstraintRates, _) => numbered("phi", function.shape.len()),
-            (Role::ConstraintDrift, _) => numbered("gamma", function.shape.len()),
-            (Role::Multipliers, _) => numbered("lambda", function.shape.len()),
-            (Role::Slips, _) => numbered("w", function.shape.len()),
-            (Role::SlipMatrix, shape) => {
-                let n = self.program.dimension();
-                let entries = (0..shape.len()).map(|k| (k / n + 1, k % n + 1));
-                entries.map(|(i, j)| format!("tau{i}_{j}")).collect()
-            }
-            (Role::SlipDrift, _) => numbered("drift", function.shape.len()),
-            (Role::Bias, _) => each(&|name| format!("h_{name}")),
-            (Role::Applied, _) => each(&|name| format!("q_{name}")),
-            (Role::Forces, _) => each(&|name| format!("f_{name}")),
-            (_, Shape::Symmetric(n)) => {
-                let separator = if n < 10 { "" } else { "_" };
-                let entries = (0..n).flat_map(|i| (0..=i).map(move |j| (i + 1, j + 1)));
-                entries
-                    .map(|(i, j)| format!("m{i}{separator}{j}"))
-                    .collect()
-            }
-            (_, Shape::Vector(n)) => (0..n).map(|i| format!("r{i}")).collect(),
-            (_, Shape::Matrix(rows, columns)) => (0..rows)
-                .flat_map(|i| (0..columns).map(move |j| format!("d{}_{j}", i + 1)))
-                .collect(),
+        let extent = function.role.row().extent;
+        if extent == Extent::Number {
+            return Vec::new();
         }
+        // Entries of a matrix by their numbers, from 1.
+        let joined = |i: usize, j: usize, separator: &str| format!("{}{separator}{}", i + 1, j + 1);
+        let separator = match extent {
+            Extent::Symmetric(_) if function.shape.order() < 10 => "",
+            _ => "_",
+        };
+        let name = |index: usize| {
+            let entry = match self.program.entry(function.role, index) {
+                Entry::Of(Kind::Coordinate, i) if extent != Extent::Differentials => {
+                    flat(&self.program.coordinates[i].name)
+                }
+                Entry::Of(_, i) if extent != Extent::Differentials => (i + 1).to_string(),
+                Entry::At((_, i), (_, j)) => joined(i, j, separator),
+                _ => match function.shape {
+                    Shape::Matrix(_, columns) => {
+                        format!("{}_{}", index / columns + 1, index % columns)
+                    }
+                    _ => index.to_string(),
+                },
+            };
+            function.role.row().code.replace('*', &entry)
+        };
+        (0..function.shape.len()).map(name).collect()
     }
 
     pub(super) fn function_docs(&self, function: &Function) -> String {
         let mut docs = match function.role {
-            Role::Prepare | Role::Start => String::new(),
-            Role::MassMatrix => "Mass matrix `M`, row by row.".into(),
-            Role::Bias => "Bias `h`: velocity products and explicit time in the inertia forces.".into(),
-            Role::Applied => "Applied generalized forces `Q`.".into(),
-            Role::Forces => "Right-hand side `f = Q - h` of `M a = f`.".into(),
-            Role::Accelerations => {
-                let form = match self.program.choice(function.role) {
-                    Some(choice) => format!(" {}", choice.chosen().form),
-                    None => String::new(),
-                };
-                let equations = match self.program.constraints.is_empty() {
-                    true => "`M a = f`",
-                    false => "`M a = f + G^T lambda`, `G a = gamma`",
-                };
-                format!(
-                    "Accelerations `a`, the solution of {equations}{form}.\n\n\
-                     What is known to be zero is not computed; a pivot that vanishes is an error."
-                )
-            }
-            Role::Derivatives => "Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of \
-                `M da/dx = d(f - M a)/dx` with `a` held."
-                .into(),
-            Role::AtTime => "What time alone decides of the accelerations.".into(),
-            Role::AtPosition => "What time and coordinates decide of the accelerations.\n\n\
-                A pivot that vanishes is an error."
-                .into(),
-            Role::AccelerationsAt => "Accelerations `a` of what the stage before has left.".into(),
-            Role::ConstraintPositions => "What is left of the constraints of positions, `g`; 0 for the others.".into(),
-            Role::ConstraintRates => "What is left of the constraints at the level of velocities, `G v + dg/dt`.".into(),
-            Role::ConstraintMatrix => "The matrix `G` of the constraints, row after row.".into(),
-            Role::ConstraintDrift => "`gamma` of `G a = gamma`.".into(),
-            Role::Multipliers => "Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.\n\n\
-                A pivot that vanishes is an error."
-                .into(),
-            Role::Slips => "How fast the contacts slide, `w`, in m/s.".into(),
-            Role::SlipMatrix => "The matrix `tau = dw/dv` of the slips, row after row.".into(),
-            Role::SlipDrift => "`dw/dt` at `a = 0`.".into(),
-            Role::Friction => "What there is without friction, and what each unit of friction adds to it: accelerations, \
-                multipliers, `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction.\n\n\
-                A pivot that vanishes is an error."
-                .into(),
-            Role::KineticEnergy => "Kinetic energy `T`, in J.".into(),
-            Role::PotentialEnergy => "Potential energy `V`, in J.".into(),
-            Role::Dissipation => "Dissipation function `D`, in W.".into(),
-            Role::WorkRate => "Power that drives, forces and inputs put in, in W.".into(),
-            Role::DissipationRate => "Power that dampers take out, in W.".into(),
             Role::Output(i) => {
                 let slot = &self.program.outputs[i];
-                let docs = slot_docs(&slot.name, slot, false);
-                docs.trim().to_owned()
+                slot_docs(&slot.name, slot, false).trim().to_owned()
             }
-            Role::Assumption(i) => {
-                let fact = &self.program.assumptions[i];
-                format!("By how much `{}` holds.", fact.text)
-            }
+            role => self.program.docs(role),
         };
+        if self.fails(function) {
+            docs.push_str("\n\nA pivot that vanishes is an error.");
+        }
         if let Some(formulas) = self
             .options
             .formulas
@@ -448,11 +383,6 @@ impl<'a> Emitter<'a> {
         self.writer.expression("", &literal, "");
         self.writer.close("}");
     }
-}
-
-/// Names with numbers behind them, from 1.
-fn numbered(name: &str, len: usize) -> Vec<String> {
-    (1..=len).map(|i| format!("{name}{i}")).collect()
 }
 
 /// What either of two functions reads.

@@ -19,16 +19,8 @@ use crate::program::{Function, Guard, Op, Reads, Role, Shape, Source};
 
 impl Emitter<'_> {
     /// The names of the call of a function, and of its pieces.
-    fn names(&self, role: Role) -> [String; 2] {
-        match role {
-            Role::Derivatives => self.types.derivatives_call.clone(),
-            Role::AtTime => self.types.stage_calls[0].clone(),
-            Role::AtPosition => self.types.stage_calls[1].clone(),
-            Role::AccelerationsAt => self.types.stage_calls[2].clone(),
-            Role::Multipliers => self.types.multipliers_call.clone(),
-            Role::Friction => self.types.friction_call.clone(),
-            _ => self.types.accelerations.clone(),
-        }
+    pub(super) fn names(&self, role: Role) -> [String; 2] {
+        self.types.calls.get(&role).cloned().unwrap_or_default()
     }
 
     /// A function that is called often.

@@ -165,7 +165,7 @@ impl Emitter<'_> {
     ) -> Option<Vec<String>> {
         let function = self.emitted(Role::Accelerations)?;
         let runtime = &self.options.runtime;
-        let [call, _] = &self.types.accelerations;
+        let [call, _] = self.names(Role::Accelerations);
         let arguments = self.arguments(self.needs(function));
         let fields: Vec<String> = arguments
             .iter()

@@ -4,6 +4,7 @@ use lagrangian_symbolic::Rational;
 
 use super::{Options, unproved_expansion};
 use crate::model::{Name, Stages};
+use crate::program::quantity::{Needs, Sizes};
 use crate::program::{self, Function, Op, Program, Role, Shape, Slot, Value};
 use crate::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
 use crate::unit::Unit;
@@ -54,18 +55,14 @@ fn standstill(spec: &Spec) -> Program {
         }
     };
     let outputs = slots(&spec.outputs);
-    let mut functions = vec![
-        zeros(Role::MassMatrix, Shape::Symmetric(n)),
-        zeros(Role::Bias, Shape::Vector(n)),
-        zeros(Role::Applied, Shape::Vector(n)),
-        zeros(Role::Forces, Shape::Vector(n)),
-        zeros(Role::Accelerations, Shape::Vector(n)),
-        zeros(Role::KineticEnergy, Shape::Scalar),
-        zeros(Role::PotentialEnergy, Shape::Scalar),
-        zeros(Role::Dissipation, Shape::Scalar),
-        zeros(Role::WorkRate, Shape::Scalar),
-        zeros(Role::DissipationRate, Shape::Scalar),
-    ];
+    let sizes = Sizes {
+        coordinates: n,
+        ..Sizes::default()
+    };
+    let everywhere = Role::all().filter(|role| role.row().needs == Needs::Nothing);
+    let mut functions: Vec<Function> = everywhere
+        .filter_map(|role| Some(zeros(role, role.row().extent.shape(sizes)?)))
+        .collect();
     let asks = |stage: &str| spec.stages.iter().any(|item| item.name.base.text == stage);
     let stages = Stages {
         time: asks("time"),

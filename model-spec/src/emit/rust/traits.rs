@@ -3,6 +3,7 @@
 use super::Emitter;
 use super::types::Types;
 use crate::emit::layout::{Layout, Writer};
+use crate::program::quantity::{Extent, Kind, Needs};
 use crate::program::{Fact, Function, Reads, Role, Slot};
 
 impl Emitter<'_> {
@@ -81,9 +82,7 @@ impl Emitter<'_> {
             "matrix" => format!("&mut [{f64}; {}]", n * n),
             "result" => format!("&mut [{f64}; {n}]"),
             "ranges" => format!("&mut [[{f64}; 2]]"),
-            "positions" | "rates" | "rows" | "drift" | "lambda" | "w" | "parts" => {
-                format!("&mut [{f64}]")
-            }
+            "to" => format!("&mut [{f64}]"),
             _ => format!("&[{f64}; {n}]"),
         }
     }
@@ -184,8 +183,8 @@ impl Emitter<'_> {
         self.method("to_vector", &["coordinates"], Some(&vector), |body| {
             body.line("coordinates.to_array()");
         });
-        self.equations_of_motion();
-        self.scalars(&f64);
+        self.accelerations();
+        self.quantities();
         self.inputs_and_outputs();
         self.assumptions();
         self.constraints();
@@ -194,7 +193,7 @@ impl Emitter<'_> {
         self.writer.close("}");
     }
 
-    fn equations_of_motion(&mut self) {
+    fn accelerations(&mut self) {
         let n = self.program.dimension();
         let result = format!(
             "{}<(), {}::Singular>",
@@ -221,43 +220,61 @@ impl Emitter<'_> {
                 }
             },
         );
-        let call = self.call(Role::MassMatrix);
-        self.method(
-            "mass_matrix",
-            &["t", "q", "matrix"],
-            None,
-            |body| match call {
-                Some(call) => {
-                    body.line(format!("let rows = {call};"));
-                    body.open("for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {");
-                    body.line("*to = *from;");
-                    body.close("}");
-                }
-                None => body.line(format!("*matrix = [0.0; {}];", n * n)),
-            },
-        );
-        for (role, arguments) in [
-            (Role::Bias, &["t", "q", "v", "result"][..]),
-            (Role::Applied, &["t", "q", "v", "u", "result"]),
-            (Role::Forces, &["t", "q", "v", "u", "result"]),
-        ] {
-            let value = self.call(role).unwrap_or_else(|| format!("[0.0; {n}]"));
-            self.method(&role.name(), arguments, None, |body| {
-                body.line(format!("*result = {value};"))
-            });
-        }
     }
 
-    fn scalars(&mut self, f64: &str) {
-        for (role, arguments) in [
-            (Role::KineticEnergy, &["t", "q", "v"][..]),
-            (Role::PotentialEnergy, &["t", "q", "u"]),
-            (Role::Dissipation, &["t", "q", "v", "u"]),
-            (Role::WorkRate, &["t", "q", "v", "a", "u"]),
-            (Role::DissipationRate, &["t", "q", "v", "u"]),
-        ] {
-            let value = self.call(role).unwrap_or_else(|| "0.0".to_owned());
-            self.method(&role.name(), arguments, Some(f64), |body| body.line(value));
+    /// A method for each row of the table that this machine has, and that solves for nothing.
+    fn quantities(&mut self) {
+        let sizes = self.program.sizes();
+        let is_there = |needs| match needs {
+            Needs::Nothing => true,
+            Needs::Constraints => sizes.constraints > 0,
+            Needs::Contacts => sizes.contacts > 0,
+            Needs::Request => false,
+        };
+        let there = Role::all().filter(|role| is_there(role.row().needs) && !role.inverts());
+        let f64 = self.types.known("f64");
+        for role in there {
+            let (row, call) = (role.row(), self.call(role));
+            let Some(shape) = row.extent.shape(sizes) else {
+                continue;
+            };
+            let mut arguments: Vec<&str> = row.of.iter().map(|of| of.letter()).collect();
+            let lines = match (row.extent, call) {
+                (Extent::Number, call) => vec![call.unwrap_or_else(|| "0.0".into())],
+                (Extent::Symmetric(_), Some(call)) => vec![
+                    format!("let rows = {call};"),
+                    "for (to, from) in matrix.iter_mut().zip(rows.as_flattened()) {".into(),
+                    "    *to = *from;".into(),
+                    "}".into(),
+                ],
+                (Extent::Symmetric(_), None) => {
+                    vec![format!("*matrix = [0.0; {}];", shape.order().pow(2))]
+                }
+                (Extent::Each(Kind::Coordinate), call) => {
+                    let value = call.unwrap_or_else(|| format!("[0.0; {}]", shape.len()));
+                    vec![format!("*result = {value};")]
+                }
+                (_, Some(call)) => vec![format!("fill(to, &{call});")],
+                (_, None) => vec!["to.fill(0.0);".into()],
+            };
+            let result = match row.extent {
+                Extent::Number => Some(f64.as_str()),
+                Extent::Symmetric(_) => {
+                    arguments.push("matrix");
+                    None
+                }
+                Extent::Each(Kind::Coordinate) => {
+                    arguments.push("result");
+                    None
+                }
+                _ => {
+                    arguments.push("to");
+                    None
+                }
+            };
+            self.method(row.name, &arguments, result, |body| {
+                lines.into_iter().for_each(|line| body.line(line));
+            });
         }
     }
 

@@ -1,8 +1,11 @@
 //! The types of a module, and the fields of its structs.
 
+use std::collections::BTreeMap;
+
 use crate::emit::layout::Layout;
 use crate::emit::names::{Field, Scope, fields, identifier, paths};
-use crate::program::Slot;
+use crate::program::quantity::Extent;
+use crate::program::{Role, Slot};
 
 /// The emitted names that the user's machine must not hide.
 #[derive(Clone)]
@@ -15,19 +18,11 @@ pub(super) struct Types {
     pub(super) prepared: String,
     /// Accelerations with their derivatives.
     pub(super) derivatives: String,
-    /// A call of the accelerations, and what its pieces are.
-    pub(super) accelerations: [String; 2],
-    /// A call of the multipliers, and what its pieces are.
-    pub(super) multipliers_call: [String; 2],
-    /// A call of what frictions bring about, and what its pieces are.
-    pub(super) friction_call: [String; 2],
-    /// A call of the derivatives, and what its pieces are.
-    pub(super) derivatives_call: [String; 2],
+    /// For each function that is called often, a call of it, and what its pieces are.
+    pub(super) calls: BTreeMap<Role, [String; 2]>,
     /// What a stage of the accelerations leaves to the next one.
     pub(super) at_time: String,
     pub(super) at_position: String,
-    /// The calls of the stages, and what their pieces are.
-    pub(super) stage_calls: [[String; 2]; 3],
     /// The parameter that stands for the number.
     pub(super) scalar: String,
     /// The parameter that stands for the number in a register.
@@ -46,18 +41,9 @@ impl Types {
             outputs: scope.take("Outputs"),
             prepared: scope.take("Prepared"),
             derivatives: scope.take("Derivatives"),
-            accelerations: ["Accelerations", "AccelerationsPiece"].map(|name| scope.take(name)),
-            multipliers_call: ["Multipliers", "MultipliersPiece"].map(|name| scope.take(name)),
-            friction_call: ["Friction", "FrictionPiece"].map(|name| scope.take(name)),
-            derivatives_call: ["DerivativesCall", "DerivativesPiece"].map(|name| scope.take(name)),
             at_time: scope.take("AtTime"),
             at_position: scope.take("AtPosition"),
-            stage_calls: [
-                ["AtTimeCall", "AtTimePiece"],
-                ["AtPositionCall", "AtPositionPiece"],
-                ["AccelerationsAt", "AccelerationsAtPiece"],
-            ]
-            .map(|names| names.map(|name| scope.take(name))),
+            calls: calls(&mut scope),
             scalar: scope.take("S"),
             register: scope.take("N"),
             shadowed: machine.to_owned(),
@@ -80,6 +66,24 @@ impl Types {
             _ => format!("::core::primitive::{name}"),
         }
     }
+}
+
+/// `AccelerationsAt` for `accelerations_at`; where results have a type of that name, `AtTimeCall`.
+fn calls(scope: &mut Scope) -> BTreeMap<Role, [String; 2]> {
+    let fast = Role::all().filter(|role| role.is_fast());
+    fast.map(|role| {
+        let row = role.row();
+        let words = row.name.split('_').map(|word| {
+            let (first, rest) = word.split_at(word.len().min(1));
+            first.to_uppercase() + rest
+        });
+        let name: String = words.collect();
+        let is_type = matches!(row.extent, Extent::Chosen | Extent::Differentials);
+        let call = if is_type { "Call" } else { "" };
+        let names = [format!("{name}{call}"), format!("{name}Piece")];
+        (role, names.map(|name| scope.take(&name)))
+    })
+    .collect()
 }
 
 /// A struct of named numbers.

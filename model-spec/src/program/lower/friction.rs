@@ -10,27 +10,8 @@ use super::super::graph::{Graph, Scaled};
 use super::super::solve::{self, Elimination};
 use super::super::{Basis, FrictionLayout, Role, Shape};
 use super::derivatives::{Solved, inverses, of_elimination, respond};
-use super::{Draft, Lowering, Origin, Planned, Quantity};
-use crate::mechanics::{Equations, SlidingEquation};
-
-/// The slips, and how they depend on the motion.
-pub(super) fn of_slips<'d>(equations: &Equations<'d>) -> Vec<Quantity<'d>> {
-    let sliding = &equations.sliding;
-    if sliding.is_empty() {
-        return Vec::new();
-    }
-    let vector = |role, values: Vec<_>| Quantity {
-        role,
-        shape: Shape::Vector(values.len()),
-        values,
-    };
-    let rows = sliding.iter().flat_map(|s| s.row.iter().copied()).collect();
-    vec![
-        vector(Role::Slips, sliding.iter().map(|s| s.slip).collect()),
-        vector(Role::SlipMatrix, rows),
-        vector(Role::SlipDrift, sliding.iter().map(|s| s.drift).collect()),
-    ]
-}
+use super::{Draft, Lowering, Origin, Planned};
+use crate::mechanics::SlidingEquation;
 
 /// The programs for [`Role::Friction`], from the equations as they were derived and multiplied out.
 pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
