@@ -250,7 +250,8 @@ pub struct Modes {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
-    /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts.
+    /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts,
+    /// with `phi=solve` at one that is to be found.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
     pub steady: Vec<Steady>,
 }
@@ -284,23 +285,49 @@ pub struct Brachistochrone {
     pub report: Option<PathBuf>,
 }
 
-/// `name` or `name=rate`.
+/// `name`, `name=rate` or `name=solve`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
     /// The name of a coordinate.
     pub name: String,
-    /// Its rate, where it is said.
-    pub rate: Option<f64>,
+    /// Its rate.
+    pub rate: SteadyRate,
+}
+
+/// The rate of a coordinate that moves steadily.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SteadyRate {
+    /// That of the start.
+    Start,
+    /// A number.
+    Given(f64),
+    /// Whatever balances the machine.
+    Solved,
 }
 
 fn steady(text: &str) -> Result<Steady, String> {
-    if text.contains('=') {
-        let Assignment { name, value } = assignment(text)?;
-        let rate = Some(value);
-        return Ok(Steady { name, rate });
+    let rate = match text.split_once('=') {
+        None => SteadyRate::Start,
+        Some((_, value)) if value.trim() == "solve" => SteadyRate::Solved,
+        Some(_) => {
+            let Assignment { name, value } = assignment(text).map_err(|why| {
+                why.replace(
+                    " is not a number (as in",
+                    " is neither a number nor `solve` (as in",
+                )
+            })?;
+            let rate = SteadyRate::Given(value);
+            return Ok(Steady { name, rate });
+        }
+    };
+    let name = text.split('=').next().unwrap_or(text).trim();
+    match name.is_empty() {
+        true => Err("expected the name of a coordinate".into()),
+        false => Ok(Steady {
+            name: normalized(name).into_owned(),
+            rate,
+        }),
     }
-    let name = text.trim().to_owned();
-    Ok(Steady { name, rate: None })
 }
 
 /// `name=value`.

@@ -1,9 +1,10 @@
 //! `lagrangian modes`: where a machine stays, and how it moves about that place.
 
-mod constrained;
-mod equilibrium;
+mod motion;
 mod precise;
 mod rank;
+mod reduced;
+mod search;
 mod spectrum;
 
 use std::f64::consts::TAU;
@@ -12,7 +13,6 @@ use std::fmt::Write as _;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Machine, System};
 use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::model::Variable;
 use lagrangian_spec::program::Role;
 use lagrangian_symbolic::Dag;
 use nalgebra::Complex;
@@ -23,7 +23,9 @@ use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::output;
 use crate::reading::{self, Reading};
-use equilibrium::{Equilibrium, Lost, Statics};
+use motion::{Motion, State, Unsteady};
+use reduced::{Fault, Place, Reduced};
+use search::{Lost, Wanted};
 use spectrum::{Mode, Modes};
 
 /// Runs the command.
@@ -41,47 +43,73 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     })?;
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
-    let steady = steady(call, &mut start.v)?;
+    let wanted = wanted(call, &mut start.v)?;
     let q = start.q.values;
-    let v: Vec<f64> = start
-        .v
-        .values
-        .iter()
-        .zip(&steady)
-        .map(|(rate, is_steady)| if *is_steady { *rate } else { 0.0 })
-        .collect();
+    refuse_drives(&machine, &q, &wanted)?;
+    let motion = motion(&machine, &q, &wanted)?;
     let system = machine.prepare();
-    let u = system.default_inputs();
-    refuse_drives(&machine, &system, &q, &v, &u)?;
-    refuse_unsteady(&system, &q, &v, &u, &steady)?;
-    let found = match system.constraints().len() {
-        0 => {
-            let found = Statics::new(&machine, &system, &v, &u).find(&q);
-            found.map(|found| {
-                let modes = spectrum::modes(&found.by_coordinates, &found.by_rates);
-                (found, modes)
-            })
-        }
-        _ if steady.contains(&true) => {
-            let unknown = "steady rotation of a machine with constraints is not known yet";
-            return Err(Failure::run(unknown));
-        }
-        _ => constrained::find(&machine, &system, &q, &u),
-    };
-    let (found, modes) = found.map_err(|lost| failure(&system, &lost))?;
-    let modes = modes.ok_or_else(|| Failure::run("the eigenvalues cannot be found"))?;
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
-        let result = as_json(&names, &found, &v, &modes);
+        let result = as_json(&names, &motion);
         output::line(format_args!("{result:#}"));
     } else {
         let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
-        output::text(&text(&names, &units, &q, &v, &found, &modes));
+        output::text(&text(&names, &units, &q, &wanted, &motion));
     }
     Ok(())
 }
 
-/// The program with derivatives by all coordinates and rates, whatever the spec asks for.
+/// The steady motion that is reached from `q`, and the motions near it.
+fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let rates: Vec<f64> = rates(wanted);
+    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &rates));
+    let found = search::find(&mut reduced, q, wanted);
+    let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
+        // What depends on where it is cannot be balanced for long either.
+        Some(unsteady) => failure_of(&system, &unsteady),
+        None => failure(&system, wanted, &lost),
+    })?;
+    let motion = motion::near(&mut reduced, found, &wanted.steady);
+    motion.map_err(|unsteady| failure_of(&system, &unsteady))
+}
+
+/// Rates of the coordinates that move steadily.
+fn rates(wanted: &Wanted) -> Vec<f64> {
+    let rates = wanted.rates.iter().zip(&wanted.steady);
+    rates
+        .map(|(rate, is_steady)| if *is_steady { *rate } else { 0.0 })
+        .collect()
+}
+
+/// Whether the equations depend, where the search begins, on what is to move steadily.
+fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Option<Unsteady> {
+    if !wanted.steady.contains(&true) {
+        return None;
+    }
+    let mut wide: Vec<_> = q.iter().map(|x| (*x).into()).collect();
+    reduced.bring(&mut wide, &|_| true).ok()?;
+    let choice = reduced.choose(q, &wanted.steady).ok()?;
+    let s = choice.independent.iter().map(|j| match wanted.steady[*j] {
+        true => wanted.rates[*j].into(),
+        false => 0.0.into(),
+    });
+    let place = Place {
+        s: s.collect(),
+        q: wide,
+    };
+    let (here, bounds) = reduced.linearized(&choice, &place).ok()?;
+    let state = State {
+        choice: &choice,
+        place: &place,
+        here: &here,
+        bounds: &bounds,
+    };
+    motion::records(reduced, &state).err()
+}
+
+/// The program, as far as nothing sticks in it.
 fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure> {
     let mut reading = Reading::open(spec)?;
     let model = reading.model(dag);
@@ -93,10 +121,6 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure
             "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",
         ));
     }
-    let model = model.map(|mut model| {
-        model.derivatives = Variable::of_state(model.coordinates.len());
-        model
-    });
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {
         Some(compiled) => {
@@ -108,21 +132,29 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure
 }
 
 /// Which coordinates turn steadily, and with which rates.
-fn steady(call: &call::Modes, rates: &mut Named) -> Result<Vec<bool>, Failure> {
+fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
     let mut steady = vec![false; rates.values.len()];
+    let mut solved = steady.clone();
     for call::Steady { name, rate } in &call.steady {
         let mut probe = rates.clone();
         probe.values.fill(0.0);
         let unknown = |unknown| reading::name_error("coordinate", &unknown);
         probe.set(name, 1.0).map_err(unknown)?;
-        if let Some(rate) = rate {
+        if let call::SteadyRate::Given(rate) = rate {
             rates.set(name, *rate).map_err(unknown)?;
         }
-        for (is_steady, probed) in steady.iter_mut().zip(&probe.values) {
-            *is_steady |= *probed != 0.0;
+        for (k, probed) in probe.values.iter().enumerate() {
+            if *probed != 0.0 {
+                steady[k] = true;
+                solved[k] |= *rate == call::SteadyRate::Solved;
+            }
         }
     }
-    Ok(steady)
+    Ok(Wanted {
+        steady,
+        solved,
+        rates: rates.values.clone(),
+    })
 }
 
 /// The start, and two states beside it that have nothing in common.
@@ -142,34 +174,41 @@ fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
 }
 
 /// Refuses a machine whose equations change with time: it is at rest nowhere.
-fn refuse_drives(
-    machine: &InterpretedMachine,
-    system: &InterpretedSystem,
-    q: &[f64],
-    v: &[f64],
-    u: &Named,
-) -> Result<(), Failure> {
-    let reads_time = |role| {
-        let function = machine.program().function(role);
+fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<(), Failure> {
+    let reads_time = |role: &Role| {
+        let function = machine.program().function(*role);
         function.is_some_and(|function| function.reads().time)
     };
-    if !reads_time(Role::Accelerations) && !reads_time(Role::Derivatives) {
+    let roles = [
+        Role::MassMatrix,
+        Role::Forces,
+        Role::ConstraintMatrix,
+        Role::ConstraintRates,
+        Role::ConstraintDrift,
+        Role::ConstraintPositions,
+    ];
+    if !roles.iter().any(reads_time) {
         return Ok(());
     }
+    let states = states(q, &rates(wanted));
     // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
-    let stands_still = |system: &InterpretedSystem| {
-        states(q, v).iter().all(|(q, v)| {
-            let at = |t| equilibrium::linearize(system, t, q, v, u).ok();
-            let first = at(0.0);
-            first.is_some() && [0.37, 1.13, 29.7].into_iter().all(|t| at(t) == first)
-        })
+    let stands_still = |machine: &InterpretedMachine| {
+        let system = machine.prepare();
+        let inputs = system.default_inputs().values;
+        Reduced::new(machine, &system, &inputs, &[]).stands_still(&states)
     };
-    if stands_still(system) {
+    if stands_still(machine) {
         return Ok(());
     }
+    // Nor is a machine without inertia, on which the drive has no hold either.
+    let is_regular = |machine: &InterpretedMachine| {
+        let system = machine.prepare();
+        Reduced::new(machine, &system, &[], &[]).is_regular(&states)
+    };
+    let has_inertia = is_regular(machine);
     let stops = |name: &&str| {
         let mut still = machine.clone();
-        still.set(name, 0.0).is_ok() && stands_still(&still.prepare())
+        still.set(name, 0.0).is_ok() && (is_regular(&still) || !has_inertia) && stands_still(&still)
     };
     let names: Vec<String> = machine
         .parameters()
@@ -188,57 +227,73 @@ fn refuse_drives(
     )))
 }
 
-/// Refuses steady coordinates on which the equations depend: what they turn past pulls now here, now there.
-fn refuse_unsteady(
-    system: &InterpretedSystem,
-    q: &[f64],
-    v: &[f64],
-    u: &Named,
-    steady: &[bool],
-) -> Result<(), Failure> {
-    for (q, v) in states(q, v) {
-        let Ok([_, by_q, _]) = equilibrium::linearize(system, 0.0, &q, &v, u) else {
-            continue;
-        };
-        for (k, coordinate) in system.coordinates().enumerate() {
-            let mut column = by_q.iter().skip(k).step_by(q.len());
-            if steady[k] && column.any(|x| *x != 0.0) {
-                let name = coordinate.name;
-                return Err(Failure::Run(format!(
-                    "`{name}` cannot turn steadily: the equations of motion depend on where it is"
-                )));
-            }
-        }
-    }
-    Ok(())
+fn name(system: &InterpretedSystem, index: usize) -> String {
+    let coordinate = system.coordinates().nth(index);
+    coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
 }
 
-fn failure(system: &InterpretedSystem, lost: &Lost) -> Failure {
-    let name = |index: usize| {
-        let coordinate = system.coordinates().nth(index);
-        coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
-    };
-    Failure::Run(match lost {
-        Lost::Singular(singular) => format!(
-            "the mass matrix is singular in `{}` on the way to an equilibrium; --start sets another place to look from",
-            singular.name(system)
+fn failure_of(system: &InterpretedSystem, unsteady: &Unsteady) -> Failure {
+    let name = |index: &usize| name(system, *index);
+    Failure::Run(match unsteady {
+        Unsteady::Depends(index) => format!(
+            "`{}` cannot turn steadily: the equations of motion depend on where it is",
+            name(index)
         ),
-        Lost::NotFinite(index) => format!(
+        Unsteady::Follows(index, other) => format!(
+            "`{}` cannot turn steadily: the rate of `{}` changes with it, and the equations of motion depend on where that is",
+            name(other),
+            name(index)
+        ),
+        Unsteady::Fault(fault) => what(system, fault),
+        Unsteady::NoEigenvalues => "the eigenvalues cannot be found".to_owned(),
+    })
+}
+
+fn what(system: &InterpretedSystem, fault: &Fault) -> String {
+    let name = |index: &usize| name(system, *index);
+    match fault {
+        Fault::Singular(index) => format!(
+            "the mass matrix is singular in `{}` on the way to an equilibrium; --start sets another place to look from",
+            name(index)
+        ),
+        Fault::NotFinite(index) => format!(
             "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; --start sets another \
              place to look from",
-            name(*index)
+            name(index)
         ),
-        Lost::Accelerates(index, left) => format!(
-            "there is no equilibrium near the start: nothing takes the acceleration {left:.3e} of `{}` away; --start sets \
-             another place to look from",
-            name(*index)
+        Fault::Follows(index) => format!(
+            "--steady {0}: by the constraints the rate of `{0}` follows from the others; leave it out, or one of those",
+            name(index)
         ),
-        Lost::Constraints(why) => {
-            format!("{why}; --start sets another place to look from")
+        Fault::Unmet(index) => {
+            let constraint = system.constraints().nth(*index);
+            let name = constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
+            format!(
+                "the constraint `{name}` cannot be met near the start; --start sets another place to look from"
+            )
         }
-        Lost::NoEnd(steps) => format!(
-            "no equilibrium was found in {steps} steps from the start; --start sets another place to look from"
+    }
+}
+
+fn failure(system: &InterpretedSystem, wanted: &Wanted, lost: &Lost) -> Failure {
+    let kind = match wanted.steady.contains(&true) {
+        true => "steady motion",
+        false => "equilibrium",
+    };
+    let place = match wanted.steady.contains(&true) {
+        true => "--start sets another place to look from, --steady other rates",
+        false => "--start sets another place to look from",
+    };
+    Failure::Run(match lost {
+        Lost::Fault(fault) => what(system, fault),
+        Lost::Accelerates(index, left) => format!(
+            "there is no {kind} near the start: nothing takes the acceleration {left:.3e} of `{}` away; {place}",
+            name(system, *index)
         ),
+        Lost::NoEnd(steps) => {
+            let times = if *steps == 1 { "step" } else { "steps" };
+            format!("no {kind} was found in {steps} {times} from the start; {place}")
+        }
     })
 }
 
@@ -259,7 +314,7 @@ fn damping(mode: &Mode) -> Option<f64> {
     (mode.lambda.im > 0.0).then(|| 0.0 - mode.lambda.re / mode.lambda.norm())
 }
 
-fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &Modes) -> Value {
+fn as_json(names: &[&str], motion: &Motion) -> Value {
     let by_name = |values: &[f64]| -> Map<String, Value> {
         let pairs = names.iter().zip(values);
         pairs
@@ -268,15 +323,18 @@ fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &Modes) -> Val
     };
     let Modes {
         modes,
+        free,
+        drifts,
         lost,
         lost_below,
-    } = modes;
+    } = &motion.modes;
     let modes: Vec<Value> = modes
         .iter()
         .map(|mode| {
-            let shape = names.iter().zip(&mode.shape);
+            let shape = names.iter().zip(&mode.shape).zip(&motion.records);
             let shape: Map<String, Value> = shape
-                .map(|(name, x)| ((*name).to_owned(), json!([x.re, x.im])))
+                .filter(|(_, is_record)| !**is_record)
+                .map(|((name, x), _)| ((*name).to_owned(), json!([x.re, x.im])))
                 .collect();
             json!({
                 "kind": kind(mode),
@@ -291,38 +349,33 @@ fn as_json(names: &[&str], found: &Equilibrium, v: &[f64], modes: &Modes) -> Val
         .collect();
     json!({
         "equilibrium": {
-            "q": by_name(&found.q),
-            "v": by_name(v),
-            "steps": found.steps,
-            "free": found.free,
+            "q": by_name(&motion.found.place.q()),
+            "v": by_name(&motion.v),
+            "steps": motion.found.steps,
+            "free": free,
+            "drifts": drifts,
         },
         "modes": modes,
         "lost": {"modes": lost, "below": lost_below},
     })
 }
 
-fn text(
-    names: &[&str],
-    units: &[&str],
-    start: &[f64],
-    v: &[f64],
-    found: &Equilibrium,
-    modes: &Modes,
-) -> String {
+fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
     let mut text = String::new();
     let width = names.iter().map(|name| name.chars().count()).max();
     let width = width.unwrap_or(0);
+    let (found, modes) = (&motion.found, &motion.modes);
     let times = if found.steps == 1 { "step" } else { "steps" };
+    let what = match wanted.steady.contains(&true) {
+        true => "steady motion",
+        false => "equilibrium",
+    };
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "equilibrium, {} {times} from the start:", found.steps);
-    for (k, name) in names.iter().enumerate() {
+    let _ = writeln!(text, "{what}, {} {times} from the start:", found.steps);
+    for (k, (name, q)) in names.iter().zip(found.place.q()).enumerate() {
+        let (moved, unit) = (q - start[k], units[k]);
         // What is nothing but rounding, in rad or m, is not shown.
-        let q = if found.q[k].abs() <= 1e-12 {
-            0.0
-        } else {
-            found.q[k]
-        };
-        let (moved, unit) = (found.q[k] - start[k], units[k]);
+        let q = if q.abs() <= 1e-12 { 0.0 } else { q };
         let moved = if moved.abs() <= 1e-12 { 0.0 } else { moved };
         let unit = if unit == "1" {
             String::new()
@@ -330,20 +383,32 @@ fn text(
             format!(" {unit}")
         };
         let _ = write!(text, "  {name:width$}  {}{unit}", number(q));
-        if v[k] != 0.0 {
-            let _ = write!(text, ", turning at {}{unit}/s", number(v[k]));
+        if motion.v[k] != 0.0 || wanted.solved[k] {
+            let verb = if unit == " rad" { "turning" } else { "moving" };
+            let _ = write!(text, ", {verb} at {}{unit}/s", number(motion.v[k]));
+            if wanted.solved[k] {
+                text.push_str(" as found");
+            }
         }
         if moved != 0.0 {
             let _ = write!(text, ", moved by {}", number(moved));
         }
         text.push('\n');
     }
-    if found.free > 0 {
-        let ways = if found.free == 1 { "way" } else { "ways" };
+    if modes.free > 0 {
+        let ways = if modes.free == 1 { "way" } else { "ways" };
         let _ = writeln!(
             text,
             "it may stand elsewhere as well, in {} {ways}",
-            found.free
+            modes.free
+        );
+    }
+    if motion.v.iter().any(|v| *v != 0.0) && modes.drifts > 0 {
+        let ways = if modes.drifts == 1 { "way" } else { "ways" };
+        let _ = writeln!(
+            text,
+            "it may move steadily at other rates, in {} {ways}",
+            modes.drifts
         );
     }
     for (index, mode) in modes.modes.iter().enumerate() {

@@ -691,12 +691,459 @@ fn a_wheel_on_a_spring_has_the_inertia_of_its_turning_too() {
     close(number(&result["modes"][0]["shape"]["x"][0]), -0.25);
 }
 
+// Steady motions of machines with constraints.
+
+fn mode_number(result: &Value, mode: usize, key: &str) -> f64 {
+    number(&result["modes"][mode][key])
+}
+
+/// `cos α = g (m + M)/(m l Ω²)`, and about it, by the second derivative of the effective potential `p²/(2 I(α)) + V(α)`, where
+/// `I = J + 2 m l² sin² α` and `μ = 2 m l² + 4 M l² sin² α` goes with α̇:
+/// `μ ω² = Ω² (I'²/I − I''/2) + 2 (m + M) g l cos α`.
 #[test]
-fn steady_rotation_with_constraints_is_refused() {
-    let (good, _, error) = said(&["machines/flyball_governor.machine", "--steady", "phi=10"]);
-    assert!(!good);
-    assert!(
-        error.contains("constraints") || error.contains("psi"),
-        "{error}"
+fn a_governor_stands_and_nods_as_its_effective_potential_says() {
+    let spec = "machines/flyball_governor.machine";
+    let (l, ball, sleeve, shaft, g) = (0.2_f64, 0.5, 2.0, 0.02, 9.81);
+    let check = |result: &Value| {
+        let (alpha, speed) = (
+            number(&result["equilibrium"]["q"]["alpha"]),
+            number(&result["equilibrium"]["v"]["phi"]),
+        );
+        close(
+            alpha.cos(),
+            g * (ball + sleeve) / (ball * l * speed * speed),
+        );
+        close(
+            number(&result["equilibrium"]["q"]["s"]),
+            2.0 * l * alpha.cos(),
+        );
+        let (sin, cos) = alpha.sin_cos();
+        let inertia = shaft + 2.0 * ball * l * l * sin * sin;
+        let (slope, bend) = (
+            4.0 * ball * l * l * sin * cos,
+            4.0 * ball * l * l * (2.0 * alpha).cos(),
+        );
+        let pull = speed * speed * (slope * slope / inertia - bend / 2.0);
+        let weight = 2.0 * (ball + sleeve) * g * l * cos;
+        let mass = 2.0 * ball * l * l + 4.0 * sleeve * l * l * sin * sin;
+        assert_eigenvalues(
+            result,
+            &[(0.0, 0.0), (0.0, ((pull + weight) / mass).sqrt())],
+        );
+        assert_eq!(result["equilibrium"]["free"], 1);
+        assert_eq!(result["equilibrium"]["drifts"], 1);
+    };
+    for speed in ["--steady", "phi=18", "--steady", "phi=25"].chunks(2) {
+        check(&modes(&[spec, speed[0], speed[1]]));
+    }
+    // The speed at which the arms stand where they are said to.
+    let sleeve_at = format!("s={:?}", 0.4 * 0.9_f64.cos());
+    let found = modes(&[
+        spec,
+        "--steady",
+        "phi=solve",
+        "--start",
+        "alpha=0.9",
+        "--start",
+        &sleeve_at,
+    ]);
+    close(number(&found["equilibrium"]["q"]["alpha"]), 0.9);
+    check(&found);
+}
+
+/// Inertia about the axis and across it over m r²: a uniform disc, and a hoop.
+const WHEELS: [(f64, f64); 2] = [(0.5, 0.25), (1.0, 0.5)];
+
+/// Upright: `(A + m r²) λ² = m g r − C (C + m r²) Ω²/A`, so that a disc stands above `Ω² = g/(3 r)`, and a hoop above `g/(4 r)`.
+#[test]
+fn a_wheel_stays_upright_above_its_critical_speed() {
+    let (m, r, g) = (1.0_f64, 0.1, 9.81);
+    for (about, across) in WHEELS {
+        let unit = m * r * r;
+        let critical = (g / r * across / (about * (about + 1.0))).sqrt();
+        close(
+            critical * critical * r / g,
+            if about < 0.75 { 1.0 / 3.0 } else { 0.25 },
+        );
+        let [about_is, across_is] = [
+            format!("C={:?}", about * unit),
+            format!("A={:?}", across * unit),
+        ];
+        for share in [0.0, 0.5, 0.9, 1.1, 3.0] {
+            let speed = share * critical;
+            let roll = format!("roll={speed:?}");
+            let found = modes(&[
+                "machines/rolling_coin.machine",
+                "--set",
+                &about_is,
+                "--set",
+                &across_is,
+                "--start",
+                "lean=0",
+                "--steady",
+                &roll,
+            ]);
+            assert_eq!(number(&found["equilibrium"]["steps"]), 0.0);
+            assert_eq!(number(&found["equilibrium"]["q"]["lean"]), 0.0);
+            // It rolls along.
+            close(number(&found["equilibrium"]["v"]["x"]), r * speed);
+            let square = (m * g * r - unit * about * (about + 1.0) * speed * speed / across)
+                / (unit * (across + 1.0));
+            let (free, rate) = ((0.0, 0.0), square.abs().sqrt());
+            match square > 0.0 {
+                true => assert_eigenvalues(&found, &[free, free, (-rate, 0.0), (rate, 0.0)]),
+                false => assert_eigenvalues(&found, &[free, free, (0.0, rate)]),
+            }
+            // On any place of the table, in any direction, on any side.
+            assert_eq!(found["equilibrium"]["free"], 4);
+        }
+    }
+}
+
+/// Balance of a coin on its circle, at the angle θ of its axis from the vertical, with ψ̇ about that and n about its axis:
+/// `A ψ̇² sin θ cos θ − (C + m r²) n ψ̇ sin θ − m g r cos θ = 0` (J. I. Neimark and N. A. Fufaev, *Dynamics of Nonholonomic
+/// Systems*, 1972, chapter 2, section 5).
+fn off_balance([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f64 {
+    let (m, r, g) = (1.0, 0.1, 9.81);
+    let (sin, cos) = theta.sin_cos();
+    across * turn * turn * sin * cos - (about + m * r * r) * spin * turn * sin - m * g * r * cos
+}
+
+/// The frequency at which such a coin wobbles. With `A sin θ δψ̇ = (C n − 2 A ψ̇ cos θ) δθ` and
+/// `(C + m r²) δn = m r² ψ̇ sin θ δθ`, the integrals of the other two equations, `(A + m r²) δθ̈` is the change of the balance.
+fn wobble([about, across]: [f64; 2], theta: f64, turn: f64, spin: f64) -> f64 {
+    let (m, r, g) = (1.0, 0.1, 9.81);
+    let (sin, cos) = theta.sin_cos();
+    let rolling = about + m * r * r;
+    let by_turn = (about * spin - 2.0 * across * turn * cos) / (across * sin);
+    let by_spin = m * r * r * turn * sin / rolling;
+    let change = across * turn * turn * (2.0 * theta).cos() + m * g * r * sin
+        - rolling * spin * turn * cos
+        + (2.0 * across * turn * sin * cos - rolling * spin * sin) * by_turn
+        - rolling * turn * sin * by_spin;
+    (-change / (across + m * r * r)).sqrt()
+}
+
+#[test]
+fn a_coin_goes_round_and_wobbles_as_its_equations_say() {
+    let spec = "machines/rolling_coin.machine";
+    let inertia = [0.005, 0.0025];
+    // Given: lean and roll, and so the turn; then turn and roll, and so the lean.
+    for (lean, roll) in [(-0.2, "8.437"), (-0.7, "13"), (0.4, "7"), (-1.2, "26")] {
+        let lean_is = format!("lean={lean}");
+        let start = if lean > 0.0 {
+            "heading=-1.5"
+        } else {
+            "heading=1.5"
+        };
+        let roll_is = format!("roll={roll}");
+        let found = modes(&[
+            spec,
+            "--start",
+            &lean_is,
+            "--rate",
+            start,
+            "--steady",
+            "heading=solve",
+            "--steady",
+            &roll_is,
+        ]);
+        let at = &found["equilibrium"];
+        assert_eq!(number(&at["q"]["lean"]), lean);
+        let turn = number(&at["v"]["heading"]);
+        let theta = PI / 2.0 - lean;
+        let spin = number(&at["v"]["roll"]) + turn * theta.cos();
+        assert!(
+            off_balance(inertia, theta, turn, spin).abs() <= 1e-14,
+            "{at}"
+        );
+        let exact = wobble(inertia, theta, turn, spin);
+        assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (0.0, exact)]);
+        assert_eq!(at["free"], 4);
+        assert_eq!(at["drifts"], 2);
+        // Where it is on the table is no part of a shape: that direction turns.
+        assert!(found["modes"][2]["shape"].get("x").is_none());
+
+        let [turn_is, roll_is] = [format!("heading={turn:?}"), format!("roll={roll}")];
+        let nearby = format!("lean={:?}", lean * 0.9);
+        let found = modes(&[
+            spec, "--start", &nearby, "--steady", &turn_is, "--steady", &roll_is,
+        ]);
+        close(number(&found["equilibrium"]["q"]["lean"]), lean);
+        close(mode_number(&found, 2, "im"), exact);
+    }
+}
+
+/// A second algorithm: the run of the machine itself. From ε times a mode beside the steady motion, one period later what is off
+/// has grown by e^{λT}, up to ε².
+#[test]
+fn a_run_beside_a_steady_motion_grows_as_its_mode() {
+    const OFF: f64 = 1e-5;
+    let spec = "machines/rolling_coin.machine";
+    let (r, roll) = (0.1, 9.0);
+    let found = modes(&[
+        spec,
+        "--start",
+        "lean=-0.5",
+        "--rate",
+        "heading=2",
+        "--steady",
+        "heading=solve",
+        "--steady",
+        "roll=9",
+    ]);
+    let turn = number(&found["equilibrium"]["v"]["heading"]);
+    let omega = mode_number(&found, 2, "im");
+    let part = |name: &str| {
+        let entry = &found["modes"][2]["shape"][name];
+        (OFF * number(&entry[0]), OFF * number(&entry[1]))
+    };
+    // Re and Re of iω times it.
+    let [heading, lean, turning] = ["heading", "lean", "roll"].map(part);
+    let rate = |(_, im): (f64, f64)| -omega * im;
+    let q = [heading.0, -0.5 + lean.0, turning.0];
+    let v = [turn + rate(heading), rate(lean), roll + rate(turning)];
+    let along = [q[0].cos(), q[0].sin()].map(|share| r * v[2] * share);
+    let period = TAU / omega;
+    let sets = [
+        ("--start", "heading", q[0]),
+        ("--start", "lean", q[1]),
+        ("--start", "roll", q[2]),
+        ("--rate", "heading", v[0]),
+        ("--rate", "lean", v[1]),
+        ("--rate", "roll", v[2]),
+        ("--rate", "x", along[0]),
+        ("--rate", "y", along[1]),
+        ("--until", "", period),
+    ];
+    let mut call = vec![
+        "simulate".to_owned(),
+        spec.to_owned(),
+        "--json".to_owned(),
+        "--tolerance=1e-13".to_owned(),
+    ];
+    for (option, name, value) in sets {
+        call.push(option.to_owned());
+        call.push(if name.is_empty() {
+            format!("{value:?}")
+        } else {
+            format!("{name}={value:?}")
+        });
+    }
+    let call: Vec<&str> = call.iter().map(String::as_str).collect();
+    let output = lagrangian(&call);
+    let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let off = |found: f64, exact: f64| {
+        // A few terms of second order, and the tolerance of some steps.
+        assert!(
+            (found - exact).abs() <= 200.0 * OFF * OFF,
+            "{found}, not {exact}"
+        );
+    };
+    off(number(&run["q"]["lean"]), q[1]);
+    off(number(&run["q"]["heading"]), q[0] + turn * period);
+    off(number(&run["v"]["heading"]), v[0]);
+    off(number(&run["v"]["roll"]), v[2]);
+    assert!(lean.0.hypot(lean.1) > 0.1 * OFF);
+}
+
+/// A ball at the bottom of a bowl that turns: `z = x + i y` obeys `z̈ − i k Ω R/(R − r) ż + g (1 − k)/(R − r) z = 0` with
+/// `k = J/(J + m r²)`: on a turning table a ball goes round with kΩ (S. Earnshaw, *Dynamics*, 1844).
+#[test]
+fn a_ball_in_a_turning_bowl_has_two_frequencies() {
+    let found = modes(&["machines/ball_in_bowl.machine"]);
+    let (m, r, inertia, bowl, turn, g) = (0.3_f64, 0.05, 3e-4, 0.55, 2.0, 9.81);
+    let k = inertia / (inertia + m * r * r);
+    let half = 0.5 * k * turn * bowl / (bowl - r);
+    let root = (half * half + g * (1.0 - k) / (bowl - r)).sqrt();
+    let listed: Vec<f64> = eigenvalues(&found)
+        .iter()
+        .map(|(_, im)| *im)
+        .filter(|im| *im > 0.0)
+        .collect();
+    assert_eq!(listed.len(), 2);
+    // Near the bottom the two constraints are along and across a meridian of no length: digits go with its share.
+    for (found, exact) in listed.iter().zip([root - half, root + half]) {
+        assert!(
+            (found - exact).abs() <= 1e-6 * exact,
+            "{found}, not {exact}"
+        );
+    }
+}
+
+/// It goes straight on with its mass centre in front: `φ̈ = −m a u/(J + m a²) φ̇`; backward it turns round.
+#[test]
+fn a_sleigh_goes_straight_with_its_mass_centre_in_front() {
+    let spec = "machines/chaplygin_sleigh.machine";
+    let rate = 0.3 / (0.05 + 0.09);
+    for (speed, exact) in [("x=2", -2.0 * rate), ("x=-2", 2.0 * rate)] {
+        let found = modes(&[spec, "--steady", speed]);
+        assert_eigenvalues(&found, &[(0.0, 0.0), (0.0, 0.0), (exact, 0.0)]);
+        // Each heading is as good as the other, and so is each speed.
+        assert_eq!(found["equilibrium"]["free"], 3);
+        assert_eq!(found["equilibrium"]["drifts"], 1);
+    }
+}
+
+#[test]
+fn what_cannot_be_steady_is_told_at_the_word() {
+    let coin = "machines/rolling_coin.machine";
+    let governor = "machines/flyball_governor.machine";
+    let refused = |call: &[&str], part: &str| {
+        let (good, _, error) = said(call);
+        assert!(!good && error.contains(part), "{call:?}: {error}");
+    };
+    refused(&[governor, "--steady", "s=1"], "`s` cannot turn steadily");
+    refused(
+        &[
+            coin, "--steady", "heading", "--steady", "roll", "--steady", "x",
+        ],
+        "the rate of `roll` follows from the others",
     );
+    refused(&[coin, "--steady", "lean=1"], "`lean` cannot turn steadily");
+    refused(
+        &[governor, "--steady", "psi=1"],
+        "no coordinate named `psi`",
+    );
+    refused(
+        &[governor, "--steady", "phi=fast"],
+        "neither a number nor `solve`",
+    );
+    refused(&[governor, "--steady", "=3"], "expected a name before `=`");
+    // Slower than the balls need to rise at all they hang: there is a steady motion, at alpha = 0.
+    let found = modes(&[governor, "--steady", "phi=5"]);
+    assert!(number(&found["equilibrium"]["q"]["alpha"]).abs() < 1e-12);
+}
+
+// Machines that may stand anywhere.
+
+/// Weights that balance each other at every angle, but for the rounding of their moments.
+#[test]
+fn a_balanced_beam_stays_at_the_angle_at_which_it_is_left() {
+    for (m, l, long) in [
+        (0.7, 0.1, 1.0),
+        (0.3, 0.1, 0.3),
+        (1.1, 0.3, 3.3),
+        (0.7, 0.3, 2.1),
+    ] {
+        let other = m * l / long;
+        // Written in decimals, the two moments are equal but for rounding.
+        let spec = Scratch::new(
+            "beam.machine",
+            &format!(
+                "machine Beam in plane {{
+                    parameters {{ m: kg = {m}, M: kg = {other:.3}, l: m = {l}, L: m = {long}, g: m/s^2 = 9.81 }}
+                    coordinates {{ x: m = 0.3, th: rad = 0.37 }}
+                    bodies {{
+                        a {{ mass: m, at: (x + l*cos(th), l*sin(th)) }},
+                        b {{ mass: M, at: (x - L*cos(th), -L*sin(th)) }},
+                    }}
+                    gravity (0, -g);
+                }}"
+            ),
+        );
+        let found = modes(&[spec.path()]);
+        let at = &found["equilibrium"];
+        assert_eq!([number(&at["q"]["x"]), number(&at["q"]["th"])], [0.3, 0.37]);
+        assert_eq!((number(&at["steps"]), number(&at["free"])), (0.0, 2.0));
+        assert_eigenvalues(&found, &[(0.0, 0.0); 2]);
+        assert!(
+            found["modes"]
+                .as_array()
+                .expect("a list")
+                .iter()
+                .all(|mode| mode["kind"] == "free")
+        );
+    }
+}
+
+/// Points anywhere in the plane, joined by springs at their natural lengths or by rods, and nothing that holds them: an exact
+/// equilibrium, which stays where it is, with the three motions of a rigid body.
+#[test]
+fn what_floats_stays_where_it_is_and_is_told_as_free() {
+    let seed = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(1, |time| time.as_nanos() as u64);
+    println!("seed {seed}");
+    let mut state = seed | 1;
+    let mut next = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for case in 0..12 {
+        let count = 3 + (next() * 3.0) as usize;
+        let size = 10.0_f64.powf(4.0 * next() - 2.0);
+        // Far from the origin too, but not so near each other that nothing keeps its shape.
+        let points: Vec<[f64; 2]> = (0..count)
+            .map(|i| {
+                let angle = (i as f64 + 0.6 * next()) * TAU / count as f64;
+                let radius = size * (0.7 + 0.6 * next());
+                [
+                    radius * angle.cos() + 8.0 * size,
+                    radius * angle.sin() - 3.0 * size,
+                ]
+            })
+            .collect();
+        let (mut coordinates, mut bodies) = (String::new(), String::new());
+        let (mut springs, mut rods) = (String::new(), String::new());
+        for (i, [x, y]) in points.iter().enumerate() {
+            let mass = 0.5 + 4.0 * next();
+            coordinates += &format!("x{i}: m = {x:?}, y{i}: m = {y:?}, ");
+            bodies += &format!("p{i} {{ mass: {mass:?}, at: (x{i}, y{i}) }}, ");
+            for (j, [u, v]) in points.iter().enumerate().take(i) {
+                let length = (x - u).hypot(y - v);
+                let stiffness = 10.0_f64.powf(4.0 * next());
+                // A rod or two; more would leave none to swing.
+                if case % 2 == 1 && j + 1 == i && i < 3 {
+                    rods += &format!("r{i}: norm(p{i}.at - p{j}.at) = {length:?}, ");
+                } else {
+                    springs += &format!(
+                        "s{i}_{j} {{ stiffness: {stiffness:?}, from: p{i}.at, to: p{j}.at, length: {length:?} }}, "
+                    );
+                }
+            }
+        }
+        let rods = if rods.is_empty() {
+            rods
+        } else {
+            format!("constraints {{ {rods} }}")
+        };
+        let spec = Scratch::new(
+            "floating.machine",
+            &format!(
+                "machine Floating in plane {{ coordinates {{ {coordinates} }} bodies {{ {bodies} }}
+                 springs {{ {springs} }} {rods} }}"
+            ),
+        );
+        let found = modes(&[spec.path()]);
+        let at = &found["equilibrium"];
+        let context = format!("seed {seed}, case {case}: {found:#}");
+        // What is read of a decimal number is what was written; rods are met by the least that rounding needs.
+        for (i, point) in points.iter().enumerate() {
+            for (name, x) in ["x", "y"].into_iter().zip(point) {
+                let off = number(&at["q"][&format!("{name}{i}")]) - x;
+                assert!(
+                    off.abs() <= 64.0 * f64::EPSILON * 10.0 * size.max(1.0),
+                    "{context}"
+                );
+            }
+        }
+        assert_eq!(number(&at["steps"]), 0.0, "{context}");
+        assert_eq!(number(&at["free"]), 3.0, "{context}");
+        let kinds = found["modes"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|mode| mode["kind"].as_str());
+        let kinds: Vec<_> = kinds.flatten().collect();
+        assert!(kinds[..3] == ["free"; 3], "{context}");
+        assert!(
+            kinds[3..].iter().all(|kind| *kind == "oscillation"),
+            "{context}"
+        );
+        let held = if case % 2 == 1 { 2 } else { 0 };
+        assert_eq!(kinds.len(), 2 * count - held, "{context}");
+    }
 }

@@ -359,13 +359,14 @@ pub struct Pair {
     pub lambda: Complex<f64>,
     /// `A right = λ right`, the largest entry 1.
     pub right: DVector<Complex<f64>>,
-    /// How far λ moves if each entry of A is off by one unit of its own last place; more where it has been found less exactly.
+    /// How far λ moves if each entry of A is off by one unit of its own last place, or by what is known of it; more where it has
+    /// been found less exactly.
     pub error: f64,
 }
 
-/// All eigenvalues but the conjugate ones, those that are there several times as often. `None` where the iterations do not
-/// end.
-pub fn pairs(a: &DMatrix<f64>) -> Option<Vec<Pair>> {
+/// All eigenvalues but the conjugate ones, those that are there several times as often, of a matrix whose entries are known up
+/// to `bounds`. `None` where the iterations do not end.
+pub fn pairs(a: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Pair>> {
     let n = a.nrows();
     let matrix = Matrix::of(a);
     // A change that the iterations may have made.
@@ -404,11 +405,14 @@ pub fn pairs(a: &DMatrix<f64>) -> Option<Vec<Pair>> {
         let product = y.dotc(&x).norm();
         let moved: f64 = (0..n)
             .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| y[i].norm() * a[(i, j)].abs() * x[j].norm())
+            .map(|(i, j)| {
+                let off = (f64::EPSILON * a[(i, j)].abs()).max(bounds[(i, j)]);
+                y[i].norm() * off * x[j].norm()
+            })
             .sum();
         // A defective eigenvalue moves with the root of what the matrix does.
         let condition = lengths / product.max(f64::EPSILON.sqrt() * lengths);
-        let mut error = f64::EPSILON * moved / lengths * condition;
+        let mut error = moved / lengths * condition;
         // Of the vectors' own errors the quotient sees the product.
         error = error.max((64.0 * n as f64 * NOTHING).powi(2) * norm * condition);
         // Rayleigh's quotient finds what is far below the largest eigenvalue, unless several are.

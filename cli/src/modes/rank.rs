@@ -32,10 +32,14 @@ pub fn tolerance(n: usize) -> f64 {
     64.0 * n as f64 * f64::EPSILON
 }
 
-/// The singular values of a square matrix, those of each of its independent parts by themselves.
+/// The singular values of a square matrix whose numbers are known up to `bounds`, those of each of its independent parts by
+/// themselves.
 ///
 /// A spring is not soft because another one, to which it has no connection, is stiff. `None` where the iterations do not end.
-pub fn directions(matrix: &DMatrix<f64>) -> Option<Vec<Direction>> {
+///
+/// Of a singular value σ = uᵀ K v it is |u|ᵀ B |v| that they may make (G. W. Stewart and J. Sun, *Matrix Perturbation Theory*,
+/// 1990, section V.4).
+pub fn directions_beyond(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Option<Vec<Direction>> {
     let n = matrix.nrows();
     let mut directions = Vec::new();
     for part in parts(matrix) {
@@ -55,13 +59,16 @@ pub fn directions(matrix: &DMatrix<f64>) -> Option<Vec<Direction>> {
         };
         let largest = svd.singular_values.max();
         for (i, value) in svd.singular_values.iter().enumerate() {
+            let left = embed(&mut u.column(i).iter().copied());
+            let right = embed(&mut v_t.row(i).iter().copied());
+            let known = left.abs().dot(&(bounds * right.abs()));
             directions.push(Direction {
                 value: value * scale,
-                rounding: tolerance(size) * largest * scale,
+                rounding: known.max(tolerance(size) * largest * scale),
                 largest: largest * scale,
                 part: part.clone(),
-                left: embed(&mut u.column(i).iter().copied()),
-                right: embed(&mut v_t.row(i).iter().copied()),
+                left,
+                right,
             });
         }
     }

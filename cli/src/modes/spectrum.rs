@@ -1,4 +1,4 @@
-//! The eigenvalues and shapes of `ẍ = K x + C ẋ`.
+//! The eigenvalues and shapes of `ẍ = K x + C ẋ`, and of what follows such motions by constraints of rates.
 //!
 //! What costs digits is taken out first: coordinates that have nothing to do with one another go separate ways; time and
 //! coordinates are scaled; directions in which nothing pulls back, `K z = 0`, are eigenvectors of 0 and leave the matrix, in
@@ -29,27 +29,140 @@ pub struct Mode {
 pub struct Modes {
     /// Slow ones first.
     pub modes: Vec<Mode>,
+    /// Along how many directions the machine may stand elsewhere as well.
+    pub free: usize,
+    /// In how many ways it may move at other constant rates.
+    pub drifts: usize,
     /// How many more there are whose λ is 0 but for rounding, in ways that are not free.
     pub lost: usize,
     /// They are slower than this, in 1/s.
     pub lost_below: f64,
 }
 
+/// `ẍ = K x + C ẋ` of coordinates x₁ … that may move, and `ẏ = P x + B ẋ₁` of those that only follow, with x = (x₁, y) on
+/// the right.
+pub struct Linear {
+    /// K, with a column for each coordinate.
+    pub k: DMatrix<f64>,
+    /// C.
+    pub c: DMatrix<f64>,
+    /// P, with a column for each coordinate.
+    pub p: DMatrix<f64>,
+    /// B.
+    pub b: DMatrix<f64>,
+    /// What rounding may have made of each number in K over P.
+    pub k_bounds: DMatrix<f64>,
+    /// The same in C.
+    pub c_bounds: DMatrix<f64>,
+}
+
+impl Linear {
+    /// Of coordinates none of which only follows, with matrices that are exact.
+    #[cfg(test)]
+    fn of(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Linear {
+        let n = k.nrows();
+        Linear {
+            k: k.clone(),
+            c: c.clone(),
+            p: DMatrix::zeros(0, n),
+            b: DMatrix::zeros(0, n),
+            k_bounds: DMatrix::zeros(n, n),
+            c_bounds: DMatrix::zeros(n, n),
+        }
+    }
+
+    /// How many coordinates there are, and how many of them may move.
+    fn len(&self) -> (usize, usize) {
+        (self.k.ncols(), self.c.ncols())
+    }
+
+    /// Sizes of all numbers, each row over the number that is given for K, C, and P.
+    fn sizes(&self, [from_k, from_c, from_p]: [f64; 3]) -> DMatrix<f64> {
+        let (n, moving) = self.len();
+        DMatrix::from_fn(n, n, |i, j| {
+            if i < moving {
+                let rates = if j < moving {
+                    self.c[(i, j)].abs() / from_c
+                } else {
+                    0.0
+                };
+                self.k[(i, j)].abs() / from_k + rates
+            } else {
+                let i = i - moving;
+                let rates = if j < moving {
+                    self.b[(i, j)].abs()
+                } else {
+                    0.0
+                };
+                self.p[(i, j)].abs() / from_p + rates
+            }
+        })
+    }
+
+    /// K over P.
+    fn by_places(&self) -> DMatrix<f64> {
+        let (n, moving) = self.len();
+        DMatrix::from_fn(n, n, |i, j| {
+            if i < moving {
+                self.k[(i, j)]
+            } else {
+                self.p[(i - moving, j)]
+            }
+        })
+    }
+
+    /// 1 over B: how all coordinates move with those that may.
+    fn along(&self) -> DMatrix<f64> {
+        let (n, moving) = self.len();
+        DMatrix::from_fn(n, moving, |i, j| match i < moving {
+            true => f64::from(u8::from(i == j)),
+            false => self.b[(i - moving, j)],
+        })
+    }
+
+    /// 0 over P: how coordinates drive those that follow.
+    fn driven(&self) -> DMatrix<f64> {
+        let (n, moving) = self.len();
+        DMatrix::from_fn(n, n, |i, j| {
+            if i < moving {
+                0.0
+            } else {
+                self.p[(i - moving, j)]
+            }
+        })
+    }
+
+    /// Some of the coordinates, in ascending order.
+    fn part(&self, part: &[usize]) -> Linear {
+        let (_, moving) = self.len();
+        let split = part.partition_point(|i| *i < moving);
+        let (first, rest) = part.split_at(split);
+        let rest: Vec<usize> = rest.iter().map(|i| i - moving).collect();
+        let pick = |m: &DMatrix<f64>, rows: &[usize], columns: &[usize]| {
+            DMatrix::from_fn(rows.len(), columns.len(), |i, j| m[(rows[i], columns[j])])
+        };
+        Linear {
+            k: pick(&self.k, first, part),
+            c: pick(&self.c, first, first),
+            p: pick(&self.p, &rest, part),
+            b: pick(&self.b, &rest, first),
+            k_bounds: pick(&self.k_bounds, part, part),
+            c_bounds: pick(&self.c_bounds, first, first),
+        }
+    }
+}
+
 /// The modes; `None` where the iterations do not end.
-pub fn modes(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
-    let n = k.nrows();
+pub fn modes(linear: &Linear) -> Option<Modes> {
+    let (n, _) = linear.len();
     let mut all = Modes::default();
-    for part in rank::parts(&(k.abs() + c.abs())) {
-        let size = part.len();
-        let own = |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(part[i], part[j])]);
-        let Modes {
-            modes,
-            lost,
-            lost_below,
-        } = connected(&own(k), &own(c))?;
-        all.lost += lost;
-        all.lost_below = all.lost_below.max(lost_below);
-        all.modes.extend(modes.into_iter().map(|mode| {
+    for part in rank::parts(&linear.sizes([1.0; 3])) {
+        let found = connected(linear.part(&part))?;
+        all.free += found.free;
+        all.drifts += found.drifts;
+        all.lost += found.lost;
+        all.lost_below = all.lost_below.max(found.lost_below);
+        all.modes.extend(found.modes.into_iter().map(|mode| {
             let mut shape = vec![Complex::new(0.0, 0.0); n];
             for (place, x) in part.iter().zip(&mode.shape) {
                 shape[*place] = *x;
@@ -68,22 +181,47 @@ pub fn modes(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
 }
 
 /// The modes of coordinates that are all connected, in any order.
-fn connected(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
-    let n = k.nrows();
-    let Scaled { k, c, scales, rate } = Scaled::of(k, c);
+fn connected(linear: Linear) -> Option<Modes> {
+    let (_, n) = linear.len();
+    let Scaled {
+        linear,
+        scales,
+        rate,
+    } = Scaled::of(linear);
+    let along = linear.along();
     let Split {
         free,
+        count,
         bound,
         drifts,
-    } = Split::of(&k, &c)?;
-    // y = (b, v) with x = Σ z a + W b, v = ẋ: b' = Wᵀ v, v' = K W b + C v.
+    } = Split::of(&linear)?;
+    // With x = Σ z a + W w, v = ẋ₁: w' = Wᵀ P W w + Wᵀ B v, v' = K W w + C v.
     let m = bound.ncols();
-    let mut a = DMatrix::zeros(m + n, m + n);
-    a.view_mut((0, m), (m, n)).copy_from(&bound.transpose());
-    a.view_mut((m, 0), (n, m)).copy_from(&(&k * &bound));
-    a.view_mut((m, m), (n, n)).copy_from(&c);
+    let assembled = |p: &DMatrix<f64>,
+                     b: &DMatrix<f64>,
+                     k: &DMatrix<f64>,
+                     c: &DMatrix<f64>,
+                     w: &DMatrix<f64>| {
+        let mut a = DMatrix::zeros(m + n, m + n);
+        a.view_mut((0, 0), (m, m))
+            .copy_from(&(w.transpose() * p * w));
+        a.view_mut((0, m), (m, n)).copy_from(&(w.transpose() * b));
+        a.view_mut((m, 0), (n, m)).copy_from(&(k * w));
+        a.view_mut((m, m), (n, n)).copy_from(c);
+        a
+    };
+    let a = assembled(&linear.driven(), &along, &linear.k, &linear.c, &bound);
+    let k_bounds = linear.k_bounds.rows(0, n).into_owned();
+    let mut p_bounds = linear.k_bounds.clone();
+    p_bounds.rows_mut(0, n).fill(0.0);
+    let none = DMatrix::zeros(along.nrows(), n);
+    let bounds = assembled(&p_bounds, &none, &k_bounds, &linear.c_bounds, &bound.abs());
 
-    let mut found = Modes::default();
+    let mut found = Modes {
+        free: count,
+        drifts,
+        ..Modes::default()
+    };
     for Free { direction, slowest } in free {
         found.modes.push(Mode {
             lambda: Complex::new(0.0, 0.0),
@@ -92,12 +230,13 @@ fn connected(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
         });
     }
     let mut zeros = 0;
-    for pair in precise::pairs(&a)? {
+    // The entries of K and C are sums of some terms, as many as there are coordinates, as a rule.
+    let roundings = 8.0 * a.nrows() as f64;
+    for pair in precise::pairs(&a, &(bounds / roundings))? {
         let Pair {
             lambda: raw, right, ..
         } = &pair;
-        // The entries of K and C are sums of some terms, as many as there are coordinates, as a rule.
-        let error = 8.0 * a.nrows() as f64 * pair.error;
+        let error = roundings * pair.error;
         let settle = |x: f64| if x.abs() <= error { 0.0 } else { x };
         let lambda = Complex::new(settle(raw.re), settle(raw.im));
         // Two that rounding has made conjugate are one, twice.
@@ -116,20 +255,52 @@ fn connected(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Modes> {
             continue;
         }
         for _ in 0..times {
+            let amplitudes = amplitudes(&linear, *raw, right, &bound);
             found.modes.push(Mode {
                 lambda: lambda * rate,
                 error: error * rate,
-                shape: shape(&right.rows(m, n).into_owned(), &scales),
+                shape: shape(&amplitudes, &scales),
             });
         }
     }
     Some(found)
 }
 
+/// The amplitudes of all coordinates, up to a factor, from an eigenvector `(w, v)`: what may move goes with `v/λ`, and
+/// `(λ − P) y = P x₁ + B v`.
+fn amplitudes(
+    linear: &Linear,
+    lambda: Complex<f64>,
+    right: &Vector,
+    bound: &DMatrix<f64>,
+) -> Vector {
+    let (n, moving) = linear.len();
+    let m = bound.ncols();
+    let rates = right.rows(m, moving).into_owned();
+    if n == moving {
+        return rates;
+    }
+    let complex = |m: DMatrix<f64>| m.map(|x| Complex::new(x, 0.0));
+    let followers = n - moving;
+    let own = complex(linear.p.columns(moving, followers).into_owned());
+    let from_places = complex(linear.p.columns(0, moving).into_owned()) * &rates;
+    // All of it times λ.
+    let pull = from_places + complex(linear.b.clone()) * &rates * lambda;
+    let matrix = DMatrix::from_diagonal_element(followers, followers, lambda) - own;
+    let solved = matrix.lu().solve(&pull);
+    match solved.filter(|y| y.iter().all(|y| y.is_finite()) && rates.norm() > 1e-9 * right.norm()) {
+        Some(y) => DVector::from_fn(n, |i, _| match i < moving {
+            true => rates[i],
+            false => y[i - moving],
+        }),
+        // What follows moves by itself.
+        None => complex(bound.clone()) * right.rows(0, m),
+    }
+}
+
 /// The equations in coordinates and time of such a scale that no entry is large because of its unit.
 struct Scaled {
-    k: DMatrix<f64>,
-    c: DMatrix<f64>,
+    linear: Linear,
     /// x = scales · scaled x, powers of 2.
     scales: DVector<f64>,
     /// About one radian of the fastest oscillation takes one unit of the scaled time, in 1/s.
@@ -137,27 +308,57 @@ struct Scaled {
 }
 
 impl Scaled {
-    fn of(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Scaled {
-        let mut scales = DVector::from_element(k.nrows(), 1.0);
-        let (mut k, mut c) = (k.clone(), c.clone());
+    fn of(mut linear: Linear) -> Scaled {
+        let (n, moving) = linear.len();
+        let mut scales = DVector::from_element(n, 1.0);
         // Before balancing the largest entry says nothing of how fast the machine is: a force on an angle in a large unit of
         // length is as large as one likes. So both are balanced as if they were equally large, then by what they are.
-        let (mut from_k, mut from_c) = (k.amax(), c.amax());
+        let largest = |m: &DMatrix<f64>| if m.is_empty() { 0.0 } else { m.amax() };
+        let (mut from_k, mut from_c) = (largest(&linear.k), largest(&linear.c));
+        let mut from_p = largest(&linear.p);
         for _ in 0..2 {
-            let share = |m: &DMatrix<f64>, size: f64| m.abs() / if size > 0.0 { size } else { 1.0 };
-            let step = balance_parlett_reinsch(&mut (share(&k, from_k) + share(&c, from_c)));
-            let balance = |m: &DMatrix<f64>| m.map_with_location(|i, j, x| x * step[j] / step[i]);
-            (k, c) = (balance(&k), balance(&c));
+            let sizes = [from_k, from_c, from_p].map(|size| if size > 0.0 { size } else { 1.0 });
+            let step = balance_parlett_reinsch(&mut linear.sizes(sizes));
+            let balance = |m: &mut DMatrix<f64>, row: usize| {
+                for ((i, j), x) in indices(m) {
+                    m[(i, j)] = x * step[j] / step[i + row];
+                }
+            };
+            balance(&mut linear.k, 0);
+            balance(&mut linear.c, 0);
+            balance(&mut linear.p, moving);
+            balance(&mut linear.b, moving);
+            balance(&mut linear.k_bounds, 0);
+            balance(&mut linear.c_bounds, 0);
             scales.component_mul_assign(&step);
-            let rate = k.amax().sqrt().max(c.amax());
-            (from_k, from_c) = (rate * rate, rate);
+            let rate = largest(&linear.k).sqrt().max(largest(&linear.c));
+            let rate = rate.max(largest(&linear.p));
+            (from_k, from_c, from_p) = (rate * rate, rate, rate);
         }
         let rate = if from_c > 0.0 { from_c } else { 1.0 };
-        k /= rate;
-        k /= rate;
-        c /= rate;
-        Scaled { k, c, scales, rate }
+        for _ in 0..2 {
+            linear.k /= rate;
+            linear.k_bounds.rows_mut(0, moving).apply(|x| *x /= rate);
+        }
+        linear
+            .k_bounds
+            .rows_mut(moving, n - moving)
+            .apply(|x| *x /= rate);
+        linear.c /= rate;
+        linear.c_bounds /= rate;
+        linear.p /= rate;
+        Scaled {
+            linear,
+            scales,
+            rate,
+        }
     }
+}
+
+/// All numbers with their places.
+fn indices(m: &DMatrix<f64>) -> Vec<((usize, usize), f64)> {
+    let places = (0..m.nrows()).flat_map(|i| (0..m.ncols()).map(move |j| (i, j)));
+    places.map(|place| (place, m[place])).collect()
 }
 
 /// A direction in which nothing pulls back.
@@ -167,22 +368,30 @@ struct Free {
     slowest: f64,
 }
 
-/// Directions with `K z = 0`, and the others.
+/// Directions along which a displacement stays, and the others.
+///
+/// Those that K and P map to nothing; then, where coordinates follow, those that P maps along the ones that are found
+/// already, a heading for example, that lets a place go on steadily: the staircase of the Jordan blocks of 0.
 struct Split {
-    /// Each with as few coordinates in it as can be.
+    /// Those of them along which it may move, each with as few coordinates in it as can be.
     free: Vec<Free>,
+    /// How many there are altogether.
+    count: usize,
     /// An orthonormal basis of what is across.
     bound: DMatrix<f64>,
-    /// Along how many of them nothing brakes: it may drift there with any speed.
+    /// In how many ways it may go on at other constant rates: there nothing brakes.
     drifts: usize,
 }
 
 impl Split {
-    fn of(k: &DMatrix<f64>, c: &DMatrix<f64>) -> Option<Split> {
-        let n = k.nrows();
-        let (free, bound): (Vec<_>, Vec<_>) = rank::directions(k)?
-            .into_iter()
-            .partition(rank::Direction::is_free);
+    fn of(linear: &Linear) -> Option<Split> {
+        let (n, moving) = linear.len();
+        let (k, c) = (&linear.k, &linear.c);
+        let by_places = linear.by_places();
+        let (free, bound): (Vec<_>, Vec<_>) =
+            rank::directions_beyond(&by_places, &linear.k_bounds)?
+                .into_iter()
+                .partition(rank::Direction::is_free);
         let bound: Vec<DVector<f64>> = match free.is_empty() {
             // Without any rounding.
             true => (0..n)
@@ -190,42 +399,119 @@ impl Split {
                 .collect(),
             false => bound.into_iter().map(|direction| direction.right).collect(),
         };
-        let columns = |vectors: &[DVector<f64>]| match vectors.is_empty() {
-            true => DMatrix::zeros(n, 0),
-            false => DMatrix::from_columns(vectors),
-        };
         let rights: Vec<DVector<f64>> = free.iter().map(|d| d.right.clone()).collect();
         let lefts: Vec<DVector<f64>> = free.iter().map(|d| d.left.clone()).collect();
-        let (z, y) = (columns(&rights), columns(&lefts));
-        // What brakes along free directions, and the size of its terms.
-        let brakes = y.tr_mul(&(c * &z));
-        let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
-        let limit = rank::tolerance(n) * terms.norm();
-        let braked = match free.is_empty() {
-            true => 0,
-            false => brakes
-                .try_svd(false, false, f64::EPSILON, 10_000)?
-                .rank(limit),
+        let along = linear.along();
+        let mut bound = columns(n, &bound);
+        let is_driven = linear.p.iter().any(|x| *x != 0.0);
+        while is_driven && !free.is_empty() && bound.ncols() > 0 {
+            let mut left = DMatrix::zeros(bound.ncols() + moving, bound.ncols());
+            let own = bound.transpose() * linear.driven() * &bound;
+            left.rows_mut(0, bound.ncols()).copy_from(&own);
+            left.rows_mut(bound.ncols(), moving)
+                .copy_from(&(k * &bound));
+            let [nothing, rest] = null_space(&left, rank::tolerance(n) * left.norm())?;
+            if nothing.is_empty() {
+                break;
+            }
+            bound = &bound * columns(bound.ncols(), &rest);
+        }
+        let count = n - bound.ncols();
+        // Along these directions it may move.
+        let may: Vec<DVector<f64>> = match moving == n {
+            true => rights.clone(),
+            false => {
+                let across = bound.transpose() * &along;
+                null_space(&across, rank::tolerance(n) * along.norm())?[0].clone()
+            }
         };
-        let drifts = free.len() - braked;
+        let z = columns(moving, &may);
+        let drifts = match is_driven {
+            false => {
+                // What brakes along free directions, and the size of its terms.
+                let y = columns(n, &lefts).rows(0, moving).into_owned();
+                let brakes = y.tr_mul(&(c * &z));
+                let terms = y.abs().tr_mul(&(c.abs() * z.abs()));
+                let limit = rank::tolerance(n) * terms.norm();
+                let braked = match brakes.is_empty() {
+                    true => 0,
+                    false => brakes
+                        .try_svd(false, false, f64::EPSILON, 10_000)?
+                        .rank(limit),
+                };
+                z.ncols() - braked
+            }
+            true => {
+                // Constant rates s that some place w balances: P w + B s = 0, K w + C s = 0. Nothing may be asked of s but what
+                // is across all that w gives.
+                let m = bound.ncols();
+                let mut by_place = DMatrix::zeros(m + moving, m);
+                by_place
+                    .rows_mut(0, m)
+                    .copy_from(&(bound.transpose() * linear.driven() * &bound));
+                by_place.rows_mut(m, moving).copy_from(&(k * &bound));
+                let mut by_rate = DMatrix::zeros(m + moving, moving);
+                by_rate
+                    .rows_mut(0, m)
+                    .copy_from(&(bound.transpose() * &along));
+                by_rate.rows_mut(m, moving).copy_from(c);
+                let [across, _] =
+                    null_space(&by_place.transpose(), rank::tolerance(n) * by_place.norm())?;
+                let across = columns(m + moving, &across);
+                let asked = across.tr_mul(&by_rate);
+                let terms = across.abs().tr_mul(&by_rate.abs());
+                null_space(&asked, rank::tolerance(n) * terms.norm())?[0].len()
+            }
+        };
         let slowest = |z: &DVector<f64>| {
-            if (k.abs() * z.abs()).amax() == 0.0 {
+            if (k.abs() * z.abs()).iter().all(|x| *x == 0.0) {
                 return 0.0;
             }
             let overlaps = |d: &&rank::Direction| d.part.iter().any(|&i| z[i] != 0.0);
             let hidden = free.iter().filter(overlaps).map(|d| d.rounding);
             hidden.fold(0.0, f64::max).sqrt()
         };
-        let free = sparse(rights).into_iter().map(|direction| Free {
-            slowest: slowest(&direction),
-            direction,
+        let free = sparse(may).into_iter().map(|direction| {
+            let direction = &along * direction;
+            Free {
+                slowest: slowest(&direction),
+                direction,
+            }
         });
         Some(Split {
             free: free.collect(),
-            bound: columns(&bound),
+            count,
+            bound,
             drifts,
         })
     }
+}
+
+fn columns(rows: usize, vectors: &[DVector<f64>]) -> DMatrix<f64> {
+    match vectors.is_empty() {
+        true => DMatrix::zeros(rows, 0),
+        false => DMatrix::from_columns(vectors),
+    }
+}
+
+/// Orthonormal vectors that a matrix maps to no more than `limit`, and the others. `None` where the iterations do not end.
+fn null_space(matrix: &DMatrix<f64>, limit: f64) -> Option<[Vec<DVector<f64>>; 2]> {
+    let (rows, n) = matrix.shape();
+    if n == 0 {
+        return Some([Vec::new(), Vec::new()]);
+    }
+    // With as many rows as columns all right vectors are there.
+    let mut square = DMatrix::zeros(rows.max(n), n);
+    square.rows_mut(0, rows).copy_from(matrix);
+    let svd = square.try_svd(false, true, f64::EPSILON, 10_000)?;
+    let v_t = svd.v_t?;
+    let all = svd.singular_values.iter().enumerate();
+    let (nothing, rest): (Vec<_>, Vec<_>) = all.partition(|(_, value)| **value <= limit);
+    let vectors = |list: Vec<(usize, &f64)>| {
+        let vector = |(i, _): (usize, &f64)| v_t.row(i).transpose();
+        list.into_iter().map(vector).collect()
+    };
+    Some([vectors(nothing), vectors(rest)])
 }
 
 /// A basis of the same space with many zeros: by Gauss and Jordan, each vector alone in one coordinate.
@@ -309,7 +595,7 @@ mod tests {
             let mut matrix =
                 |size: f64| DMatrix::from_fn(n, n, |i, j| size * next() * units[i] / units[j]);
             let (k, c) = (matrix(1e4), matrix(30.0));
-            let modes = modes(&k, &c).expect("an end").modes;
+            let modes = modes(&Linear::of(&k, &c)).expect("an end").modes;
             let mut trace = 0.0;
             for Mode { lambda, shape, .. } in &modes {
                 trace += if lambda.im > 0.0 {
@@ -342,7 +628,9 @@ mod tests {
     fn what_nothing_pulls_back_is_free_exactly() {
         // Two masses and a spring, and a third on its own: 0, 0 and √2.
         let k = DMatrix::from_row_slice(3, 3, &[-1.0, 1.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 0.0]);
-        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end").modes;
+        let modes = modes(&Linear::of(&k, &DMatrix::zeros(3, 3)))
+            .expect("an end")
+            .modes;
         let lambdas: Vec<Complex<f64>> = modes.iter().map(|mode| mode.lambda).collect();
         assert_eq!(lambdas[..2], [Complex::new(0.0, 0.0); 2]);
         assert_eq!(lambdas[2].re, 0.0);
@@ -360,7 +648,9 @@ mod tests {
     #[test]
     fn equal_frequencies_have_shapes_of_their_own() {
         let k = DMatrix::from_diagonal_element(3, 3, -4.0);
-        let modes = modes(&k, &DMatrix::zeros(3, 3)).expect("an end").modes;
+        let modes = modes(&Linear::of(&k, &DMatrix::zeros(3, 3)))
+            .expect("an end")
+            .modes;
         assert_eq!(modes.len(), 3);
         let shapes = DMatrix::from_fn(3, 3, |i, j| modes[j].shape[i]);
         assert!(shapes.determinant().norm() > 0.1, "{shapes}");
@@ -371,7 +661,7 @@ mod tests {
     fn critical_damping_is_no_trouble() {
         let k = DMatrix::from_element(1, 1, -9.0);
         let c = DMatrix::from_element(1, 1, -6.0);
-        let modes = modes(&k, &c).expect("an end").modes;
+        let modes = modes(&Linear::of(&k, &c)).expect("an end").modes;
         for mode in &modes {
             assert!(
                 (mode.lambda - Complex::new(-3.0, 0.0)).norm() <= 1e-6,

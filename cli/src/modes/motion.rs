@@ -1,0 +1,279 @@
+//! A steady motion that was found, and the motions near it.
+//!
+//! A motion is steady if nothing accelerates along it, `ṡ = 0`, and goes on so: where the machine moves, the equations stay as
+//! they are. What is displaced by δz, and by δs in its rates, then moves with constant coefficients,
+//!
+//! ```text
+//! δṡ = (Tᵀ M T)⁻¹ (∂r/∂z δz + ∂r/∂s δs)
+//! δż_F = ∂v_F/∂z δz + T_F δs                                                        (E40)
+//! ```
+//!
+//! But coordinates that only record where the machine has come, the place on a table that a coin goes round, follow with
+//! coefficients that turn along with it. Nothing depends on them, and they are left out.
+
+use nalgebra::{Complex, DMatrix};
+
+use super::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
+use super::search::{Found, settled};
+use super::spectrum::{self, Linear, Mode, Modes};
+
+/// How far what moves is moved, in rad, m or as a share of it, to see whether anything depends on where it is.
+const SHIFTS: [f64; 2] = [0.0625, -0.21875];
+
+/// Numbers in 32 digits that differ by this share of the largest beside them differ by rounding.
+const SAME: f64 = 1e-22;
+
+/// A steady motion, and the motions near it.
+pub struct Motion {
+    /// The state.
+    pub found: Found,
+    /// Rates of all coordinates; 0 where they are but for rounding.
+    pub v: Vec<f64>,
+    /// The motions near it, their shapes with a number for each coordinate.
+    pub modes: Modes,
+    /// Coordinates that only record where the machine has come: they have no part in shapes.
+    pub records: Vec<bool>,
+}
+
+/// Why the motion is not steady.
+pub enum Unsteady {
+    /// The equations depend on where this coordinate is, which moves.
+    Depends(usize),
+    /// They depend on this one, whose rate changes while another one moves.
+    Follows(usize, usize),
+    /// No numbers.
+    Fault(Fault),
+    /// The eigenvalues cannot be found.
+    NoEigenvalues,
+}
+
+/// What of a state is asked whether it goes on steadily.
+pub struct State<'a> {
+    /// Which coordinates follow from which constraints.
+    pub choice: &'a Choice,
+    /// The state.
+    pub place: &'a Place,
+    /// The equations there.
+    pub here: &'a Linearized,
+    /// What rounding may make of them.
+    pub bounds: &'a Linearized,
+}
+
+impl Found {
+    /// The state, to be asked whether it goes on steadily.
+    pub fn state(&self) -> State<'_> {
+        State {
+            choice: &self.choice,
+            place: &self.place,
+            here: &self.here,
+            bounds: &self.bounds,
+        }
+    }
+}
+
+/// Which coordinates only record where the machine has come.
+///
+/// # Errors
+/// If the equations do not stay as they are where the machine moves.
+pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>, Unsteady> {
+    let State {
+        choice,
+        place,
+        here,
+        bounds,
+    } = state;
+    let places = choice.places();
+    let mut records = vec![false; reduced.len()];
+    // Which of them moved when its rate changed.
+    let mut because = vec![0; reduced.len()];
+    let largest = |m: &DMatrix<f64>| m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let fastest = largest(&here.rates);
+    let moves = |j: &usize| here.rates[*j].abs() > bounds.rates[*j];
+    for &j in places.iter().filter(|j| moves(j)) {
+        for shift in SHIFTS {
+            let mut there = (*place).clone();
+            let by = shift * there.q[j].hi().abs().max(1.0);
+            there.q[j] = there.q[j] + by.into();
+            // Where the constraints end, or the equations, nothing can be compared.
+            if reduced
+                .bring(&mut there.q, &|i| choice.tied.contains(&i))
+                .is_err()
+            {
+                continue;
+            }
+            let Ok(there) = reduced.linearized_only(choice, &there) else {
+                continue;
+            };
+            let same = |[a, b, bound]: [&DMatrix<f64>; 3], place: (usize, usize), size: f64| {
+                let limit = bound[place].max(SAME * size);
+                (a[place] - b[place]).abs() <= limit
+            };
+            let all = |matrices: [&DMatrix<f64>; 3], size: f64| {
+                let (rows, columns) = matrices[0].shape();
+                let mut each = (0..rows).flat_map(|i| (0..columns).map(move |k| (i, k)));
+                each.all(|place| same(matrices, place, size))
+            };
+            // What is 0 but for rounding is a difference of such numbers.
+            let sizes = [&here.by_places, &there.by_places].map(largest);
+            let rates = [&here.by_rates, &there.by_rates].map(largest);
+            let (force, rate) = (sizes[0].max(sizes[1]), rates[0].max(rates[1]));
+            if !all(
+                [&here.forces, &there.forces, &bounds.forces],
+                force + rate * fastest,
+            ) || !all(
+                [&here.by_places, &there.by_places, &bounds.by_places],
+                force + rate * fastest,
+            ) || !all([&here.by_rates, &there.by_rates, &bounds.by_rates], rate)
+            {
+                return Err(Unsteady::Depends(j));
+            }
+            let mut change = |i: usize| {
+                if !std::mem::replace(&mut records[i], true) {
+                    because[i] = j;
+                }
+            };
+            for (row, &i) in choice.followers.iter().enumerate() {
+                let (by, along) = (&here.followers_by_places, &here.along);
+                let is_same = (0..by.ncols()).all(|k| {
+                    let matrices = [by, &there.followers_by_places, &bounds.followers_by_places];
+                    same(matrices, (row, k), largest(by) + fastest)
+                }) && (0..along.ncols())
+                    .all(|k| same([along, &there.along, &bounds.along], (i, k), largest(along)));
+                if !is_same {
+                    change(i);
+                }
+            }
+            for &i in &choice.tied {
+                let tangent = [&here.tangent, &there.tangent, &bounds.tangent];
+                let mut row = (0..places.len()).map(|k| (i, k));
+                if !row.all(|place| same(tangent, place, largest(&here.tangent))) {
+                    change(i);
+                }
+            }
+        }
+    }
+    // Nothing may depend on what only records.
+    for (column, &j) in places.iter().enumerate().filter(|(_, j)| records[**j]) {
+        let depends = (0..here.by_places.nrows())
+            .any(|i| here.by_places[(i, column)].abs() > bounds.by_places[(i, column)]);
+        let drives = choice.followers.iter().enumerate().any(|(row, i)| {
+            let entry = here.followers_by_places[(row, column)].abs();
+            !records[*i] && entry > bounds.followers_by_places[(row, column)]
+        });
+        if depends || drives {
+            return Err(Unsteady::Follows(j, because[j]));
+        }
+    }
+    Ok(records)
+}
+
+/// The motions near a steady one.
+///
+/// # Errors
+/// If it does not go on steadily, or has no eigenvalues.
+pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<Motion, Unsteady> {
+    let records = records(reduced, &found.state())?;
+    let Found {
+        choice,
+        here,
+        bounds,
+        ..
+    } = &found;
+    let places = choice.places();
+    let moving = choice.independent.len();
+    let kept: Vec<usize> = (0..places.len()).filter(|c| !records[places[*c]]).collect();
+    let followers: Vec<usize> = kept
+        .iter()
+        .filter(|c| **c >= moving)
+        .map(|c| c - moving)
+        .collect();
+    let singular = || {
+        Unsteady::Fault(Fault::Singular(
+            choice.independent.first().copied().unwrap_or(0),
+        ))
+    };
+    let by_places = settled(&here.by_places, &bounds.by_places);
+    let by_rates = settled(&here.by_rates, &bounds.by_rates);
+    let k = divided(&here.mass, &by_places).ok_or_else(singular)?;
+    let c = divided(&here.mass, &by_rates).ok_or_else(singular)?;
+    let inverse = divided(&here.mass, &DMatrix::identity(moving, moving)).ok_or_else(singular)?;
+    let inverse = inverse.abs();
+    let k_bounds = &inverse * (&bounds.by_places + &bounds.mass * k.abs());
+    let c_bounds = &inverse * (&bounds.by_rates + &bounds.mass * c.abs());
+    let column = |m: &DMatrix<f64>| DMatrix::from_fn(m.nrows(), kept.len(), |i, j| m[(i, kept[j])]);
+    let p = column(&settled(
+        &here.followers_by_places,
+        &bounds.followers_by_places,
+    ));
+    let p_bounds = column(&bounds.followers_by_places);
+    let b = DMatrix::from_fn(followers.len(), moving, |i, j| {
+        let row = choice.followers[followers[i]];
+        let (x, bound) = (here.along[(row, j)], bounds.along[(row, j)]);
+        if x.abs() <= bound { 0.0 } else { x }
+    });
+    let k_bounds = column(&k_bounds);
+    let linear = Linear {
+        k: column(&k),
+        c,
+        p: DMatrix::from_fn(followers.len(), kept.len(), |i, j| p[(followers[i], j)]),
+        b,
+        k_bounds: DMatrix::from_fn(kept.len(), kept.len(), |i, j| match i < moving {
+            true => k_bounds[(i, j)],
+            false => p_bounds[(followers[i - moving], j)],
+        }),
+        c_bounds,
+    };
+    let mut modes = spectrum::modes(&linear).ok_or(Unsteady::NoEigenvalues)?;
+    modes.free += places.len() - kept.len();
+    let tangent = column(&settled(&here.tangent, &bounds.tangent));
+    for mode in &mut modes.modes {
+        mode.shape = in_coordinates(&tangent, &records, mode);
+    }
+    let v = (0..reduced.len()).map(|j| {
+        let v = here.rates[j];
+        if v.abs() <= bounds.rates[j] && !steady[j] {
+            0.0
+        } else {
+            v
+        }
+    });
+    Ok(Motion {
+        v: v.collect(),
+        modes,
+        records,
+        found,
+    })
+}
+
+/// A shape in z as one in coordinates, the largest number 1.
+fn in_coordinates(tangent: &DMatrix<f64>, records: &[bool], mode: &Mode) -> Vec<Complex<f64>> {
+    let is_own = |row: usize| {
+        let mut row = tangent.row(row).into_iter().filter(|x| **x != 0.0);
+        row.next().copied() == Some(1.0) && row.next().is_none()
+    };
+    let zero = Complex::new(0.0, 0.0);
+    let shape = (0..tangent.nrows()).map(|row| {
+        let terms = tangent.row(row).into_owned();
+        let terms = terms.iter().zip(&mode.shape);
+        if records[row] {
+            zero
+        } else {
+            terms.fold(zero, |sum, (t, x)| sum + x * *t)
+        }
+    });
+    let shape: Vec<Complex<f64>> = shape.collect();
+    if (0..shape.len()).all(|row| records[row] || is_own(row)) {
+        return shape;
+    }
+    let largest = shape.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    let first = shape
+        .iter()
+        .find(|x| x.norm() >= (1.0 - 1e-9) * largest && largest > 0.0);
+    let unit = first.copied().unwrap_or(Complex::new(1.0, 0.0));
+    // What is nothing but rounding, beside 1.
+    let settle = |x: f64| if x.abs() <= 1e-12 { 0.0 } else { x };
+    let scaled = shape.iter().map(|x| x / unit);
+    scaled
+        .map(|x| Complex::new(settle(x.re), settle(x.im)))
+        .collect()
+}

@@ -1,0 +1,782 @@
+//! The equations of motion in the rates that constraints leave, and their derivatives, in 32 digits.
+//!
+//! The constraints `G v + b = 0` give the rates `v_D` of as many coordinates by those of the others, `s = v_I`: so
+//! `v = v(q, s)`, `∂v/∂s = T` with `G T = 0` and rows of the identity in `T_I`. With the accelerations a° that the constraints
+//! ask for where `ṡ = 0`, `a°_I = 0` and `G a° = γ`, the motion obeys
+//!
+//! ```text
+//! (Tᵀ M T) ṡ = r(q, s) = Tᵀ (f − M a°)                                              (E39)
+//! ```
+//!
+//! without multipliers. Constraints of positions tie coordinates too: `D` begins with as many, `q_H`, as there are of those. What
+//! is left, `z` of I and of the other dependent coordinates, F, may be displaced at will, `δq = H δz`.
+//!
+//! All of it is evaluated over dual numbers of 32 digits, which leaves derivatives without any differences (`Dual`), and
+//! none of them with a digit of an `f64` wrong. What rounding of parameters and of the state may make of each number is
+//! found by giving these other roundings, some times over ([`Reduced::linearized`]): a number that is as small may be 0.
+
+use lagrangian::System;
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
+use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian_spec::program::{Arguments, Interpreter, Role, Shape};
+use nalgebra::{DMatrix, DVector};
+
+use super::precise;
+
+/// A number of 32 digits with a derivative.
+type Number = Dual<DoubleDouble>;
+
+/// A row of G holds nothing that others do not hold if less than this is left of it beside them; a coordinate follows from no
+/// row in which it has less than this.
+const INDEPENDENT: f64 = 1e-8;
+
+/// Of coordinates that may follow, one on which nothing depends is preferred if it has this share in the row.
+const PREFERRED: f64 = 1e-2;
+
+/// How often parameters and state are rounded in another way.
+const ROUNDINGS: usize = 6;
+
+/// What that makes of a number may be this many times as much in other cases.
+const SAFETY: f64 = 4.0;
+
+/// The most steps onto the constraints.
+const MOST_STEPS: usize = 60;
+
+/// Which coordinates follow from which constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Constraints none of which follows from the others, those of positions first.
+    pub rows: Vec<usize>,
+    /// I.
+    pub independent: Vec<usize>,
+    /// H: they follow from constraints of positions.
+    pub tied: Vec<usize>,
+    /// F: only their rates follow.
+    pub followers: Vec<usize>,
+}
+
+impl Choice {
+    /// The coordinates that may be displaced at will, I and F.
+    pub fn places(&self) -> Vec<usize> {
+        [self.independent.as_slice(), &self.followers].concat()
+    }
+
+    fn dependent(&self) -> Vec<usize> {
+        [self.tied.as_slice(), &self.followers].concat()
+    }
+}
+
+/// Why there are no numbers at a state.
+#[derive(Clone, Debug)]
+pub enum Fault {
+    /// No inertia holds this coordinate.
+    Singular(usize),
+    /// Something about this coordinate is not finite.
+    NotFinite(usize),
+    /// The rate of this coordinate follows from the others, though it is among those that are given.
+    Follows(usize),
+    /// The constraints cannot be met near the state; the index of the one that is furthest off.
+    Unmet(usize),
+}
+
+/// A state: the coordinates, and the rates of I.
+#[derive(Clone, Debug)]
+pub struct Place {
+    pub q: Vec<DoubleDouble>,
+    pub s: Vec<DoubleDouble>,
+}
+
+impl Place {
+    /// The coordinates as `f64`.
+    pub fn q(&self) -> Vec<f64> {
+        self.q.iter().map(|x| x.hi()).collect()
+    }
+}
+
+/// The equations at a state, and their derivatives.
+#[derive(Clone, Debug)]
+pub struct Linearized {
+    /// v, of all coordinates.
+    pub rates: DMatrix<f64>,
+    /// r.
+    pub forces: DMatrix<f64>,
+    /// Tᵀ M T.
+    pub mass: DMatrix<f64>,
+    /// ∂r/∂z.
+    pub by_places: DMatrix<f64>,
+    /// The same without what T turns of the forces that are not balanced, `(∂T/∂z)ᵀ M T (Tᵀ M T)⁻¹ r`: what is 0 of r in one
+    /// choice of I is so in each, and Newton's method with this goes the same way in each.
+    pub turning_along: DMatrix<f64>,
+    /// ∂r/∂s.
+    pub by_rates: DMatrix<f64>,
+    /// ∂v_F/∂z.
+    pub followers_by_places: DMatrix<f64>,
+    /// T.
+    pub along: DMatrix<f64>,
+    /// H.
+    pub tangent: DMatrix<f64>,
+}
+
+impl Linearized {
+    fn each(&self) -> [&DMatrix<f64>; 9] {
+        let Linearized {
+            rates,
+            forces,
+            mass,
+            by_places,
+            turning_along,
+            by_rates,
+            followers_by_places,
+            along,
+            tangent,
+        } = self;
+        [
+            rates,
+            forces,
+            mass,
+            by_places,
+            turning_along,
+            by_rates,
+            followers_by_places,
+            along,
+            tangent,
+        ]
+    }
+
+    fn each_mut(&mut self) -> [&mut DMatrix<f64>; 9] {
+        let Linearized {
+            rates,
+            forces,
+            mass,
+            by_places,
+            turning_along,
+            by_rates,
+            followers_by_places,
+            along,
+            tangent,
+        } = self;
+        [
+            rates,
+            forces,
+            mass,
+            by_places,
+            turning_along,
+            by_rates,
+            followers_by_places,
+            along,
+            tangent,
+        ]
+    }
+
+    /// The largest of two, number by number.
+    fn widen(&mut self, other: &Linearized, from: &Linearized) {
+        let pairs = other.each().into_iter().zip(from.each());
+        for (bound, (x, y)) in self.each_mut().into_iter().zip(pairs) {
+            let off = (x - y).abs() * SAFETY;
+            bound.zip_apply(&off, |bound, off| *bound = bound.max(off));
+        }
+    }
+
+    /// How r changes where the machine is displaced as it may move, for Newton's method.
+    pub fn stiffness(&self, choice: &Choice) -> DMatrix<f64> {
+        &self.turning_along * self.displaced(choice)
+    }
+
+    /// How z changes along T.
+    pub fn displaced(&self, choice: &Choice) -> DMatrix<f64> {
+        let places = choice.places();
+        DMatrix::from_fn(places.len(), self.along.ncols(), |i, j| {
+            self.along[(places[i], j)]
+        })
+    }
+}
+
+/// The machine in the form of (E39).
+pub struct Reduced<'a> {
+    machine: &'a InterpretedMachine,
+    system: &'a InterpretedSystem,
+    interpreter: Interpreter<Number>,
+    inputs: Vec<f64>,
+    /// Which constraints hold positions.
+    holonomic: Vec<bool>,
+    /// Coordinates on which nothing depends.
+    idle: Vec<bool>,
+}
+
+impl<'a> Reduced<'a> {
+    /// The equations of a machine that was prepared as `system`, looked at near `q` and `v`.
+    pub fn new(
+        machine: &'a InterpretedMachine,
+        system: &'a InterpretedSystem,
+        inputs: &[f64],
+        states: &[(Vec<f64>, Vec<f64>)],
+    ) -> Reduced<'a> {
+        let parameters = constants(machine.parameter_values());
+        let mut reduced = Reduced {
+            interpreter: Interpreter::new(machine.program(), &parameters),
+            machine,
+            system,
+            inputs: inputs.to_vec(),
+            holonomic: system.constraints().map(|c| c.holonomic).collect(),
+            idle: Vec::new(),
+        };
+        let n = system.coordinates().len();
+        reduced.idle = (0..n)
+            .map(|j| states.iter().all(|(q, v)| reduced.is_idle(j, q, v)))
+            .collect();
+        reduced
+    }
+
+    /// How many coordinates there are.
+    pub fn len(&self) -> usize {
+        self.idle.len()
+    }
+
+    fn call(
+        &mut self,
+        role: Role,
+        (q, v): (&[Number], &[Number]),
+        count: usize,
+        t: f64,
+    ) -> Vec<Number> {
+        let mut results = vec![Number::ZERO; count];
+        let u = constants(&self.inputs);
+        let arguments = Arguments {
+            t: Number::from_f64(t),
+            q,
+            v,
+            u: &u,
+            a: &[],
+        };
+        // None of these functions inverts anything; what there is no function for is 0.
+        let _ = self.interpreter.call(role, arguments, &mut results);
+        results
+    }
+
+    /// Everything that the equations are made of, at a state.
+    fn ingredients(&mut self, q: &[Number], v: &[Number], t: f64) -> [Vec<Number>; 6] {
+        let (n, m) = (q.len(), self.holonomic.len());
+        [
+            (Role::MassMatrix, Shape::Symmetric(n).len()),
+            (Role::Forces, n),
+            (Role::ConstraintMatrix, m * n),
+            (Role::ConstraintRates, m),
+            (Role::ConstraintDrift, m),
+            (Role::ConstraintPositions, m),
+        ]
+        .map(|(role, count)| self.call(role, (q, v), count, t))
+    }
+
+    /// Whether nothing changes with a coordinate.
+    fn is_idle(&mut self, j: usize, q: &[f64], v: &[f64]) -> bool {
+        let (mut q, v) = (constants(q), constants(v));
+        q[j].derivative = DoubleDouble::ONE;
+        let [all @ .., positions] = self.ingredients(&q, &v, 0.0);
+        // A constraint of positions changes with it as its row says.
+        drop(positions);
+        all.iter().flatten().all(|x| x.derivative.hi() == 0.0)
+    }
+
+    /// Whether the equations are the same at all times.
+    pub fn stands_still(&mut self, states: &[(Vec<f64>, Vec<f64>)]) -> bool {
+        states.iter().all(|(q, v)| {
+            let (q, v) = (constants(q), constants(v));
+            let mut at = |t| {
+                let all = self.ingredients(&q, &v, t).concat();
+                let values: Vec<DoubleDouble> = all.iter().map(|x| x.value).collect();
+                // What has no value is no answer.
+                values.iter().all(|x| x.is_finite()).then_some(values)
+            };
+            let first = at(0.0);
+            first.is_some() && [0.37, 1.13, 29.7].into_iter().all(|t| at(t) == first)
+        })
+    }
+
+    /// Whether inertia holds every coordinate.
+    pub fn is_regular(&self, states: &[(Vec<f64>, Vec<f64>)]) -> bool {
+        let mut masses = states.iter().map(|(q, _)| self.mass(q).cholesky());
+        masses.all(|factors| factors.is_some())
+    }
+
+    fn mass(&self, q: &[f64]) -> DMatrix<f64> {
+        let n = q.len();
+        let mut mass = vec![0.0; n * n];
+        self.system.mass_matrix(0.0, &q.to_vec(), &mut mass);
+        DMatrix::from_row_slice(n, n, &mass)
+    }
+
+    fn rows(&self, q: &[f64]) -> DMatrix<f64> {
+        let (n, m) = (q.len(), self.holonomic.len());
+        let mut rows = vec![0.0; m * n];
+        self.system.constraint_matrix(0.0, &q.to_vec(), &mut rows);
+        DMatrix::from_row_slice(m, n, &rows)
+    }
+
+    /// What coordinates are measured by: `L` with `L Lᵀ = M`, or each by its own inertia where M is singular.
+    fn metric(&self, q: &[f64]) -> DMatrix<f64> {
+        let mass = self.mass(q);
+        let own = |i: usize| {
+            let root = mass[(i, i)].sqrt();
+            if root.is_normal() { root } else { 1.0 }
+        };
+        let lower = mass.clone().cholesky().map(|factors| factors.l());
+        lower
+            .filter(|l| l.iter().all(|x| x.is_finite()))
+            .unwrap_or_else(|| DMatrix::from_diagonal(&DVector::from_fn(q.len(), |i, _| own(i))))
+    }
+
+    /// Which coordinates follow at a place, of those whose rates are not `given`.
+    ///
+    /// # Errors
+    /// If a given rate follows from the others.
+    pub fn choose(&self, q: &[f64], given: &[bool]) -> Result<Choice, Fault> {
+        let n = q.len();
+        let (rows, lower) = (self.rows(q), self.metric(q));
+        if let Some(place) = rows.iter().position(|x| !x.is_finite()) {
+            return Err(Fault::NotFinite(place / rows.nrows().max(1)));
+        }
+        let mut known: Vec<DVector<f64>> = Vec::new();
+        let mut chosen: Vec<(usize, DVector<f64>)> = Vec::new();
+        for is_position in [true, false] {
+            for k in (0..rows.nrows()).filter(|k| self.holonomic[*k] == is_position) {
+                let row = rows.row(k).transpose();
+                let measured = lower.solve_lower_triangular(&row);
+                let measured = measured.ok_or(Fault::Singular(0))?;
+                if let Some(unit) = beside(&known, &measured, INDEPENDENT) {
+                    known.push(unit);
+                    // Each coordinate in its own length.
+                    let scaled = DVector::from_fn(n, |j, _| row[j] / lower.row(j).norm());
+                    let size = scaled.norm();
+                    chosen.push((k, scaled / size));
+                }
+            }
+        }
+        // Gauss's elimination; which coordinate a row gives is decided by its largest number.
+        let mut follows = vec![None; n];
+        let mut left: Vec<usize> = (0..chosen.len()).collect();
+        let mut order = [Vec::new(), Vec::new()];
+        while !left.is_empty() {
+            let positions: Vec<usize> = left
+                .iter()
+                .copied()
+                .filter(|i| self.holonomic[chosen[*i].0])
+                .collect();
+            let candidates = if positions.is_empty() {
+                left.clone()
+            } else {
+                positions
+            };
+            let best = |may: &dyn Fn(usize) -> bool| {
+                let all = candidates.iter().flat_map(|&i| (0..n).map(move |j| (i, j)));
+                let all = all.filter(|(_, j)| follows[*j].is_none() && may(*j));
+                let size = |&(i, j): &(usize, usize)| f64::abs(chosen[i].1[j]);
+                let best = all.max_by(|a, b| size(a).total_cmp(&size(b)));
+                best.map(|place| (place, size(&place)))
+            };
+            let any = best(&|j| !given[j]).filter(|(_, size)| *size > INDEPENDENT);
+            let Some((place, largest)) = any else {
+                let ((_, j), _) = best(&|_| true).ok_or(Fault::Singular(0))?;
+                return Err(Fault::Follows(j));
+            };
+            let idle = best(&|j| !given[j] && self.idle[j]);
+            let (i, j) = idle
+                .filter(|(_, size)| *size > PREFERRED * largest)
+                .map_or(place, |(place, _)| place);
+            let row = chosen[i].1.clone() / chosen[i].1[j];
+            left.retain(|other| *other != i);
+            for &other in &left {
+                let factor = chosen[other].1[j];
+                chosen[other].1 -= &row * factor;
+            }
+            follows[j] = Some(i);
+            order[usize::from(!self.holonomic[chosen[i].0])].push((chosen[i].0, j));
+        }
+        let [tied, followers] = order;
+        let rows = tied.iter().chain(&followers).map(|(k, _)| *k).collect();
+        let coordinates = |list: Vec<(usize, usize)>| list.into_iter().map(|(_, j)| j).collect();
+        Ok(Choice {
+            rows,
+            independent: (0..n).filter(|j| follows[*j].is_none()).collect(),
+            tied: coordinates(tied),
+            followers: coordinates(followers),
+        })
+    }
+
+    /// Moves coordinates onto the constraints of positions by the least that inertia allows; those that `may` not stay.
+    ///
+    /// # Errors
+    /// If that cannot be done near the place.
+    pub fn bring(
+        &mut self,
+        q: &mut [DoubleDouble],
+        may: &dyn Fn(usize) -> bool,
+    ) -> Result<(), Fault> {
+        let n = q.len();
+        let m = self.holonomic.len();
+        let held: Vec<usize> = (0..m).filter(|k| self.holonomic[*k]).collect();
+        if held.is_empty() {
+            return Ok(());
+        }
+        let v = vec![Number::ZERO; n];
+        let mut before = f64::INFINITY;
+        for _ in 0..MOST_STEPS {
+            let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
+            let off = self.call(Role::ConstraintPositions, (&wide, &v), m, 0.0);
+            let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
+            let (rows, lower) = (self.rows(&near), self.metric(&near));
+            let mut matrix = DMatrix::zeros(held.len(), n);
+            let mut residuals = DVector::zeros(held.len());
+            for (i, &k) in held.iter().enumerate() {
+                let row = DVector::from_fn(n, |j, _| if may(j) { rows[(k, j)] } else { 0.0 });
+                let measured = lower
+                    .solve_lower_triangular(&row)
+                    .ok_or(Fault::Singular(0))?;
+                let size = measured.norm();
+                let size = if size > 0.0 { size } else { 1.0 };
+                matrix.set_row(i, &(measured / size).transpose());
+                residuals[i] = off[k].value.hi() / size;
+            }
+            if !residuals.iter().chain(matrix.iter()).all(|x| x.is_finite()) {
+                return Err(Fault::Unmet(held[0]));
+            }
+            let worst = held[residuals.icamax()];
+            let Some(svd) = matrix.try_svd(true, true, f64::EPSILON, 10_000) else {
+                return Err(Fault::Unmet(worst));
+            };
+            let step = svd
+                .solve(&residuals, INDEPENDENT)
+                .map_err(|_| Fault::Unmet(worst))?;
+            let step = lower.transpose().solve_upper_triangular(&step);
+            let mut step = step.ok_or(Fault::Singular(0))?;
+            (0..n).filter(|j| !may(*j)).for_each(|j| step[j] = 0.0);
+            let longest = share(&step, &near);
+            if !longest.is_finite() {
+                return Err(Fault::Unmet(worst));
+            }
+            // Not nearer than rounding: what is left is as good as it gets.
+            if longest == 0.0 || (longest <= 1e-14 && longest >= 0.25 * before) {
+                break;
+            }
+            let part = (1.0 / longest).min(1.0);
+            for (x, step) in q.iter_mut().zip(step.iter()) {
+                *x = *x - DoubleDouble::from(part * step);
+            }
+            if longest <= 1e-26 {
+                break;
+            }
+            before = longest;
+        }
+        // Whether the rows hold, each beside what rounding makes of it.
+        let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
+        let off = self.call(Role::ConstraintPositions, (&wide, &v), m, 0.0);
+        let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
+        let rows = self.rows(&near);
+        let unmet = held.iter().copied().find(|&k| {
+            let size: f64 = (0..n)
+                .map(|j| (rows[(k, j)] * near[j].abs().max(1.0)).abs())
+                .sum();
+            let off = off[k].value.hi();
+            off.is_nan() || off.abs() > 1e-12 * size
+        });
+        unmet.map_or(Ok(()), |k| Err(Fault::Unmet(k)))
+    }
+
+    /// Everything in the equations, over numbers with a derivative.
+    fn evaluate(
+        &mut self,
+        choice: &Choice,
+        q: &[Number],
+        s: &[Number],
+    ) -> Result<Evaluated, Fault> {
+        let (n, m) = (q.len(), self.holonomic.len());
+        let zero = vec![Number::ZERO; n];
+        let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, 0.0);
+        let offset = self.call(Role::ConstraintRates, (q, &zero), m, 0.0);
+        let dependent = choice.dependent();
+        let count = choice.independent.len();
+        let entry = |k: usize, j: usize| rows[k * n + j];
+        let square: Vec<Vec<Number>> = choice
+            .rows
+            .iter()
+            .map(|&k| dependent.iter().map(|&j| entry(k, j)).collect())
+            .collect();
+        // −G_I, and −b − G_I s.
+        let mut right: Vec<Vec<Number>> = choice
+            .rows
+            .iter()
+            .map(|&k| choice.independent.iter().map(|&j| -entry(k, j)).collect())
+            .collect();
+        for (row, &k) in right.iter_mut().zip(&choice.rows) {
+            let sum = row
+                .iter()
+                .zip(s)
+                .fold(-offset[k], |sum, (g, s)| sum + *g * *s);
+            row.push(sum);
+        }
+        let singular = || Fault::Singular(dependent.first().copied().unwrap_or(0));
+        let solved = solve(square.clone(), right).ok_or_else(singular)?;
+        let mut along = vec![vec![Number::ZERO; count]; n];
+        let mut v = zero;
+        for (c, &j) in choice.independent.iter().enumerate() {
+            along[j][c] = Number::ONE;
+            v[j] = s[c];
+        }
+        for (row, &j) in solved.into_iter().zip(&dependent) {
+            v[j] = row[count];
+            along[j].copy_from_slice(&row[..count]);
+        }
+        let drift = self.call(Role::ConstraintDrift, (q, &v), m, 0.0);
+        let right = choice.rows.iter().map(|&k| vec![drift[k]]).collect();
+        let solved = solve(square, right).ok_or_else(singular)?;
+        let lower = self.call(Role::MassMatrix, (q, &v), Shape::Symmetric(n).len(), 0.0);
+        let mut mass = vec![Number::ZERO; n * n];
+        for (index, entry) in lower.into_iter().enumerate() {
+            let (i, j) = Shape::place(index);
+            (mass[i * n + j], mass[j * n + i]) = (entry, entry);
+        }
+        let mut forces = self.call(Role::Forces, (q, &v), n, 0.0);
+        for (a, &j) in solved.iter().zip(&dependent) {
+            for (i, force) in forces.iter_mut().enumerate() {
+                *force = *force - mass[i * n + j] * a[0];
+            }
+        }
+        let reduced = (0..count).map(|c| {
+            let terms = along.iter().zip(&forces);
+            terms.fold(Number::ZERO, |sum, (row, force)| sum + row[c] * *force)
+        });
+        let reduced: Vec<Number> = reduced.collect();
+        let finite = |x: &Number| x.value.is_finite() && x.derivative.is_finite();
+        if let Some(c) = reduced.iter().position(|x| !finite(x)) {
+            return Err(Fault::NotFinite(choice.independent[c]));
+        }
+        if let Some(j) = v.iter().position(|x| !finite(x)) {
+            return Err(Fault::NotFinite(j));
+        }
+        Ok(Evaluated {
+            rates: v,
+            forces: reduced,
+            along,
+            mass,
+        })
+    }
+
+    /// How coordinates are displaced with z, in 32 digits.
+    fn tangent(&mut self, choice: &Choice, q: &[Number]) -> Result<Vec<Vec<DoubleDouble>>, Fault> {
+        let (n, m) = (q.len(), self.holonomic.len());
+        let places = choice.places();
+        let mut tangent = vec![vec![DoubleDouble::ZERO; n]; places.len()];
+        for (column, &j) in tangent.iter_mut().zip(&places) {
+            column[j] = DoubleDouble::ONE;
+        }
+        let held = choice.tied.len();
+        if held > 0 {
+            let zero = vec![Number::ZERO; n];
+            let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, 0.0);
+            let pick = |list: &[usize], sign: Number| -> Vec<Vec<Number>> {
+                let row = |k: &usize| list.iter().map(|j| sign * rows[k * n + j]).collect();
+                choice.rows[..held].iter().map(row).collect()
+            };
+            let solved = solve(pick(&choice.tied, Number::ONE), pick(&places, -Number::ONE));
+            let solved = solved.ok_or(Fault::Singular(choice.tied[0]))?;
+            for (row, &j) in solved.into_iter().zip(&choice.tied) {
+                for (column, x) in tangent.iter_mut().zip(row) {
+                    column[j] = x.value;
+                }
+            }
+        }
+        Ok(tangent)
+    }
+
+    /// The equations at a state, and their derivatives.
+    fn linearize(&mut self, choice: &Choice, place: &Place) -> Result<Linearized, Fault> {
+        let constant = |list: &[DoubleDouble]| -> Vec<Number> {
+            list.iter().copied().map(Dual::constant).collect()
+        };
+        let (mut q, mut s) = (constant(&place.q), constant(&place.s));
+        let n = q.len();
+        let tangent = self.tangent(choice, &q)?;
+        let (count, places) = (choice.independent.len(), choice.places().len());
+        let here = self.evaluate(choice, &q, &s)?;
+        let value = |x: &Number| x.value.hi();
+        let along = DMatrix::from_fn(n, count, |i, j| value(&here.along[i][j]));
+        let mass = DMatrix::from_fn(n, n, |i, j| value(&here.mass[i * n + j]));
+        let mut linearized = Linearized {
+            rates: DMatrix::from_fn(n, 1, |i, _| value(&here.rates[i])),
+            forces: DMatrix::from_fn(count, 1, |i, _| value(&here.forces[i])),
+            mass: along.transpose() * &mass * &along,
+            by_places: DMatrix::zeros(count, places),
+            turning_along: DMatrix::zeros(count, places),
+            by_rates: DMatrix::zeros(count, count),
+            followers_by_places: DMatrix::zeros(choice.followers.len(), places),
+            along,
+            tangent: DMatrix::from_fn(n, places, |i, j| tangent[j][i].hi()),
+        };
+        let numbers = linearized.mass.iter().position(|x| !x.is_finite());
+        if let Some(index) = numbers {
+            return Err(Fault::NotFinite(choice.independent[index / count]));
+        }
+        let slope = |x: &Number| x.derivative.hi();
+        let accelerations = divided(&linearized.mass, &linearized.forces);
+        let unbalanced = match accelerations {
+            Some(a) => mass * &linearized.along * a,
+            None => DMatrix::zeros(n, 1),
+        };
+        for (column, direction) in tangent.iter().enumerate() {
+            for (q, d) in q.iter_mut().zip(direction) {
+                q.derivative = *d;
+            }
+            let there = self.evaluate(choice, &q, &s)?;
+            for (i, force) in there.forces.iter().enumerate() {
+                linearized.by_places[(i, column)] = slope(force);
+                let rows = there.along.iter().zip(unbalanced.iter());
+                let turned: f64 = rows.map(|(row, x)| slope(&row[i]) * x).sum();
+                linearized.turning_along[(i, column)] = slope(force) - turned;
+            }
+            for (i, &j) in choice.followers.iter().enumerate() {
+                linearized.followers_by_places[(i, column)] = slope(&there.rates[j]);
+            }
+        }
+        q = constant(&place.q);
+        for column in 0..count {
+            s[column].derivative = DoubleDouble::ONE;
+            let there = self.evaluate(choice, &q, &s)?;
+            for (i, force) in there.forces.iter().enumerate() {
+                linearized.by_rates[(i, column)] = slope(force);
+            }
+            s[column].derivative = DoubleDouble::ZERO;
+        }
+        Ok(linearized)
+    }
+
+    /// The equations at a state, and what rounding of parameters and state may make of each number.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn linearized(
+        &mut self,
+        choice: &Choice,
+        place: &Place,
+    ) -> Result<(Linearized, Linearized), Fault> {
+        let here = self.linearize(choice, place)?;
+        let mut bounds = here.clone();
+        bounds
+            .each_mut()
+            .into_iter()
+            .for_each(|matrix| matrix.fill(0.0));
+        let mut next = noise();
+        let values = self.machine.parameter_values().to_vec();
+        let inputs = self.inputs.clone();
+        for _ in 0..ROUNDINGS {
+            let mut rounded = |x: f64| DoubleDouble::from(x) * (DoubleDouble::ONE + next().into());
+            let parameters: Vec<Number> =
+                values.iter().map(|x| Dual::constant(rounded(*x))).collect();
+            let s = place.s.iter().map(|x| rounded(x.hi())).collect();
+            let q = place.q.iter().map(|x| {
+                let unit = DoubleDouble::from(x.hi().abs().max(1.0) * next());
+                *x + unit
+            });
+            let other = Place { q: q.collect(), s };
+            self.inputs = inputs.iter().map(|x| x * (1.0 + next())).collect();
+            self.interpreter.prepare(&parameters);
+            let found = self.linearize(choice, &other);
+            if let Ok(found) = found {
+                bounds.widen(&found, &here);
+            }
+        }
+        self.interpreter.prepare(&constants(&values));
+        self.inputs = inputs;
+        Ok((here, bounds))
+    }
+
+    /// The equations at a state, without bounds.
+    ///
+    /// # Errors
+    /// If there are none.
+    pub fn linearized_only(&mut self, choice: &Choice, place: &Place) -> Result<Linearized, Fault> {
+        self.linearize(choice, place)
+    }
+}
+
+struct Evaluated {
+    rates: Vec<Number>,
+    forces: Vec<Number>,
+    /// T, row after row.
+    along: Vec<Vec<Number>>,
+    mass: Vec<Number>,
+}
+
+/// `Aᵢⱼ⁻¹ B` by elimination with pivots; nothing where A is singular.
+fn solve(mut a: Vec<Vec<Number>>, mut b: Vec<Vec<Number>>) -> Option<Vec<Vec<Number>>> {
+    let n = a.len();
+    for k in 0..n {
+        let size = |i: &usize| a[*i][k].value.hi().abs();
+        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
+        a.swap(k, pivot);
+        b.swap(k, pivot);
+        let (above, below) = a.split_at_mut(k + 1);
+        let pivot = above[k][k];
+        if pivot.value.hi() == 0.0 || !pivot.value.is_finite() {
+            return None;
+        }
+        let (above_b, below_b) = b.split_at_mut(k + 1);
+        for (row, row_b) in below.iter_mut().zip(below_b) {
+            let factor = row[k] / pivot;
+            for (x, p) in row.iter_mut().zip(&above[k]).skip(k) {
+                *x = *x - factor * *p;
+            }
+            for (x, p) in row_b.iter_mut().zip(&above_b[k]) {
+                *x = *x - factor * *p;
+            }
+        }
+    }
+    for k in (0..n).rev() {
+        for c in 0..b[k].len() {
+            let known = (k + 1..n).fold(b[k][c], |sum, j| sum - a[k][j] * b[j][c]);
+            b[k][c] = known / a[k][k];
+        }
+    }
+    Some(b)
+}
+
+/// Numbers between −ε and ε, always the same.
+fn noise() -> impl FnMut() -> f64 {
+    let mut state = 0x5DEE_CE66_u64;
+    move || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0) * f64::EPSILON
+    }
+}
+
+fn constants(values: &[f64]) -> Vec<Number> {
+    values.iter().map(|x| Number::from_f64(*x)).collect()
+}
+
+/// What is left of a vector beside orthonormal ones, of length 1; nothing where that is less than a share
+/// of it.
+fn beside(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
+    let mut left = vector.clone();
+    // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
+    for _ in 0..2 {
+        for unit in known {
+            left -= unit * unit.dot(&left);
+        }
+    }
+    let length = left.norm();
+    (length > least * vector.norm()).then(|| left / length)
+}
+
+/// The largest of the changes, each in rad, m, or as a share of its coordinate.
+pub fn share(step: &DVector<f64>, q: &[f64]) -> f64 {
+    let shares = step.iter().zip(q).map(|(x, q)| x.abs() / q.abs().max(1.0));
+    shares.fold(0.0, f64::max)
+}
+
+/// `M⁻¹ B`, without any rounding but that of the results. `None` where M is singular.
+pub fn divided(mass: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    match b.ncols() {
+        0 => Some(b.clone()),
+        _ => precise::solve(mass, b),
+    }
+}
