@@ -1,6 +1,9 @@
 //! The direct method: closed forms in other coordinates, machines outside of the conditions (17), and its order.
 #![cfg(feature = "std")]
 
+#[path = "brachistochrone_direct/hill.rs"]
+mod hill;
+
 use std::f64::consts::PI;
 
 use lagrangian::Scalar;

@@ -3,13 +3,15 @@
 mod figures;
 mod forward;
 mod found;
+mod guess;
 mod landscape;
 mod page;
 mod problem;
+mod tried;
 
 use std::time::Instant;
 
-use lagrangian::brachistochrone::direct;
+use lagrangian::brachistochrone::direct::Search;
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, System};
 use lagrangian_spec::compile::Compiled;
@@ -18,6 +20,7 @@ use lagrangian_symbolic::Dag;
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart, keep_document_apart};
+use crate::progress;
 use crate::reading::{self, Reading};
 use crate::table;
 use found::{Found, Motion};
@@ -35,7 +38,15 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
     ];
     let all = || files.iter().flatten();
     keep_document_apart(all(), call.spec.json)?;
-    keep_apart(all(), &[(&call.spec.path, "the spec")])?;
+    let guess = call
+        .guess
+        .as_ref()
+        .map(|path| (path.as_path(), "the guess"));
+    let read: Vec<_> = guess.into_iter().collect();
+    keep_apart(
+        all(),
+        &[&[(call.spec.path.as_path(), "the spec")], &read[..]].concat(),
+    )?;
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile_beside(&dag, all())?;
     let start = call::Start {
@@ -58,18 +69,26 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         .iter()
         .map(|(name, _)| name.to_owned())
         .collect();
+    let guess = call.guess.as_deref();
+    let guess = guess.map(|path| guess::read(path, &names)).transpose()?;
+    progress::now("looking for the fastest motion");
     let clock = Instant::now();
     let (motion, because) = match form {
+        Form::Constant(_) if guess.is_some() => {
+            let why = "the motion has a closed form, and is not looked for: leave out `--guess`";
+            return Err(Failure::Call(why.to_owned()));
+        }
         Form::Constant(problem) => {
             let found = problem.solve(&from, &to);
             (found.map(Box::new).map(Motion::Closed), Vec::new())
         }
         Form::Varying(landscape, because) => {
-            let found = direct::solve(landscape, &from, &to);
+            let search = guess.into_iter().fold(Search::new(), Search::guess);
+            let found = search.solve(landscape, &from, &to);
             (found.map(Box::new).map(Motion::Direct), because)
         }
     };
-    let motion = motion.map_err(|unsolved| Failure::Run(problem::explained(&unsolved, &names)))?;
+    let motion = motion.map_err(|unsolved| tried::failure(&unsolved, &names))?;
     let seconds = clock.elapsed().as_secs_f64();
     let system = machine.prepare();
     let units = system.coordinates().map(|q| q.unit.to_owned()).collect();

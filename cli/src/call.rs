@@ -274,6 +274,10 @@ pub struct Brachistochrone {
     /// Take the values of `--from` and `--to` as normal coordinates, in the order of the coordinates.
     #[arg(long)]
     pub natural: bool,
+    /// Look near this way too: a table `.csv` with a column for each coordinate and a row for each place, as `--out` writes it
+    /// here and in `simulate`. Its ends are moved to those that are asked for.
+    #[arg(long, value_name = "FILE.csv")]
+    pub guess: Option<PathBuf>,
     /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

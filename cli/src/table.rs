@@ -83,6 +83,53 @@ fn parquet(_: &Recording, _: &mut (dyn Write + Send)) -> io::Result<()> {
     ))
 }
 
+/// The rows of comma-separated text, each with the values of the columns that have these names, whatever their units are and
+/// whatever else there is.
+///
+/// # Errors
+/// Which column is missing, or where what is no finite number.
+pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
+    let mut lines = text.lines().enumerate();
+    let header = lines.next().map_or("", |(_, line)| line);
+    let columns: Vec<&str> = header.split(',').map(named).collect();
+    let place = |name: &String| {
+        let mut found = (0..columns.len()).filter(|i| columns[*i] == name);
+        match (found.next(), found.next()) {
+            (Some(place), None) => Ok(place),
+            (None, _) => Err(format!("no column is named `{name}`")),
+            _ => Err(format!("more than one column is named `{name}`")),
+        }
+    };
+    let places: Vec<usize> = names.iter().map(place).collect::<Result<_, _>>()?;
+    let lines = lines.filter(|(_, line)| !line.trim().is_empty());
+    lines
+        .map(|(number, line)| {
+            let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+            let value = |place: &usize| {
+                let cell = cells.get(*place).copied().unwrap_or_default();
+                let value = cell.parse().ok().filter(|x: &f64| x.is_finite());
+                let row = number + 1;
+                value.ok_or_else(|| {
+                    format!(
+                        "line {row}: `{cell}` in column `{}` is no finite number",
+                        columns[*place]
+                    )
+                })
+            };
+            places.iter().map(value).collect()
+        })
+        .collect()
+}
+
+/// The name in a header, without its unit.
+fn named(header: &str) -> &str {
+    let header = header.trim();
+    match header.rsplit_once(" [") {
+        Some((name, unit)) if unit.ends_with(']') => name,
+        _ => header,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -112,6 +159,33 @@ mod tests {
             .map(|line| line.split(',').nth(1).unwrap().parse().unwrap())
             .collect();
         assert_eq!(read, recording().columns[0].values);
+    }
+
+    #[test]
+    fn rows_are_found_by_names() {
+        let mut text = Vec::new();
+        csv(&recording(), &mut text).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let names = ["s1".to_owned()];
+        let values = &recording().columns[0].values;
+        let values = values.iter().map(|x| vec![*x]).collect();
+        assert_eq!(rows(&text, &names), Ok(values));
+        let family = ["q[2]".to_owned(), "q[1]".to_owned()];
+        assert_eq!(
+            rows("q[1], q[2] [m] \n1,2\n\n3 ,4\n", &family),
+            Ok(vec![vec![2.0, 1.0], vec![4.0, 3.0]])
+        );
+        for (text, why) in [
+            ("", "no column is named `s1`"),
+            ("s1 [m],s1\n1,2\n", "more than one column is named `s1`"),
+            ("t,s1\n0\n", "line 2: `` in column `s1` is no finite number"),
+            (
+                "s1\n1\ninf\n",
+                "line 3: `inf` in column `s1` is no finite number",
+            ),
+        ] {
+            assert_eq!(rows(text, &names), Err(why.to_owned()), "{text}");
+        }
     }
 
     #[cfg(feature = "parquet")]

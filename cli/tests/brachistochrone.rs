@@ -302,3 +302,120 @@ fn a_page_shows_the_fastest_motion_beside_that_of_the_machine_left_to_itself() {
     let rest = page.html.replace("http://www.w3.org/", "");
     assert!(!rest.contains("http://") && !rest.contains("https://"));
 }
+
+const HILL: &str = "machine Hill in space {
+    parameters { m: kg = 1, g: m/s^2 = 9.81, h: m = 0.6, w: m = 0.5, far: 1 = 1 }
+    coordinates { x: m = -1, y: m }
+    bodies { p { mass: m, at: (x, y, h*exp(-(x^2 + far*y^2)/w^2) - x/2) } }
+    gravity (0, 0, -g);
+}";
+
+/// Times of other motions, and what was tried, are told; the times themselves are held against rays in the library's tests.
+#[test]
+fn what_was_tried_is_said() {
+    let spec = Scratch::new("hill.machine", HILL);
+    let arguments = ["brachistochrone", spec.path(), "--to", "x=1,y=0"];
+    let output = lagrangian(&arguments);
+    let text = String::from_utf8(output.stdout).expect("text");
+    assert!(output.status.success(), "{text}");
+    assert!(
+        text.contains("the fastest found from 5 starts, others take 1.338777"),
+        "{text}"
+    );
+    let found = solved(HILL, &["--to", "x=1,y=0"]);
+    let tried = found["tried"].as_array().expect("a list");
+    let of = |what: &str| {
+        tried
+            .iter()
+            .filter(|trial| trial["outcome"] == what)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(tried[0]["start"], "straight");
+    assert_eq!(tried[0]["outcome"], "lacks energy");
+    let [one, other] = of("found")[..] else {
+        panic!("{tried:?}");
+    };
+    // Left and right of the hill.
+    close(&one["time"], other["time"].as_f64().expect("a time"), 1e-12);
+    assert_eq!(
+        one["aside"]["y"].as_f64(),
+        other["aside"]["y"].as_f64().map(|y| -y)
+    );
+    for trial in of("same") {
+        let index = trial["same"].as_u64().expect("an index") as usize;
+        assert_eq!(tried[index]["outcome"], "found");
+    }
+    // A ridge that has no end.
+    let ridge = ["--set", "far=0", "--to", "x=1,y=0"];
+    let failed = solved(HILL, &ridge);
+    let tried = failed["tried"].as_array().expect("a list");
+    assert_eq!(tried.len(), 6);
+    let error = failed["error"].as_str().expect("words");
+    for trial in tried {
+        assert!(
+            error.contains(trial["words"].as_str().expect("words")),
+            "{error}"
+        );
+    }
+    assert!(error.contains("a way aside in y by 0.7"), "{error}");
+    assert_eq!(
+        solved(BEAD, &["--to", "x=1,y=-1"])["tried"],
+        serde_json::json!([])
+    );
+}
+
+#[test]
+fn a_guess_is_a_table() {
+    // The motion on the near side of the hill, for the end on the far side.
+    let spec = Scratch::new("guessed.machine", HILL);
+    let way = Scratch::new("way.csv", "");
+    let arguments = [
+        "brachistochrone",
+        spec.path(),
+        "--to",
+        "x=1,y=-0.3",
+        "--out",
+        way.path(),
+    ];
+    assert!(lagrangian(&arguments).status.success());
+    let guessed = solved(HILL, &["--to", "x=1,y=0.3", "--guess", way.path()]);
+    let alone = solved(HILL, &["--to", "x=1,y=0.3"]);
+    assert_eq!(guessed["time"], alone["time"]);
+    let [first, tried] = [&guessed["tried"][0], &alone["tried"]];
+    assert_eq!(first["start"], "guess");
+    let times = tried.as_array().expect("a list").iter();
+    let slowest = times
+        .filter_map(|trial| trial["time"].as_f64())
+        .fold(0.0, f64::max);
+    assert!(slowest > alone["time"].as_f64().expect("a time") + 0.05);
+    close(&first["time"], slowest, 1e-10);
+    for (text, why) in [
+        ("x,z\n0,0\n", "no column is named `y`"),
+        (
+            "x,y\n0,a\n",
+            "line 2: `a` in column `y` is no finite number",
+        ),
+        ("x,y\n0,0\n", "a way needs two rows of places at least"),
+    ] {
+        std::fs::write(&way.0, text).expect("a file");
+        let error =
+            solved(HILL, &["--to", "x=1,y=0.3", "--guess", way.path()])["error"].to_string();
+        assert!(error.contains(why), "{error}");
+    }
+    let error = solved(BEAD, &["--to", "x=1,y=-1", "--guess", "nowhere.csv"])["error"].to_string();
+    assert!(error.contains("nowhere.csv"), "{error}");
+    std::fs::write(&way.0, "x,y\n0,0\n1,-1\n").expect("a file");
+    let error = solved(BEAD, &["--to", "x=1,y=-1", "--guess", way.path()])["error"].to_string();
+    assert!(error.contains("closed form"), "{error}");
+    // No output takes the place of the guess.
+    let files = [
+        "--to",
+        "x=1,y=0.3",
+        "--guess",
+        way.path(),
+        "--out",
+        way.path(),
+    ];
+    let output = lagrangian(&[&["brachistochrone", spec.path()][..], &files].concat());
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -1,6 +1,9 @@
 //! Why a fastest motion cannot be given.
 
 use core::fmt::{self, Display};
+use std::vec::Vec;
+
+use super::direct::Trial;
 
 /// Why there is no fastest motion, or none that the formulas give.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,15 +78,10 @@ pub enum Unsolved {
         /// `½ (d_αβ − d_βα)`, relative to the inertia of the two.
         skew: f64,
     },
-    /// The way from a machine with frozen coefficients to the machine itself ended: Newton's method found no motion beyond.
+    /// None of the starts led to a motion that is faster than its neighbours.
     NotFound {
-        /// Which part of the way was gone.
-        part: f64,
-    },
-    /// The motion that was found is not the least of its neighbours: Legendre's condition fails, or Jacobi's.
-    NotLeast {
-        /// Where first, in s after the start.
-        time: f64,
+        /// What was tried, and what came of each.
+        tried: Vec<Trial>,
     },
 }
 
@@ -141,16 +139,13 @@ impl Display for Unsolved {
                  multiplies the speed in no time (the friction matrix is not symmetric, by {skew:.3e} of the inertia); with \
                  constraints that leave two coordinates there may be one"
             ),
-            Self::NotFound { part } => write!(
-                f,
-                "no fastest motion was found: followed from constant coefficients to those of the machine, it was lost at \
-                 {:.1} % of the way; the end may be out of reach, or another motion become faster",
-                100.0 * part
-            ),
-            Self::NotLeast { time } => write!(
-                f,
-                "the motion that was found is not the fastest: a change of its directions from t = {time:.6} s on would save time"
-            ),
+            Self::NotFound { tried } => {
+                write!(f, "no fastest motion was found; tried:")?;
+                for (number, trial) in tried.iter().enumerate() {
+                    write!(f, "\n  {}. {trial}", number + 1)?;
+                }
+                Ok(())
+            }
         }
     }
 }

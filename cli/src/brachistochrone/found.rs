@@ -2,12 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lagrangian::brachistochrone::direct::{Sought, Terrain};
+use lagrangian::brachistochrone::direct::{Sought, Terrain, Trial};
 use lagrangian::brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
 use serde_json::{Map, Value, json};
 
 use super::forward::Arrival;
 use super::landscape::Landscape;
+use super::tried;
 use crate::output;
 use crate::recording::{Column, Kind, Recording};
 use crate::simulate::shortest;
@@ -123,6 +124,14 @@ impl<'a, 'd> Found<'a, 'd> {
         }
     }
 
+    /// From what the search started, and what came of each.
+    fn tried(&self) -> &[Trial] {
+        match &self.motion {
+            Motion::Closed(_) => &[],
+            Motion::Direct(motion) => motion.tried(),
+        }
+    }
+
     /// The constants C* of (22), in normal coordinates; or by how much longer it takes from beside the start, for each
     /// coordinate.
     fn constants(&self) -> Vec<f64> {
@@ -222,7 +231,21 @@ impl<'a, 'd> Found<'a, 'd> {
         };
         let arrival = self.arrival.as_ref().err();
         let lost = arrival.map(|why| format!("simulated under the control forces, {why}"));
-        self.motion.lapses().iter().map(told).chain(lost).collect()
+        let lapses = self.motion.lapses();
+        let lapses = lapses.iter().map(told).chain(lost);
+        lapses.chain(self.doubt()).collect()
+    }
+
+    /// What may be faster, and was not followed to a motion.
+    fn doubt(&self) -> Option<String> {
+        let Motion::Direct(motion) = &self.motion else {
+            return None;
+        };
+        let least = motion.doubts().into_iter().min_by(f64::total_cmp)?;
+        Some(format!(
+            "there may be a faster motion: straight pieces, or an extremal that is not the fastest of its neighbours, take {least:.6} s; \
+             `--guess` may help to find it"
+        ))
     }
 
     fn by_name(&self, values: &[f64]) -> Value {
@@ -266,6 +289,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 Motion::Direct(_) => "direct",
             },
             "because": self.because,
+            "tried": tried::document(self.tried(), &self.names),
         })
     }
 
@@ -371,6 +395,9 @@ impl<'a, 'd> Found<'a, 'd> {
         let motion = &self.motion;
         let time = shortest(motion.time());
         match self.is_motion() {
+            true if self.doubt().is_some() => {
+                output::line(format_args!("{machine}: {time} s is the least time found"));
+            }
             true => output::line(format_args!("{machine}: {time} s is the least time")),
             false => output::line(format_args!(
                 "{machine}: no least time is claimed; the equations give {time} s, but the machine does not move so"
@@ -387,6 +414,7 @@ impl<'a, 'd> Found<'a, 'd> {
                 direct.stretches(),
                 direct.change()
             ));
+            output::line(format_args!("  {}", compared(direct)));
         }
         let width = self
             .names
@@ -454,6 +482,25 @@ impl<'a, 'd> Found<'a, 'd> {
         for warning in self.warnings() {
             output::line(format_args!("  warning: {warning}"));
         }
+    }
+}
+
+/// With what the motion was compared.
+fn compared<T: Terrain>(motion: &Sought<T>) -> String {
+    let starts = motion.tried().len();
+    let starts = match starts {
+        1 => "1 start".to_owned(),
+        _ => format!("{starts} starts"),
+    };
+    let others: Vec<String> = motion.others().into_iter().map(shortest).collect();
+    match others.is_empty() {
+        true => format!(
+            "the one motion found from {starts}; that none far from it is faster is not shown"
+        ),
+        false => format!(
+            "the fastest found from {starts}, others take {} s; that none far from them is faster is not shown",
+            others.join(", ")
+        ),
     }
 }
 

@@ -13,10 +13,12 @@
 
 use std::vec::Vec;
 
+use super::Terrain;
+use super::budget::Budget;
+use super::descent::{Walk, Way};
 use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
-use super::rule::{POINTS, Rule, through};
-use super::{Blend, Terrain};
+use super::rule::{POINTS, Rule, sloping, through};
 use crate::brachistochrone::linear::{Lu, dot};
 use crate::brachistochrone::solution::Brachistochrone;
 
@@ -28,6 +30,9 @@ const LAST: f64 = 1e-10;
 
 /// What moves less than this part of what moves most is held against that: rounding of others reaches it.
 const STILL: f64 = 1e-3;
+
+/// The polynomials of a first guess go through the ends of so many pieces.
+const NEAR: usize = 4;
 
 /// The most times that a step is halved.
 const HALVINGS: usize = 6;
@@ -43,6 +48,17 @@ fn rates<T: Clone>(slopes: &[T], m: usize, negative: impl Fn(&T) -> T) -> Vec<T>
 pub struct Stage {
     pub y: Vec<f64>,
     pub z: Vec<f64>,
+}
+
+/// A moment of a motion without multipliers.
+struct Passed {
+    q: Vec<f64>,
+    w: f64,
+    z: Vec<f64>,
+    /// `F = Ẇ`.
+    force: f64,
+    /// `∂F/∂W`.
+    slope: f64,
 }
 
 /// A motion: its duration, the ends of equal stretches, and their Gauss points.
@@ -66,7 +82,7 @@ struct Stretch {
 impl Path {
     /// From the closed form of a machine with frozen coefficients; `None` where that has infinite multipliers.
     pub fn guess<T: Terrain>(
-        system: &Driven<Blend<'_, T>>,
+        system: &Driven<T>,
         motion: &Brachistochrone,
         stretches: usize,
     ) -> Option<Path> {
@@ -113,6 +129,139 @@ impl Path {
         })
     }
 
+    /// From a way of straight pieces, made fast; `None` where the multipliers are not finite.
+    ///
+    /// Places are those of a polynomial through the ends of a few pieces, `q₀ + t² u(t)`, since a motion from rest begins so.
+    /// Its rates give the control and W; λ obeys, linear in it with H = 1,
+    ///
+    /// ```text
+    /// λ̇ = −∂H/∂W = −(1 − λ F)/W − λ ∂F/∂W        F = Ẇ        λ = 1/F at rest, 0 at the end
+    /// ```
+    ///
+    /// and p follows from H = 1 and ∂H/∂z = 0.
+    pub fn along<T: Terrain>(
+        system: &Driven<T>,
+        way: &Way,
+        walk: &Walk,
+        stretches: usize,
+    ) -> Option<Path> {
+        let (n, m) = (system.n(), system.states());
+        let time = walk.time();
+        let mut known: Vec<(f64, Vec<f64>)> = Vec::new();
+        let mut t = 0.0;
+        for (place, piece) in way.places[1..].iter().zip(&walk.times) {
+            t += piece;
+            let ahead = place.iter().zip(&way.places[0]);
+            known.push((t, ahead.map(|(q, from)| (q - from) / (t * t)).collect()));
+        }
+        let near = |t: f64| -> Vec<(f64, &[f64])> {
+            let after = known.partition_point(|(at, _)| *at < t);
+            let count = known.len().min(NEAR);
+            let first = after.saturating_sub(count / 2).min(known.len() - count);
+            let some = known[first..first + count].iter();
+            some.map(|(t, u)| (*t, u.as_slice())).collect()
+        };
+        let h = time / stretches as f64;
+        let rule = Rule::new();
+        let moments = (0..stretches).flat_map(|k| {
+            let start = h * k as f64;
+            [start]
+                .into_iter()
+                .chain(rule.points.map(|c| start + c * h))
+        });
+        let moments: Vec<f64> = moments.chain([time]).collect();
+        let mut before = 0.0;
+        let mut states: Vec<Passed> = Vec::new();
+        for t in &moments {
+            let u = sloping(&near(*t), *t);
+            let q: Vec<f64> = (0..n)
+                .map(|i| way.places[0][i] + t * t * u[i].value)
+                .collect();
+            // The direction is the same with the rate divided by t.
+            let v = u.iter().map(|u| 2.0 * u.value + t * u.derivative);
+            let v: Vec<f64> = v.collect();
+            let z = system.control(&q, &v, before);
+            before = z[0];
+            let w = t * system.measure(&q, &v, &z);
+            let mut y = q.clone();
+            y.push(w);
+            y.resize(2 * m, 0.0);
+            y[2 * m - 1] = 1.0;
+            let mut alone = z.clone();
+            if !system.is_plane() {
+                alone[n] = 0.0;
+            }
+            let (force, slopes) = system.slopes(&y, &alone);
+            states.push(Passed {
+                q,
+                w,
+                z,
+                force,
+                slope: slopes[n],
+            });
+        }
+        let mut lambdas = std::vec![0.0; moments.len()];
+        for k in (0..moments.len() - 1).rev() {
+            let half = 0.5 * (moments[k + 1] - moments[k]);
+            let [here, next] = [&states[k], &states[k + 1]];
+            lambdas[k] = match k {
+                0 => 1.0 / here.force,
+                _ => {
+                    let known = lambdas[k + 1] * (1.0 - half * (next.force / next.w - next.slope));
+                    (known + half * (1.0 / here.w + 1.0 / next.w))
+                        / (1.0 + half * (here.force / here.w - here.slope))
+                }
+            };
+        }
+        let mut found: Vec<Stage> = Vec::new();
+        for k in (0..moments.len()).rev() {
+            let Passed { q, w, z, .. } = &states[k];
+            let (p, z) = match (k, found.last()) {
+                // At rest as soon after it.
+                (0, Some(after)) => (after.y[m..m + n].to_vec(), after.z.clone()),
+                _ => system.multipliers(q, *w, z, lambdas[k])?,
+            };
+            let mut y = q.clone();
+            y.push(*w);
+            y.extend(p);
+            y.push(lambdas[k]);
+            if !y.iter().chain(&z).all(|x| x.is_finite()) {
+                return None;
+            }
+            found.push(Stage { y, z });
+        }
+        found.reverse();
+        let last = found.pop()?;
+        let mut nodes: Vec<Vec<f64>> = Vec::new();
+        let mut stages = Vec::new();
+        for stretch in found.chunks(POINTS + 1) {
+            nodes.push(stretch[0].y.clone());
+            stages.push(stretch[1..].to_vec());
+        }
+        nodes.push(last.y);
+        Some(Path {
+            time,
+            nodes,
+            stages,
+            last: last.z,
+        })
+    }
+
+    /// Where it leads at so many equal times after the start.
+    pub fn places(&self, count: usize) -> Vec<Vec<f64>> {
+        let n = self.nodes[0].len() / 2 - 1;
+        let points = Rule::new().points;
+        let place = |k: usize| {
+            let part = k as f64 / count as f64 * self.stretches() as f64;
+            let stretch = (part as usize).min(self.stretches() - 1);
+            let mut known = std::vec![(0.0, &self.nodes[stretch][..n])];
+            let inner = points.iter().zip(&self.stages[stretch]);
+            known.extend(inner.map(|(c, stage)| (*c, &stage.y[..n])));
+            through(&known, part - stretch as f64)
+        };
+        (0..=count).map(place).collect()
+    }
+
     /// How many stretches there are.
     pub fn stretches(&self) -> usize {
         self.stages.len()
@@ -153,11 +302,21 @@ impl Path {
         }
     }
 
-    /// The path between these ends, by Newton's method; `None` where that fails, or finds a motion that stops on its way.
-    pub fn corrected(mut self, system: &impl Pontryagin, from: &[f64], to: &[f64]) -> Option<Path> {
+    /// The path between these ends, by Newton's method; `None` where that fails, finds a motion that stops on its way, or
+    /// has no budget.
+    pub fn corrected(
+        mut self,
+        system: &impl Pontryagin,
+        from: &[f64],
+        to: &[f64],
+        budget: &Budget,
+    ) -> Option<Path> {
         let scales = self.scales(system);
         let mut rest = self.rest(system, from, to, &scales);
         for _ in 0..MOST {
+            if budget.is_spent() {
+                return None;
+            }
             let step = self.step(system, from, to)?;
             let size = self.size(&step, &scales);
             if !size.is_finite() {

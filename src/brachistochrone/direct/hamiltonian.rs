@@ -27,7 +27,7 @@ use lagrangian_scalar::{Dual, Scalar};
 
 use super::Terrain;
 use super::pontryagin::Pontryagin;
-use crate::brachistochrone::linear::{Matrix, dot};
+use crate::brachistochrone::linear::{Lu, Matrix, dot};
 
 /// A machine with a free direction of motion.
 #[derive(Clone, Debug)]
@@ -47,6 +47,11 @@ impl<T: Terrain> Driven<T> {
             frame,
             plane,
         }
+    }
+
+    /// Another machine with the same directions.
+    pub(super) fn of<U: Terrain>(&self, terrain: U) -> Driven<U> {
+        Driven::new(terrain, self.frame.clone())
     }
 
     /// How many coordinates there are.
@@ -110,6 +115,52 @@ impl<T: Terrain> Driven<T> {
         let n = self.n();
         let square = (0..n * n).map(|k| inertia[k] * v[k / n] * v[k % n]);
         square.sum::<f64>().sqrt()
+    }
+
+    /// The multipliers of the coordinates, and the control with its own, where H is 1 and stationary: at a place, with `W`,
+    /// a control, and λ. `None` at rest, where every multiplier would do.
+    pub(super) fn multipliers(
+        &self,
+        q: &[f64],
+        w: f64,
+        control: &[f64],
+        lambda: f64,
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let n = self.n();
+        let free = if self.plane { 1 } else { n };
+        // H is linear in p, λ and η: one of them is 1, the others 0.
+        let alone = |which: usize| {
+            let mut y = std::vec![0.0; 2 * (n + 1)];
+            y[..n].copy_from_slice(q);
+            y[n] = w;
+            let mut z = control.to_vec();
+            z.truncate(free);
+            if !self.plane {
+                z.push(if which > n { 1.0 } else { 0.0 });
+            }
+            if which <= n {
+                y[n + 1 + which] = 1.0;
+            }
+            let (value, slopes) = self.slopes(&y, &z);
+            let first = 2 * (n + 1);
+            let mut column = slopes[first..first + free].to_vec();
+            column.push(value);
+            column
+        };
+        let unknown: Vec<usize> = match self.plane {
+            true => (0..n).collect(),
+            false => (0..n).chain([n + 1]).collect(),
+        };
+        let columns: Vec<Vec<f64>> = unknown.into_iter().map(alone).collect();
+        let known = alone(n);
+        let rows = (0..=free).map(|i| columns.iter().map(|column| column[i]).collect());
+        let mut right: Vec<f64> = known.iter().map(|x| -lambda * x).collect();
+        right[free] += 1.0;
+        let mut found = Lu::new(rows.collect())?.solve(&right);
+        let own = found.split_off(n);
+        let mut z = control[..free].to_vec();
+        z.extend(own);
+        Some((found, z))
     }
 
     /// `ln E` and `ln √φ` of (9), along a direction in which the place is dual.

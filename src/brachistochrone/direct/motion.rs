@@ -8,7 +8,7 @@ use super::collocation::{Path, Stage, advanced};
 use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
 use super::rule::{Rule, through};
-use crate::brachistochrone::error::Unsolved;
+use super::trial::{Outcome, Trial};
 use crate::brachistochrone::linear::{Cholesky, Lu, dot};
 use crate::brachistochrone::solution::{Lapse, Moment, lapses};
 
@@ -18,29 +18,18 @@ const LOOKS: u32 = 64;
 /// The fastest motion of a [`Terrain`] from rest at one place to another.
 #[derive(Clone, Debug)]
 pub struct Sought<T> {
-    system: Driven<T>,
-    path: Path,
-    change: f64,
-    ends: [Vec<f64>; 2],
+    pub(super) system: Driven<T>,
+    pub(super) path: Path,
+    pub(super) change: f64,
+    pub(super) ends: [Vec<f64>; 2],
+    pub(super) tried: Vec<Trial>,
+    pub(super) evaluations: u64,
 }
 
 impl<T: Terrain> Sought<T> {
-    pub(super) fn new(
-        system: Driven<T>,
-        path: Path,
-        change: f64,
-        from: &[f64],
-        to: &[f64],
-    ) -> Result<Sought<T>, Unsolved> {
-        let found = Sought {
-            system,
-            path,
-            change,
-            ends: [from.to_vec(), to.to_vec()],
-        };
-        found.refuse_saddles()?;
-        found.refuse_conjugate()?;
-        Ok(found)
+    /// From when on other directions would save time, in s after the start: Legendre's condition fails there, or Jacobi's.
+    pub(super) fn refused(&self) -> Option<f64> {
+        self.saddle().or_else(|| self.conjugate())
     }
 
     /// The time that it takes, in s.
@@ -56,6 +45,41 @@ impl<T: Terrain> Sought<T> {
     /// In how many stretches, each of the order 8.
     pub fn stretches(&self) -> usize {
         self.path.stretches()
+    }
+
+    /// What was tried, and what came of each; this motion is the fastest of those that were found.
+    pub fn tried(&self) -> &[Trial] {
+        &self.tried
+    }
+
+    /// The times of other motions that are faster than their neighbours, in s, the fastest first; none is less than this one's.
+    pub fn others(&self) -> Vec<f64> {
+        let found = self.tried.iter().filter_map(|trial| match trial.outcome {
+            Outcome::Found { time } => Some(time),
+            _ => None,
+        });
+        let mut times: Vec<f64> = found.collect();
+        times.sort_by(f64::total_cmp);
+        times.drain(..times.len().min(1));
+        times
+    }
+
+    /// The times of ways of straight pieces, or of extremals, in s, that are less than this one's and could not be followed to a motion that is
+    /// faster than its neighbours: while there are any, this one may not be the fastest.
+    pub fn doubts(&self) -> Vec<f64> {
+        let times = self.tried.iter().filter_map(|trial| match trial.outcome {
+            Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => Some(time),
+            _ => None,
+        });
+        // Straight pieces are good to so much.
+        times
+            .filter(|time| *time < (1.0 - 1e-3) * self.time())
+            .collect()
+    }
+
+    /// How much the search did, in evaluations as [`Search::budget`](super::Search::budget) counts them.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
     }
 
     /// The machine that moves.
@@ -226,7 +250,7 @@ impl<T: Terrain> Sought<T> {
     }
 
     /// Legendre's condition: H is greatest, and not least, for the directions of the motion.
-    fn refuse_saddles(&self) -> Result<(), Unsolved> {
+    fn saddle(&self) -> Option<f64> {
         let n = self.system.n();
         let first = 2 * (n + 1);
         let free = if self.system.is_plane() { 1 } else { n };
@@ -238,32 +262,29 @@ impl<T: Terrain> Sought<T> {
                     row.iter().map(|x| -x).collect()
                 });
                 if Cholesky::new(&bent.collect()).is_err() {
-                    let time = self.time() * k as f64 / self.stretches() as f64;
-                    return Err(Unsolved::NotLeast { time });
+                    return Some(self.time() * k as f64 / self.stretches() as f64);
                 }
             }
         }
-        Ok(())
+        None
     }
 
     /// Jacobi's condition: extremals to the end, from whatever state they come, do not meet before it. With the state (q, W)
     /// their family has n parameters beside the time, and its Jacobian vanishes where they meet.
-    fn refuse_conjugate(&self) -> Result<(), Unsolved> {
+    fn conjugate(&self) -> Option<f64> {
         let (system, path) = (&self.system, &self.path);
         let n = system.n();
         let (m, last) = (n + 1, self.stretches());
-        let lost = |k: usize| Unsolved::NotLeast {
-            time: self.time() * k as f64 / last as f64,
+        let moment = |k: usize| self.time() * k as f64 / last as f64;
+        let Some(transitions) = path.transitions(system) else {
+            return Some(moment(last));
         };
-        let transitions = path.transitions(system).ok_or_else(|| lost(last))?;
         // At the end q stays and λ is 0; p and W change so that H stays 1.
         let (_, slopes) = system.slopes(&path.nodes[last], &path.last);
         let free: Vec<usize> = (n..m + n).collect();
         let greatest = |k: &usize| (slopes[*k] * path.nodes[last][*k]).abs();
         let by_size = |a: &usize, b: &usize| greatest(a).total_cmp(&greatest(b));
-        let Some(tied) = free.iter().copied().max_by(by_size) else {
-            return Ok(());
-        };
+        let tied = free.iter().copied().max_by(by_size)?;
         let mut family: Vec<Vec<f64>> = Vec::new();
         for k in free.into_iter().filter(|k| *k != tied) {
             let mut change = std::vec![0.0; 2 * m];
@@ -272,16 +293,20 @@ impl<T: Terrain> Sought<T> {
         }
         let mut sign = None;
         for k in (1..last).rev() {
-            let factors = Lu::new(transitions[k].clone()).ok_or_else(|| lost(k))?;
+            let Some(factors) = Lu::new(transitions[k].clone()) else {
+                return Some(moment(k));
+            };
             family = family.iter().map(|change| factors.solve(change)).collect();
             let (_, slopes) = system.slopes(&path.nodes[k], &path.stages[k][0].z);
             let mut columns: Vec<Vec<f64>> = family.iter().map(|y| y[..m].to_vec()).collect();
             columns.push(slopes[m..2 * m].to_vec());
-            let positive = Lu::new(columns).ok_or_else(|| lost(k))?.is_positive();
+            let Some(positive) = Lu::new(columns).map(|factors| factors.is_positive()) else {
+                return Some(moment(k));
+            };
             if *sign.get_or_insert(positive) != positive {
-                return Err(lost(k));
+                return Some(moment(k));
             }
         }
-        Ok(())
+        None
     }
 }

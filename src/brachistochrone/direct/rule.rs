@@ -2,6 +2,8 @@
 
 use std::vec::Vec;
 
+use lagrangian_scalar::{Dual, Scalar};
+
 /// Gauss points of a stretch.
 pub const POINTS: usize = 4;
 
@@ -47,14 +49,33 @@ impl Rule {
 
 /// The value at x of the polynomial through points, for each component.
 pub fn through(points: &[(f64, &[f64])], x: f64) -> Vec<f64> {
+    polynomial(points, x)
+}
+
+/// The same, and its derivative by x.
+pub fn sloping(points: &[(f64, &[f64])], x: f64) -> Vec<Dual<f64>> {
+    polynomial(
+        points,
+        Dual {
+            value: x,
+            derivative: 1.0,
+        },
+    )
+}
+
+fn polynomial<N: Scalar>(points: &[(f64, &[f64])], x: N) -> Vec<N> {
+    let number = N::from_f64;
     let weight = |k: usize| {
         let others = (0..points.len()).filter(|l| *l != k);
         others
-            .map(|l| (x - points[l].0) / (points[k].0 - points[l].0))
-            .product::<f64>()
+            .map(|l| (x - number(points[l].0)) / number(points[k].0 - points[l].0))
+            .fold(N::ONE, |product, factor| product * factor)
     };
-    let weights: Vec<f64> = (0..points.len()).map(weight).collect();
+    let weights: Vec<N> = (0..points.len()).map(weight).collect();
     (0..points[0].1.len())
-        .map(|i| weights.iter().zip(points).map(|(w, (_, y))| w * y[i]).sum())
+        .map(|i| {
+            let terms = weights.iter().zip(points);
+            terms.fold(N::ZERO, |sum, (w, (_, y))| sum + *w * number(y[i]))
+        })
         .collect()
 }
