@@ -15,6 +15,8 @@
 
 mod algebra;
 mod choice;
+#[cfg(feature = "std")]
+mod closest;
 mod fork;
 #[cfg(feature = "std")]
 mod report;
@@ -26,6 +28,8 @@ use crate::compensated::two_sum;
 use crate::{Singular, StepError, System, Vector};
 use algebra::{backward, dot, forward, length, remove, share};
 use choice::{Choice, Rank};
+#[cfg(feature = "std")]
+pub(crate) use closest::{Miss, closest};
 use room::{Room, in_room};
 use scale::Scales;
 

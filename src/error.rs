@@ -107,10 +107,8 @@ pub enum Error {
     /// The constraints cannot be met at the start by moving only what is not
     /// [kept](crate::Simulation::keep).
     KeptStart {
-        /// The constraint that is violated the most.
-        constraint: String,
-        /// What is kept of the coordinates and rates in it.
-        kept: std::vec::Vec<String>,
+        /// The constraints that are not met where all together are met best.
+        contradictions: std::vec::Vec<KeptContradiction>,
         /// Time, in s.
         t: f64,
     },
@@ -210,6 +208,36 @@ pub enum Error {
     NoEnergyBalance,
     /// A time within the run was asked for, but its steps were not kept (`forget_steps`).
     StepsForgotten,
+}
+
+/// A constraint that a start cannot meet while some of its numbers are kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptContradiction {
+    /// The constraint.
+    pub constraint: String,
+    /// Whether it is its rate that cannot be met, its positions being met.
+    pub of_rates: bool,
+    /// What is kept of the numbers in it; none where it contradicts through others.
+    pub kept: std::vec::Vec<String>,
+    /// What is left of it where the constraints are met best, in `unit`.
+    pub residual: f64,
+    /// The SI unit of the residual.
+    pub unit: String,
+}
+
+/// ``with `x` and `y` kept, `rod` is 0.21 m^2 off``
+impl Display for KeptContradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.kept.is_empty() {
+            write!(f, "with {} kept, ", quoted(&self.kept))?;
+        }
+        let of = if self.of_rates { "the rate of " } else { "" };
+        write!(f, "{of}`{}` is {:.4e}", self.constraint, self.residual)?;
+        match self.unit.as_str() {
+            "1" => write!(f, " off"),
+            unit => write!(f, " {unit} off"),
+        }
+    }
 }
 
 impl Error {
@@ -460,18 +488,18 @@ impl Display for Error {
                  along one of them",
                 t = Short(*t)
             ),
-            Self::KeptStart {
-                constraint,
-                kept,
-                t,
-            } => write!(
-                f,
-                "the constraint `{constraint}` cannot be met at the start, t = {} s, while {} {} kept: keep fewer numbers, or \
-                 give values that agree",
-                Short(*t),
-                quoted(kept),
-                if kept.len() == 1 { "is" } else { "are" }
-            ),
+            Self::KeptStart { contradictions, t } => {
+                let are = if contradictions.len() == 1 { "" } else { "s" };
+                write!(
+                    f,
+                    "what is kept of the start contradicts the constraint{are} at t = {} s. However the other numbers are moved, ",
+                    Short(*t)
+                )?;
+                for (i, contradiction) in contradictions.iter().enumerate() {
+                    write!(f, "{}{contradiction}", if i == 0 { "" } else { "; " })?;
+                }
+                write!(f, ". Keep fewer numbers, or give values that agree")
+            }
             Self::NoRoomForConstraints { t } => write!(
                 f,
                 "the machine lends no room for the work on its constraints at t = {t} s",

@@ -13,6 +13,7 @@ use std::vec::Vec;
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
 use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Proved, Role, Shape, Slot};
+use lagrangian_spec::token::normalized;
 
 use crate::{
     Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
@@ -124,6 +125,15 @@ impl InterpretedMachine {
         let inputs = self.names.inputs.iter().zip(&mut self.inputs);
         let all = parameters.chain(inputs);
         assign(all, name, value)
+    }
+
+    /// The unit in which the parameter or input of this name is measured, or those of the family; none if
+    /// there is none.
+    pub fn unit(&self, name: &str) -> Option<&str> {
+        unit(
+            self.names.parameters.iter().chain(self.names.inputs.iter()),
+            name,
+        )
     }
 
     /// The program that is interpreted.
@@ -439,6 +449,10 @@ impl System for InterpretedSystem {
         self.program.contacts.iter().map(String::as_str)
     }
 
+    fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.program.kept.iter().map(String::as_str)
+    }
+
     fn slips(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, slips: &mut [f64]) {
         self.fill(Role::Slips, at(t, q, v, &[]), slips);
     }
@@ -704,6 +718,7 @@ impl InterpretedSystem {
 impl Named {
     /// The number of this name.
     pub fn get(&self, name: &str) -> Option<f64> {
+        let name = &*normalized(name);
         let place = self.labels.iter().position(|label| label.name == name)?;
         self.values.get(place).copied()
     }
@@ -714,6 +729,11 @@ impl Named {
     /// If there is no such name.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), UnknownName> {
         assign(self.labels.iter().zip(&mut self.values), name, value)
+    }
+
+    /// The unit of the number of this name, or of those of the family; none if there is none.
+    pub fn unit(&self, name: &str) -> Option<&str> {
+        unit(self.labels.iter(), name)
     }
 
     /// The names with their numbers, in the order of the description.
@@ -763,9 +783,9 @@ fn assign<'a>(
 ) -> Result<(), UnknownName> {
     let mut known = Vec::new();
     let mut found = false;
+    let name = &*normalized(name);
     for (label, number) in numbers {
-        let family = label.name.split_once('[').map(|(base, _)| base);
-        if label.name == name || family == Some(name) {
+        if label.is_meant_by(name) {
             *number = value;
             found = true;
         } else {
@@ -779,6 +799,21 @@ fn assign<'a>(
             name: name.to_string(),
             known,
         })
+    }
+}
+
+/// The unit of the first that is meant by a name.
+fn unit<'a>(mut labels: impl Iterator<Item = &'a Label>, name: &str) -> Option<&'a str> {
+    let name = &*normalized(name);
+    let label = labels.find(|label| label.is_meant_by(name));
+    label.map(|label| label.unit.as_str())
+}
+
+impl Label {
+    /// Whether it is what a name says, composed as those of a spec are, or a member of the family.
+    fn is_meant_by(&self, name: &str) -> bool {
+        let family = self.name.split_once('[').map(|(base, _)| base);
+        self.name == name || family == Some(name)
     }
 }
 

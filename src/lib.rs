@@ -111,7 +111,7 @@ pub use vector::Vector;
 #[cfg(feature = "std")]
 pub use equations::check_equations;
 #[cfg(feature = "std")]
-pub use error::{Error, Warning};
+pub use error::{Error, KeptContradiction, Warning};
 #[cfg(feature = "std")]
 pub use event::{Crossing, Event};
 #[cfg(feature = "std")]

@@ -5,9 +5,9 @@ use std::time::Instant;
 use std::vec::Vec;
 
 use crate::balance::{Alongside, Energies, EnergyBalance, Explained};
-use crate::constraints::Constraints;
+use crate::constraints::{Constraints, Miss, closest};
 use crate::equations::check_equations;
-use crate::error::constraint_name;
+use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::piece::Piece;
@@ -56,7 +56,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     let (start, of_start) = match system.constraints().len() {
         0 => (start, Vec::new()),
         _ => {
-            let kept = settings.kept(&system)?;
+            let kept = settings.kept(&system, goes_on)?;
             let found = bring_start(&system, start.t, &mut q, &mut v, kept)?;
             (state(&system, (start.t, q.clone(), v.clone())), found)
         }
@@ -724,21 +724,28 @@ fn bring_start<S: System>(
     let given = [q.clone(), v.clone()];
     let mut known = Constraints::new(system, q, v);
     let mut start = Point::new(t, q.clone(), v.clone());
-    let brought = known.begin(system, &mut start.place(), kept.clone());
-    brought.map_err(|error| {
-        let of_kept = kept.and_then(|kept| contradicts_kept(&error, system, q, &kept));
-        of_kept.unwrap_or_else(|| match error {
-            // At rest where rows depend on each other that do not beside the start.
-            StepError::Singular { singular, t } => match singular.at {
-                Pivot::Constraint(row) => Error::Fork {
-                    constraint: constraint_name(system, row),
-                    left: 0.0,
-                    t,
-                },
-                _ => contradiction(error, system, q, v),
+    let mut brought = known.begin(system, &mut start.place(), kept.clone());
+    if let (Err(_), Some(kept)) = (&brought, kept) {
+        start = Point::new(t, q.clone(), v.clone());
+        let misses = closest(system, &mut start.place(), &kept);
+        if let Some(error) = contradicts_kept(system, &start, &kept, &misses) {
+            return Err(error);
+        }
+        // From here it is near.
+        known = Constraints::new(system, q, v);
+        brought = known.begin(system, &mut start.place(), Some(kept));
+    }
+    brought.map_err(|error| match error {
+        // At rest where rows depend on each other that do not beside the start.
+        StepError::Singular { singular, t } => match singular.at {
+            Pivot::Constraint(row) => Error::Fork {
+                constraint: constraint_name(system, row),
+                left: 0.0,
+                t,
             },
             _ => contradiction(error, system, q, v),
-        })
+        },
+        _ => contradiction(error, system, q, v),
     })?;
     (*q, *v) = (start.q, start.v);
 
@@ -759,37 +766,40 @@ fn bring_start<S: System>(
     Ok(found)
 }
 
-/// The error of a start of which some numbers are kept: with those that the constraint depends on.
+/// The error of a start of which some numbers are kept, where the constraints are met best; none where they
+/// miss by nothing that is kept.
 fn contradicts_kept<S: System>(
-    error: &StepError,
     system: &S,
-    q: &S::Vector,
+    best: &Point<S::Vector>,
     kept: &[S::Vector; 2],
+    misses: &[Miss],
 ) -> Option<Error> {
-    let (constraint, t) = match *error {
-        StepError::Inconsistent { constraint, t, .. } => (constraint, t),
-        StepError::Singular { singular, t } => match singular.at {
-            Pivot::Constraint(constraint) => (constraint, t),
-            _ => return None,
-        },
-        _ => return None,
-    };
-    let n = q.as_slice().len();
+    let n = best.q.as_slice().len();
     let m = system.constraints().len();
     let mut rows = std::vec![0.0; m * n];
-    system.constraint_matrix(t, q, &mut rows);
-    let mut names = Vec::new();
-    for (level, kept) in kept.iter().enumerate() {
-        for (j, coordinate) in system.coordinates().enumerate() {
-            if kept.as_slice()[j] != 0.0 && rows[constraint * n + j] != 0.0 {
-                names.push(number_name(coordinate.name, level));
-            }
-        }
-    }
-    (!names.is_empty()).then(|| Error::KeptStart {
-        constraint: constraint_name(system, constraint),
-        kept: names,
-        t,
+    system.constraint_matrix(best.t, &best.q, &mut rows);
+    let contradiction = |&(row, level, residual): &Miss| {
+        let is_kept = |j: usize| kept[level].as_slice()[j] != 0.0 && rows[row * n + j] != 0.0;
+        let coordinates = system.coordinates().enumerate();
+        let kept = coordinates.filter(|(j, _)| is_kept(*j));
+        let constraint = system.constraints().nth(row)?;
+        let of_rates = level == 1 && constraint.holonomic;
+        Some(KeptContradiction {
+            constraint: constraint.name.into(),
+            of_rates,
+            kept: kept.map(|(_, of)| number_name(of.name, level)).collect(),
+            residual,
+            unit: match of_rates {
+                true => std::format!("{}/s", constraint.unit),
+                false => constraint.unit.into(),
+            },
+        })
+    };
+    let contradictions: Vec<_> = misses.iter().filter_map(contradiction).collect();
+    let is_kept = contradictions.iter().any(|of| !of.kept.is_empty());
+    is_kept.then_some(Error::KeptStart {
+        contradictions,
+        t: best.t,
     })
 }
 
@@ -902,13 +912,19 @@ impl Settings {
     }
 
     /// Which numbers of the start are kept, coordinates and rates: those that are not 0.
-    fn kept<S: System>(&self, system: &S) -> Result<Option<[S::Vector; 2]>, Error> {
-        if self.kept.is_empty() {
+    fn kept<S: System>(&self, system: &S, goes_on: bool) -> Result<Option<[S::Vector; 2]>, Error> {
+        let names = match &self.kept {
+            Some(names) => names.clone(),
+            // What the description says is about its start.
+            None if goes_on => Vec::new(),
+            None => system.kept_at_start().map(String::from).collect(),
+        };
+        if names.is_empty() {
             return Ok(None);
         }
         let zeros = || S::Vector::zeros(system.coordinates().len());
         let mut kept = [zeros(), zeros()];
-        for name in &self.kept {
+        for name in &names {
             let rate = name
                 .strip_prefix("der(")
                 .and_then(|rest| rest.strip_suffix(')'));

@@ -70,7 +70,8 @@ pub(crate) struct Settings {
     pub first_step: Option<f64>,
     pub longest_step: f64,
     pub max_steps: usize,
-    pub kept: Vec<String>,
+    /// What the description says where nobody says anything.
+    pub kept: Option<Vec<String>>,
     pub every: Option<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
@@ -128,7 +129,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 first_step: None,
                 longest_step: f64::INFINITY,
                 max_steps: 10_000_000,
-                kept: Vec::new(),
+                kept: None,
                 every: None,
                 keep_steps: true,
                 energy_balance: false,
@@ -223,11 +224,19 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
 
     /// Keeps a number of the start as it was given, where the start does not obey the constraints and is
     /// moved onto them: a coordinate, `"theta"`, or a rate, `"der(theta)"`; of a family, `"q[3]"`, or all
-    /// of it, `"q"`. The others move by the least that inertia allows. Called once for each.
+    /// of it, `"q"`. The others move by the least that inertia allows. Called once for each, in place of
+    /// all that the description keeps ([`System::kept_at_start`](crate::System::kept_at_start)).
     ///
     /// The run has an error where the constraints cannot be met so.
     pub fn keep(mut self, name: &str) -> Self {
-        self.settings.kept.push(name.into());
+        self.settings.kept.get_or_insert_default().push(name.into());
+        self
+    }
+
+    /// Keeps no number of the start, whatever the description says: all of them move by the least that
+    /// inertia allows.
+    pub fn keep_none(mut self) -> Self {
+        self.settings.kept = Some(Vec::new());
         self
     }
 

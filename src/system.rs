@@ -294,6 +294,14 @@ pub trait System {
         Ok(())
     }
 
+    /// Which numbers of a start that does not obey the constraints stay as they are while the others are
+    /// moved: coordinates, `"theta"`, and rates, `"der(theta)"`. None by default.
+    /// [`Simulation::keep`](crate::Simulation::keep) takes others.
+    #[inline(always)]
+    fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
+        core::iter::empty()
+    }
+
     /// Lends `length` numbers to `work`, whatever they are: the room in which a state is brought
     /// onto the constraints, `None` if there is none.
     ///

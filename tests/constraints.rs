@@ -9,8 +9,8 @@ use by_hand::constrained::{
 use by_hand::double_pendulum::{DoublePendulum, DoublePendulumCoordinates};
 use by_hand::toy::{Toy, pendulum};
 use lagrangian::{
-    Crossing, DefaultInputs, Error, METHODS, Method, NoBalance, Simulation, Solution, State,
-    StepError, Stepper, System, Tolerance, Warning, least_multipliers,
+    Crossing, DefaultInputs, Error, KeptContradiction, METHODS, Method, NoBalance, Simulation,
+    Solution, State, StepError, Stepper, System, Tolerance, Warning, least_multipliers,
 };
 
 lagrangian::machine! {
@@ -415,6 +415,77 @@ fn a_start_is_brought_onto_the_constraints_and_says_how_far() {
     assert_near(&run.start().q, &[-0.6, 0.8], 1e-12);
 }
 
+/// What is said where the rod cannot be met.
+fn contradiction(kept: &[&str], residual: f64) -> Error {
+    Error::KeptStart {
+        contradictions: vec![KeptContradiction {
+            constraint: "rod".into(),
+            of_rates: false,
+            kept: kept.iter().map(|name| name.to_string()).collect(),
+            residual,
+            unit: "1".into(),
+        }],
+        t: 0.0,
+    }
+}
+
+lagrangian::machine! {
+    machine Kept in plane {
+        parameters { l: m = 1, g: m/s^2 = 9.81 }
+        coordinates { x: m = 0.6, y: m = -0.9, der(x): m/s = 0.5, der(y): m/s = 1 }
+        bodies { bob { mass: 2, at: (x, y) } }
+        gravity (0, -g);
+        constraints { rod: norm((x, y)) = l }
+        keep { x, der(x) }
+    }
+}
+
+#[test]
+fn what_a_description_keeps_of_its_start_stays() {
+    // What is promised of the rod, over the least slope of it in a coordinate.
+    const OFF: f64 = RESIDUAL / 0.4;
+    let machine = Kept::default();
+    assert!(machine.prepare().kept_at_start().eq(["x", "der(x)"]));
+    let simulation = || Simulation::new(&machine).until(0.1);
+    let run = simulation().run(machine.start()).expect("it runs");
+    let start = run.start();
+    // 0.6 and 0.8 are sides of a triangle with 1; x ẋ + y ẏ = 0.
+    assert_near(&[start.q.x, start.q.y], &[0.6, -0.8], OFF);
+    assert_near(&[start.v.x, start.v.y], &[0.5, 0.375], OFF);
+
+    // Others in their place.
+    let run = simulation()
+        .keep("y")
+        .run(machine.start())
+        .expect("it runs");
+    let x = (1.0_f64 - 0.81).sqrt();
+    assert_near(&[run.start().q.x, run.start().q.y], &[x, -0.9], OFF);
+    // None: the nearest point of the circle, and what the rate has along it.
+    let run = simulation()
+        .keep_none()
+        .run(machine.start())
+        .expect("it runs");
+    let r = 0.6_f64.hypot(0.9);
+    let (c, s) = (0.6 / r, -0.9 / r);
+    assert_near(&[run.start().q.x, run.start().q.y], &[c, s], OFF);
+    let along = -0.5 * s + c;
+    assert_near(
+        &[run.start().v.x, run.start().v.y],
+        &[-s * along, c * along],
+        OFF,
+    );
+
+    // What goes on from an event is no start: whatever an impact makes of it is brought onto the
+    // constraints by the least move.
+    let mut after = run.end().clone();
+    (after.v.x, after.v.y) = (1.0, 1.0);
+    let (x, y) = (after.q.x, after.q.y);
+    let along = x - y;
+    let gone_on = run.resume().until(0.2).run(after).expect("it goes on");
+    let v = &gone_on.start().v;
+    assert_near(&[v.x, v.y], &[-y * along, x * along], OFF);
+}
+
 #[test]
 fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
     let machine = circle::<1>();
@@ -438,11 +509,10 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
     let refused = simulation().keep("x1").keep("y1").run(given);
     assert_eq!(
         refused.err(),
-        Some(Error::KeptStart {
-            constraint: "rod".into(),
-            kept: vec!["x1".into(), "y1".into()],
-            t: 0.0
-        })
+        Some(contradiction(
+            &["x1", "y1"],
+            0.5 * (0.66 * 0.66 + 0.88 * 0.88 - 1.0)
+        ))
     );
     // Kept is too much: beyond the circle.
     let far = State {
@@ -450,10 +520,25 @@ fn what_is_kept_of_a_start_stays_and_the_rest_moves() {
         ..given
     };
     let refused = simulation().keep("x1").run(far);
-    let Err(Error::KeptStart { kept, .. }) = refused else {
+    let Err(Error::KeptStart { contradictions, .. }) = refused else {
         panic!("{:?}", refused.map(|run| *run.end()));
     };
-    assert_eq!(kept, ["x1"]);
+    assert_eq!(contradictions[0].kept, ["x1"]);
+    // Nearest is y = 0.
+    let miss = contradictions[0].residual - 0.5 * (1.5 * 1.5 - 1.0);
+    assert!(miss.abs() < 1e-9, "{miss:e}");
+    // Rates that do not go along the circle: x ẋ + y ẏ = 0.48 + 0.16.
+    let across = State {
+        q: [0.6, 0.8],
+        v: [0.8, 0.2],
+        ..given
+    };
+    let refused = simulation().keep("der(x1)").keep("der(y1)").run(across);
+    let Err(error) = refused else {
+        panic!("{:?}", refused.map(|run| *run.end()));
+    };
+    let words = "with `der(x1)` and `der(y1)` kept, the rate of `rod` is 6.4000e-1 1/s off";
+    assert!(error.to_string().contains(words), "{error}");
     let refused = simulation().keep("z").run(given);
     let name = "z".into();
     assert_eq!(refused.err(), Some(Error::UnknownCoordinate { name }));

@@ -143,23 +143,27 @@ fn ends(
         }
         _ => None,
     };
-    let place = |from: Vec<f64>, assignments: &[Assignment]| -> Result<Vec<f64>, Failure> {
-        let mut values: Named = machine.start().q;
-        values.values = match problem {
-            Some(problem) => problem.to_normal(&from),
-            None => from,
+    let place =
+        |from: Vec<f64>, assignments: &[Assignment], option: &str| -> Result<Vec<f64>, Failure> {
+            let mut values: Named = machine.start().q;
+            values.values = match problem {
+                Some(problem) => problem.to_normal(&from),
+                None => from,
+            };
+            for set in assignments {
+                // Normal coordinates are in √kg·m, which no unit says.
+                let unit = match problem {
+                    Some(_) => "1".to_owned(),
+                    None => values.unit(&set.name).unwrap_or("1").to_owned(),
+                };
+                reading::assign(&mut values, set, option, &unit)?;
+            }
+            Ok(match problem {
+                Some(problem) => problem.from_normal(&values.values),
+                None => values.values,
+            })
         };
-        for set in assignments {
-            values
-                .set(&set.name, set.value)
-                .map_err(|unknown| reading::name_error("coordinate", &unknown))?;
-        }
-        Ok(match problem {
-            Some(problem) => problem.from_normal(&values.values),
-            None => values.values,
-        })
-    };
-    let from = place(machine.start().q.values, &call.from)?;
+    let from = place(machine.start().q.values, &call.from, "--from")?;
     let said = problem::at_parameters(compiled, machine, &compiled.model.destination);
     if said.is_empty() && call.to.is_empty() {
         return Err(Failure::Call(
@@ -170,6 +174,6 @@ fn ends(
         true => from.clone(),
         false => said,
     };
-    let to = place(to, &call.to)?;
+    let to = place(to, &call.to, "--to")?;
     Ok([from, to])
 }

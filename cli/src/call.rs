@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lagrangian::LEAST_RELATIVE_TOLERANCE;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::resolve::value_in;
+use lagrangian_spec::source::Sources;
 use lagrangian_spec::token::normalized;
 use lagrangian_symbolic::Rational;
 
@@ -119,15 +122,32 @@ pub struct Spec {
 /// Which parameters the machine has, and where it starts.
 #[derive(Debug, Args)]
 pub struct Start {
-    /// Set a parameter, as in `--set omega=120`, or an input.
-    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment)]
+    /// Set a parameter, as in `--set omega=120` or `--set omega=1500*rpm`, or an input; a bare number is in the unit that the
+    /// spec declares.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub parameters: Vec<Assignment>,
-    /// Set a coordinate at the start; the name of a family sets every member.
+    /// Set a coordinate at the start, as in `--start phi=30*deg`; the name of a family sets every member.
     #[arg(long = "start", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub coordinates: Vec<Assignment>,
     /// Set the velocity of a coordinate at the start; 0 where left out.
     #[arg(long = "rate", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub rates: Vec<Assignment>,
+}
+
+/// Which numbers of a start stay as they are.
+#[derive(Debug, Args)]
+pub struct Keep {
+    /// Keep numbers of a start that does not obey the constraints, as in `--keep theta,der(phi)`, and move the others: these
+    /// in place of those that the spec keeps, or `none`.
+    #[arg(long = "keep", value_name = "NAME,…", value_delimiter = ',', value_parser = kept)]
+    pub names: Vec<String>,
+}
+
+fn kept(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("expected the name of a coordinate, or der(NAME)".into()),
+        name => Ok(normalized(name).into_owned()),
+    }
 }
 
 /// Arguments of `check`.
@@ -202,6 +222,8 @@ pub struct Evaluate {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
     /// A JSON list of points {"t", "q", "v", "parameters", "inputs"}, or `-` for standard input; without it, the start.
     #[arg(long, value_name = "POINTS.json")]
     pub at: Option<PathBuf>,
@@ -214,9 +236,8 @@ pub struct Simulate {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
-    /// Keep numbers of a start that does not obey the constraints, as in `--keep theta,der(phi)`, and move the others.
-    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
-    pub keep: Vec<String>,
+    #[command(flatten)]
+    pub keep: Keep,
     /// Integrate to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
@@ -314,7 +335,8 @@ fn steady(text: &str) -> Result<Steady, String> {
         None => SteadyRate::Start,
         Some((_, value)) if value.trim() == "solve" => SteadyRate::Solved,
         Some(_) => {
-            let Assignment { name, value } = assignment(text).map_err(|why| {
+            let Assignment { name, value } = assignment(text)?;
+            let value = number(&value).map_err(|why| {
                 why.replace(
                     " is not a number (as in",
                     " is neither a number nor `solve` (as in",
@@ -339,20 +361,56 @@ fn steady(text: &str) -> Result<Steady, String> {
 pub struct Assignment {
     /// The name, of a family member too: `q[3]`.
     pub name: String,
-    /// The value.
-    pub value: f64,
+    /// The value: an expression as it may stand in a spec, made of numbers and units.
+    pub value: String,
 }
 
-/// Reads `name=value`; for the value see [`number`].
+impl Assignment {
+    /// The value in a unit, as the default of a parameter with that unit would be in a spec.
+    ///
+    /// # Errors
+    /// What is wrong with it, in the words of a spec.
+    pub fn value(&self, option: &str, unit: &str) -> Result<f64, String> {
+        // Most are just that.
+        if let Ok(value) = self.value.parse::<f64>()
+            && value.is_finite()
+        {
+            return Ok(value);
+        }
+        let (mut sources, mut report) = (Sources::new(), Report::new());
+        let value = value_in(&self.value, unit, &mut sources, &mut report);
+        value.ok_or_else(|| {
+            let wrong = report
+                .diagnostics()
+                .into_iter()
+                .map(|wrong| match &wrong.help {
+                    Some(help) => format!("{}; {help}", wrong.message),
+                    None => wrong.message.clone(),
+                });
+            let wrong: Vec<String> = wrong.collect();
+            format!(
+                "{option} {}={}: {}",
+                self.name,
+                self.value,
+                wrong.join("; ")
+            )
+        })
+    }
+}
+
+/// Reads `name=value`.
 fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
     let name = name.trim();
     if name.is_empty() {
         return Err("expected a name before `=`".into());
     }
+    if value.trim().is_empty() {
+        return Err("expected a value behind `=`".into());
+    }
     Ok(Assignment {
         name: normalized(name).into_owned(),
-        value: number(value)?,
+        value: value.trim().to_owned(),
     })
 }
 
@@ -541,11 +599,63 @@ mod tests {
             assignment("q[3]=0.5"),
             Ok(Assignment {
                 name: "q[3]".into(),
-                value: 0.5
+                value: "0.5".into()
             })
         );
+        assert!(assignment("q= ").is_err());
         assert!(assignment("omega").is_err());
         assert!(assignment("=3").is_err());
+    }
+
+    /// By the definitions of the units; `None` is an error that contains the words.
+    #[test]
+    fn a_value_has_the_unit_of_its_name() {
+        use std::f64::consts::{PI, TAU};
+        let value = |text: &str, unit: &str| {
+            let set = assignment(&format!("w={text}")).expect("an assignment");
+            set.value("--set", unit)
+        };
+        for (text, unit, known) in [
+            ("1500*rpm", "rad/s", 50.0 * PI),
+            ("30*deg", "rad", PI / 6.0),
+            ("-30*deg", "rad", -PI / 6.0),
+            ("2*rev", "rad", 2.0 * TAU),
+            ("3*cm", "mm", 30.0),
+            ("36*km/h", "m/s", 10.0),
+            ("90*deg/s", "rad/s", PI / 2.0),
+            ("1500*rpm", "rpm", 1500.0),
+            ("50*pi", "rad/s", 50.0 * PI),
+            ("2*(1 + sqrt(4))", "m", 6.0),
+            ("2.5e-3", "kg*m^2/s^2", 2.5e-3),
+            ("1_000", "1", 1000.0),
+        ] {
+            let found = value(text, unit);
+            let error = found.as_ref().map(|found| (found - known).abs());
+            assert!(
+                error.is_ok_and(|error| error <= 1e-15 * known.abs()),
+                "{text}: {found:?}"
+            );
+        }
+        for (text, unit, words) in [
+            ("3*m", "rad/s", "--set w=3*m: expected rad/s, found m"),
+            ("5*Hz", "rad/s", "expected rad/s, found Hz"),
+            ("3*mm", "1", "found m"),
+            ("two", "m", "nothing is named `two`"),
+            ("t", "s", "cannot depend on time"),
+            ("1/0", "m", "zero"),
+            ("1e999", "m", "number"),
+            ("nan", "m", "nothing is named `nan`"),
+            ("inf", "m", "nothing is named `inf`"),
+            ("2*", "m", "expected"),
+            ("30 deg", "rad", "30*deg"),
+            ("--", "m", "expected"),
+            ("1 } bodies {", "m", "expected"),
+            ("(1, 2)", "m", "a number is expected here"),
+            ("1500*rmp", "rad/s", "did you mean the unit `rpm`?"),
+        ] {
+            let found = value(text, unit).expect_err(text);
+            assert!(found.contains(words), "{text}: {found}");
+        }
     }
 
     #[test]

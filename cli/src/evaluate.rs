@@ -6,8 +6,8 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    ContactForce, Error, Machine, Pivot, State, StepError, System, check_equations, contact_forces,
-    least_multipliers,
+    ContactForce, Error, Machine, Pivot, Simulation, State, StepError, System, check_equations,
+    contact_forces, least_multipliers,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -55,7 +55,9 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
     let compiled = Reading::open(&call.spec)?.compile(&dag)?;
     let machine = reading::machine(&compiled, &call.start)?;
     // A wrong name is a fault of the call, not of each point.
-    set_start(&mut machine.start(), &call.start)?;
+    let mut start = machine.start();
+    set_start(&mut start, &call.start)?;
+    reading::check_kept(&start, &call.keep)?;
     let points = match &call.at {
         None => vec![Ok(Point::default())],
         Some(path) => {
@@ -77,7 +79,7 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
         }
     };
     let results = points.into_iter().map(|point| {
-        let result = point.and_then(|point| at(&compiled.model, &machine, &call.start, point));
+        let result = point.and_then(|point| at(&compiled.model, &machine, call, point));
         result.unwrap_or_else(|error| serde_json::json!({ "error": error }))
     });
     output::line(format_args!("{:#}", Value::Array(results.collect())));
@@ -87,7 +89,7 @@ pub fn run(call: &call::Evaluate) -> Result<(), Failure> {
 fn at(
     model: &Model<'_>,
     machine: &InterpretedMachine,
-    start: &call::Start,
+    call: &call::Evaluate,
     point: Point,
 ) -> Result<Value, String> {
     let mut machine = machine.clone();
@@ -106,11 +108,25 @@ fn at(
     }
     // The start may depend on parameters, the point's own among them.
     let mut state = machine.start();
-    set_start(&mut state, start).map_err(|_| "no such coordinate")?;
+    set_start(&mut state, &call.start).map_err(|_| "no such coordinate")?;
     state.t = point.t.unwrap_or(0.0);
     fill(&mut state.q, point.q, "q")?;
     fill(&mut state.v, point.v, "v")?;
-    numbers(&machine.prepare(), &state)
+    if call.keep.names.is_empty() {
+        return numbers(&machine.prepare(), &state);
+    }
+    // A run without length does no more than to bring its start onto the constraints.
+    let simulation = Simulation::new(&machine).until(state.t);
+    let run = reading::keep(simulation, &call.keep).run(state);
+    let state = run.map_err(|error| error.to_string())?.start().clone();
+    let mut result = numbers(&machine.prepare(), &state)?;
+    for (name, values) in [("q", &state.q), ("v", &state.v)] {
+        let values = values
+            .iter()
+            .map(|(name, value)| (name.to_owned(), value.into()));
+        result[name] = Value::Object(values.collect());
+    }
+    Ok(result)
 }
 
 fn named(name: &str, entry: &Entry) -> Vec<(String, f64)> {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, UnknownName};
-use lagrangian::{Machine, State};
+use lagrangian::{Machine, Simulation, State};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
@@ -160,7 +160,9 @@ pub fn machine(
 ) -> Result<InterpretedMachine, Failure> {
     let mut machine = InterpretedMachine::new(compiled.program.clone());
     for set in families_first(&start.parameters) {
-        if let Err(unknown) = machine.set(&set.name, set.value) {
+        let unit = machine.unit(&set.name).unwrap_or("1").to_owned();
+        let value = set.value("--set", &unit).map_err(Failure::Call)?;
+        if let Err(unknown) = machine.set(&set.name, value) {
             let is_coordinate = is_named(&machine.start().q, &set.name);
             let other = is_coordinate.then_some("it is a coordinate, which --start sets");
             return Err(unknown_name("parameter or input", &unknown, other));
@@ -168,12 +170,12 @@ pub fn machine(
     }
     for set in start.coordinates.iter().chain(&start.rates) {
         let mut coordinates = machine.start().q;
-        let Err(unknown) = coordinates.set(&set.name, set.value) else {
+        let Err(unknown) = coordinates.set(&set.name, 0.0) else {
             continue;
         };
         let rate = set.name.strip_prefix("der(");
         let rate = rate.and_then(|name| name.strip_suffix(')'));
-        let is_parameter = machine.set(&set.name, set.value).is_ok();
+        let is_parameter = machine.unit(&set.name).is_some();
         let other = match rate.is_some_and(|name| is_named(&coordinates, name)) {
             true => Some("--rate sets the rate of a coordinate, under the coordinate's name"),
             false => is_parameter.then_some("it is a parameter or an input, which --set sets"),
@@ -192,16 +194,76 @@ pub fn machine(
 /// # Errors
 /// If one names a coordinate that the machine does not have.
 pub fn set_start(start: &mut State<Named>, call: &call::Start) -> Result<(), Failure> {
-    for (assignments, numbers) in [
-        (&call.coordinates, &mut start.q),
-        (&call.rates, &mut start.v),
+    for (assignments, numbers, option) in [
+        (&call.coordinates, &mut start.q, "--start"),
+        (&call.rates, &mut start.v, "--rate"),
     ] {
         for set in families_first(assignments) {
-            let unknown = |unknown: UnknownName| name_error("coordinate", &unknown);
-            numbers.set(&set.name, set.value).map_err(unknown)?;
+            let of_rate = |unit: &str| format!("({unit})/s");
+            let unit = numbers.unit(&set.name).map(|unit| match option {
+                "--rate" => of_rate(unit),
+                _ => unit.to_owned(),
+            });
+            assign(numbers, set, option, &unit.unwrap_or_default())?;
         }
     }
     Ok(())
+}
+
+/// Gives a coordinate, or its rate, what a call says, in a unit.
+///
+/// # Errors
+/// If there is no such coordinate, or the value is none in that unit.
+pub fn assign(
+    numbers: &mut Named,
+    set: &Assignment,
+    option: &str,
+    unit: &str,
+) -> Result<(), Failure> {
+    let unknown = |unknown: UnknownName| name_error("coordinate", &unknown);
+    numbers.clone().set(&set.name, 0.0).map_err(unknown)?;
+    let value = set.value(option, unit).map_err(Failure::Call)?;
+    numbers.set(&set.name, value).map_err(unknown)
+}
+
+/// Whether everything that `--keep` names is there.
+///
+/// # Errors
+/// The call is at fault.
+pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure> {
+    for name in kept_names(keep).unwrap_or_default() {
+        let rate = name.strip_prefix("der(");
+        let rate = rate.and_then(|rate| rate.strip_suffix(')'));
+        let mut numbers = start.q.clone();
+        if let Err(unknown) = numbers.set(rate.unwrap_or(name), 0.0) {
+            let Failure::Call(said) = name_error("coordinate", &unknown) else {
+                continue;
+            };
+            return Err(Failure::Call(format!("--keep {name}: {said}")));
+        }
+    }
+    Ok(())
+}
+
+/// A run that keeps what a call says of its start, if it says anything.
+pub fn keep<'a>(
+    simulation: Simulation<'a, InterpretedMachine>,
+    keep: &call::Keep,
+) -> Simulation<'a, InterpretedMachine> {
+    let Some(names) = kept_names(keep) else {
+        return simulation;
+    };
+    let keep = |simulation: Simulation<'a, _>, name: &String| simulation.keep(name);
+    names.iter().fold(simulation.keep_none(), keep)
+}
+
+/// What a call keeps; none where it says nothing.
+fn kept_names(keep: &call::Keep) -> Option<&[String]> {
+    match keep.names.as_slice() {
+        [] => None,
+        [only] if only == "none" => Some(&[]),
+        names => Some(names),
+    }
 }
 
 /// What is set for a whole family comes before what is set for a member, wherever the call says it.

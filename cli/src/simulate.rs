@@ -110,6 +110,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     })?;
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
+    reading::check_kept(&start, &call.keep)?;
 
     let recorded = files.all().next().is_some();
     let interval = call.every.unwrap_or(call.until.abs() / SAMPLES);
@@ -151,9 +152,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         }
         simulation = simulation.every(interval / f64::from(finer));
     }
-    for name in &call.keep {
-        simulation = simulation.keep(name.trim());
-    }
+    simulation = reading::keep(simulation, &call.keep);
     let simulation = contacts.watch(simulation);
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     let mut trouble = Trouble {
@@ -276,9 +275,6 @@ fn cause(error: Error) -> Failure {
             };
             Failure::Call(format!("--{option} {value:e}: must be {needed}"))
         }
-        Error::UnknownCoordinate { name } => Failure::Call(format!(
-            "--keep {name}: no coordinate of that name; the rate of a coordinate is written der(NAME)"
-        )),
         error => Failure::run(error),
     }
 }

@@ -799,3 +799,88 @@ fn a_name_is_one_in_both_spellings() {
         );
     }
 }
+
+/// Names with an accent, which the call types in the other spelling, and values with units.
+#[test]
+fn names_and_values_from_outside_are_read_as_those_of_a_spec() {
+    let text = "machine Outside in plane { parameters { caf\u{e9}: kg = 1, speed: rpm = 60, tilt: rad = 1 } \
+                inputs { pull: kN } coordinates { \u{fc}: m } \
+                bodies { b { mass: caf\u{e9}, at: (\u{fc}, 0) } } forces { f { on: \u{fc}, value: pull } } \
+                outputs { w: rad/s = speed, s: 1 = sin(tilt), here: m = \u{fc}, rate: m/s = der(\u{fc}) } }";
+    let spec = Scratch::new("outside.machine", text);
+    let point = Scratch::new(
+        "outside.json",
+        "[{\"q\": {\"u\u{308}\": 0.25}, \"parameters\": {\"cafe\u{301}\": 4}}]",
+    );
+    let evaluate = |arguments: &[&str]| {
+        let output = lagrangian(&[&["evaluate", spec.path()], arguments].concat());
+        let text = [&output.stdout[..], &output.stderr].concat();
+        (output.status.code(), String::from_utf8(text).expect("text"))
+    };
+    let numbers = |arguments: &[&str]| -> Value {
+        let (status, text) = evaluate(arguments);
+        assert_eq!(status, Some(0), "{text}");
+        let document: Value = serde_json::from_str(&text).expect("a document");
+        document[0].clone()
+    };
+    let found = numbers(&[
+        "--set",
+        "cafe\u{301}=500*g",
+        "--set",
+        "pull=-3*N",
+        "--set",
+        "speed=pi*rad/s",
+        "--set",
+        "tilt=30*deg",
+        "--start",
+        "u\u{308}=-3*cm",
+        "--rate",
+        "u\u{308}=36*km/h",
+    ]);
+    let near = |found: &Value, known: f64| {
+        let found = found.as_f64().expect("a number");
+        assert!(
+            (found - known).abs() <= 4.0 * f64::EPSILON * known.abs(),
+            "{found} {known}"
+        );
+    };
+    near(&found["accelerations"][0], -6.0);
+    near(&found["outputs"]["w"], std::f64::consts::PI);
+    near(&found["outputs"]["s"], 0.5);
+    near(&found["outputs"]["here"], -0.03);
+    near(&found["outputs"]["rate"], 10.0);
+    // Bare numbers are in the unit that the spec declares: 60 rpm, 3 kN.
+    let found = numbers(&["--set", "pull=3", "--at", point.path()]);
+    near(&found["accelerations"][0], 750.0);
+    near(&found["outputs"]["w"], std::f64::consts::TAU);
+    near(&found["outputs"]["here"], 0.25);
+
+    for (arguments, words) in [
+        (
+            ["--set", "speed=3*m"],
+            "--set speed=3*m: expected rad/s, found m; as its declaration says",
+        ),
+        (
+            ["--set", "speed=50*Hz"],
+            "--set speed=50*Hz: expected rad/s, found Hz",
+        ),
+        (["--start", "\u{fc}=2*s"], "expected m, found s"),
+        (["--rate", "\u{fc}=2*m"], "expected m/s, found m"),
+        (["--set", "tilt=30 deg"], "30*deg"),
+        (["--set", "tilt=1500*rmp"], "rpm"),
+        (["--set", "speed=many"], "nothing is named `many`"),
+        (
+            ["--set", "nothing=3*m"],
+            "no parameter or input named `nothing`",
+        ),
+    ] {
+        let (status, text) = evaluate(&arguments);
+        assert_eq!(status, Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(words), "{arguments:?}: {text}");
+    }
+    // A variant that changes nothing is its base under another name.
+    let text = format!("machine Same extends \"{}\" {{ }}", spec.path());
+    let same = Scratch::new("same.machine", &text);
+    let output = lagrangian(&["check", same.path()]);
+    assert_eq!(output.status.code(), Some(0));
+}

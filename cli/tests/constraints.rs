@@ -101,3 +101,100 @@ fn a_start_off_the_constraints_is_moved_onto_them_and_told() {
     // Newton's method ends where no more than 10⁻¹³ is left.
     assert!((moved + 1.0).abs() <= 1e-13, "{text}");
 }
+
+/// A pendulum of 1 m that starts off its rod, with what it keeps of that.
+fn kept(keep: &str) -> Scratch {
+    let text = format!(
+        "machine Bob in plane {{ parameters {{ m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }} \
+         coordinates {{ x: m = 0.6, y: m = -0.9, der(x): m/s = 0.5 }} bodies {{ bob {{ mass: m, at: (x, y) }} }} \
+         gravity (0, -g); constraints {{ rod: norm((x, y)) = l }} {keep} }}"
+    );
+    Scratch::new("kept.machine", &text)
+}
+
+/// Whether names and numbers are those of a triangle with the sides 3, 4 and 5: x ẋ + y ẏ = 0 there.
+fn assert_kept(state: &Value) {
+    for (of, name, known) in [
+        ("q", "x", 0.6),
+        ("q", "y", -0.8),
+        ("v", "x", 0.5),
+        ("v", "y", 0.375),
+    ] {
+        let found = number(&state[of][name]);
+        // The residual that is promised, over the rod's slope in `y`.
+        assert!((found - known).abs() < 1e-13 / 0.8, "{of} {name}: {found}");
+    }
+}
+
+#[test]
+fn what_spec_and_call_keep_of_a_start_stays() {
+    let spec = kept("keep { x, der(x) }");
+    let none = kept("");
+    let start = |spec: &Scratch, arguments: &[&str]| -> Value {
+        let call = ["simulate", spec.path(), "--until", "0", "--json"];
+        let output = lagrangian(&[&call, arguments].concat());
+        serde_json::from_slice(&output.stdout).expect("a document")
+    };
+    assert_kept(&start(&spec, &[]));
+    assert_kept(&start(&none, &["--keep", "x,der(x)"]));
+    // The call's stand in place of the spec's.
+    let least = start(&none, &[]);
+    assert_eq!(start(&spec, &["--keep", "none"])["q"], least["q"]);
+    assert_ne!(least["q"]["x"], 0.6);
+    assert_eq!(start(&spec, &["--keep", "y"])["q"]["y"], -0.9);
+
+    // A variant takes some of it away.
+    let base = spec.path();
+    let text = format!("machine Less extends \"{base}\" {{ remove keep.der(x); remove keep.x; }}");
+    let less = Scratch::new("less.machine", &text);
+    assert_eq!(start(&less, &[])["q"], least["q"]);
+
+    // Numbers at the states that a run would begin with.
+    let evaluate = |spec: &Scratch, arguments: &[&str]| -> Value {
+        let output = lagrangian(&[&["evaluate", spec.path()], arguments].concat());
+        serde_json::from_slice(&output.stdout).expect("a document")
+    };
+    let point = &evaluate(&none, &["--keep", "x,der(x)"])[0];
+    assert_kept(point);
+    // λ of the rod: m (|v|² + g·q) on the unit circle, with y = −0.8.
+    let tension = -(0.25 + 0.375 * 0.375) - 9.81 * 0.8;
+    assert!((number(&point["multipliers"]["rod"]) - tension).abs() < 1e-12);
+    // Without the option a point is what it says.
+    assert!(evaluate(&spec, &[])[0].get("q").is_none());
+}
+
+#[test]
+fn what_cannot_be_kept_is_told() {
+    let spec = kept("");
+    for (keep, status, words) in [
+        ("x,y", 1, "with `x` and `y` kept, `rod` is 8.1665e-2 m off"),
+        (
+            "x,z",
+            2,
+            "--keep z: no coordinate named `z`; there are: x, y",
+        ),
+        ("der(z)", 2, "--keep der(z): no coordinate named `z`"),
+        ("der(x", 2, "--keep der(x: no coordinate named `der(x`"),
+    ] {
+        for command in [&["simulate", "--until", "1"][..], &["evaluate"]] {
+            let call = [
+                &command[..1],
+                &[spec.path()],
+                &command[1..],
+                &["--keep", keep],
+            ]
+            .concat();
+            let output = lagrangian(&call);
+            let said = [output.stdout, output.stderr].concat();
+            let said = String::from_utf8(said).expect("text");
+            assert!(said.contains(words), "{keep}: {said}");
+            // A point without numbers is a result of `evaluate`.
+            let status = if command[0] == "evaluate" && status == 1 {
+                0
+            } else {
+                status
+            };
+            assert_eq!(output.status.code(), Some(status), "{keep}: {said}");
+        }
+    }
+}

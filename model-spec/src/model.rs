@@ -112,6 +112,9 @@ pub struct Model<'d> {
     pub derivatives: Vec<Variable>,
     /// Which stages of the accelerations are to be computed by themselves.
     pub stages: Stages,
+    /// Which start values stay as they are where the start does not obey the constraints:
+    /// coordinates and rates, each once.
+    pub kept: Vec<Variable>,
     /// Where the fastest motion ends, by coordinates; may depend on parameters. Empty where nobody
     /// says it.
     pub destination: Vec<Expr<'d>>,

@@ -93,6 +93,9 @@ pub struct Program {
     /// The names of the guided contacts with friction; the functions about them are there if these
     /// are.
     pub contacts: Vec<String>,
+    /// Which start values stay as they are where the start does not obey the constraints: `theta`,
+    /// `der(phi)`.
+    pub kept: Vec<String>,
     /// What [`Role::Derivatives`] differentiates by, in the order of its columns; empty where it is
     /// not there.
     pub derivatives: Vec<Variable>,

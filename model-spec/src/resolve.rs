@@ -20,7 +20,9 @@
 //! | [`relaxation`] | the same machine with its guides relaxed |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`stages`] | which of their stages are to be computed by themselves |
+//! | [`keep`] | which start values stay as they are |
 //! | [`brachistochrone`] | where the fastest motion ends |
+//! | [`outside`] | values that are given from outside |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
 mod bounds;
@@ -29,8 +31,10 @@ mod derivatives;
 mod expression;
 mod frames;
 mod items;
+mod keep;
 mod layers;
 mod names;
+mod outside;
 mod published;
 mod rates;
 mod relaxation;
@@ -41,6 +45,7 @@ mod warnings;
 mod work;
 
 pub use names::MEMBER_LIMIT;
+pub use outside::value_in;
 
 use std::collections::BTreeSet;
 
@@ -236,6 +241,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             Some(resolver.differentiated_by(member))
         });
         let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
+        let kept = self.each(Keep, |resolver, member| Some(resolver.kept(member)));
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
 
@@ -290,6 +296,12 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 time: stages.iter().any(|stages| stages.time),
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
+            kept: kept
+                .into_iter()
+                .flatten()
+                .collect::<BTreeSet<_>>()
+                .into_iter()
+                .collect(),
             destination,
             published,
             bounds,

@@ -12,7 +12,7 @@
 //! source      = machine
 //! machine     = "machine" NAME {"in" ("plane" | "space") | "extends" TEXT} "{" {entry} "}"
 //! entry       = quantities | values | records | constraints | assume | approximations
-//!             | derivatives | stages | brachistochrone | gravity | published | remove
+//!             | derivatives | stages | keep | brachistochrone | gravity | published | remove
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
@@ -28,13 +28,15 @@
 //! approximations = "approximations" "{" list(declared ":" ("frozen" | "small")) "}"
 //! derivatives = "derivatives" "{" list(declared) "}"
 //! stages      = "stages" "{" list(declared) "}"
+//! keep        = "keep" "{" list(start) "}"
+//! start       = declared | "der" "(" declared ")"
 //! brachistochrone = "brachistochrone" "{" list(declared "=" expression) "}"
 //! gravity     = "gravity" (expression | "none") ";"
 //! published   = "published" TEXT "{" list(print) "}"
 //! print       = ("potential_energy" | "dissipation" | "kinetic_energy" [declared]
 //!               | ("position" | "velocity" | "force" | "friction") declared) "=" expression
 //!             | "equation" declared ":" equation
-//! remove      = "remove" SECTION ["." declared] ";"
+//! remove      = "remove" SECTION ["." declared] ";" | "remove" "keep" "." start ";"
 //!
 //! declared    = NAME ["[" (expression | expression ".." expression | range) "]"]
 //! range       = NAME "in" expression ".." expression
@@ -66,6 +68,16 @@ mod unit;
 /// What to write instead of a branch.
 pub(crate) const NO_BRANCHES: &str =
     "expressions have no branches: write them with `max`, `min`, `abs` or `sign`";
+
+/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`.
+pub(crate) fn rate_name(coordinate: &str, index: impl std::fmt::Display) -> String {
+    format!("der({coordinate}{index})")
+}
+
+/// The coordinate whose rate has a name.
+pub(crate) fn coordinate_of_rate(name: &str) -> Option<&str> {
+    name.strip_prefix("der(")?.strip_suffix(')')
+}
 
 pub use ast::*;
 pub use expression::NESTING_LIMIT;

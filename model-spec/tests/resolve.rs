@@ -305,6 +305,24 @@ fn variants() {
     assert!(endless.contains("[extends-too-deep]"), "{endless}");
 }
 
+#[test]
+fn what_is_kept_of_a_start_is_by_coordinate() {
+    use lagrangian_spec::model::Variable::{Coordinate, Rate};
+    let dag = Dag::new();
+    let kept = variant(&dag, "keep { der(q[2]), q, phi, der(x) }").kept;
+    let q = (3..6).map(Coordinate);
+    let known = [Coordinate(2)]
+        .into_iter()
+        .chain(q)
+        .chain([Rate(0), Rate(4)]);
+    assert_eq!(kept, known.collect::<Vec<_>>());
+    assert_eq!(
+        variant(&dag, "keep { der(q[i in 2..3]) }").kept,
+        [Rate(4), Rate(5)]
+    );
+    assert_eq!(variant(&dag, "").kept, []);
+}
+
 /// What is wrong with a text.
 fn errors(text: &str) -> String {
     let mut sources = Sources::new();

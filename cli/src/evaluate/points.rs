@@ -2,8 +2,10 @@
 //!
 //! The text is taken apart level by level, each value still being a piece of the text, so that its place is known.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use lagrangian_spec::token::normalized;
 use serde::Deserialize;
 use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
@@ -169,7 +171,13 @@ impl<'a> Reader<'a> {
     /// What stands in an object, in its order; every name once.
     fn pairs(&self, value: &'a RawValue, what: &str) -> Result<Vec<(String, &'a RawValue)>, Wrong> {
         let pairs: Result<Pairs, _> = serde_json::from_str(value.get());
-        let Pairs(pairs) = pairs.map_err(|_| self.expected(value, what))?;
+        let Pairs(mut pairs) = pairs.map_err(|_| self.expected(value, what))?;
+        // As the names of a spec are: two spellings of é are one name.
+        for (name, _) in &mut pairs {
+            if let Cow::Owned(composed) = normalized(name) {
+                *name = composed;
+            }
+        }
         for (index, (name, value)) in pairs.iter().enumerate() {
             if pairs[..index].iter().any(|(other, _)| other == name) {
                 let what = format!("\"{name}\" is given more than once");
@@ -313,6 +321,12 @@ mod tests {
                 "[{\"q\": {\"a\": 1, \"a\": 2}}]",
                 (1, 22),
                 "\"a\" is given more than once",
+            ),
+            // é, and e with an accent.
+            (
+                "[{\"q\": {\"\u{e9}\": 1, \"e\u{301}\": 2}}]",
+                (1, 23),
+                "\"\u{e9}\" is given more than once",
             ),
             (
                 "[{\"t\": 1, \"t\": 2}]",

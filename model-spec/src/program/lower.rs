@@ -19,7 +19,8 @@ use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution, System};
 use super::{Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source};
 use crate::mechanics::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
-use crate::model::{Model, Name, Stages, stage};
+use crate::model::{Model, Name, Stages, Variable, stage};
+use crate::syntax::rate_name;
 use crate::unit::Unit;
 
 /// A named result: what a function is to compute.
@@ -267,6 +268,11 @@ impl Program {
             assumptions: facts(model),
             constraints,
             contacts: Vec::new(),
+            kept: model
+                .kept
+                .iter()
+                .map(|kept| start_name(model, *kept))
+                .collect(),
             derivatives: match has_derivatives {
                 true => model.derivatives.clone(),
                 false => Vec::new(),
@@ -280,6 +286,16 @@ impl Program {
         };
         debug_assert!(!source.sliding.is_empty() || program.verify() == Ok(()));
         program
+    }
+}
+
+/// What a start value is called: as its coordinate is, or `der(phi)`.
+fn start_name(model: &Model<'_>, of: Variable) -> String {
+    match of {
+        Variable::Rate(i) => rate_name(&model.coordinates[i].name.to_string(), ""),
+        Variable::Coordinate(i) => model.coordinates[i].name.to_string(),
+        Variable::Parameter(i) => model.parameters[i].name.to_string(),
+        Variable::Input(i) => model.inputs[i].name.to_string(),
     }
 }
 

@@ -903,7 +903,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         None
     }
 
-    pub fn unknown_coordinate(&mut self, name: &'a syntax::Ident) {
+    pub fn unknown_coordinate(&mut self, name: &syntax::Ident) {
         if self.incomplete || name.text.is_empty() {
             return;
         }

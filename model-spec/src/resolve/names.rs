@@ -12,7 +12,7 @@ use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
     Approximation, Declared, Equation, Expression, Ident, Index, Item, Quantity, Range, Record,
-    Reference, Remove, SectionKind, Spanned, Spec,
+    Reference, Remove, SectionKind, Spanned, Spec, coordinate_of_rate, rate_name,
 };
 use crate::unit::{Measure, Unit};
 
@@ -181,6 +181,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         });
         self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
         self.declare_section(layer, Stages, &spec.stages, |()| Content::Nothing);
+        self.declare_section(layer, Keep, &spec.keep, |()| Content::Nothing);
     }
 
     fn declare_section<C>(
@@ -727,13 +728,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             _ => {
                 let word = name.text.as_str();
                 let is_value = namespaces.contains(&Namespace::Values);
-                let unit = Measure::named(word).filter(|_| is_value);
+                let unit = Measure::named(word).filter(|_| is_value && word.len() > 1);
                 let candidates: Vec<&str> = candidates.take(COMPARED).collect();
-                match unit {
-                    Some(_) if word.len() > 1 => Some(format!(
+                let near = nearest(word, candidates.iter().copied());
+                match (unit, near) {
+                    (Some(_), Some(near)) => Some(format!(
+                        "did you mean `{near}`? `{word}` is a unit too: it stands behind a number, `2*{word}`"
+                    )),
+                    (Some(_), None) => Some(format!(
                         "`{word}` is a unit: it stands behind a number, `2*{word}`"
                     )),
-                    _ => suggestion(word, candidates),
+                    (None, _) if is_value => with_unit(word, suggestion(word, candidates)),
+                    (None, _) => suggestion(word, candidates),
                 }
             }
         };
@@ -799,11 +805,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 }
 
-/// `q[3]`, or `x` for what is no family.
+/// `q[3]`, or `x` for what is no family; `der(q[3])` of a rate.
 pub(super) fn show(base: &str, index: Option<i64>) -> String {
-    match index {
-        Some(index) => format!("{base}[{index}]"),
-        None => base.to_owned(),
+    match (index, coordinate_of_rate(base)) {
+        (Some(index), Some(base)) => rate_name(base, format_args!("[{index}]")),
+        (Some(index), None) => format!("{base}[{index}]"),
+        (None, _) => base.to_owned(),
     }
 }
 
@@ -822,6 +829,24 @@ pub(super) fn suggestion<'n>(
         0 => None,
         1..=LISTED => Some(format!("declared here: `{}`", names.join("`, `"))),
         _ => None,
+    }
+}
+
+/// The help for an unknown word that may have been meant for a unit as well: `degs` is near `deg`.
+fn with_unit(word: &str, help: Option<String>) -> Option<String> {
+    let unit = match word.chars().count() {
+        // One letter in two is no likeness.
+        0..=2 => None,
+        _ => nearest(word, Measure::names()),
+    };
+    match (unit, help) {
+        (Some(unit), Some(help)) => Some(format!(
+            "{help}; or the unit `{unit}`, which stands behind a number: `2*{unit}`"
+        )),
+        (Some(unit), None) => Some(format!(
+            "did you mean the unit `{unit}`? It stands behind a number: `2*{unit}`"
+        )),
+        (None, help) => help,
     }
 }
 

@@ -76,6 +76,8 @@ pub struct Spec {
     pub derivatives: Vec<Item<()>>,
     /// `time`, `coordinates`
     pub stages: Vec<Item<()>>,
+    /// `theta`, or `der(theta)`, which is the name of a rate here
+    pub keep: Vec<Item<()>>,
     /// `coordinate = expression`
     pub brachistochrone: Vec<Item<Expression>>,
     /// `left > right`
@@ -176,6 +178,7 @@ sections! {
     Outputs => "outputs",
     Derivatives => "derivatives",
     Stages => "stages",
+    Keep => "keep",
     Brachistochrone => "brachistochrone",
     Published => "published",
 }
@@ -265,6 +268,7 @@ impl SectionKind {
             SectionKind::Outputs => "an output",
             SectionKind::Derivatives => "a derivative",
             SectionKind::Stages => "a stage",
+            SectionKind::Keep => "a start value that is kept",
             SectionKind::Brachistochrone => "the end of a coordinate",
             SectionKind::Published => "a published equation",
         }

@@ -5,6 +5,7 @@ use crate::source::Span;
 use crate::syntax::ast::*;
 use crate::syntax::brackets::Word;
 use crate::syntax::parse::{Group, Parser};
+use crate::syntax::rate_name;
 use crate::token::{Delimiter, TokenKind, shown};
 use crate::unit::Measure;
 
@@ -393,6 +394,40 @@ impl Parser<'_> {
     /// Items `coordinates`, `rates`, `m`.
     pub(super) fn words(&mut self, kind: SectionKind, items: &mut Vec<Item<()>>) {
         self.items(kind, items, |_, _| Some(()));
+    }
+
+    /// Items `theta`, `der(theta)`, `q[1..N]`.
+    pub(super) fn kept(&mut self, items: &mut Vec<Item<()>>) {
+        self.each_item(SectionKind::Keep, |parser, docs| {
+            let start = parser.here();
+            let name = parser.kept_start()?;
+            if parser.is_mark('=') || parser.is_mark(':') {
+                let help = "start values stand under `coordinates`: `theta: rad = 0.3`, \
+                            `der(theta): rad/s = 2`";
+                parser.unexpected_because("`,` or `}`", Some(help.to_owned()));
+                return None;
+            }
+            let span = start.to(parser.before());
+            items.push(Item {
+                docs,
+                name,
+                content: (),
+                span,
+            });
+            Some(())
+        });
+    }
+
+    /// A coordinate, or the rate of one: its base is `der(theta)` then.
+    pub(super) fn kept_start(&mut self) -> Option<Declared> {
+        if !self.begins_rate() {
+            return self.declared("the name of a coordinate");
+        }
+        let mut rate = self.rate_of()?;
+        if !rate.base.text.is_empty() {
+            rate.base.text = rate_name(&rate.base.text, "");
+        }
+        Some(rate)
     }
 
     /// Facts `left > right`, and `… for i in 1..N`.

@@ -99,7 +99,8 @@ impl Parser<'_> {
             return spec;
         };
         spec.span = start.to(group.span);
-        if self.at >= group.close {
+        // A variant that changes nothing is its base under another name.
+        if self.at >= group.close && spec.extends.is_none() {
             let message = "this machine is empty";
             let empty = Diagnostic::new(Code::EmptyMachine, group.span, message);
             self.complain(empty.help("a machine has `coordinates { … }` and `bodies { … }`"));
@@ -262,6 +263,7 @@ impl Parser<'_> {
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),
             SectionKind::Stages => self.words(kind, &mut spec.stages),
+            SectionKind::Keep => self.kept(&mut spec.keep),
             SectionKind::Brachistochrone => self.values(kind, &mut spec.brachistochrone, '='),
             SectionKind::Assume => self.assume(&mut spec.assume),
             SectionKind::Gravity => self.gravity(spec, heading, docs),
@@ -336,7 +338,10 @@ impl Parser<'_> {
                 if !self.eat_mark('.') {
                     self.unexpected_because("`.` or `;`", Some(help.to_owned()));
                 }
-                name = self.declared(&format!("the name of {}", kind.item()));
+                name = match kind {
+                    SectionKind::Keep => self.kept_start(),
+                    _ => self.declared(&format!("the name of {}", kind.item())),
+                };
             }
         }
         self.end_of_statement(help);

@@ -14,23 +14,25 @@ use crate::token::{Delimiter, Token, TokenKind, shown};
 impl Spec {
     /// Reads the tokens of `source`. Whatever is wrong is reported, all at once.
     pub fn parse(tokens: &[Token], source: SourceId, report: &mut Report) -> Spec {
-        let words = balance(tokens, report);
-        let end = words
-            .last()
-            .map_or(Span::new(source, 0, 0), |word| word.span.after());
-        let mut parser = Parser {
-            words,
-            at: 0,
-            end,
-            depth: 0,
-            failed: false,
-            quiet: 0,
-            skipped_names: false,
-            report,
-        };
+        let mut parser = Parser::new(tokens, source, report);
         let mut spec = parser.source();
         spec.incomplete |= parser.skipped_names;
         spec
+    }
+}
+
+impl Quantity {
+    /// Reads the value of a quantity, and its unit, from two texts that hold nothing else. Whatever is wrong
+    /// is reported.
+    pub(crate) fn parse([unit, value]: [(SourceId, &[Token]); 2], report: &mut Report) -> Quantity {
+        let mut parser = Parser::new(unit.1, unit.0, report);
+        let unit = parser.unit();
+        parser.expect_end();
+        let mut parser = Parser::new(value.1, value.0, report);
+        let value = parser.expression();
+        parser.expect_end();
+        let value = Some(value);
+        Quantity { unit, value }
     }
 }
 
@@ -61,6 +63,31 @@ pub(super) struct Group {
 
 /// Words, and what is done about those that do not fit.
 impl<'t> Parser<'t> {
+    fn new(tokens: &'t [Token], source: SourceId, report: &'t mut Report) -> Parser<'t> {
+        let words = balance(tokens, report);
+        let end = words
+            .last()
+            .map_or(Span::new(source, 0, 0), |word| word.span.after());
+        Parser {
+            words,
+            at: 0,
+            end,
+            depth: 0,
+            failed: false,
+            quiet: 0,
+            skipped_names: false,
+            report,
+        }
+    }
+
+    /// Nothing more.
+    fn expect_end(&mut self) {
+        if self.peek().is_some() && !self.failed {
+            let help = self.help_between();
+            self.unexpected_because("the end or an operator", help);
+        }
+    }
+
     pub(super) fn peek(&self) -> Option<Word<'t>> {
         self.words.get(self.at).copied()
     }
@@ -316,6 +343,12 @@ impl<'t> Parser<'t> {
 
     /// After an element comes neither a comma nor the end.
     fn unexpected_between(&mut self) {
+        let help = self.help_between();
+        self.unexpected_because("`,` or an operator", help);
+    }
+
+    /// What to write where an expression does not go on.
+    fn help_between(&self) -> Option<String> {
         let behind_operand = self.at.checked_sub(1).and_then(|at| self.words.get(at));
         let operand = |kind| {
             matches!(
@@ -328,7 +361,7 @@ impl<'t> Parser<'t> {
         let starts_operand = self.peek().is_some_and(|word| {
             operand(word.kind) || word.kind == TokenKind::Open(Delimiter::Parenthesis)
         });
-        let help = match (self.peek(), behind_operand) {
+        match (self.peek(), behind_operand) {
             (Some(word), Some(before)) if starts_operand && operand(before.kind) => {
                 let shown = |word: Word<'t>| match word.kind {
                     TokenKind::Open(_) | TokenKind::Close(_) => "(…)",
@@ -344,8 +377,7 @@ impl<'t> Parser<'t> {
                 Some("a range stands only in the index of a declaration: `q[1..N]`".to_owned())
             }
             _ => None,
-        };
-        self.unexpected_because("`,` or an operator", help);
+        }
     }
 
     /// Goes on behind the next comma of this list.

@@ -72,6 +72,21 @@ impl Emitter<'_> {
         );
     }
 
+    /// The method of `System` for what a description keeps of its start.
+    pub(super) fn kept_at_start(&mut self) {
+        let kept = &self.program.kept;
+        if kept.is_empty() {
+            return;
+        }
+        let [str, iterator] = ["str", "ExactSizeIterator"].map(|name| self.types.known(name));
+        let result = format!("impl {iterator}<Item = &{str}>");
+        let names = kept.iter().map(|name| format!("{name:?}"));
+        let names = Layout::array(names);
+        self.method("kept_at_start", &[], Some(&result), |body| {
+            body.expression("", &names, ".into_iter()");
+        });
+    }
+
     /// Small functions that the code above calls.
     pub(super) fn helpers_of_constraints(&mut self) {
         if self.program.constraints.is_empty() {

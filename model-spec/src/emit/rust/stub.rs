@@ -88,6 +88,7 @@ fn standstill(spec: &Spec) -> Program {
         assumptions: Vec::new(),
         constraints: Vec::new(),
         contacts: Vec::new(),
+        kept: Vec::new(),
         derivatives: Vec::new(),
         stages,
         prepare: zeros(Role::Prepare, Shape::Vector(0)),

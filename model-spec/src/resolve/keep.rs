@@ -1,0 +1,63 @@
+//! Which start values stay as they are where the start does not obey the constraints.
+
+use super::Resolver;
+use super::names::{Namespace, show};
+use super::value::MemberId;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::Variable;
+use crate::syntax::{Ident, SectionKind, coordinate_of_rate};
+
+impl Resolver<'_, '_, '_> {
+    /// The coordinates or rates that an item of `keep` means: one, or those of a family.
+    ///
+    /// What a base keeps of a coordinate goes with the coordinate, where a variant removes that.
+    pub fn kept(&mut self, member: MemberId) -> Vec<Variable> {
+        let declaration = self.declaration(member);
+        let (name, is_inherited) = (declaration.name, declaration.layer + 1 < self.layer_count);
+        let rate_of = coordinate_of_rate(&name.base.text);
+        let base = rate_of.unwrap_or(&name.base.text);
+        let Some(group) = self.find_group(Namespace::Values, base) else {
+            if !is_inherited {
+                self.unknown_coordinate(&Ident {
+                    text: base.to_owned(),
+                    span: name.base.span,
+                });
+            }
+            return Vec::new();
+        };
+        let index = self.members[member].index;
+        let members: Vec<MemberId> = self.groups[group]
+            .members
+            .iter()
+            .filter(|(other, _)| index.is_none() || **other == index)
+            .map(|(_, &member)| member)
+            .collect();
+        let is_coordinate =
+            |&member: &MemberId| self.declaration(member).section == SectionKind::Coordinates;
+        if is_inherited && !members.iter().any(is_coordinate) {
+            return Vec::new();
+        }
+        if members.is_empty() && !self.groups[group].broken {
+            let message = format!("there is no `{}`", show(base, index));
+            self.error(Code::IndexOutOfRange, name.span, message);
+        }
+        let mut kept = Vec::new();
+        for member in members {
+            let section = self.declaration(member).section;
+            if section != SectionKind::Coordinates {
+                let found = section.item();
+                let message = format!("a coordinate is expected here, and `{base}` is {found}");
+                let wrong = Diagnostic::new(Code::WrongKind, name.base.span, message);
+                self.push(
+                    wrong.help("the start has a value for each coordinate, and for its rate"),
+                );
+                continue;
+            }
+            kept.extend(self.ordinal(member).map(match rate_of {
+                Some(_) => Variable::Rate,
+                None => Variable::Coordinate,
+            }));
+        }
+        kept
+    }
+}

@@ -1,0 +1,213 @@
+//! How near a start can come to the constraints while some of its numbers are kept.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::algebra::{backward, cholesky, dot, forward};
+use super::{Level, Place};
+use crate::{System, Vector};
+
+/// The method converges by then, or stands where it will.
+const ROUNDS: usize = 200;
+
+/// Less than this is no miss, relative to what was left at the start: the square of it is what rounding
+/// leaves of a sum of squares.
+const NO_MISS: f64 = 1e-7;
+
+/// Nor is this, relative to the terms of a row: runs ask for less, and rounding is far below.
+const ROUNDING: f64 = 1e-11;
+
+/// Parts of the greatest miss that are less than this belong to rows that could be met beside it.
+const BESIDE: f64 = 1e-4;
+
+/// A row that cannot be met: its index, whether its positions or its rates, and its residual.
+pub(crate) type Miss = (usize, usize, f64);
+
+/// The rows that cannot be met by moving what is free, `kept` being not 0 for what is not: those of which
+/// something is left where the sum of the squares of all residuals is least, positions first, and
+/// only if these can be met the rates. `place` is brought there.
+///
+/// Each residual counts by the distance, in the metric of the inertias, that it is worth where the start
+/// is; the method is K. Levenberg's (*A method for the solution of certain non-linear problems in least
+/// squares*, 1944), each step being `−W Gᵀ (G W Gᵀ + μ)⁻¹ g`.
+pub(crate) fn closest<S: System>(
+    system: &S,
+    place: &mut Place<'_, S::Vector>,
+    kept: &[S::Vector; 2],
+) -> Vec<Miss> {
+    for level in [Level::Positions, Level::Rates] {
+        let mut search = Search::new(system, place, &kept[level as usize], level);
+        search.go(system, place);
+        let misses = search.misses();
+        if !misses.is_empty() {
+            return misses;
+        }
+    }
+    Vec::new()
+}
+
+struct Search {
+    level: Level,
+    n: usize,
+    /// The rows that count on this level.
+    rows: Vec<usize>,
+    /// What divides the residual of each.
+    sizes: Vec<f64>,
+    /// The inverse inertia of each coordinate, 0 where it is kept.
+    free: Vec<f64>,
+    /// Residuals over sizes, and rows over sizes, where the search is.
+    left: Vec<f64>,
+    matrix: Vec<f64>,
+    /// What counts as nothing.
+    nothing: f64,
+}
+
+impl Search {
+    fn new<S: System>(
+        system: &S,
+        place: &Place<'_, S::Vector>,
+        kept: &S::Vector,
+        level: Level,
+    ) -> Self {
+        let n = place.q[0].as_slice().len();
+        let rows = system.constraints().enumerate();
+        let rows = rows.filter(|(_, row)| row.holonomic || matches!(level, Level::Rates));
+        let rows: Vec<usize> = rows.map(|(k, _)| k).collect();
+        let mut inertia = <S::Matrix as Vector>::zeros(n * n);
+        system.mass_matrix(place.t, place.q[0], &mut inertia);
+        let inverse = |j: usize| match inertia.as_slice()[j * n + j] {
+            m if m > 0.0 && m.is_finite() => 1.0 / m,
+            _ => 1.0,
+        };
+        let inverse: Vec<f64> = (0..n).map(inverse).collect();
+        let mut search = Self {
+            level,
+            n,
+            sizes: vec![1.0; rows.len()],
+            left: vec![0.0; rows.len()],
+            matrix: vec![0.0; rows.len() * n],
+            rows,
+            free: inverse.clone(),
+            nothing: 0.0,
+        };
+        search.look(system, place);
+        for (row, size) in search.matrix.chunks_exact(n).zip(&mut search.sizes) {
+            let squares = row.iter().zip(&inverse).map(|(g, w)| g * g * w);
+            let length = squares.sum::<f64>().sqrt();
+            if length > 0.0 && length.is_finite() {
+                *size = length;
+            }
+        }
+        search.look(system, place);
+        let y = match level {
+            Level::Positions => &*place.q[0],
+            Level::Rates => &*place.v[0],
+        };
+        let reach = |(y, of): (&f64, crate::Quantity<'_>)| match (level, of.unit) {
+            (Level::Positions, "rad") => y.abs().max(1.0),
+            _ => y.abs(),
+        };
+        let reach: Vec<f64> = y
+            .as_slice()
+            .iter()
+            .zip(system.coordinates())
+            .map(reach)
+            .collect();
+        for (row, left) in search.matrix.chunks_exact(n).zip(&search.left) {
+            let terms = row
+                .iter()
+                .zip(&reach)
+                .map(|(g, y)| g.abs() * y)
+                .sum::<f64>();
+            let nothing = (ROUNDING * (terms + left.abs())).max(NO_MISS * left.abs());
+            search.nothing = search.nothing.max(nothing);
+        }
+        for (free, kept) in search.free.iter_mut().zip(kept.as_slice()) {
+            if *kept != 0.0 {
+                *free = 0.0;
+            }
+        }
+        search
+    }
+
+    /// Residuals and rows at a state.
+    fn look<S: System>(&mut self, system: &S, place: &Place<'_, S::Vector>) {
+        let m = system.constraints().len();
+        let (mut left, mut matrix) = (vec![0.0; m], vec![0.0; m * self.n]);
+        let (q, v) = (&*place.q[0], &*place.v[0]);
+        match self.level {
+            Level::Positions => system.constraint_positions(place.t, q, &mut left),
+            Level::Rates => system.constraint_rates(place.t, q, v, &mut left),
+        }
+        system.constraint_matrix(place.t, q, &mut matrix);
+        for (at, (&k, size)) in self.rows.iter().zip(&self.sizes).enumerate() {
+            self.left[at] = left[k] / size;
+            let row = &matrix[k * self.n..][..self.n];
+            for (to, g) in self.matrix[at * self.n..].iter_mut().zip(row) {
+                *to = g / size;
+            }
+        }
+    }
+
+    fn go<S: System>(&mut self, system: &S, place: &mut Place<'_, S::Vector>) {
+        let (n, m) = (self.n, self.rows.len());
+        self.look(system, place);
+        let mut damping = 1e-3;
+        let mut squares = dot(&self.left, &self.left);
+        for _ in 0..ROUNDS {
+            if !(squares > 0.0 && squares.is_finite() && damping < 1e12) {
+                return;
+            }
+            let mut normal = vec![0.0; m * m];
+            for (i, a) in self.matrix.chunks_exact(n).enumerate() {
+                for (j, b) in self.matrix.chunks_exact(n).enumerate().take(i + 1) {
+                    let terms = a.iter().zip(b).zip(&self.free);
+                    normal[i * m + j] = terms.map(|((a, b), w)| a * b * w).sum();
+                }
+                normal[i * m + i] += damping;
+            }
+            let mut shares = vec![0.0; m];
+            if cholesky(&mut normal, &mut shares).is_err() {
+                damping *= 10.0;
+                continue;
+            }
+            let mut weights = self.left.clone();
+            forward(&normal, &mut weights);
+            backward(&normal, &mut weights);
+            let before = place.level(self.level)[0].clone();
+            let y = place.level(self.level)[0].as_mut_slice();
+            for (row, weight) in self.matrix.chunks_exact(n).zip(&weights) {
+                for ((y, g), w) in y.iter_mut().zip(row).zip(&self.free) {
+                    *y -= w * g * weight;
+                }
+            }
+            self.look(system, place);
+            let now = dot(&self.left, &self.left);
+            if now < squares {
+                let gain = 1.0 - now / squares;
+                squares = now;
+                damping = (0.1 * damping).max(1e-12);
+                if gain < 1e-12 {
+                    return;
+                }
+            } else {
+                *place.level(self.level)[0] = before;
+                self.look(system, place);
+                damping *= 10.0;
+            }
+        }
+    }
+
+    /// What is left where the search stands.
+    fn misses(&self) -> Vec<Miss> {
+        let most = self.left.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let rows = self.rows.iter().zip(&self.left).zip(&self.sizes);
+        let missed = rows.filter(|((_, left), _)| left.abs() > BESIDE * most);
+        let level = self.level as usize;
+        let misses = missed.map(|((k, left), size)| (*k, level, left * size));
+        match most <= self.nothing {
+            true => Vec::new(),
+            false => misses.collect(),
+        }
+    }
+}
