@@ -142,6 +142,18 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The machine lends no room for the work on its contacts ([`System::lend`]).
+    NoRoomForContacts {
+        /// Time, in s.
+        t: f64,
+    },
+    /// The derivatives of the accelerations are asked of a machine with contacts that stick or slide.
+    ContactsNotDifferentiated {
+        /// The first of them.
+        contact: String,
+        /// Time, in s.
+        t: f64,
+    },
     /// The motion within a step was asked for after the inputs were changed at its end
     /// ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)).
     InputsChanged {
@@ -274,6 +286,10 @@ impl Error {
                         q: std::vec::Vec::new(),
                         v: std::vec::Vec::new(),
                     },
+                    Pivot::NoRoom => Self::NoRoomForContacts { t },
+                    Pivot::NotDifferentiated(_) => {
+                        Self::ContactsNotDifferentiated { contact: name, t }
+                    }
                 }
             }
             StepError::Inconsistent {
@@ -503,6 +519,17 @@ impl Display for Error {
             Self::NoRoomForConstraints { t } => write!(
                 f,
                 "the machine lends no room for the work on its constraints at t = {t} s",
+                t = Short(*t)
+            ),
+            Self::NoRoomForContacts { t } => write!(
+                f,
+                "the machine lends no room for the work on its contacts at t = {t} s",
+                t = Short(*t)
+            ),
+            Self::ContactsNotDifferentiated { contact, t } => write!(
+                f,
+                "the accelerations are not differentiated at t = {t} s: `{contact}` may stick or slide, and what sticks has no \
+                 linearization",
                 t = Short(*t)
             ),
             Self::InputsChanged { t } => write!(

@@ -128,7 +128,7 @@ pub(crate) enum Cause {
 ///
 /// # Errors
 /// Beside what makes the machine itself singular, where no motion has these contacts, or several have
-/// ([`Pivot::Contact`]).
+/// ([`Pivot::Contact`]), or the machine lends no room ([`Pivot::NoRoom`]).
 pub fn contact_forces<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -198,14 +198,15 @@ fn with_parts<S: System, R>(
     };
     let length = room(layout.n, layout.m, layout.k);
     system.lend(length, |room| {
-        // A machine with contacts lends room, or there is an allocator.
-        let Some(room) = room else {
+        // Without an allocator a machine that lends nothing, or too little, has none.
+        let room = room.filter(|room| room.len() >= length);
+        let Some((values, rest)) = room.and_then(|room| room.split_at_mut_checked(layout.len()))
+        else {
             return Err(Singular {
-                at: Pivot::Contact(0),
-                ratio: f64::NAN,
+                at: Pivot::NoRoom,
+                ratio: 0.0,
             });
         };
-        let (values, rest) = room.split_at_mut(layout.len());
         system.friction(t, q, v, u, values)?;
         work(&Parts { layout, values }, rest)
     })

@@ -513,8 +513,8 @@ impl Linearize for InterpretedSystem {
         if !self.program.contacts.is_empty() {
             // What sticks has no linearization, and the law of what slides is not differentiated.
             return Err(Singular {
-                at: Pivot::Contact(0),
-                ratio: f64::NAN,
+                at: Pivot::NotDifferentiated(0),
+                ratio: 0.0,
             });
         }
         let u = &u.values;

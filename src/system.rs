@@ -511,7 +511,7 @@ pub struct Singular {
     pub at: Pivot,
     /// What elimination left of its diagonal element, relative to that element; 0 when nothing is
     /// left or the element itself is 0. At a contact, 0 where no motion has this friction, and
-    /// infinite where several have.
+    /// infinite where several have. 0 where no row is to blame.
     pub ratio: f64,
 }
 
@@ -524,6 +524,11 @@ pub enum Pivot {
     Constraint(usize),
     /// That of the contact with this index: the law of friction has no solution, or several.
     Contact(usize),
+    /// None: the machine lends no room to find out what its contacts do ([`System::lend`]).
+    NoRoom,
+    /// None: accelerations that the contact with this index has a part in are not differentiated. What sticks has no
+    /// linearization.
+    NotDifferentiated(usize),
 }
 
 impl Singular {
@@ -544,7 +549,8 @@ impl Singular {
         let name = match self.at {
             Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
             Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
-            Pivot::Contact(index) => system.contacts().nth(index),
+            Pivot::Contact(index) | Pivot::NotDifferentiated(index) => system.contacts().nth(index),
+            Pivot::NoRoom => None,
         };
         name.unwrap_or("?")
     }
@@ -583,6 +589,12 @@ impl Display for Singular {
                     index + 1
                 )
             }
+            Pivot::NoRoom => write!(f, "the machine lends no room for the work on its contacts"),
+            Pivot::NotDifferentiated(index) => write!(
+                f,
+                "the accelerations are not differentiated, as contact number {} may stick or slide",
+                index + 1
+            ),
         }
     }
 }

@@ -5,7 +5,7 @@
 mod support;
 
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
-use lagrangian::{Linearize, Machine, Pivot, System};
+use lagrangian::{Error, Linearize, Machine, Pivot, StepError, System};
 use support::library;
 
 lagrangian::machine! {
@@ -204,6 +204,28 @@ fn dual_numbers_refuse_what_accelerations_refuse() {
     let refused = system.linearize(0.0, &q, &v, &u, &mut a, &mut by_q, &mut by_v);
     assert_eq!(refused.map_err(|e| e.at), Err(Pivot::Coordinate(1)));
     assert_eq!(refused, alone);
+}
+
+#[test]
+fn what_may_stick_is_not_linearized_and_named() {
+    let text = "machine Block in plane {
+        coordinates { x: m }
+        frames { block = ground.shift(x, 0) }
+        bodies { block { mass: 1, frame: block } }
+        gravity (0, -9.81);
+        sliding { floor { body: block, on: ground, direction: (1, 0), friction: 0.2 } }
+    }";
+    let system = library::machine(text).prepare();
+    let (q, v, u) = (vec![0.0], vec![1.0], system.default_inputs());
+    let (mut a, mut by_q, mut by_v) = (vec![0.0], vec![0.0], vec![0.0]);
+    let refused = system.linearize(0.0, &q, &v, &u, &mut a, &mut by_q, &mut by_v);
+    let singular = refused.unwrap_err();
+    assert_eq!(singular.at, Pivot::NotDifferentiated(0));
+    assert_eq!(singular.name(&system), "floor");
+    let error = Error::of_step(StepError::Singular { singular, t: 0.5 }, &system).to_string();
+    let expected =
+        "the accelerations are not differentiated at t = 0.5 s: `floor` may stick or slide";
+    assert!(error.starts_with(expected), "{error}");
 }
 
 /// Derivatives of the derivatives' own code: the matrix by coordinates is generic over its numbers too.

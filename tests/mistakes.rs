@@ -8,7 +8,8 @@ use by_hand::double_pendulum::DoublePendulum;
 use by_hand::tampered::{Slip, Tampered};
 use by_hand::toy::{Toy, ball, oscillator, pendulum};
 use lagrangian::{
-    Error, METHODS, Machine, Method, Simulation, Solution, State, System, Warning, check_equations,
+    Error, METHODS, Machine, Method, Pivot, Simulation, Solution, State, System, Warning,
+    check_equations,
 };
 
 fn error_of<const N: usize>(toy: &Toy<N>, until: f64) -> Error {
@@ -614,4 +615,29 @@ fn stiffness_is_told_while_the_run_is_under_way() {
         .run(stiff.start())
         .unwrap();
     assert_eq!(implicit.statistics().stiff_since, None);
+}
+
+/// Of a machine with contacts that lends no room for them nothing is known; that is no matter of friction.
+#[test]
+fn contacts_without_room_are_told_so() {
+    for lent in [None, Some(0), Some(1)] {
+        let tight = Tampered {
+            machine: circle::<0>(),
+            slip: Slip::Room(lent),
+        };
+        let start = tight.start();
+        let mut a = [0.0; 2];
+        let singular = tight.accelerations(0.0, &start.q, &start.v, &(), &mut a);
+        let singular = singular.unwrap_err();
+        assert_eq!((singular.at, singular.ratio), (Pivot::NoRoom, 0.0));
+        assert!(singular.to_string().contains("lends no room"), "{singular}");
+        let refused = Simulation::new(&tight).until(1.0).run(start);
+        let error = refused.unwrap_err();
+        assert!(matches!(error, Error::NoRoomForContacts { .. }), "{error}");
+        let text = error.to_string();
+        assert!(
+            text.contains("no room for the work on its contacts"),
+            "{text}"
+        );
+    }
 }

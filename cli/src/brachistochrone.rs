@@ -84,7 +84,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         }
         Form::Varying(landscape, because) => {
             let search = guess.into_iter().fold(Search::new(), Search::guess);
-            let found = search.solve(landscape, &from, &to);
+            let found = search.solve(*landscape, &from, &to);
             (found.map(Box::new).map(Motion::Direct), because)
         }
     };

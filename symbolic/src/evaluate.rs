@@ -18,68 +18,107 @@ use crate::expr::Expr;
 pub fn evaluate<S: Scalar>(
     dag: &Dag,
     roots: &[Expr<'_>],
-    mut value: impl FnMut(Symbol) -> S,
+    value: impl FnMut(Symbol) -> S,
 ) -> Vec<S> {
-    let needed = crate::reachable(dag, roots);
-    // First the symbols: `value` may well ask the graph for their names.
-    let symbol_of = |&id: &Id| dag.expr(id).as_symbol();
-    let symbols: Vec<S> = needed
-        .iter()
-        .filter_map(symbol_of)
-        .map(&mut value)
-        .collect();
-    let mut symbols = symbols.into_iter();
+    Evaluation::new(dag, roots).values(value)
+}
 
-    let arena = dag.arena.borrow();
-    let mut place = vec![0u32; needed.last().map_or(0, |id| id.index() + 1)];
-    let mut values: Vec<S> = Vec::with_capacity(needed.len());
-    for (index, &id) in needed.iter().enumerate() {
-        place[id.index()] = index as u32;
-        let at = |child: Id| values[place[child.index()] as usize];
-        let value = match arena.node(id) {
-            Node::Constant(value) => value.evaluate(),
-            Node::Pi => S::pi(),
-            Node::Symbol(_) => symbols
-                .next()
-                .expect("every needed symbol has been asked for"),
-            Node::Sum(terms) => {
-                let mut sum: Option<S> = None;
-                for (x, c) in terms.iter() {
-                    let x = at(*x);
-                    sum = Some(match (sum, c.as_integer()) {
-                        (Some(sum), Some(1)) => sum + x,
-                        (Some(sum), Some(-1)) => sum - x,
-                        (Some(sum), _) => sum + c.evaluate::<S>() * x,
-                        (None, Some(1)) => x,
-                        (None, Some(-1)) => -x,
-                        (None, _) => c.evaluate::<S>() * x,
-                    });
-                }
-                sum.unwrap_or(S::ZERO)
-            }
-            Node::Product(factors) => {
-                let power = |&(x, n): &(Id, i32)| power(at(x), n.unsigned_abs());
-                let above = factors.iter().filter(|(_, n)| *n > 0).map(power);
-                let below = factors.iter().filter(|(_, n)| *n < 0).map(power);
-                let numerator = above.reduce(|a, b| a * b);
-                match (numerator, below.reduce(|a, b| a * b)) {
-                    (Some(numerator), Some(denominator)) => numerator / denominator,
-                    (Some(numerator), None) => numerator,
-                    (None, Some(denominator)) => S::ONE / denominator,
-                    (None, None) => S::ONE,
-                }
-            }
-            Node::Function(function, arguments) => {
-                let x = at(arguments[0]);
-                apply(*function, x, arguments.get(1).map_or(x, |&y| at(y)))
-            }
-        };
-        values.push(value);
+/// Expressions that are evaluated again and again: what they are built from is found once.
+///
+/// ```
+/// use lagrangian_symbolic::{Dag, Evaluation, Stage};
+///
+/// let dag = Dag::new();
+/// let x = dag.symbol("x", Stage(3));
+/// let square = Evaluation::new(&dag, &[x.square()]);
+/// assert_eq!([2.0, 3.0].map(|x| square.values(|_| x)[0]), [4.0, 9.0]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Evaluation<'d> {
+    dag: &'d Dag,
+    /// What the expressions are built from, children first.
+    needed: Vec<Id>,
+    /// The symbols among it.
+    symbols: Vec<Symbol>,
+    /// Where among it each node is.
+    place: Vec<u32>,
+    /// Where among it the expressions are.
+    roots: Vec<u32>,
+}
+
+impl<'d> Evaluation<'d> {
+    /// Of these expressions.
+    pub fn new(dag: &'d Dag, roots: &[Expr<'_>]) -> Evaluation<'d> {
+        let needed = crate::reachable(dag, roots);
+        let mut place = vec![0u32; needed.last().map_or(0, |id| id.index() + 1)];
+        for (index, id) in needed.iter().enumerate() {
+            place[id.index()] = index as u32;
+        }
+        let symbols = needed.iter().filter_map(|&id| dag.expr(id).as_symbol());
+        Evaluation {
+            dag,
+            symbols: symbols.collect(),
+            roots: roots.iter().map(|root| place[root.id().index()]).collect(),
+            needed,
+            place,
+        }
     }
-    roots
-        .iter()
-        .map(|root| values[place[root.id().index()] as usize])
-        .collect()
+
+    /// Their values; `value` is asked once for each symbol that occurs.
+    pub fn values<S: Scalar>(&self, value: impl FnMut(Symbol) -> S) -> Vec<S> {
+        // First the symbols: `value` may well ask the graph for their names.
+        let symbols: Vec<S> = self.symbols.iter().copied().map(value).collect();
+        let mut symbols = symbols.into_iter();
+
+        let arena = self.dag.arena.borrow();
+        let mut values: Vec<S> = Vec::with_capacity(self.needed.len());
+        for &id in &self.needed {
+            let at = |child: Id| values[self.place[child.index()] as usize];
+            let value = match arena.node(id) {
+                Node::Constant(value) => value.evaluate(),
+                Node::Pi => S::pi(),
+                Node::Symbol(_) => symbols
+                    .next()
+                    .expect("every needed symbol has been asked for"),
+                Node::Sum(terms) => {
+                    let mut sum: Option<S> = None;
+                    for (x, c) in terms.iter() {
+                        let x = at(*x);
+                        sum = Some(match (sum, c.as_integer()) {
+                            (Some(sum), Some(1)) => sum + x,
+                            (Some(sum), Some(-1)) => sum - x,
+                            (Some(sum), _) => sum + c.evaluate::<S>() * x,
+                            (None, Some(1)) => x,
+                            (None, Some(-1)) => -x,
+                            (None, _) => c.evaluate::<S>() * x,
+                        });
+                    }
+                    sum.unwrap_or(S::ZERO)
+                }
+                Node::Product(factors) => {
+                    let power = |&(x, n): &(Id, i32)| power(at(x), n.unsigned_abs());
+                    let above = factors.iter().filter(|(_, n)| *n > 0).map(power);
+                    let below = factors.iter().filter(|(_, n)| *n < 0).map(power);
+                    let numerator = above.reduce(|a, b| a * b);
+                    match (numerator, below.reduce(|a, b| a * b)) {
+                        (Some(numerator), Some(denominator)) => numerator / denominator,
+                        (Some(numerator), None) => numerator,
+                        (None, Some(denominator)) => S::ONE / denominator,
+                        (None, None) => S::ONE,
+                    }
+                }
+                Node::Function(function, arguments) => {
+                    let x = at(arguments[0]);
+                    apply(*function, x, arguments.get(1).map_or(x, |&y| at(y)))
+                }
+            };
+            values.push(value);
+        }
+        self.roots
+            .iter()
+            .map(|root| values[*root as usize])
+            .collect()
+    }
 }
 
 /// The work of [`evaluate`]: nodes, operands, and the digits of what does not fit into a machine

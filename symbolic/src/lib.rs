@@ -37,7 +37,7 @@ mod rational;
 
 pub use calculus::{Tangent, reverse, substitute};
 pub use dag::{Dag, Function, Id, Node, Stage, Symbol, reachable};
-pub use evaluate::{evaluate, evaluation_work, nearest};
+pub use evaluate::{Evaluation, evaluate, evaluation_work, nearest};
 pub use expr::Expr;
 pub use print::{
     Math, Names, latex, latex_name, latex_words, markup_words, math, math_as_built, math_name,

@@ -1,7 +1,9 @@
 //! A machine whose functions contradict each other.
 
 use super::constrained::Constrained;
-use lagrangian::{Assumption, Constraint, Machine, Quantity, Singular, State, System};
+use lagrangian::{
+    Assumption, Constraint, Machine, Quantity, Singular, State, System, accelerations_with_friction,
+};
 
 /// What is wrong with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,6 +16,8 @@ pub enum Slip {
     Multiplier(usize, f64),
     /// The drift `γ` of a constraint, by this much, in one of two functions.
     Drift(usize, f64),
+    /// It has a contact, and lends no room to find out what that does, or room for so many numbers.
+    Room(Option<usize>),
 }
 
 /// A machine by hand with a slip in one of its functions.
@@ -70,6 +74,9 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
         u: &(),
         a: &mut [f64; N],
     ) -> Result<(), Singular> {
+        if let Slip::Room(_) = self.slip {
+            return accelerations_with_friction(self, t, q, v, u, a);
+        }
         self.machine.accelerations(t, q, v, u, a)?;
         if let Slip::Acceleration(i, by) = self.slip {
             a[i] += by;
@@ -171,5 +178,18 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
             multipliers[k] *= factor;
         }
         Ok(())
+    }
+
+    fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
+        let has = matches!(self.slip, Slip::Room(_));
+        has.then_some("pad").into_iter()
+    }
+
+    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = vec![0.0; length];
+        match self.slip {
+            Slip::Room(lent) => work(lent.map(|lent| &mut room[..lent])),
+            _ => work(Some(&mut room)),
+        }
     }
 }

@@ -5,7 +5,7 @@ use lagrangian::brachistochrone::Contact;
 use lagrangian::brachistochrone::direct::Terrain;
 use lagrangian_spec::mechanics::Brachistochronic;
 use lagrangian_spec::model::Model;
-use lagrangian_symbolic::{Expr, Symbol, evaluate};
+use lagrangian_symbolic::{Evaluation, Expr, Symbol};
 
 /// Masses, forces and guides where the machine is.
 pub struct Landscape<'a, 'd> {
@@ -15,6 +15,10 @@ pub struct Landscape<'a, 'd> {
     parameters: Vec<(Symbol, f64)>,
     coordinates: Vec<(Symbol, usize)>,
     rates: Vec<(Symbol, usize)>,
+    mass: Evaluation<'a>,
+    slope: Evaluation<'a>,
+    /// Of each guide, with its reaction by accelerations, and by loads.
+    guides: Vec<[Evaluation<'a>; 2]>,
 }
 
 /// What a guide is at one place, with every number of one kind.
@@ -40,7 +44,20 @@ impl<'a, 'd> Landscape<'a, 'd> {
             symbols
         };
         parameters.sort_unstable_by_key(|(symbol, _)| *symbol);
+        let evaluation = |list: &[Expr<'d>]| Evaluation::new(model.dag, list);
+        let guides = form.guides.iter().map(|guide| {
+            [guide.weights.as_slice(), &[guide.load]].map(|reaction| {
+                let mut list = guide.along.clone();
+                list.extend(&guide.by_frictions);
+                list.push(guide.friction);
+                list.extend(reaction);
+                evaluation(&list)
+            })
+        });
         Landscape {
+            mass: evaluation(&form.mass.concat()),
+            slope: evaluation(&form.slope),
+            guides: guides.collect(),
             coordinates: numbered(&|i| model.coordinates[i].q),
             rates: numbered(&|i| model.coordinates[i].v),
             model,
@@ -49,8 +66,8 @@ impl<'a, 'd> Landscape<'a, 'd> {
         }
     }
 
-    fn values<N: Scalar>(&self, expressions: &[Expr<'d>], q: &[N], v: &[N]) -> Vec<N> {
-        evaluate(self.model.dag, expressions, |symbol| {
+    fn values<N: Scalar>(&self, expressions: &Evaluation<'_>, q: &[N], v: &[N]) -> Vec<N> {
+        expressions.values(|symbol| {
             let place = |list: &[(Symbol, usize)]| {
                 let found = list.binary_search_by_key(&symbol, |(symbol, _)| *symbol);
                 found.ok().map(|found| list[found].1)
@@ -70,15 +87,9 @@ impl<'a, 'd> Landscape<'a, 'd> {
         let n = self.model.coordinates.len();
         let count = self.form.guides.len();
         let mut locals: Vec<Local<N>> = Vec::new();
-        for guide in &self.form.guides {
-            let mut list = guide.along.clone();
-            list.extend(&guide.by_frictions);
-            list.push(guide.friction);
-            match loads {
-                true => list.push(guide.load),
-                false => list.extend(&guide.weights),
-            }
-            let mut values = self.values(&list, q, v);
+        for [by_weights, by_loads] in &self.guides {
+            let reaction = if loads { by_loads } else { by_weights };
+            let mut values = self.values(reaction, q, v);
             let parts = values.split_off(n + count + 1);
             let friction = values[n + count];
             values.truncate(n + count);
@@ -132,8 +143,7 @@ impl Terrain for Landscape<'_, '_> {
 
     fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
         let n = q.len();
-        let mass: Vec<Expr<'_>> = self.form.mass.concat();
-        let mut inertia = self.values(&mass, q, &[]);
+        let mut inertia = self.values(&self.mass, q, &[]);
         for guide in self.locals(q, &[], false) {
             for (k, entry) in inertia.iter_mut().enumerate() {
                 *entry = *entry + guide.friction * guide.along[k / n] * guide.parts[k % n];
@@ -143,7 +153,7 @@ impl Terrain for Landscape<'_, '_> {
     }
 
     fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
-        let mut resistance = self.values(&self.form.slope, q, v);
+        let mut resistance = self.values(&self.slope, q, v);
         for guide in self.locals(q, v, true) {
             for (entry, along) in resistance.iter_mut().zip(&guide.along) {
                 *entry = *entry + guide.friction * *along * guide.parts[0];
@@ -153,7 +163,7 @@ impl Terrain for Landscape<'_, '_> {
     }
 
     fn mass(&self, q: &[f64]) -> Vec<f64> {
-        self.values(&self.form.mass.concat(), q, &[])
+        self.values(&self.mass, q, &[])
     }
 
     fn guides(&self) -> Vec<String> {

@@ -15,7 +15,7 @@ pub enum Form<'a, 'd> {
     /// The conditions (17) hold.
     Constant(Problem),
     /// They do not, and why.
-    Varying(Landscape<'a, 'd>, Vec<String>),
+    Varying(Box<Landscape<'a, 'd>>, Vec<String>),
 }
 
 /// The problem of the machine's fastest motion, at the parameters of the call.
@@ -42,7 +42,7 @@ pub fn form<'a, 'd>(
     })?;
     let landscape = Landscape::new(model, form, machine.parameter_values());
     let because = varies.iter().map(ToString::to_string).collect();
-    Ok(Form::Varying(landscape, because))
+    Ok(Form::Varying(Box::new(landscape), because))
 }
 
 fn problem<'d>(

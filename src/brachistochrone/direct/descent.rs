@@ -42,6 +42,9 @@ const LESS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 /// Less energy may make the time greater, by this factor of its square at once.
 const WORSE: f64 = 4.0;
 
+/// So often pieces are halved to see how much energy is lacking.
+const FINE: usize = 4;
+
 /// A way of straight pieces.
 #[derive(Clone, Debug)]
 pub struct Way {
@@ -411,7 +414,25 @@ impl<'a, T: Terrain> Descent<'a, T> {
                 None => break,
             }
         }
-        Err(Stop::Lacks(lent))
+        Err(Stop::Lacks(self.lacking(way, lent)))
+    }
+
+    /// The energy without which the way cannot be gone, as far as it is known not to be enough. Long pieces leap over what is in
+    /// between, so it is looked at in short ones.
+    fn lacking(&self, way: &Way, lent: f64) -> f64 {
+        let fine = (0..FINE).fold(way.clone(), |way, _| way.halved());
+        let lents = (0..10).map(|k| lent * f64::from(1 << k));
+        let walks = lents.map(|lent| (lent, self.walk(&fine, lent)));
+        for (lent, walk) in walks {
+            if let Some(walk) = walk {
+                return lent
+                    - walk
+                        .energies
+                        .iter()
+                        .fold(f64::INFINITY, |least, k| least.min(*k));
+            }
+        }
+        f64::INFINITY
     }
 
     /// Makes a way that is gone from rest the fastest nearby, as far as its pieces tell.

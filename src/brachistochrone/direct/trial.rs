@@ -48,7 +48,8 @@ pub enum Outcome {
     },
     /// No way near this one is gone from rest.
     Lacks {
-        /// The energy that is lacking, in J; infinite where none would do.
+        /// The energy that is lacking at the start on the way that needs least of those that were looked at, in J; infinite where
+        /// none would do.
         energy: f64,
     },
     /// Followed from constant coefficients to those of the machine, the motion was lost.
@@ -102,7 +103,7 @@ impl Display for Outcome {
             ),
             Self::Lacks { energy } if energy.is_finite() => write!(
                 f,
-                "cannot be gone from rest, nor can what is near: about {} J are lacking",
+                "cannot be gone from rest, nor can what is near: {} J are lacking",
                 short(*energy)
             ),
             Self::Lacks { .. } => write!(f, "cannot be gone at any speed"),
