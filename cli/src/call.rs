@@ -275,6 +275,16 @@ pub struct Modes {
     /// with `phi=solve` at one that is to be found.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
     pub steady: Vec<Steady>,
+    /// Follow the motion along values of a parameter, an input, or the rate of a coordinate, as in `--vary roll=0..10:101`, and name
+    /// those at which modes change their kind.
+    #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true)]
+    pub vary: Option<Vary>,
+    /// Write the motions along `--vary` to a table, `.csv` or `.parquet`, with a row for each mode.
+    #[arg(long, value_name = "FILE", requires = "vary")]
+    pub out: Option<PathBuf>,
+    /// Draw as SVG frequencies and growth along `--vary`, and the root locus.
+    #[arg(long, value_name = "FILE.svg", requires = "vary")]
+    pub plot: Option<PathBuf>,
 }
 
 /// Arguments of `brachistochrone`.
@@ -310,6 +320,42 @@ pub struct Brachistochrone {
     pub report: Option<PathBuf>,
 }
 
+/// `name=from..to:count`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vary {
+    /// What is varied.
+    pub name: String,
+    /// The first value and the last.
+    pub ends: [Assignment; 2],
+    /// How many there are; at least 2.
+    pub count: usize,
+}
+
+/// The most values along which a motion is followed: more than a drawing can show apart.
+const MOST_VALUES: f64 = 1e5;
+
+/// Reads `name=from..to:count`.
+fn vary(text: &str) -> Result<Vary, String> {
+    let wanted = "expected NAME=FROM..TO:COUNT, as in roll=0..10:101";
+    let (name, range) = text.split_once('=').ok_or(wanted)?;
+    let (range, count) = range.rsplit_once(':').ok_or(wanted)?;
+    let (from, to) = range.split_once("..").ok_or(wanted)?;
+    let end = |value: &str| assignment(&format!("{name}={value}"));
+    let ends = [end(from)?, end(to)?];
+    let values = number(count)?;
+    if !(2.0..=MOST_VALUES).contains(&values) || values.fract() != 0.0 {
+        return Err(format!(
+            "`{}` is no number of values: expected a whole number from 2 to {MOST_VALUES}",
+            count.trim()
+        ));
+    }
+    Ok(Vary {
+        name: ends[0].name.clone(),
+        ends,
+        count: values as usize,
+    })
+}
+
 /// `name`, `name=rate` or `name=solve`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steady {
@@ -320,40 +366,32 @@ pub struct Steady {
 }
 
 /// The rate of a coordinate that moves steadily.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum SteadyRate {
     /// That of the start.
     Start,
-    /// A number.
-    Given(f64),
+    /// A value.
+    Given(Assignment),
     /// Whatever balances the machine.
     Solved,
 }
 
 fn steady(text: &str) -> Result<Steady, String> {
-    let rate = match text.split_once('=') {
-        None => SteadyRate::Start,
-        Some((_, value)) if value.trim() == "solve" => SteadyRate::Solved,
-        Some(_) => {
-            let Assignment { name, value } = assignment(text)?;
-            let value = number(&value).map_err(|why| {
-                why.replace(
-                    " is not a number (as in",
-                    " is neither a number nor `solve` (as in",
-                )
-            })?;
-            let rate = SteadyRate::Given(value);
-            return Ok(Steady { name, rate });
-        }
-    };
-    let name = text.split('=').next().unwrap_or(text).trim();
-    match name.is_empty() {
-        true => Err("expected the name of a coordinate".into()),
-        false => Ok(Steady {
-            name: normalized(name).into_owned(),
-            rate,
-        }),
+    if !text.contains('=') {
+        let name = normalized(text.trim()).into_owned();
+        let rate = SteadyRate::Start;
+        return match name.is_empty() {
+            true => Err("expected the name of a coordinate".into()),
+            false => Ok(Steady { name, rate }),
+        };
     }
+    let set = assignment(text)?;
+    let name = set.name.clone();
+    let rate = match set.value.as_str() {
+        "solve" => SteadyRate::Solved,
+        _ => SteadyRate::Given(set),
+    };
+    Ok(Steady { name, rate })
 }
 
 /// `name=value`.

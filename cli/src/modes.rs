@@ -1,11 +1,13 @@
 //! `lagrangian modes`: where a machine stays, and how it moves about that place.
 
+mod locus;
 mod motion;
 mod precise;
 mod rank;
 mod reduced;
 mod search;
 mod spectrum;
+mod vary;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -21,26 +23,56 @@ use serde_json::{Map, Value, json};
 use crate::call;
 use crate::evaluate::set_start;
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
+use crate::table;
 use motion::{Motion, State, Unsteady};
 use reduced::{Fault, Place, Reduced};
 use search::{Lost, Wanted};
 use spectrum::{Mode, Modes};
+use vary::{Critical, Trace};
+
+/// The files that a call asks for.
+struct Files {
+    out: Option<Destination>,
+    plot: Option<Destination>,
+}
+
+impl Files {
+    fn new(call: &call::Modes) -> Result<Files, Failure> {
+        let files = Files {
+            out: Destination::of("--out", call.out.as_ref(), TABLE)?,
+            plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
+        };
+        output::keep_document_apart(files.all(), call.spec.json)?;
+        keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
+        Ok(files)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Destination> {
+        [&self.out, &self.plot].into_iter().flatten()
+    }
+}
 
 /// Runs the command.
 ///
 /// # Errors
 /// If the spec or the call is at fault, or the machine has no equilibrium near its start.
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
+    let files = Files::new(call)?;
     let dag = Dag::new();
-    let machine = reading::machine(&compiled(&call.spec, &dag)?, &call.start)?;
+    let compiled = compiled(&call.spec, &dag, &files)?;
+    let machine = reading::machine(&compiled, &call.start)?;
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
             missing.names.join("=… --set ")
         ))
     })?;
+    if let Some(vary) = &call.vary {
+        let trace = vary::trace(call, vary, &compiled, &machine)?;
+        return show(call, &machine, &trace, &files);
+    }
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     let wanted = wanted(call, &mut start.v)?;
@@ -110,9 +142,10 @@ fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> O
 }
 
 /// The program, as far as nothing sticks in it.
-fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure> {
+fn compiled<'d>(spec: &call::Spec, dag: &'d Dag, files: &Files) -> Result<Compiled<'d>, Failure> {
     let mut reading = Reading::open(spec)?;
     let model = reading.model(dag);
+    reading.keep_from(files.all())?;
     if model
         .as_ref()
         .is_some_and(|model| !model.sliding.is_empty())
@@ -131,6 +164,12 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag) -> Result<Compiled<'d>, Failure
     }
 }
 
+/// The unit of the rate of a coordinate.
+fn rate_unit(coordinates: &Named, name: &str) -> String {
+    let unit = coordinates.unit(name).unwrap_or("1");
+    format!("({unit})/s")
+}
+
 /// Which coordinates turn steadily, and with which rates.
 fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
     let mut steady = vec![false; rates.values.len()];
@@ -140,8 +179,14 @@ fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
         probe.values.fill(0.0);
         let unknown = |unknown| reading::name_error("coordinate", &unknown);
         probe.set(name, 1.0).map_err(unknown)?;
-        if let call::SteadyRate::Given(rate) = rate {
-            rates.set(name, *rate).map_err(unknown)?;
+        if let call::SteadyRate::Given(set) = rate {
+            let unit = rate_unit(rates, name);
+            reading::assign(rates, set, "--steady", &unit).map_err(|failure| match failure {
+                Failure::Call(said) => {
+                    Failure::Call(format!("{said}; or `solve`, to find the rate"))
+                }
+                other => other,
+            })?;
         }
         for (k, probed) in probe.values.iter().enumerate() {
             if *probed != 0.0 {
@@ -154,6 +199,7 @@ fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
         steady,
         solved,
         rates: rates.values.clone(),
+        steps: search::MOST_STEPS,
     })
 }
 
@@ -358,6 +404,212 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
         "modes": modes,
         "lost": {"modes": lost, "below": lost_below},
     })
+}
+
+/// Prints what was found along `--vary`, and writes its files.
+fn show(
+    call: &call::Modes,
+    machine: &InterpretedMachine,
+    trace: &Trace,
+    files: &Files,
+) -> Result<(), Failure> {
+    let system = machine.prepare();
+    let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
+    if let Some(file) = &files.out {
+        let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
+        let columns = columns(&names, &units, trace);
+        let columns: Vec<(String, &[f64])> = columns
+            .iter()
+            .map(|(header, values)| (header.clone(), values.as_slice()))
+            .collect();
+        table::write_columns(&columns, file)?;
+    }
+    if let Some(file) = &files.plot {
+        let drawing = locus::svg(machine.name(), trace).map_err(Failure::Run)?;
+        file.write_text(&drawing)?;
+    }
+    if call.spec.json {
+        let motions = trace.points.iter().map(|point| {
+            let mut entry = match &point.motion {
+                Ok(motion) => as_json(&names, motion),
+                Err(why) => json!({ "error": why }),
+            };
+            entry["value"] = json!(point.value);
+            entry["continues"] = json!(point.continues);
+            entry
+        });
+        let critical = trace.critical.iter().map(|critical| {
+            json!({
+                "value": critical.value,
+                "error": critical.error,
+                "growing": critical.growing,
+                "oscillating": critical.oscillating,
+                "re": critical.lambda.map(|lambda| lambda.re),
+                "im": critical.lambda.map(|lambda| lambda.im),
+            })
+        });
+        let result = json!({
+            "vary": {"name": trace.name, "unit": trace.unit},
+            "critical": critical.collect::<Vec<_>>(),
+            "motions": motions.collect::<Vec<_>>(),
+        });
+        output::line(format_args!("{result:#}"));
+    } else {
+        output::text(&text_of_trace(trace));
+    }
+    Ok(())
+}
+
+/// A table with a row for each mode of each value.
+fn columns(names: &[&str], units: &[&str], trace: &Trace) -> Vec<(String, Vec<f64>)> {
+    let with = |name: &str, unit: &str| match unit {
+        "1" => name.to_owned(),
+        unit => format!("{name} [{unit}]"),
+    };
+    let mut headers = vec![with(&trace.name, &trace.unit)];
+    headers.extend(
+        [
+            "mode",
+            "re [1/s]",
+            "im [1/s]",
+            "error [1/s]",
+            "frequency [Hz]",
+        ]
+        .map(str::to_owned),
+    );
+    headers.extend(names.iter().zip(units).map(|(name, unit)| with(name, unit)));
+    headers.extend(names.iter().zip(units).map(|(name, unit)| match *unit {
+        "1" => format!("der({name}) [1/s]"),
+        unit => format!("der({name}) [{unit}/s]"),
+    }));
+    let mut columns: Vec<(String, Vec<f64>)> = headers
+        .into_iter()
+        .map(|header| (header, Vec::new()))
+        .collect();
+    for point in &trace.points {
+        let Ok(motion) = &point.motion else { continue };
+        for (index, mode) in motion.modes.modes.iter().enumerate() {
+            let Mode { lambda, error, .. } = mode;
+            let own = [
+                point.value,
+                index as f64 + 1.0,
+                lambda.re,
+                lambda.im,
+                *error,
+                lambda.im / TAU,
+            ];
+            let q = motion.found.place.q();
+            let row = own.into_iter().chain(q).chain(motion.v.iter().copied());
+            for ((_, column), x) in columns.iter_mut().zip(row) {
+                column.push(x);
+            }
+        }
+    }
+    columns
+}
+
+/// Where motions grow along the range, where there are none, and what is critical.
+fn text_of_trace(trace: &Trace) -> String {
+    let mut text = String::new();
+    let unit = match trace.unit.as_str() {
+        "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    let [first, last] = [trace.points.first(), trace.points.last()];
+    let [first, last] = [first, last].map(|point| point.map_or(0.0, |point| point.value));
+    let kind = match trace.wanted.steady.contains(&true) {
+        true => "steady motions",
+        false => "equilibria",
+    };
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "{kind} along {} from {} to {}{unit}, {} values:",
+        trace.name,
+        number(first),
+        number(last),
+        trace.points.len()
+    );
+    // What holds of each value, in words; a stretch of values with the same words is one line.
+    let words = |point: &vary::Point| match &point.motion {
+        Ok(motion) => {
+            let growing = motion
+                .modes
+                .modes
+                .iter()
+                .filter(|mode| mode.lambda.re > 0.0)
+                .count();
+            match growing {
+                0 => "none grows".to_owned(),
+                1 => "1 motion grows".to_owned(),
+                count => format!("{count} motions grow"),
+            }
+        }
+        Err(why) => format!("nothing is found: {why}"),
+    };
+    let mut index = 0;
+    while let Some(point) = trace.points.get(index) {
+        let said = words(point);
+        let rest = &trace.points[index + 1..];
+        let more = rest
+            .iter()
+            .take_while(|next| words(next) == said && (next.continues || next.motion.is_err()));
+        let count = more.count();
+        let end = &trace.points[index + count];
+        let range = match count {
+            0 => number(point.value),
+            _ => format!("{} to {}", number(point.value), number(end.value)),
+        };
+        let jump = match (point.motion.is_ok(), point.continues, index) {
+            (true, false, 1..) => " (another motion than before)",
+            _ => "",
+        };
+        let _ = writeln!(text, "  {range}{unit}: {said}{jump}");
+        index += count + 1;
+    }
+    for critical in &trace.critical {
+        let Critical {
+            value,
+            growing,
+            oscillating,
+            lambda,
+            ..
+        } = critical;
+        let _ = write!(
+            text,
+            "\ncritical {} = {}{unit}: ",
+            trace.name,
+            number(*value)
+        );
+        let count = |list: &[usize; 2], verb: [&str; 2]| {
+            let word = |n: usize| match n {
+                0 => "none".to_owned(),
+                n => n.to_string(),
+            };
+            let verb = verb[usize::from(list[0] > 1)];
+            format!(
+                "{} {verb} before it, {} after it",
+                word(list[0]),
+                word(list[1])
+            )
+        };
+        let mut parts = Vec::new();
+        if growing[0] != growing[1] {
+            parts.push(count(growing, ["grows", "grow"]));
+        }
+        if oscillating[0] != oscillating[1] {
+            parts.push(count(oscillating, ["oscillates", "oscillate"]));
+        }
+        text.push_str(&parts.join("; "));
+        match lambda {
+            Some(lambda) if lambda.im > 0.0 => {
+                let _ = write!(text, ", at {} Hz", number(lambda.im / TAU));
+            }
+            _ => {}
+        }
+        text.push('\n');
+    }
+    text
 }
 
 fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {

@@ -48,21 +48,27 @@ const KINDS: [Kind; 6] = [
 /// What the drawing library says, as a sentence.
 pub fn svg(title: &str, recording: &Recording) -> Result<String, String> {
     let panels = recording.panels(&KINDS);
-    let mut text = String::new();
     let height = 48 * UNIT + PANEL * panels.len().max(1) as u32;
-    draw(
-        title,
-        recording,
-        &panels,
-        SVGBackend::with_string(&mut text, (WIDTH, height)),
-    )
-    .map_err(|error| error.to_string())?;
+    svg_of(height, |backend| draw(title, recording, &panels, backend))
+}
+
+/// What is drawn on a sheet of this height, as SVG text in whole units.
+///
+/// # Errors
+/// What the drawing library says, as a sentence.
+pub fn svg_of(
+    height: u32,
+    draw: impl FnOnce(SVGBackend<'_>) -> Drawing<()>,
+) -> Result<String, String> {
+    let mut text = String::new();
+    draw(SVGBackend::with_string(&mut text, (WIDTH, height))).map_err(|error| error.to_string())?;
     let drawn = format!("width=\"{WIDTH}\" height=\"{height}\"");
     let shown = format!("width=\"{}\" height=\"{}\"", WIDTH / UNIT, height / UNIT);
     Ok(text.replacen(&drawn, &shown, 1))
 }
 
-type Drawing<T> = Result<T, Box<dyn std::error::Error>>;
+/// What drawing ends with.
+pub type Drawing<T> = Result<T, Box<dyn std::error::Error>>;
 
 fn draw(title: &str, recording: &Recording, panels: &[Panel], backend: SVGBackend) -> Drawing<()> {
     let sheet = backend.into_drawing_area();

@@ -11,22 +11,40 @@ use crate::recording::Recording;
 /// # Errors
 /// What the file system says.
 pub fn write(recording: &Recording, to: &Destination) -> Result<(), Failure> {
+    write_columns(&columns(recording), to)
+}
+
+/// Writes columns, each with its header.
+///
+/// # Errors
+/// What the file system says.
+pub fn write_columns(columns: &[(String, &[f64])], to: &Destination) -> Result<(), Failure> {
     to.write(|file| match to.ending() {
-        "parquet" => parquet(recording, file),
-        _ => csv(recording, file),
+        "parquet" => parquet(columns, file),
+        _ => csv(columns, file),
     })
 }
 
-/// One line for each instant. Numbers are in the shortest form that reads back to the same bits.
-fn csv(recording: &Recording, to: &mut dyn Write) -> io::Result<()> {
-    let headers: Vec<String> = recording.headers().collect();
+/// The instants, then the quantities.
+fn columns(recording: &Recording) -> Vec<(String, &[f64])> {
+    let columns = recording
+        .columns
+        .iter()
+        .map(|column| column.values.as_slice());
+    let all = std::iter::once(recording.times.as_slice()).chain(columns);
+    recording.headers().zip(all).collect()
+}
+
+/// One line for each row. Numbers are in the shortest form that reads back to the same bits.
+fn csv(columns: &[(String, &[f64])], to: &mut dyn Write) -> io::Result<()> {
+    let headers: Vec<&str> = columns.iter().map(|(header, _)| header.as_str()).collect();
     writeln!(to, "{}", headers.join(","))?;
-    for (row, time) in recording.times.iter().enumerate() {
-        write!(to, "{time:?}")?;
-        for column in &recording.columns {
-            match column.values.get(row) {
-                Some(value) => write!(to, ",{value:?}")?,
-                None => write!(to, ",")?,
+    for row in 0..columns.first().map_or(0, |(_, values)| values.len()) {
+        for (index, (_, values)) in columns.iter().enumerate() {
+            let comma = if index > 0 { "," } else { "" };
+            match values.get(row) {
+                Some(value) => write!(to, "{comma}{value:?}")?,
+                None => write!(to, "{comma}")?,
             }
         }
         writeln!(to)?;
@@ -36,7 +54,7 @@ fn csv(recording: &Recording, to: &mut dyn Write) -> io::Result<()> {
 
 /// One row group, one required column of doubles for each quantity.
 #[cfg(feature = "parquet")]
-fn parquet(recording: &Recording, to: &mut (dyn Write + Send)) -> io::Result<()> {
+fn parquet(columns: &[(String, &[f64])], to: &mut (dyn Write + Send)) -> io::Result<()> {
     use std::sync::Arc;
 
     use parquet::basic::{Repetition, Type as Physical};
@@ -45,10 +63,10 @@ fn parquet(recording: &Recording, to: &mut (dyn Write + Send)) -> io::Result<()>
     use parquet::file::writer::SerializedFileWriter;
     use parquet::schema::types::Type;
 
-    let fields: Result<Vec<_>, _> = recording
-        .headers()
-        .map(|header| {
-            let field = Type::primitive_type_builder(&header, Physical::DOUBLE);
+    let fields: Result<Vec<_>, _> = columns
+        .iter()
+        .map(|(header, _)| {
+            let field = Type::primitive_type_builder(header, Physical::DOUBLE);
             field
                 .with_repetition(Repetition::REQUIRED)
                 .build()
@@ -61,8 +79,7 @@ fn parquet(recording: &Recording, to: &mut (dyn Write + Send)) -> io::Result<()>
     let properties = Arc::new(WriterProperties::builder().build());
     let mut writer = SerializedFileWriter::new(to, Arc::new(schema), properties)?;
     let mut rows = writer.next_row_group()?;
-    let columns = recording.columns.iter().map(|column| &column.values);
-    for values in std::iter::once(&recording.times).chain(columns) {
+    for (_, values) in columns {
         if let Some(mut column) = rows.next_column()? {
             column
                 .typed::<DoubleType>()
@@ -76,7 +93,7 @@ fn parquet(recording: &Recording, to: &mut (dyn Write + Send)) -> io::Result<()>
 }
 
 #[cfg(not(feature = "parquet"))]
-fn parquet(_: &Recording, _: &mut (dyn Write + Send)) -> io::Result<()> {
+fn parquet(_: &[(String, &[f64])], _: &mut (dyn Write + Send)) -> io::Result<()> {
     Err(io::Error::new(
         io::ErrorKind::Unsupported,
         "this build of the command has no feature `parquet`",
@@ -151,7 +168,7 @@ mod tests {
     #[test]
     fn text_reads_back_to_the_same_bits() {
         let mut text = Vec::new();
-        csv(&recording(), &mut text).unwrap();
+        csv(&columns(&recording()), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         let mut lines = text.lines();
         assert_eq!(lines.next(), Some("t [s],s1 [m]"));

@@ -1007,7 +1007,7 @@ fn what_cannot_be_steady_is_told_at_the_word() {
     );
     refused(
         &[governor, "--steady", "phi=fast"],
-        "neither a number nor `solve`",
+        "nothing is named `fast`; or `solve`, to find the rate",
     );
     refused(&[governor, "--steady", "=3"], "expected a name before `=`");
     // Slower than the balls need to rise at all they hang: there is a steady motion, at alpha = 0.
@@ -1146,4 +1146,261 @@ fn what_floats_stays_where_it_is_and_is_told_as_free() {
         let held = if case % 2 == 1 { 2 } else { 0 };
         assert_eq!(kinds.len(), 2 * count - held, "{context}");
     }
+}
+
+// Motions along a range of values.
+
+fn varied(arguments: &[&str]) -> Value {
+    modes(arguments)
+}
+
+/// Its critical values, each with how many motions grow and oscillate before and after it.
+fn critical(result: &Value) -> Vec<(f64, Value, Value)> {
+    let listed = result["critical"].as_array().expect("a list");
+    let entry = |c: &Value| {
+        (
+            number(&c["value"]),
+            c["growing"].clone(),
+            c["oscillating"].clone(),
+        )
+    };
+    listed.iter().map(entry).collect()
+}
+
+/// Bisection ends where rounding decides: λ² passes through 0 with a slope, known to some roundings of its terms.
+const LOCATED: f64 = 1e-12;
+
+fn located(found: f64, exact: f64) {
+    assert!(
+        (found - exact).abs() <= LOCATED * exact.abs(),
+        "{found}, not {exact}"
+    );
+}
+
+#[test]
+fn a_wheel_has_the_critical_speed_of_its_closed_form() {
+    let spec = "machines/rolling_coin.machine";
+    for (about, across) in WHEELS {
+        let [about_is, across_is] = [
+            format!("C={:?}", about * 0.01),
+            format!("A={:?}", across * 0.01),
+        ];
+        let found = varied(&[
+            spec,
+            "--set",
+            &about_is,
+            "--set",
+            &across_is,
+            "--start",
+            "lean=0",
+            "--vary",
+            "roll=0..10:11",
+        ]);
+        let exact = (9.81 / 0.1 * across / (about * (about + 1.0))).sqrt();
+        let critical = critical(&found);
+        assert_eq!(critical.len(), 1, "{found}");
+        located(critical[0].0, exact);
+        assert_eq!(critical[0].1, serde_json::json!([1, 0]));
+        assert_eq!(critical[0].2, serde_json::json!([0, 1]));
+        // Every motion on the way is what it is by itself.
+        for motion in found["motions"].as_array().expect("a list") {
+            let speed = number(&motion["value"]);
+            assert_eq!(number(&motion["equilibrium"]["v"]["roll"]), speed);
+            let roll = format!("roll={speed:?}");
+            let alone = modes(&[
+                spec, "--set", &about_is, "--set", &across_is, "--start", "lean=0", "--steady",
+                &roll,
+            ]);
+            assert_eq!(eigenvalues(motion), eigenvalues(&alone));
+        }
+    }
+}
+
+/// Hanging balls: `λ² = Ω² − g (m + M)/(m l)`, and the branch of raised arms is followed down to the same speed, but not beyond.
+#[test]
+fn a_governor_is_followed_along_its_branch() {
+    let spec = "machines/flyball_governor.machine";
+    let exact = (9.81_f64 * 2.5 / (0.5 * 0.2)).sqrt();
+    let sleeve = ["--start", "alpha=0", "--start", "s=0.4"];
+    let call = [&[spec], &sleeve[..], &["--vary", "phi=5..30:6"]].concat();
+    let critical_values = critical(&varied(&call));
+    assert_eq!(critical_values.len(), 1);
+    located(critical_values[0].0, exact);
+    assert_eq!(critical_values[0].1, serde_json::json!([0, 1]));
+
+    let found = varied(&[spec, "--vary", "der(phi)=40..16:25"]);
+    let mut last = f64::INFINITY;
+    for motion in found["motions"].as_array().expect("a list") {
+        let (speed, alpha) = (
+            number(&motion["value"]),
+            number(&motion["equilibrium"]["q"]["alpha"]),
+        );
+        close(alpha.cos(), exact * exact / (speed * speed));
+        assert!(alpha < last);
+        last = alpha;
+    }
+    assert!(critical(&found).is_empty());
+}
+
+/// A rotor on a soft shaft whose own damping turns along: it whirls above `w = √(k/m) (1 + c_s/c_r)`, where c_s brakes outside
+/// (A. L. Kimball, 1924), at the frequency √(k/m), which is √(k/m) − w seen from the table that turns.
+#[test]
+fn a_rotor_with_inner_damping_whirls_above_its_limit() {
+    let spec = Scratch::new(
+        "rotor.machine",
+        "machine Rotor in plane {
+            parameters { m: kg = 2, k: N/m = 50, inner: N*s/m = 0.4, outer: N*s/m = 0.3, w: rad/s = 1 }
+            coordinates { x: m, y: m }
+            frames { table = ground.turn(w*t) }
+            bodies { mass { mass: m, at: table.point(x, y) } }
+            springs { a { stiffness: k, stretch: x }, b { stiffness: k, stretch: y } }
+            dampers {
+                a { damping: inner, stretch: x }, b { damping: inner, stretch: y },
+                c { damping: outer, from: ground.point(0, 0), to: mass.at },
+            }
+            forces { brake { at: mass.at, force: (0, 0) } }
+        }",
+    );
+    // Brakes outside, as a force against the velocity in space, that has no part in the turning table's angle.
+    let text = std::fs::read_to_string(spec.path()).expect("the spec");
+    let text = text
+        .replace(
+            "c { damping: outer, from: ground.point(0, 0), to: mass.at },",
+            "",
+        )
+        .replace(
+            "forces { brake { at: mass.at, force: (0, 0) } }",
+            "dissipations { outside: outer/2*((der(x) - w*y)^2 + (der(y) + w*x)^2) }",
+        );
+    std::fs::write(spec.path(), text).expect("the spec");
+    let found = varied(&[spec.path(), "--vary", "w=1..20:20"]);
+    let critical = critical(&found);
+    let exact = 5.0 * (1.0 + 0.3 / 0.4);
+    let growing: Vec<_> = critical
+        .iter()
+        .filter(|c| c.1 == serde_json::json!([0, 1]))
+        .collect();
+    assert_eq!(growing.len(), 1, "{:#}", found["critical"]);
+    located(growing[0].0, exact);
+}
+
+/// Damping from nothing to far beyond what is critical, `b = 2 √(k m)`: there the oscillation ends.
+#[test]
+fn critical_damping_is_where_an_oscillation_ends() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let folder = std::path::Path::new(spec.path())
+        .parent()
+        .expect("a folder");
+    let [table, drawing] = ["modes.csv", "modes.svg"].map(|name| folder.join(name));
+    let [table, drawing] = [&table, &drawing].map(|path| path.to_str().expect("text"));
+    let call = [
+        spec.path(),
+        "--vary",
+        "b=1..60:60",
+        "--out",
+        table,
+        "--plot",
+        drawing,
+    ];
+    let found = varied(&call);
+    let critical = critical(&found);
+    assert_eq!(critical.len(), 1, "{:#}", found["critical"]);
+    located(critical[0].0, 2.0 * (2.0_f64 * 50.0).sqrt());
+    assert_eq!(
+        (&critical[0].1, &critical[0].2),
+        (&serde_json::json!([0, 0]), &serde_json::json!([1, 0]))
+    );
+    // λ = −b/(2 m) where both meet; each is known to a root of the rounding.
+    assert!((number(&found["critical"][0]["re"]) + 5.0).abs() < 1e-6);
+
+    let rows = std::fs::read_to_string(table).expect("a table");
+    let mut rows = rows.lines();
+    assert_eq!(
+        rows.next(),
+        Some("b [N*s/m],mode,re [1/s],im [1/s],error [1/s],frequency [Hz],x [m],der(x) [m/s]")
+    );
+    for row in rows {
+        let numbers: Vec<f64> = row
+            .split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect();
+        let (b, re, im) = (numbers[0], numbers[2], numbers[3]);
+        // m λ² + b λ + k = 0, real and imaginary part.
+        let real = 2.0 * (re * re - im * im) + b * re + 50.0;
+        assert!(
+            real.abs() < 1e-9 && (4.0 * re * im + b * im).abs() < 1e-9,
+            "{row}"
+        );
+        close(numbers[6], 2.0 * 9.81 / 50.0);
+    }
+    let drawing = std::fs::read_to_string(drawing).expect("a drawing");
+    // A point for each mode in two panels, and one for each oscillation in the other.
+    let motions = found["motions"].as_array().expect("a list");
+    let lambdas: Vec<(f64, f64)> = motions.iter().flat_map(eigenvalues).collect();
+    let oscillations = lambdas.iter().filter(|(_, im)| *im > 0.0).count();
+    assert_eq!(
+        drawing.matches("<circle").count(),
+        2 * lambdas.len() + oscillations
+    );
+    assert!((19..=20).contains(&oscillations));
+
+    let (good, text, error) = said(&call);
+    assert!(good, "{error}");
+    assert!(
+        text.contains("equilibria along b from 1 to 60 N*s/m, 60 values:"),
+        "{text}"
+    );
+    assert!(
+        text.contains("critical b = 20 N*s/m: 1 oscillates before it, none after it"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_cannot_be_varied_is_told_at_the_word() {
+    let coin = "machines/rolling_coin.machine";
+    let refused = |call: &[&str], part: &str| {
+        let (good, _, error) = said(call);
+        assert!(!good && error.contains(part), "{call:?}: {error}");
+    };
+    refused(
+        &[coin, "--vary", "rolls=0..1:5"],
+        "no parameter, input or coordinate named `rolls`",
+    );
+    refused(
+        &[coin, "--vary", "roll=0..1"],
+        "expected NAME=FROM..TO:COUNT",
+    );
+    refused(&[coin, "--vary", "roll=1..1:5"], "there is nothing to vary");
+    refused(
+        &[coin, "--vary", "roll=0..1:1"],
+        "`1` is no number of values",
+    );
+    refused(
+        &[coin, "--vary", "roll=0..fast:5"],
+        "nothing is named `fast`",
+    );
+    refused(
+        &[coin, "--vary", "roll=0..3*m:5"],
+        "expected rad/s, found m",
+    );
+    refused(&[coin, "--plot", "a.svg"], "--vary");
+    refused(
+        &[coin, "--vary", "roll=0..1:5", "--steady", "roll=3"],
+        "both give the rate of `roll`",
+    );
+    refused(
+        &[coin, "--vary", "roll=0..1:5", "--steady", "roll=solve"],
+        "leave out one of them",
+    );
+    refused(
+        &[coin, "--vary", "m=1..2:5", "--set", "m=3"],
+        "both give `m` a value",
+    );
+    refused(&[coin, "--vary", "m=1..-2:5"], "a mass is positive");
+    refused(&[coin, "--vary", "m=1..2:5", "--out", "a.txt"], "`.csv`");
+    refused(
+        &[coin, "--vary", "m=1..2:5", "--out", coin],
+        "would overwrite",
+    );
 }

@@ -24,6 +24,7 @@ const SHIFTS: [f64; 2] = [0.0625, -0.21875];
 const SAME: f64 = 1e-22;
 
 /// A steady motion, and the motions near it.
+#[derive(Clone)]
 pub struct Motion {
     /// The state.
     pub found: Found,

@@ -20,7 +20,7 @@ use super::rank::{self, Direction};
 use super::reduced::{Choice, Fault, Linearized, Place, Reduced, share};
 
 /// The most steps; Newton's method takes five, and a few more for each radian on the way.
-const MOST_STEPS: usize = 200;
+pub const MOST_STEPS: usize = 200;
 
 /// The most halvings of one step.
 const MOST_HALVINGS: usize = 30;
@@ -53,6 +53,8 @@ pub struct Wanted {
     pub solved: Vec<bool>,
     /// Rates of all coordinates at the start.
     pub rates: Vec<f64>,
+    /// The most steps.
+    pub steps: usize,
 }
 
 /// A state in which nothing accelerates.
@@ -98,7 +100,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
     let choice = reduced.choose(&near, &wanted.steady)?;
     let mut here = Point::new(reduced, choice, q, &rates, wanted)?;
     let mut falls = 0;
-    for steps in 0..MOST_STEPS {
+    for steps in 0..wanted.steps {
         // A pendulum that is held level: nothing that is near says where to go but the force itself.
         if falls < MOST_FALLS && here.is_stuck() {
             match here.fallen(reduced, &mut rates, wanted) {
@@ -144,7 +146,7 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
             None => return Err(fault.unwrap_or(Lost::NoEnd(steps))),
         }
     }
-    Err(Lost::NoEnd(MOST_STEPS))
+    Err(Lost::NoEnd(wanted.steps))
 }
 
 /// How the machine is displaced: along T, and in the rates that are to be found.

@@ -15,6 +15,7 @@ use super::rank;
 type Vector = DVector<Complex<f64>>;
 
 /// One motion `x(t) = Re(shape e^{λt})`; of a pair of conjugate ones, that with the positive imaginary part.
+#[derive(Clone)]
 pub struct Mode {
     /// λ, in 1/s: exactly real, imaginary or zero where it is so but for rounding.
     pub lambda: Complex<f64>,
@@ -25,7 +26,7 @@ pub struct Mode {
 }
 
 /// All motions near an equilibrium.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Modes {
     /// Slow ones first.
     pub modes: Vec<Mode>,

@@ -1,0 +1,460 @@
+//! `--vary`: a steady motion that is followed while a parameter or a rate changes, and where its modes change their kind.
+//!
+//! Each motion is sought from the one before it. Where it moves far for a small change, or is lost, the step is halved, so that
+//! what is followed is one motion and not now one, now another. Between two neighbours whose modes are of different kinds there
+//! is a critical value; it is found by bisection down to where rounding decides.
+
+use lagrangian::Machine as _;
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_spec::compile::Compiled;
+use lagrangian_spec::diagnostic::Severity;
+use nalgebra::Complex;
+
+use super::motion::Motion;
+use super::search::Wanted;
+use super::spectrum::Modes;
+use super::{motion, refuse_drives, wanted};
+use crate::call;
+use crate::diagnostics;
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::output;
+use crate::progress;
+
+/// The most steps of Newton's method from one motion to the next.
+const MOST_STEPS: usize = 40;
+
+/// How often the step to the next value is halved.
+const MOST_HALVINGS: usize = 8;
+
+/// A motion is another one if a coordinate is off by more than this, in rad, m, or as a share of it.
+const NEAR: f64 = 0.25;
+
+/// The most critical values between two neighbours.
+const MOST_CRITICAL: usize = 8;
+
+/// Changes as near as this share of the distance of two values are one: beside a critical value rounding decides what a mode is.
+const TOGETHER: f64 = 1e-7;
+
+/// What is varied.
+enum Subject {
+    /// A parameter or an input.
+    Parameter,
+    /// The rates of these coordinates.
+    Rates(Vec<usize>),
+}
+
+/// One of the values.
+pub struct Point {
+    /// The value.
+    pub value: f64,
+    /// The motion there, or why there is none.
+    pub motion: Result<Motion, String>,
+    /// Whether it continues the motion at the value before.
+    pub continues: bool,
+}
+
+/// Where modes change their kind.
+pub struct Critical {
+    /// The value.
+    pub value: f64,
+    /// It is known up to this.
+    pub error: f64,
+    /// How many motions grow before and after it.
+    pub growing: [usize; 2],
+    /// How many oscillate.
+    pub oscillating: [usize; 2],
+    /// The eigenvalue that changes, as far as one can be told.
+    pub lambda: Option<Complex<f64>>,
+}
+
+/// Steady motions along a range of values.
+pub struct Trace {
+    /// What is varied.
+    pub name: String,
+    /// Its unit; `1` for a bare number.
+    pub unit: String,
+    /// Which coordinates move steadily, and which rates are sought.
+    pub wanted: Wanted,
+    /// In the order of the values.
+    pub points: Vec<Point>,
+    /// In the same order.
+    pub critical: Vec<Critical>,
+}
+
+/// A critical value as near as this to one of the values that are asked for, as a share of their distance, is that one.
+const AT_AN_END: f64 = 1e-9;
+
+/// How many modes are of which kind.
+#[derive(Clone, Copy, PartialEq)]
+struct Kinds {
+    growing: usize,
+    oscillating: usize,
+    /// Some are neither, but for rounding.
+    lost: usize,
+}
+
+impl Kinds {
+    fn of(modes: &Modes) -> Kinds {
+        let count = |is: &dyn Fn(Complex<f64>) -> bool| {
+            modes.modes.iter().filter(|mode| is(mode.lambda)).count()
+        };
+        Kinds {
+            growing: count(&|lambda| lambda.re > 0.0),
+            oscillating: count(&|lambda| lambda.im > 0.0),
+            lost: modes.lost,
+        }
+    }
+}
+
+/// A value with its motion.
+struct At {
+    value: f64,
+    motion: Motion,
+}
+
+/// What is followed.
+struct Tracer<'a> {
+    machine: &'a InterpretedMachine,
+    call: &'a call::Modes,
+    name: &'a str,
+    subject: Subject,
+    wanted: Wanted,
+}
+
+/// Follows the steady motion of a call along the values of its `--vary`.
+///
+/// # Errors
+/// If the call is at fault, or there is no motion at any value.
+pub fn trace(
+    call: &call::Modes,
+    vary: &call::Vary,
+    compiled: &Compiled<'_>,
+    machine: &InterpretedMachine,
+) -> Result<Trace, Failure> {
+    let (tracer, unit) = Tracer::new(call, vary, machine)?;
+    let end = |set: &call::Assignment| set.value("--vary", &unit).map_err(Failure::Call);
+    let (first, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
+    if first == to {
+        let said = format!(
+            "--vary {}: from {first} to {to} there is nothing to vary",
+            vary.name
+        );
+        return Err(Failure::Call(said));
+    }
+    let last = vary.count - 1;
+    let value = |k: usize| match k {
+        _ if k == last => to,
+        _ => first + (to - first) * (k as f64 / last as f64),
+    };
+    for k in 0..=last {
+        let machine = tracer.machine_at(value(k));
+        let mut said = compiled.model.refused_values(machine.parameter_values());
+        if k > 0 {
+            // What is strange only is said once.
+            said.retain(|diagnostic| diagnostic.code.severity() == Severity::Error);
+        }
+        diagnostics::refused(&said).map_err(Failure::Call)?;
+        // Drives that some values stop are told at the first that does not.
+        if k < 2 || k == last {
+            let (q, wanted) = tracer.start(&machine)?;
+            refuse_drives(&machine, &q, &wanted)?;
+        }
+    }
+    progress::now("following the motion");
+    let interrupt = Interrupt::watch();
+    let mut points: Vec<Point> = Vec::with_capacity(vary.count);
+    let mut critical: Vec<Critical> = Vec::new();
+    let mut before: Option<At> = None;
+    for k in 0..=last {
+        if interrupt.came() {
+            output::complain("interrupted: nothing is written or printed");
+            return Err(Failure::Interrupted);
+        }
+        let value = value(k);
+        let followed = before
+            .as_ref()
+            .map(|before| tracer.follow(before, value, MOST_HALVINGS));
+        let continues = matches!(followed, Some(Ok(_)));
+        let found = match (followed, &before) {
+            (Some(Ok(motion)), _) => Ok(motion),
+            // The one that was followed has ended; there may be another.
+            (Some(Err(_)), Some(before)) => tracer.from(&before.motion, value),
+            _ => tracer.from_start(value),
+        };
+        if let (Ok(motion), true, Some(before)) = (&found, continues, &before) {
+            tracer.locate(before, value, motion, &mut critical);
+        }
+        if let Ok(motion) = &found {
+            before = Some(At {
+                value,
+                motion: motion.clone(),
+            });
+        } else {
+            // A motion that has ended is not followed over the gap.
+            before = None;
+        }
+        points.push(Point {
+            value,
+            motion: found.map_err(Failure::message),
+            continues,
+        });
+    }
+    if points.iter().all(|point| point.motion.is_err()) {
+        let why = points.into_iter().find_map(|point| point.motion.err());
+        return Err(Failure::Run(why.unwrap_or_default()));
+    }
+    Ok(Trace {
+        name: vary.name.clone(),
+        unit,
+        wanted: tracer.wanted,
+        points,
+        critical,
+    })
+}
+
+impl<'a> Tracer<'a> {
+    fn new(
+        call: &'a call::Modes,
+        vary: &'a call::Vary,
+        machine: &'a InterpretedMachine,
+    ) -> Result<(Tracer<'a>, String), Failure> {
+        let name = vary.name.as_str();
+        let coordinate = name
+            .strip_prefix("der(")
+            .and_then(|name| name.strip_suffix(')'));
+        let coordinate = coordinate.unwrap_or(name).trim();
+        let mut start = machine.start();
+        set_start(&mut start, &call.start)?;
+        let mut wanted = wanted(call, &mut start.v)?;
+        wanted.steps = MOST_STEPS;
+        let mut probe = start.v.clone();
+        probe.values.fill(0.0);
+        if probe.set(coordinate, 1.0).is_ok() {
+            let rates: Vec<usize> = (0..probe.values.len())
+                .filter(|j| probe.values[*j] != 0.0)
+                .collect();
+            let steady = call.steady.iter().find(|steady| steady.name == coordinate);
+            match steady.map(|steady| &steady.rate) {
+                Some(call::SteadyRate::Given(_)) => {
+                    return Err(Failure::Call(format!(
+                        "--steady {coordinate}=… and --vary {name} both give the rate of `{coordinate}`: leave out the first"
+                    )));
+                }
+                Some(call::SteadyRate::Solved) => {
+                    return Err(Failure::Call(format!(
+                        "--steady {coordinate}=solve seeks the rate that --vary {name} gives: leave out one of them"
+                    )));
+                }
+                _ => {}
+            }
+            for j in &rates {
+                wanted.steady[*j] = true;
+            }
+            let unit = match start.q.unit(coordinate) {
+                None | Some("1") => "1/s".to_owned(),
+                Some(unit) => format!("{unit}/s"),
+            };
+            let tracer = Tracer {
+                machine,
+                call,
+                name: coordinate,
+                subject: Subject::Rates(rates),
+                wanted,
+            };
+            return Ok((tracer, unit));
+        }
+        if let Err(unknown) = machine.clone().set(name, 0.0) {
+            return Err(super::reading::name_error(
+                "parameter, input or coordinate",
+                &unknown,
+            ));
+        }
+        if call.start.parameters.iter().any(|set| set.name == name) {
+            return Err(Failure::Call(format!(
+                "--set {name}=… and --vary {name} both give `{name}` a value: leave out the first"
+            )));
+        }
+        let unit = machine.unit(name).unwrap_or("1").to_owned();
+        let tracer = Tracer {
+            machine,
+            call,
+            name,
+            subject: Subject::Parameter,
+            wanted,
+        };
+        Ok((tracer, unit))
+    }
+
+    /// The machine at a value.
+    fn machine_at(&self, value: f64) -> InterpretedMachine {
+        let mut machine = self.machine.clone();
+        if let Subject::Parameter = self.subject {
+            // That the name is known was seen before.
+            let _ = machine.set(self.name, value);
+        }
+        machine
+    }
+
+    /// Where the search begins for itself.
+    fn start(&self, machine: &InterpretedMachine) -> Result<(Vec<f64>, Wanted), Failure> {
+        let mut start = machine.start();
+        set_start(&mut start, &self.call.start)?;
+        let mut wanted = self.wanted.clone();
+        wanted.rates = super::wanted(self.call, &mut start.v)?.rates;
+        Ok((start.q.values, wanted))
+    }
+
+    fn find(
+        &self,
+        machine: &InterpretedMachine,
+        q: &[f64],
+        mut wanted: Wanted,
+        value: f64,
+    ) -> Result<Motion, Failure> {
+        if let Subject::Rates(rates) = &self.subject {
+            for j in rates {
+                wanted.rates[*j] = value;
+            }
+        }
+        motion(machine, q, &wanted)
+    }
+
+    fn from_start(&self, value: f64) -> Result<Motion, Failure> {
+        let machine = self.machine_at(value);
+        let (q, mut wanted) = self.start(&machine)?;
+        wanted.steps = super::search::MOST_STEPS;
+        self.find(&machine, &q, wanted, value)
+    }
+
+    /// The motion that is reached from another one.
+    fn from(&self, other: &Motion, value: f64) -> Result<Motion, Failure> {
+        let mut wanted = self.wanted.clone();
+        for j in 0..wanted.rates.len() {
+            if wanted.solved[j] {
+                wanted.rates[j] = other.v[j];
+            }
+        }
+        self.find(
+            &self.machine_at(value),
+            &other.found.place.q(),
+            wanted,
+            value,
+        )
+    }
+
+    /// The same motion at another value.
+    fn follow(&self, from: &At, value: f64, halvings: usize) -> Result<Motion, Failure> {
+        let found = self.from(&from.motion, value);
+        match found {
+            Ok(motion) if is_near(&from.motion, &motion) => return Ok(motion),
+            Err(Failure::Call(why)) => return Err(Failure::Call(why)),
+            found if halvings == 0 => {
+                return found.and(Err(Failure::run("the motion ends")));
+            }
+            _ => {}
+        }
+        let middle = 0.5 * (from.value + value);
+        let motion = self.follow(from, middle, halvings - 1)?;
+        let middle = At {
+            value: middle,
+            motion,
+        };
+        self.follow(&middle, value, halvings - 1)
+    }
+
+    /// Critical values between two neighbours.
+    fn locate(&self, from: &At, to: f64, end: &Motion, critical: &mut Vec<Critical>) {
+        let last = Kinds::of(&end.modes);
+        let mut low = At {
+            value: from.value,
+            motion: from.motion.clone(),
+        };
+        let span = (to - from.value).abs();
+        let mut changes: Vec<(f64, Motion, f64, Motion)> = Vec::new();
+        while Kinds::of(&low.motion.modes) != last && changes.len() < MOST_CRITICAL {
+            let kinds = Kinds::of(&low.motion.modes);
+            let mut high = At {
+                value: to,
+                motion: end.clone(),
+            };
+            loop {
+                let middle = 0.5 * (low.value + high.value);
+                let width = (high.value - low.value).abs();
+                if middle == low.value || middle == high.value || width <= f64::EPSILON * span {
+                    break;
+                }
+                let Ok(motion) = self.follow(&low, middle, 2) else {
+                    return;
+                };
+                let at = At {
+                    value: middle,
+                    motion,
+                };
+                match Kinds::of(&at.motion.modes) == kinds {
+                    true => low = at,
+                    false => high = at,
+                }
+            }
+            changes.push((low.value, low.motion, high.value, high.motion.clone()));
+            low = high;
+        }
+        let mut changes = changes.into_iter().peekable();
+        while let Some((low, before, mut high, mut after)) = changes.next() {
+            // What is one change, seen through rounding.
+            while let Some((_, _, end, motion)) =
+                changes.next_if(|(next, ..)| (next - high).abs() <= TOGETHER * span)
+            {
+                (high, after) = (end, motion);
+            }
+            let (first, then) = (Kinds::of(&before.modes), Kinds::of(&after.modes));
+            if (first.growing, first.oscillating) == (then.growing, then.oscillating) {
+                continue;
+            }
+            let (mut value, mut error) = (0.5 * (low + high), 0.5 * (high - low).abs());
+            // Where rounding decides on both sides of one of the values themselves, it is this.
+            for end in [from.value, to] {
+                if (value - end).abs() <= AT_AN_END * span {
+                    error += (value - end).abs();
+                    value = end;
+                }
+            }
+            critical.push(Critical {
+                value,
+                error,
+                growing: [first.growing, then.growing],
+                oscillating: [first.oscillating, then.oscillating],
+                lambda: changing([&before.modes, &after.modes], [first, then]),
+            });
+        }
+    }
+}
+
+/// The eigenvalue that changes its kind, by how near it is to the other.
+fn changing(modes: [&Modes; 2], [first, then]: [Kinds; 2]) -> Option<Complex<f64>> {
+    let nearest =
+        |modes: &Modes, is: &dyn Fn(Complex<f64>) -> bool, size: &dyn Fn(Complex<f64>) -> f64| {
+            let all = modes
+                .modes
+                .iter()
+                .map(|mode| mode.lambda)
+                .filter(|lambda| is(*lambda));
+            all.min_by(|a, b| size(*a).total_cmp(&size(*b)))
+        };
+    if first.oscillating != then.oscillating {
+        // Two that meet on the axis: there is no oscillation any more.
+        let side = usize::from(then.oscillating > first.oscillating);
+        let met = nearest(modes[side], &|lambda| lambda.im > 0.0, &|lambda| lambda.im)?;
+        return Some(Complex::new(met.re, 0.0));
+    }
+    let side = usize::from(then.growing > first.growing);
+    let met = nearest(modes[side], &|lambda| lambda.re > 0.0, &|lambda| lambda.re)?;
+    Some(Complex::new(0.0, met.im))
+}
+
+fn is_near(one: &Motion, other: &Motion) -> bool {
+    let (one, other) = (one.found.place.q(), other.found.place.q());
+    let mut pairs = one.iter().zip(&other);
+    pairs.all(|(a, b)| (a - b).abs() <= NEAR * a.abs().max(1.0))
+}
