@@ -181,7 +181,7 @@ mod tests {
     #[test]
     fn rows_are_found_by_names() {
         let mut text = Vec::new();
-        csv(&recording(), &mut text).unwrap();
+        csv(&columns(&recording()), &mut text).unwrap();
         let text = String::from_utf8(text).unwrap();
         let names = ["s1".to_owned()];
         let values = &recording().columns[0].values;

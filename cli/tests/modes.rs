@@ -1007,7 +1007,7 @@ fn what_cannot_be_steady_is_told_at_the_word() {
     );
     refused(
         &[governor, "--steady", "phi=fast"],
-        "nothing is named `fast`; or `solve`, to find the rate",
+        "or `solve`, to find the rate",
     );
     refused(&[governor, "--steady", "=3"], "expected a name before `=`");
     // Slower than the balls need to rise at all they hang: there is a steady motion, at alpha = 0.
@@ -1399,8 +1399,4 @@ fn what_cannot_be_varied_is_told_at_the_word() {
     );
     refused(&[coin, "--vary", "m=1..-2:5"], "a mass is positive");
     refused(&[coin, "--vary", "m=1..2:5", "--out", "a.txt"], "`.csv`");
-    refused(
-        &[coin, "--vary", "m=1..2:5", "--out", coin],
-        "would overwrite",
-    );
 }

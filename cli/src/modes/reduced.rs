@@ -106,7 +106,7 @@ pub struct Linearized {
     pub by_places: DMatrix<f64>,
     /// The same without what T turns of the forces that are not balanced, `(∂T/∂z)ᵀ M T (Tᵀ M T)⁻¹ r`: what is 0 of r in one
     /// choice of I is so in each, and Newton's method with this goes the same way in each.
-    pub turning_along: DMatrix<f64>,
+    pub as_balanced: DMatrix<f64>,
     /// ∂r/∂s.
     pub by_rates: DMatrix<f64>,
     /// ∂v_F/∂z.
@@ -124,7 +124,7 @@ impl Linearized {
             forces,
             mass,
             by_places,
-            turning_along,
+            as_balanced,
             by_rates,
             followers_by_places,
             along,
@@ -135,7 +135,7 @@ impl Linearized {
             forces,
             mass,
             by_places,
-            turning_along,
+            as_balanced,
             by_rates,
             followers_by_places,
             along,
@@ -149,7 +149,7 @@ impl Linearized {
             forces,
             mass,
             by_places,
-            turning_along,
+            as_balanced,
             by_rates,
             followers_by_places,
             along,
@@ -160,7 +160,7 @@ impl Linearized {
             forces,
             mass,
             by_places,
-            turning_along,
+            as_balanced,
             by_rates,
             followers_by_places,
             along,
@@ -179,7 +179,7 @@ impl Linearized {
 
     /// How r changes where the machine is displaced as it may move, for Newton's method.
     pub fn stiffness(&self, choice: &Choice) -> DMatrix<f64> {
-        &self.turning_along * self.displaced(choice)
+        &self.as_balanced * self.displaced(choice)
     }
 
     /// How z changes along T.
@@ -605,7 +605,7 @@ impl<'a> Reduced<'a> {
             forces: DMatrix::from_fn(count, 1, |i, _| value(&here.forces[i])),
             mass: along.transpose() * &mass * &along,
             by_places: DMatrix::zeros(count, places),
-            turning_along: DMatrix::zeros(count, places),
+            as_balanced: DMatrix::zeros(count, places),
             by_rates: DMatrix::zeros(count, count),
             followers_by_places: DMatrix::zeros(choice.followers.len(), places),
             along,
@@ -630,7 +630,7 @@ impl<'a> Reduced<'a> {
                 linearized.by_places[(i, column)] = slope(force);
                 let rows = there.along.iter().zip(unbalanced.iter());
                 let turned: f64 = rows.map(|(row, x)| slope(&row[i]) * x).sum();
-                linearized.turning_along[(i, column)] = slope(force) - turned;
+                linearized.as_balanced[(i, column)] = slope(force) - turned;
             }
             for (i, &j) in choice.followers.iter().enumerate() {
                 linearized.followers_by_places[(i, column)] = slope(&there.rates[j]);

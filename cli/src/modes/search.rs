@@ -515,5 +515,5 @@ pub fn settled(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> DMatrix<f64> {
 /// What rounding may make of ∂r/∂q along T.
 fn bounds_of_stiffness(here: &Linearized, bounds: &Linearized, choice: &Choice) -> DMatrix<f64> {
     let (displaced, rough) = (here.displaced(choice).abs(), bounds.displaced(choice));
-    &bounds.turning_along * &displaced + here.turning_along.abs() * rough
+    &bounds.as_balanced * &displaced + here.as_balanced.abs() * rough
 }

@@ -181,7 +181,7 @@ pub fn trace(
             (Some(Ok(motion)), _) => Ok(motion),
             // The one that was followed has ended; there may be another.
             (Some(Err(_)), Some(before)) => tracer.from(&before.motion, value),
-            _ => tracer.from_start(value),
+            _ => tracer.anew(value),
         };
         if let (Ok(motion), true, Some(before)) = (&found, continues, &before) {
             tracer.locate(before, value, motion, &mut critical);
@@ -321,7 +321,7 @@ impl<'a> Tracer<'a> {
         motion(machine, q, &wanted)
     }
 
-    fn from_start(&self, value: f64) -> Result<Motion, Failure> {
+    fn anew(&self, value: f64) -> Result<Motion, Failure> {
         let machine = self.machine_at(value);
         let (q, mut wanted) = self.start(&machine)?;
         wanted.steps = super::search::MOST_STEPS;
@@ -373,7 +373,7 @@ impl<'a> Tracer<'a> {
         };
         let span = (to - from.value).abs();
         let mut changes: Vec<(f64, Motion, f64, Motion)> = Vec::new();
-        while Kinds::of(&low.motion.modes) != last && changes.len() < MOST_CRITICAL {
+        'changes: while Kinds::of(&low.motion.modes) != last && changes.len() < MOST_CRITICAL {
             let kinds = Kinds::of(&low.motion.modes);
             let mut high = At {
                 value: to,
@@ -386,7 +386,7 @@ impl<'a> Tracer<'a> {
                     break;
                 }
                 let Ok(motion) = self.follow(&low, middle, 2) else {
-                    return;
+                    break 'changes;
                 };
                 let at = At {
                     value: middle,
