@@ -21,6 +21,8 @@ pub struct Rewritten {
     pub energies: [bool; 3],
     /// Whether the spec may be refused: a guide's reaction may not follow from it any more.
     pub refusable: bool,
+    /// Whether what a guide carries is written by formulas in coordinates, no more by frames.
+    pub by_formulas: bool,
     pub names: Vec<&'static str>,
 }
 
@@ -71,6 +73,7 @@ impl Rewritten {
             guides: (0..machine.sliding.len()).map(|k| (k, 1.0, 1.0)).collect(),
             energies: [true; 3],
             refusable: false,
+            by_formulas: false,
             names: Vec::new(),
         }
     }
@@ -221,7 +224,8 @@ fn formulas_for_frames(r: &mut Rewritten, _: &mut Random) -> bool {
             *v = in_ground(&before, v);
         }
     });
-    r.refusable |= some && !r.machine.sliding.is_empty();
+    r.by_formulas |= some && is_guided_at_all(&r.machine);
+    r.refusable |= r.by_formulas;
     some
 }
 
@@ -285,7 +289,8 @@ fn frames_from_ground(r: &mut Rewritten, _: &mut Random) -> bool {
     }
     rename_frames(&mut r.machine, &|frame| renamed[frame]);
     r.machine.frames = frames;
-    r.refusable |= !r.machine.sliding.is_empty();
+    r.by_formulas |= is_guided_at_all(&r.machine);
+    r.refusable |= r.by_formulas;
     true
 }
 
@@ -301,6 +306,8 @@ fn relative_coordinates(r: &mut Rewritten, random: &mut Random) -> bool {
     let i = random.below(n);
     let j = (i + 1 + random.below(n - 1)) % n;
     let factor = [1.0, -1.0, 1.0, 0.5][random.below(4)];
+    // Every force on a coordinate is one on several of the others then.
+    r.refusable |= is_guided_at_all(&r.machine);
     r.substitute(&|k| (k == i).then(|| sum(vec![q(i), mul(num(factor), q(j))])));
     r.coordinates[i] = sum(vec![
         r.coordinates[i].clone(),
@@ -392,6 +399,10 @@ fn order_of_items(r: &mut Rewritten, random: &mut Random) -> bool {
     // Loops are built by the order of their links.
     machine.closed = None;
     true
+}
+
+fn is_guided_at_all(machine: &Machine) -> bool {
+    !machine.sliding.is_empty()
 }
 
 /// Whether a body is held in a guide.
@@ -549,11 +560,15 @@ fn torsions_otherwise(r: &mut Rewritten, random: &mut Random) -> bool {
                 let energy = mul(mul(num(0.5), stiffness), power(twist, 4));
                 r.machine.potentials.push(energy);
             }
-            false => r.machine.springs.push(Elastic {
-                name: format!("t{k}"),
-                factor: stiffness,
-                stretch: Stretch::Number(twist),
-            }),
+            false => {
+                // A stretch has a direction, and how it pulls across a guide is not said.
+                r.refusable |= is_guided_at_all(&r.machine);
+                r.machine.springs.push(Elastic {
+                    name: format!("t{k}"),
+                    factor: stiffness,
+                    stretch: Stretch::Number(twist),
+                });
+            }
         }
     }
     some
@@ -897,6 +912,8 @@ fn polar(r: &mut Rewritten, random: &mut Random) -> bool {
     if start(i).hypot(start(j)) < 0.375 {
         return false;
     }
+    // As above.
+    r.refusable |= is_guided_at_all(&r.machine);
     let (distance, angle) = (q(i), q(j));
     let of_x = |e: Expr| mul(e, cos(angle.clone()));
     let of_y = |e: Expr| mul(e, sin(angle.clone()));

@@ -25,10 +25,12 @@
 //! Whatever else depends on coordinates (constraints, springs, points of forces) is held against the
 //! same `c` and `α`: what depends on where the guided body is changes by (E38) as the bodies do. What
 //! does not is written in coordinates, and acts along the guide. Where it cannot act along the guide
-//! alone, it must be written by positions.
+//! alone, it must be written by positions. A force on a coordinate acts on the bodies that this moves. If
+//! the guide carries only some of them, and the force is none that could act on these alone, nobody says
+//! how it is shared.
 
 use lagrangian_scalar::{Dual, Residue, Scalar};
-use lagrangian_symbolic::{Expr, Symbol, evaluate};
+use lagrangian_symbolic::{Expr, Node, Symbol, evaluate};
 
 use super::constraints::{self, ConstraintEquation};
 use super::experiment;
@@ -42,6 +44,10 @@ use crate::source::Span;
 /// Points of the prime field that are tried until all expressions have a value at one of them: each
 /// square root has one at every second point.
 const TRIALS: u64 = 256;
+
+/// Points that are tried for what acts on a machine, if it has no value at the first: in the prime field,
+/// and then, for what has no values there, in ordinary numbers.
+const TRIALS_OF_ACTIONS: [u64; 2] = [16, 4];
 
 /// Multiplications that the question whether (E38) holds may take, if nothing is zero: some seconds.
 const WORK: usize = 500_000_000;
@@ -68,9 +74,12 @@ pub struct Carrying {
     pub moved: Vec<Vec<usize>>,
     /// For each guide, the coordinates whose change is part of a displacement along it, the `c` of
     /// (E38): a force on such a coordinate pushes what the guide carries. Where it moves none of that,
-    /// it pushes through a tie of which nobody says how it pulls across the guide, and the reaction
-    /// is not determined while a force acts on that coordinate. None where (E38) does not hold.
+    /// or other bodies too in a way that forces on the carried ones alone cannot, it pushes through a tie of
+    /// which nobody says how it pulls across the guide, and the reaction is not determined while a
+    /// force acts on that coordinate. None where (E38) does not hold.
     pub pushed_by: Vec<Option<Vec<usize>>>,
+    /// For each guide, those among `pushed_by` of which that is so.
+    unsaid: Vec<Vec<usize>>,
 }
 
 impl Carrying {
@@ -81,24 +90,23 @@ impl Carrying {
         motion.or_else(|| Some(Motion::<f64>::of(model)?.carrying(model)))
     }
 
-    /// The coordinates on which a force would push what a guide carries although they move none of
-    /// it.
-    pub fn unsaid(&self, guide: usize) -> Vec<usize> {
-        let pushed_by = self.pushed_by[guide].iter().flatten();
-        let moves_none = |i: &&usize| {
-            let mut carried = self.carried[guide].iter();
-            !carried.any(|body| self.moved[**i].contains(body))
-        };
-        pushed_by.filter(moves_none).copied().collect()
+    /// The coordinates on which a force would push what a guide carries through something of which the
+    /// spec does not say how it pulls across the guide.
+    pub fn unsaid(&self, guide: usize) -> &[usize] {
+        &self.unsaid[guide]
     }
 }
 
 /// Says of every guide what leaves its reaction undetermined. True if anything does.
 pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
-    let found = match Motion::<Residue>::of(model) {
-        Some(motion) => motion.refused(model),
-        None => Motion::<f64>::of(model).map_or_else(Vec::new, |motion| motion.refused(model)),
-    };
+    let mut looked_at = Vec::new();
+    let mut found = Motion::<Residue>::of(model)
+        .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+    // What the prime field has no values of: nothing, or things that act.
+    if found.is_empty() && (looked_at.is_empty() || looked_at.contains(&false)) {
+        found = Motion::<f64>::of(model)
+            .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+    }
     let refused = !found.is_empty();
     found.into_iter().for_each(|found| report.push(found));
     refused
@@ -106,6 +114,8 @@ pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
 
 /// Numbers in which (E38) is looked at.
 trait Number: Scalar {
+    /// How many points are tried for what acts.
+    const TRIALS_OF_ACTIONS: u64;
     /// A value for a symbol.
     fn random(point: u64, symbol: Symbol) -> Self;
     /// How large it is, 0 if it counts as zero beside numbers of this size.
@@ -113,6 +123,8 @@ trait Number: Scalar {
 }
 
 impl Number for Residue {
+    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[0];
+
     fn random(point: u64, symbol: Symbol) -> Residue {
         experiment::random(point, symbol)
     }
@@ -123,6 +135,8 @@ impl Number for Residue {
 }
 
 impl Number for f64 {
+    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[1];
+
     fn random(point: u64, symbol: Symbol) -> f64 {
         experiment::number(point as u32 + 1, symbol)
     }
@@ -224,6 +238,11 @@ impl<'m, 'd> Relaxed<'m, 'd> {
 
 impl<T: Number> Motion<T> {
     fn of(model: &Model<'_>) -> Option<Motion<T>> {
+        Motion::among(model, 0..TRIALS)
+    }
+
+    /// How everything moves at the first of some points where it has values.
+    fn among(model: &Model<'_>, mut points: std::ops::Range<u64>) -> Option<Motion<T>> {
         if model.sliding.is_empty() {
             return None;
         }
@@ -236,7 +255,8 @@ impl<T: Number> Motion<T> {
             .collect();
         let all: Vec<Expr<'_>> = expressions.iter().chain(&directions).copied().collect();
         let values = |point| evaluate(model.dag, &all, |s| relaxed.value::<T>(point, s));
-        let (point, values) = (0..TRIALS)
+        let (point, values) = points
+            .by_ref()
             .map(|point| (point, values(point)))
             .find(|(_, values)| values.iter().all(|x| x.is_finite()))?;
         let columns = relaxed.derivatives::<T>(point, &expressions, &relaxed.x.q);
@@ -360,16 +380,65 @@ impl<T: Number> Motion<T> {
                 .map(|i| self.bodies_moved_by(&[i]))
                 .collect(),
             pushed_by: guides
+                .clone()
                 .map(|k| {
                     let Along(along) = self.along(k, &rows)?;
                     Some((0..self.coordinates).filter(|&i| is_in(along[i])).collect())
                 })
                 .collect(),
+            unsaid: guides
+                .map(|k| {
+                    let along = self.along(k, &rows);
+                    let unsaid = |i: &usize| {
+                        let mut forces = vec![T::ZERO; self.coordinates];
+                        forces[*i] = T::ONE;
+                        let unsaid = |along| self.is_unsaid(k, along, &forces);
+                        along.as_ref().is_some_and(unsaid)
+                    };
+                    (0..self.coordinates).filter(unsaid).collect()
+                })
+                .collect(),
         }
     }
 
-    /// A message for each thing that leaves a reaction undetermined.
-    fn refused(&self, model: &Model<'_>) -> Vec<Diagnostic> {
+    /// Whether forces on the coordinates push what a guide carries along it (`along` says by which
+    /// coordinates that moves), and not said is how they pull across the guide: such a coordinate moves
+    /// nothing that is carried; or it moves other bodies too, and the forces are none that act on the
+    /// carried bodies alone, so that a part of them, nobody says which, acts on the others.
+    fn is_unsaid(&self, guide: usize, along: &Along<T>, forces: &[T]) -> bool {
+        let carried = self.bodies_moved_by(&self.own(guide));
+        let is_carried = |body: &usize| carried.contains(body);
+        let is_in = |x: T| x.size_beside(self.size) != 0.0;
+        // As large as the entries of the matrix.
+        let sizes = forces.iter().map(|x| x.size_beside(0.0));
+        let scale = T::from_f64(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
+        let forces: Vec<T> = forces.iter().map(|&x| scale * x).collect();
+        let mut moves_others = false;
+        for i in (0..self.coordinates).filter(|&i| is_in(forces[i]) && is_in(along.0[i])) {
+            let moved = self.bodies_moved_by(&[i]);
+            if !moved.iter().any(is_carried) {
+                return true;
+            }
+            moves_others |= !moved.iter().all(is_carried);
+        }
+        if !moves_others {
+            return false;
+        }
+        // Forces on the carried bodies are combinations of the derivatives of their places.
+        let rows = self.rows(|k| match self.parts[k].what {
+            What::Body(body) => carried.contains(&body),
+            What::Base(_) => false,
+        });
+        let places = rows.iter().map(|&row| {
+            let columns = self.columns[..self.coordinates].iter();
+            columns.map(|column| column[row]).collect()
+        });
+        combination(places.collect(), forces, self.size).is_none()
+    }
+
+    /// A message for each thing that leaves a reaction undetermined. Of the things that act, it is noted
+    /// which have been looked at; those that have no value at any point have not.
+    fn refused(&self, model: &Model<'_>, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
         let Some(relaxed) = Relaxed::of(model) else {
             return found;
@@ -395,14 +464,36 @@ impl<T: Number> Motion<T> {
         if found.is_empty() {
             found = self.loose(model);
         }
-        if found.is_empty() {
-            found = Written {
-                motion: self,
+        if !found.is_empty() {
+            return found;
+        }
+        let written = |motion: &Self, alongs: &[(usize, Along<T>)], looked_at: &mut Vec<bool>| {
+            let written = Written {
+                motion,
                 relaxed: &relaxed,
                 model,
-                alongs: &alongs,
+                alongs,
+            };
+            written.refused(looked_at)
+        };
+        found = written(self, &alongs, looked_at);
+        // A distance has a value at every second point.
+        let mut next = self.point + 1;
+        for _ in 0..T::TRIALS_OF_ACTIONS {
+            if !found.is_empty() || !looked_at.contains(&false) {
+                break;
             }
-            .refused();
+            let Some(motion) = Motion::<T>::among(model, next..next + TRIALS) else {
+                break;
+            };
+            next = motion.point + 1;
+            let alongs: Option<Vec<(usize, Along<T>)>> = alongs
+                .iter()
+                .map(|(guide, _)| Some((*guide, motion.along(*guide, &rows)?)))
+                .collect();
+            if let Some(alongs) = alongs {
+                found = written(&motion, &alongs, looked_at);
+            }
         }
         found
     }
@@ -516,6 +607,17 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
     diagnostic.note(sliding.span, "this guide")
 }
 
+/// What came of looking at something that acts: nothing where it has no value, or what is wrong with it.
+type Looked = Option<Option<Diagnostic>>;
+
+/// The terms of a sum, or all of what is none.
+fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
+    match value.node() {
+        Node::Sum(terms) => terms.iter().map(|(id, _)| value.dag().expr(*id)).collect(),
+        _ => vec![value],
+    }
+}
+
 /// What is written in coordinates, held against the motion along the guides.
 struct Written<'s, 'm, 'd, T> {
     motion: &'s Motion<T>,
@@ -525,43 +627,66 @@ struct Written<'s, 'm, 'd, T> {
 }
 
 impl<'d, T: Number> Written<'_, '_, 'd, T> {
-    fn refused(&self) -> Vec<Diagnostic> {
+    /// What is refused of that which has values at this point and has not been looked at before.
+    fn refused(&self, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
         let mut found = Vec::new();
+        let mut number = 0;
+        let mut look = |refused: &dyn Fn() -> Looked| {
+            if looked_at.len() <= number {
+                looked_at.push(false);
+            }
+            if !looked_at[number]
+                && let Some(refused) = refused()
+            {
+                looked_at[number] = true;
+                found.extend(refused);
+            }
+            number += 1;
+        };
         let (model, relaxed) = (self.model, self.relaxed.model);
         let equations = constraints::constraints(relaxed);
         let spans = model.constraints.iter().map(|c| c.span);
         let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
         for (equation, span) in equations.iter().zip(spans.chain(rolling)) {
-            found.extend(self.constraint(equation, span));
+            look(&|| self.constraint(equation, span));
         }
         let kinds = [("spring", &relaxed.springs), ("damper", &relaxed.dampers)];
         for (kind, elastics) in kinds {
             for elastic in elastics.iter().filter(|elastic| !elastic.torsional) {
                 let what = format!("the stretch of the {kind} `{}`", elastic.name);
-                found.extend(self.stretch(elastic.stretch, &what, elastic.span));
+                look(&|| self.stretch(elastic.stretch, &what, elastic.span));
             }
         }
+        let by_place = &self.relaxed.x.q;
         for force in &relaxed.forces {
             let name = &force.name;
             match &force.action {
                 Action::Point { at, force: value } => {
-                    found.extend(self.force(name.to_string(), (at, value), force.span));
+                    look(&|| self.force(name.to_string(), (at, value), force.span));
                 }
                 Action::Coordinate { coordinate, .. } => {
                     let what = format!("the force `{name}`");
-                    let by = relaxed.coordinates[*coordinate].q;
-                    found.extend(self.energy(by, &what, force.span));
+                    let on = relaxed.coordinates[*coordinate].q;
+                    look(&|| self.acting((on, by_place), &what, force.span));
                 }
             }
         }
         let twists = relaxed.springs.iter().chain(&relaxed.dampers);
         for elastic in twists.filter(|elastic| elastic.torsional) {
             let what = format!("the twist of `{}`", elastic.name);
-            found.extend(self.energy(elastic.stretch, &what, elastic.span));
+            look(&|| self.acting((elastic.stretch, by_place), &what, elastic.span));
         }
-        for potential in &relaxed.potentials {
-            let what = format!("the potential `{}`", potential.name);
-            found.extend(self.energy(potential.value, &what, potential.span));
+        let potentials = relaxed
+            .potentials
+            .iter()
+            .map(|v| ("potential", by_place, v));
+        let dissipations = relaxed.dissipations.iter();
+        let dissipations = dissipations.map(|d| ("dissipation", &self.relaxed.x.v, d));
+        for (kind, by, term) in potentials.chain(dissipations) {
+            let what = format!("the {kind} `{}`", term.name);
+            for part in addends(term.value) {
+                look(&|| self.acting((part, by), &what, term.span));
+            }
         }
         found
     }
@@ -601,65 +726,67 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 
     /// A constraint in coordinates: a rope or a gear, as long as its coefficients are constant. One
     /// whose coefficients vary is the geometry of something that pulls in a direction.
-    fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> Option<Diagnostic> {
+    fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> Looked {
         let x = &self.relaxed.x;
         let slopes = match equation.position {
             Some(position) => self.slopes(position, &x.q),
             None => self.slopes(equation.rate, &x.v),
         }?;
-        let (guide, _) = self.amiss(&slopes).next()?;
+        let Some((guide, _)) = self.amiss(&slopes).next() else {
+            return Some(None);
+        };
         let mut entries = equation.row.iter().filter(|entry| !entry.is_zero());
-        let first = *entries.next()?;
+        let Some(&first) = entries.next() else {
+            return Some(None);
+        };
         let is_constant = |&entry: &Expr<'d>| experiment::is_free_of_motion(entry / first);
         if entries.all(is_constant) {
-            return None;
+            return Some(None);
         }
         let what = format!("the constraint `{}`", equation.name);
         let help = "write it by positions of bodies, as `norm(a.at - b.at) = l`";
-        Some(self.diagnostic(guide, span, &what, help))
+        Some(Some(self.diagnostic(guide, span, &what, help)))
     }
 
     /// A stretch in coordinates: it grows by a metre for each metre along the guide if what stretches
     /// lies along the guide.
-    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Option<Diagnostic> {
+    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
         let slopes = self.slopes(stretch, &self.relaxed.x.q)?;
-        let (guide, _) = self.amiss(&slopes).find(|&(guide, amiss)| {
+        let across = self.amiss(&slopes).find(|&(guide, amiss)| {
             let [x, y] = self.motion.directions[guide];
             !self.is_zero(amiss * amiss - (x * x + y * y))
-        })?;
+        });
         let help = "give it `from` and `to`, points of bodies; or, if it acts along the guide alone, say its energy under `potentials`";
-        Some(self.diagnostic(guide, span, what, help))
+        Some(across.map(|(guide, _)| self.diagnostic(guide, span, what, help)))
     }
 
-    /// An energy in coordinates, or what makes one, acts along the guides. It must act on what the
-    /// guide carries itself, not through something else.
-    fn energy(&self, value: Expr<'d>, what: &str, span: Span) -> Option<Diagnostic> {
-        let slopes = self.slopes(value, &self.relaxed.x.q)?;
-        let motion = self.motion;
+    /// What acts with the derivatives of an expression as forces: an energy or what makes one, a
+    /// dissipation by its rates, a coordinate on which a force acts. In coordinates it acts along the
+    /// guides, and must act on what the guide carries itself, not through something else. What acts
+    /// between a body and a place in coordinates pulls on that place too, and nobody says what holds it
+    /// across the guide.
+    fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
+        let slopes = self.slopes(expression, by)?;
+        let (forces, on_bodies) = slopes.split_at(self.motion.coordinates);
         let is_unsaid = |&(guide, _): &(usize, T)| {
-            let Some((_, Along(along))) = self.alongs.iter().find(|(k, _)| *k == guide) else {
-                return false;
-            };
-            let carried = motion.bodies_moved_by(&motion.own(guide));
-            (0..motion.coordinates).any(|i| {
-                let moved = motion.bodies_moved_by(&[i]);
-                !self.is_zero(slopes[i])
-                    && !self.is_zero(along[i])
-                    && !carried.iter().any(|body| moved.contains(body))
-            })
+            let along = self.alongs.iter().find(|(k, _)| *k == guide);
+            let mut pulls = on_bodies.chunks_exact(2).enumerate().map(|(other, pull)| {
+                let [x, y] = self.motion.directions[other];
+                match other == guide {
+                    true => !self.is_zero(pull[1] * x - pull[0] * y),
+                    false => pull.iter().any(|&pull| !self.is_zero(pull)),
+                }
+            });
+            pulls.any(|pulls| pulls)
+                || along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
         };
-        let (guide, _) = self.amiss(&slopes).find(is_unsaid)?;
+        let unsaid = self.amiss(&slopes).find(is_unsaid);
         let help = "say it by positions of bodies; or build the one body on the frame of the other, so that what acts between them is carried by the guide";
-        Some(self.diagnostic(guide, span, what, help))
+        Some(unsaid.map(|(guide, _)| self.diagnostic(guide, span, what, help)))
     }
 
     /// A force at a point in coordinates is right where it acts along the guide.
-    fn force(
-        &self,
-        name: String,
-        (at, value): (&[Expr<'d>], &[Expr<'d>]),
-        span: Span,
-    ) -> Option<Diagnostic> {
+    fn force(&self, name: String, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
         let slopes: Vec<Vec<T>> = at
             .iter()
             .map(|&x| self.slopes(x, &self.relaxed.x.q))
@@ -667,16 +794,19 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         let value = evaluate(self.model.dag, value, |symbol| {
             self.relaxed.value::<T>(self.motion.point, symbol)
         });
-        let (guide, _) = self.alongs.iter().find(|(guide, along)| {
+        if !value.iter().all(|x: &T| x.is_finite()) {
+            return None;
+        }
+        let across = self.alongs.iter().find(|(guide, along)| {
             let moves = slopes
                 .iter()
                 .any(|slopes| !self.is_zero(along.amiss(slopes.iter().copied())));
             let [x, y] = self.motion.directions[*guide];
             moves && !self.is_zero(value[1] * x - value[0] * y)
-        })?;
+        });
         let what = format!("the point of the force `{name}`");
         let help = "write it by where the body is, as `body.at`, or by a point of its frame";
-        Some(self.diagnostic(*guide, span, &what, help))
+        Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &what, help)))
     }
 }
 

@@ -140,7 +140,7 @@ impl Graph {
     }
 
     /// A node as a scaled value, parameters into the factor.
-    fn scaled(&self, id: Id) -> Scaled {
+    pub(super) fn scaled(&self, id: Id) -> Scaled {
         if self.is_known(id) {
             Scaled {
                 negative: false,

@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 
 use super::cost::latency;
 use super::fusion::Contractions;
-use super::graph::Id;
+use super::graph::{Graph, Id, Node, Scaled};
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
 use super::{Function, Op, Role, Shape, Source, Value, stages};
 
@@ -28,10 +28,14 @@ pub(super) struct Code {
     pub(super) prepared: Vec<Id>,
 }
 
-/// Writes the items down as operations.
-pub(super) fn schedule(net: &Net) -> Code {
+/// Writes the items down as operations. With the graph that they come from, what turns out to be
+/// known once the parameters are becomes a prepared value.
+pub(super) fn schedule(net: &Net, graph: Option<&mut Graph>) -> Code {
     let merged = merged(net);
-    let mut builder = Builder::default();
+    let mut builder = Builder {
+        graph,
+        ..Builder::default()
+    };
     let mut value_of: Vec<Option<Value>> = vec![None; net.items.len()];
     for index in in_order(net, &merged) {
         value_of[index as usize] = Some(builder.item(net, index, &merged, &value_of));
@@ -105,7 +109,9 @@ fn merged(net: &Net) -> Vec<bool> {
 }
 
 #[derive(Default)]
-struct Builder {
+struct Builder<'g> {
+    /// Where values are prepared, if they are.
+    graph: Option<&'g mut Graph>,
     code: Vec<Op>,
     /// How long after the arguments each value is known, in tenths of a cycle.
     ready: Vec<u64>,
@@ -114,8 +120,9 @@ struct Builder {
     prepared_index: FxHashMap<Id, u32>,
 }
 
-impl Builder {
+impl Builder<'_> {
     fn op(&mut self, op: Op) -> Value {
+        let op = self.prepared(&op).unwrap_or(op);
         // Both round the same either way round.
         let op = match op {
             Op::Add(a, b) if b < a => Op::Add(b, a),
@@ -134,6 +141,58 @@ impl Builder {
         value
     }
 
+    /// What stands in place of an operation whose operands are all known once the parameters are. The
+    /// graph has prepared what it saw to be so; but two products of it may turn out to be the same
+    /// operations, so that a sum becomes zero, or one of its terms, only here. Signs stay: they cost less
+    /// than one more prepared value.
+    fn prepared(&mut self, op: &Op) -> Option<Op> {
+        use lagrangian_symbolic::Function::{Cos, Sin};
+        let graph = self.graph.as_deref_mut()?;
+        let is_known = |value: Value| is_known(&self.code[value.index()]);
+        if op.operands().next().is_none() || !op.operands().all(is_known) {
+            return None;
+        }
+        let operands: Vec<Scaled> = op
+            .operands()
+            .map(|value| match &self.code[value.index()] {
+                Op::Constant(constant) => graph.constant(constant),
+                Op::Read(Source::Prepared(index)) => graph.scaled(self.prepared[*index as usize]),
+                _ => graph.pi(),
+            })
+            .collect();
+        let value = match (op, operands.as_slice()) {
+            (Op::Add(..), all) => graph.sum(all),
+            (Op::Sub(..), &[a, b]) => graph.sum(&[a, b.negated()]),
+            (Op::Mul(..), &[a, b]) => graph.product(&[(a, 1), (b, 1)]),
+            (Op::Div(..), &[a, b]) => graph.quotient(a, b),
+            (Op::Sin(_), all) => graph.function(Sin, all),
+            (Op::Cos(_), all) => graph.function(Cos, all),
+            (Op::Unary(function, _) | Op::Binary(function, ..), all) => {
+                graph.function(*function, all)
+            }
+            _ => return None,
+        };
+        let constant = match graph.node(value.factor) {
+            Node::Constant(constant) if value.negative => Some(-constant),
+            Node::Constant(constant) => Some(constant.clone()),
+            _ => None,
+        };
+        if let Some(constant) = constant {
+            return Some(Op::Constant(constant));
+        }
+        let factor = graph.with_signed_factor(value).factor;
+        Some(self.read_prepared(factor))
+    }
+
+    fn read_prepared(&mut self, id: Id) -> Op {
+        let next = self.prepared.len() as u32;
+        let index = *self.prepared_index.entry(id).or_insert(next);
+        if index == next {
+            self.prepared.push(id);
+        }
+        Op::Read(Source::Prepared(index))
+    }
+
     fn item(
         &mut self,
         net: &Net,
@@ -145,12 +204,8 @@ impl Builder {
         match &net.items[index as usize] {
             Item::Leaf(Leaf::Op(op)) => self.op(op.clone()),
             Item::Leaf(Leaf::Prepared(id)) => {
-                let next = self.prepared.len() as u32;
-                let index = *self.prepared_index.entry(*id).or_insert(next);
-                if index == next {
-                    self.prepared.push(*id);
-                }
-                self.op(Op::Read(Source::Prepared(index)))
+                let read = self.read_prepared(*id);
+                self.op(read)
             }
             Item::Function(function, arguments) => {
                 use lagrangian_symbolic::Function::{Cos, Sin};
@@ -225,7 +280,7 @@ impl Builder {
 
     /// The rounding error of a value, where it is that of a product, a sum or both.
     fn error(&mut self, value: Value) -> Option<Value> {
-        let of_product = |builder: &mut Builder, value: Value| match builder.code[value.index()] {
+        let of_product = |builder: &mut Self, value: Value| match builder.code[value.index()] {
             Op::Mul(a, b) => Some(builder.op(Op::ProductError(a, b))),
             _ => None,
         };
@@ -293,10 +348,10 @@ impl Builder {
     /// The terms without those that take each other away.
     ///
     /// Two products of the graph may turn out to be the same operations, so that x − x is seen only
-    /// here. What parameters alone decide must not be left over: that would have been prepared.
+    /// here.
     fn without_opposites(&self, terms: Vec<(Value, bool)>) -> Vec<(Value, bool)> {
         let mut left: Vec<(Value, bool)> = Vec::with_capacity(terms.len());
-        for &(value, negative) in &terms {
+        for (value, negative) in terms {
             match left.iter().position(|term| *term == (value, !negative)) {
                 Some(opposite) => {
                     left.remove(opposite);
@@ -305,14 +360,7 @@ impl Builder {
                 None => left.push((value, negative)),
             }
         }
-        let is_known = |value: Value| {
-            let op = &self.code[value.index()];
-            matches!(op, Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_)))
-        };
-        match left.is_empty() || left.iter().any(|(value, _)| !is_known(*value)) {
-            true => left,
-            false => terms,
-        }
+        left
     }
 
     fn is_zero(&self, value: Value) -> bool {
@@ -324,7 +372,7 @@ impl Builder {
     fn merge(
         &mut self,
         parts: Vec<(Value, bool)>,
-        combine: impl Fn(&mut Builder, (Value, bool), (Value, bool)) -> (Value, bool),
+        combine: impl Fn(&mut Self, (Value, bool), (Value, bool)) -> (Value, bool),
     ) -> Option<(Value, bool)> {
         let mut next = parts.len();
         let parts = parts.into_iter().enumerate();
@@ -353,6 +401,11 @@ impl Builder {
             _ => self.op(Op::Neg(value)),
         }
     }
+}
+
+/// Whether a value is known once the parameters are, and computed by then.
+fn is_known(op: &Op) -> bool {
+    matches!(op, Op::Constant(_) | Op::Pi | Op::Read(Source::Prepared(_)))
 }
 
 /// The operations that the roots need, each as late as its first use allows, the operand that needs

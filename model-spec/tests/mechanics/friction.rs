@@ -429,3 +429,54 @@ fn what_guides_carry_and_coordinates_move_is_known() {
         );
     assert!(matches!(&codes(&forced)[..], [(Code::Untied, _)]));
 }
+
+#[test]
+fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_any_coordinates() {
+    // A block on the slope of a cart that it is not built on, in any two coordinates. What pushes the block
+    // along the slope may push the cart back, or not; what pushes the cart alone does not ask.
+    let written = |x: &str, s: &str, section: &str| {
+        format!(
+            "machine Block in plane {{
+                parameters {{ m: kg = 1, mu: 1 = 0.1, l: m = 1, P: N = 3, w: s = 1 }}
+                coordinates {{ a: 1 = 1.3, b: 1 = 0.7 }}
+                frames {{
+                    floor = ground.shift(l*({x}), 0),
+                    slope = floor.turn(0.4),
+                    top = ground.shift(l*({x}) + l*({s})*cos(0.4), l*({s})*sin(0.4)),
+                }}
+                bodies {{ cart {{ mass: m, frame: floor }}, block {{ mass: m, frame: top }} }}
+                gravity (0, -P/m);
+                sliding {{
+                    rail {{ body: cart, on: ground, direction: (1, 0), friction: mu }},
+                    ramp {{ body: block, on: slope, direction: slope.vector(1, 0), friction: mu }},
+                }}
+                {section}
+            }}"
+        )
+    };
+    let on = |coordinate: &str| format!("forces {{ f {{ on: {coordinate}, value: P*l }} }}");
+    let (x, s) = ("a*cos(b)", "a*sin(b)");
+    for (text, is_right) in [
+        (written("a", "b", ""), true),
+        (written("a", "b", &on("a")), true),
+        (written("a", "b", &on("b")), false),
+        (written(x, s, ""), true),
+        (written(x, s, &on("a")), false),
+        (written(x, s, &on("b")), false),
+        (written(x, s, "potentials { v: P*l*a*cos(b) }"), true),
+        (written(x, s, "potentials { v: P*l*a*sin(b) }"), false),
+        (
+            written(x, s, "dissipations { d: P*l*der(a*cos(b))^2*w }"),
+            true,
+        ),
+        (
+            written(x, s, "dissipations { d: P*l*der(a*sin(b))^2*w }"),
+            false,
+        ),
+    ] {
+        match (&codes(&text)[..], is_right) {
+            ([], true) | ([(Code::Untied, _)], false) => {}
+            (found, _) => panic!("{found:?}, {text}"),
+        }
+    }
+}

@@ -157,3 +157,35 @@ fn a_listing_says_what_is_what() {
         assert!(listing.contains(line), "{line}\n{listing}");
     }
 }
+
+#[test]
+fn what_turns_out_to_be_known_late_is_prepared() {
+    // Terms take each other away only once they are operations: a sum is left with what parameters decide. In every
+    // chart of the angles; and cut by stages.
+    let charts = ["x", "x + z", "2*x - z"];
+    for (first, second) in charts.iter().flat_map(|a| charts.map(|b| (*a, b))) {
+        for stages in [
+            "",
+            "stages { coordinates }",
+            "derivatives { coordinates, rates }",
+        ] {
+            let text = format!(
+                "machine Late in plane {{
+                    parameters {{ m: kg = 2, l: m = 1 }}
+                    coordinates {{ x: rad = 2.5, y: rad = 0.2, z: rad = -1.2 }}
+                    frames {{
+                        a = ground.turn({first}), b = a.shift(l, l), c = b.turn(y - ({second})),
+                        d = ground.turn(z), e = d.shift(l, l),
+                    }}
+                    bodies {{
+                        one {{ mass: m, inertia: m*l^2, frame: c, at: c.point(l, l) }},
+                        other {{ mass: m, inertia: m*l^2, frame: e, at: e.point(l, l) }},
+                        third {{ mass: m, inertia: m*l^2, frame: a }},
+                    }}
+                    {stages}
+                }}"
+            );
+            assert_eq!(program(&text).verify(), Ok(()), "{text}");
+        }
+    }
+}

@@ -203,7 +203,7 @@ fn function<'d>(
             .collect(),
     };
     let net = planned.net(graph, true);
-    planned.draft(net, Basis::Derived, false)
+    planned.draft(Some(graph), net, Basis::Derived, false)
 }
 
 /// The right-hand sides with the values of accelerations and multipliers in them.

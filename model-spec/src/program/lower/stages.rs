@@ -161,7 +161,7 @@ fn way(
         return None;
     }
     net.set_apart(apart);
-    let whole = planned.draft(net, basis, factored);
+    let whole = planned.draft(Some(&mut lowering.graph), net, basis, factored);
     let draft = |function: Function| Draft {
         form: Form {
             role: function.role,
