@@ -334,7 +334,8 @@ impl Expr {
         f(self);
     }
 
-    fn vectors(&mut self, f: &mut dyn FnMut(&mut Vector)) {
+    /// Calls a function on every vector that stands in it.
+    pub fn vectors(&mut self, f: &mut dyn FnMut(&mut Vector)) {
         self.each(&mut |e| match e {
             Expr::Dot(u, v) => {
                 u.each(f);

@@ -204,7 +204,23 @@ fn cut_elsewhere(r: &mut Rewritten, random: &mut Random) -> bool {
     true
 }
 
+/// Whether an energy is written by points of frames. In a machine with guides it acts where these are; by formulas in
+/// coordinates it acts along the guides, and is another one.
+fn energies_need_frames(machine: &Machine) -> bool {
+    let mut found = false;
+    let energies = machine.potentials.iter().chain(&machine.dissipations);
+    for energy in energies {
+        energy.clone().vectors(&mut |v| {
+            found |= matches!(v, Vector::Point(..) | Vector::Origin(_) | Vector::Along(..));
+        });
+    }
+    found && is_guided_at_all(machine)
+}
+
 fn formulas_for_frames(r: &mut Rewritten, _: &mut Random) -> bool {
+    if energies_need_frames(&r.machine) {
+        return false;
+    }
     let before = r.machine.clone();
     let mut some = false;
     for k in 0..r.machine.bodies.len() {
@@ -254,7 +270,7 @@ fn rename_frames(machine: &mut Machine, new: &dyn Fn(usize) -> usize) {
 
 fn frames_from_ground(r: &mut Rewritten, _: &mut Random) -> bool {
     let before = r.machine.clone();
-    if before.frames.iter().all(|frame| frame.parent == 0) {
+    if before.frames.iter().all(|frame| frame.parent == 0) || energies_need_frames(&before) {
         return false;
     }
     let mut frames = Vec::new();
@@ -507,6 +523,10 @@ fn stretch_expr(stretch: &Stretch) -> Expr {
 }
 
 fn springs_as_potentials(r: &mut Rewritten, _: &mut Random) -> bool {
+    // An energy in coordinates acts along the guides, a spring between points does not.
+    if r.by_formulas {
+        return false;
+    }
     let springs = std::mem::take(&mut r.machine.springs);
     let some = !springs.is_empty();
     for Elastic {
@@ -575,6 +595,10 @@ fn torsions_otherwise(r: &mut Rewritten, random: &mut Random) -> bool {
 }
 
 fn dampers_as_dissipations(r: &mut Rewritten, _: &mut Random) -> bool {
+    // As above.
+    if r.by_formulas {
+        return false;
+    }
     let dampers = std::mem::take(&mut r.machine.dampers);
     let some = !dampers.is_empty();
     for Elastic {
