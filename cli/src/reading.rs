@@ -160,8 +160,10 @@ pub fn machine(
 ) -> Result<InterpretedMachine, Failure> {
     let mut machine = InterpretedMachine::new(compiled.program.clone());
     for set in families_first(&start.parameters) {
-        let unit = machine.unit(&set.name).unwrap_or("1").to_owned();
-        let value = set.value("--set", &unit).map_err(Failure::Call)?;
+        let value = match machine.unit(&set.name) {
+            Some(unit) => set.value("--set", unit).map_err(Failure::Call)?,
+            None => 0.0, // there is no such name, which is said here
+        };
         if let Err(unknown) = machine.set(&set.name, value) {
             let is_coordinate = is_named(&machine.start().q, &set.name);
             let other = is_coordinate.then_some("it is a coordinate, which --start sets");

@@ -82,6 +82,11 @@ pub enum Disagreement {
         /// The function.
         role: Role,
     },
+    /// The same after as many comparisons as the size of the machine allows.
+    Exhausted {
+        /// How many.
+        comparisons: u64,
+    },
 }
 
 impl fmt::Display for Disagreement {
@@ -134,6 +139,10 @@ impl fmt::Display for Disagreement {
             Disagreement::Undefined => {
                 f.write_str("no point where everything has a value was found")
             }
+            Disagreement::Exhausted { comparisons } => write!(
+                f,
+                "no point where everything has a value was found in {comparisons} comparisons"
+            ),
         }
     }
 }

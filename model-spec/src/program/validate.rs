@@ -62,6 +62,14 @@ const MOST_POINTS: u64 = 4096;
 /// The most values of expressions that may be computed in search of a point.
 const MOST_VALUES: u64 = 4_000_000;
 
+/// A comparison may say nothing, where a pivot or a value is missing that the search for a point has not seen.
+/// So many comparisons are made for each that must say something,
+const COMPARISONS: u64 = 8;
+
+/// and as many more as compute no more than so many values: no proof costs more than so many times one
+/// that succeeds at once, or a second.
+const MOST_COMPARED: u64 = 40_000_000;
+
 /// A program that computes what Lagrange's equations of its machine say; see the
 /// [module](self).
 #[derive(Clone, Debug, PartialEq)]
@@ -153,6 +161,12 @@ impl Unproved {
                 "no state was found at which the equations of motion have a value",
             )
             .help("something divides by zero, or takes a root or a logarithm that does not exist; if there are such states, give the coordinates start values near one of them"),
+            Disagreement::Exhausted { comparisons } => Diagnostic::new(
+                Code::TooLarge,
+                model.span,
+                format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
+            )
+            .help("as many are compared as the size of its equations allows; where it is singular at most states, say what holds it, or make it smaller"),
             _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
                 "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
             ),
@@ -173,9 +187,10 @@ impl fmt::Display for Unproved {
             | Disagreement::Reaction { point, .. }
             | Disagreement::Settled { point, .. }
             | Disagreement::Pivots { point } => format!(" (random {witness} {point})"),
-            Disagreement::Singular(_) | Disagreement::Undefined | Disagreement::Unseen { .. } => {
-                String::new()
-            }
+            Disagreement::Singular(_)
+            | Disagreement::Undefined
+            | Disagreement::Unseen { .. }
+            | Disagreement::Exhausted { .. } => String::new(),
         };
         write!(
             f,
@@ -254,7 +269,9 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             coordinate(singular.coordinate)
         ),
         Disagreement::Unseen { role } => format!("nothing holds `{}` against", role.name()),
-        Disagreement::Undefined => "no state was found to compare it with".into(),
+        Disagreement::Undefined | Disagreement::Exhausted { .. } => {
+            "no state was found to compare it with".into()
+        }
     }
 }
 
@@ -282,17 +299,35 @@ fn validate<'d>(
         relaxed: relaxed.as_ref(),
         settled,
     };
-    let in_field = Prover::<Residue>::new(parts).run(POINTS, most);
+    let work = work(program, nodes.len());
+    let in_field = Prover::<Residue>::new(parts).run(POINTS, most, work);
     if in_field == Found::Equal && smooth && model.sliding.is_empty() {
         return Ok(());
     }
-    let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES);
+    let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
     match (in_field, at_states) {
-        (Found::Wrong(wrong), Found::Wrong(_) | Found::Nothing) => Err((wrong, Witness::Field)),
-        (_, Found::Wrong(wrong)) => Err((wrong, Witness::States)),
-        (Found::Nothing, Found::Nothing) => Err((Disagreement::Undefined, Witness::States)),
-        (_, Found::Equal) | (Found::Equal, Found::Nothing) => Ok(()),
+        (Found::Equal | Found::Nothing | Found::Exhausted(_), Found::Wrong(wrong)) => {
+            Err((wrong, Witness::States))
+        }
+        (_, Found::Equal) | (Found::Equal, _) => Ok(()),
+        (Found::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (Found::Exhausted(comparisons), _) | (_, Found::Exhausted(comparisons)) => {
+            Err((Disagreement::Exhausted { comparisons }, Witness::States))
+        }
+        (_, _) => Err((Disagreement::Undefined, Witness::States)),
     }
+}
+
+/// About how many values one comparison computes, for a machine of so many nodes: each with three
+/// infinitesimals, which are eight numbers.
+fn work(program: &Program, nodes: usize) -> u64 {
+    let code = |function: &super::Function| function.code.len() as u64;
+    let functions: u64 = program.functions.iter().map(code).sum();
+    let slopes = match program.derivatives.is_empty() {
+        true => 0,
+        false => program.function(Role::Accelerations).map_or(0, code),
+    };
+    8 * nodes as u64 + functions + 2 * slopes
 }
 
 /// Which coordinates the accelerations do not look at, since constraints settle them.
@@ -321,6 +356,8 @@ enum Found {
     Wrong(Disagreement),
     /// Too few points at which everything has a value.
     Nothing,
+    /// The same after so many comparisons, which are all that may be made.
+    Exhausted(u64),
 }
 
 /// Why a comparison says nothing yet, or that something is wrong.
@@ -403,6 +440,8 @@ struct Prover<'a, 'd, R> {
     /// The accelerations over dual numbers, where derivatives are to be compared.
     slopes: Option<Interpreter<Dual<R>>>,
     number: u64,
+    /// How many comparisons were begun.
+    comparisons: u64,
     /// For each output whether it had a value yet.
     seen: Vec<bool>,
     /// The functions that were looked at.
@@ -424,6 +463,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             guards: Interpreter::new(&with_guarded_values(program), &parameters),
             slopes,
             number: 0,
+            comparisons: 0,
             seen: vec![false; program.outputs.len()],
             called: BTreeSet::new(),
             has_moved: false,
@@ -431,10 +471,14 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
     }
 
-    /// Compares at so many points, of at most `most`.
-    fn run(mut self, points: usize, most: u64) -> Found {
+    /// Compares at so many points, of at most `most`, each comparison being so much `work`.
+    fn run(mut self, points: usize, most: u64, work: u64) -> Found {
+        let allowed = COMPARISONS * points as u64 + MOST_COMPARED / work.max(1);
         let mut good = 0;
         for number in 0..most {
+            if self.comparisons >= allowed && good < points {
+                return Found::Exhausted(self.comparisons);
+            }
             self.number = number;
             match self.check() {
                 Ok(()) => good += 1,
@@ -477,6 +521,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         if !here.iter().all(|x| x.is_finite()) {
             return Err(Verdict::Elsewhere);
         }
+        self.comparisons += 1;
         self.interpreter.prepare(&state.parameters);
         self.guards.prepare(&state.parameters);
         let are_facts = facts.iter().all(|x| x.is_positive());
