@@ -12,7 +12,7 @@ mod timing;
 use std::hint::black_box;
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Abreast, LaneVector, Lanes, Machine, Number, Several, System, Vector};
+use lagrangian::{Batch, Batched, LaneVector, Lanes, Machine, Number, System, Vector};
 use lagrangian_spec::program::{Program, Proved, Role};
 use support::accuracy::Judge;
 use support::library;
@@ -54,7 +54,7 @@ fn main() {
 
 fn row<M: Machine>(machine: &M, program: &Proved)
 where
-    M::System: Abreast<2> + Abreast<4> + Abreast<8>,
+    M::System: Batched<2> + Batched<4> + Batched<8>,
 {
     let mut random = Random::new(machine, 20_260_001);
     let samples: Vec<Sample> = (0..STATES).map(|_| random.sample()).collect();
@@ -132,11 +132,11 @@ fn cost<S: System>(system: &S, samples: &[Sample]) -> Cost {
 }
 
 /// Nanoseconds for each of several states at once; calls do not wait for one another.
-fn cost_in_lanes<S: Abreast<N>, const N: usize>(system: &S, samples: &[Sample]) -> f64
+fn cost_in_lanes<S: Batched<N>, const N: usize>(system: &S, samples: &[Sample]) -> f64
 where
     Lanes<N>: Number,
 {
-    let several = Several::of(system);
+    let several = Batch::of(system);
     let u = several.default_inputs(system);
     let states: Vec<(Lanes<N>, S::Vectors, S::Vectors)> = samples
         .as_chunks()

@@ -32,7 +32,7 @@ pub fn steps(until: f64, mut seen: impl FnMut(f64, f64)) -> Result<usize, StepEr
         stepper.step()?;
         // Steps are as long as the tolerance allows; between their ends the motion is known as well as there.
         let (from, to) = (stepper.t_before(), stepper.t());
-        let piece = stepper.piece()?;
+        let piece = stepper.interpolant()?;
         while let Some(t) = ticks.next_if(|&t| t <= to) {
             let ([x], _) = piece.state_at((t - from) / (to - from));
             seen(t, x);

@@ -1,4 +1,4 @@
-//! The balance of energy, integrated alongside the motion.
+//! The balance of energy, integrated beside the motion.
 
 #[cfg(feature = "std")]
 mod explained;
@@ -10,10 +10,10 @@ use crate::System;
 use crate::compensated::Sum;
 use crate::methods::MAX_STAGES;
 
-/// What is integrated alongside a motion: nothing, or the integrals of its energy balance.
+/// What is integrated beside a motion: nothing, or the integrals of its energy balance.
 ///
 /// The two implementations are [`NoBalance`], which compiles to nothing, and [`EnergyIntegrals`].
-pub trait Alongside<S: System>: Clone {
+pub trait Quadratures<S: System>: Clone {
     /// Takes the rates at one stage of a step.
     #[doc(hidden)]
     fn stage(
@@ -46,7 +46,7 @@ pub trait Alongside<S: System>: Clone {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoBalance;
 
-impl<S: System> Alongside<S> for NoBalance {
+impl<S: System> Quadratures<S> for NoBalance {
     #[inline(always)]
     fn stage(
         &mut self,
@@ -96,7 +96,7 @@ impl EnergyIntegrals {
     }
 }
 
-impl<S: System> Alongside<S> for EnergyIntegrals {
+impl<S: System> Quadratures<S> for EnergyIntegrals {
     #[inline]
     fn stage(
         &mut self,
@@ -208,7 +208,7 @@ pub struct Energies {
 }
 
 impl Energies {
-    /// What is left over in the balance of energy since `start`, in J.
+    /// The residual of the energy balance since `start`, in J.
     pub fn residual_since(&self, start: &Self) -> f64 {
         (self.kinetic + self.potential)
             - (start.kinetic + start.potential)

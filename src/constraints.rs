@@ -1,4 +1,4 @@
-//! Constraints in numbers: states are brought onto them, and which of them depend on others is found
+//! Constraints in numbers: states are projected onto them, and which of them depend on others is found
 //! out.
 //!
 //! Everything is measured by inertia. With the Cholesky factor `M = L Lᵀ`, a row `Gₖ` becomes the
@@ -20,9 +20,9 @@ mod closest;
 mod fork;
 #[cfg(feature = "std")]
 mod report;
-mod room;
 mod scale;
 mod start;
+mod workspace;
 
 use crate::compensated::two_sum;
 use crate::{Singular, StepError, System, Vector};
@@ -30,21 +30,21 @@ use algebra::{backward, dot, forward, length, remove, share};
 use choice::{Choice, Rank};
 #[cfg(feature = "std")]
 pub(crate) use closest::{Miss, closest};
-use room::{Room, in_room};
 use scale::Scales;
+use workspace::{Workspace, in_workspace};
 
 /// Residuals are kept below this, relative to their [scale](Scales): 450 times the roundoff of `f64`, of which the constraints
 /// themselves lose some.
 pub(crate) const RESIDUAL: f64 = 1e-13;
 
-/// What is left is worked off from here: what depends on several rows keeps the bound as well.
+/// Residuals above this are reduced: so what depends on several rows keeps the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
 
-/// The same where rows depend on others: which of them are chosen changes on the way, and what is left of
+/// The same bound where rows depend on others: which of them are chosen changes on the way, and the residual of
 /// those that are not must be as small. Newton's method goes on until rounding stops it.
 const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
-/// What rounding alone may change in what is left, relative: some eight operations from a coordinate
+/// What rounding alone may change in a residual, relative: some eight operations from a coordinate
 /// to a constraint.
 const ROUNDOFF: f64 = 8.0 * f64::EPSILON;
 
@@ -70,8 +70,8 @@ const NEAR: f64 = 1e-3;
 const ROUNDS: usize = 50;
 
 /// How many numbers the work on constraints needs, for a machine of so many coordinates and
-/// constraints: what [`System::lend`] is asked for.
-pub const fn constraint_room(coordinates: usize, constraints: usize) -> usize {
+/// constraints: what [`System::with_workspace`] is asked for.
+pub const fn constraint_workspace(coordinates: usize, constraints: usize) -> usize {
     let (n, m) = (coordinates, constraints);
     let rank = if m < n { m } else { n };
     m * n + rank * n + rank * rank + 3 * m + 3 * n
@@ -115,25 +115,25 @@ pub(crate) struct Constraints<V> {
     pub redundant: bool,
     /// Whether the motion passes a pose in which rows come to depend on each other.
     pub at_fork: bool,
-    /// Coordinates, and rates, that stay as they are while the start is brought onto the constraints:
+    /// Coordinates, and rates, that stay as they are while the start is projected onto the constraints:
     /// those that are not 0.
     kept: Option<[V; 2]>,
     /// By how much the last state was moved, coordinates and rates.
     pub moved: [V; 2],
-    /// What is left of the chosen rows at the last state, of positions and rates, relative to their
+    /// The residuals of the chosen rows at the last state, of positions and rates, relative to their
     /// scale.
     left: [f64; 2],
     /// The same at the end of the last step: it is not an error of the next one.
     left_before: [f64; 2],
     /// How much of the move made up for what the step itself was off by; the rest is older.
     pub share: [f64; 2],
-    /// What was left of the constraints then, relative to their scale.
+    /// The residual of the constraints then, relative to their scale.
     pub residual: f64,
     /// The greatest of these after any step.
     pub greatest_residual: f64,
 }
 
-/// A state to be brought onto the constraints, with what rounding took from it.
+/// A state to be projected onto the constraints, with what rounding took from it.
 pub(crate) struct Place<'p, V> {
     pub t: f64,
     pub q: [&'p mut V; 2],
@@ -159,7 +159,7 @@ impl<V: Vector> Constraints<V> {
         }
     }
 
-    /// Takes note of a state that was brought onto the constraints.
+    /// Takes note of a state that was projected onto the constraints.
     pub fn accept(&mut self, q: &V, v: &V) {
         self.scales.accept(q, v);
         self.greatest_residual = self.greatest_residual.max(self.residual);
@@ -180,8 +180,8 @@ impl<V: Vector> Constraints<V> {
         self.choose(system, t, q, rank)
     }
 
-    /// Brings a state between the ends of steps onto the constraints.
-    pub fn bring_between<S: System<Vector = V>>(
+    /// Projects a state between the ends of steps onto the constraints.
+    pub fn project_between<S: System<Vector = V>>(
         &self,
         system: &S,
         t: f64,
@@ -192,7 +192,7 @@ impl<V: Vector> Constraints<V> {
         own.choose_as_many(system, t, q)?;
         let mut low = [q.zeros_like(), v.zeros_like()];
         let [q_low, v_low] = &mut low;
-        own.bring(
+        own.project(
             system,
             &mut Place {
                 t,
@@ -229,16 +229,17 @@ impl<V: Vector> Constraints<V> {
         Ok(())
     }
 
-    /// Brings a state onto the constraints by the least move, in the metric of the mass matrix: first
+    /// Projects a state onto the constraints by the least move, in the metric of the mass matrix: first
     /// the coordinates, then the rates. Says whether it moved.
-    pub fn bring<S: System<Vector = V>>(
+    pub fn project<S: System<Vector = V>>(
         &mut self,
         system: &S,
         place: &mut Place<'_, V>,
     ) -> Result<bool, StepError> {
-        in_room(system, place.t, place.q[0].as_slice().len(), |room| {
-            let moved = self.approach(system, room, place, &[Level::Positions, Level::Rates])?;
-            self.check(system, room, place)?;
+        in_workspace(system, place.t, place.q[0].as_slice().len(), |workspace| {
+            let moved =
+                self.approach(system, workspace, place, &[Level::Positions, Level::Rates])?;
+            self.check(system, workspace, place)?;
             Ok(moved)
         })
     }
@@ -247,7 +248,7 @@ impl<V: Vector> Constraints<V> {
     fn approach<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Place<'_, V>,
         levels: &[Level],
     ) -> Result<bool, StepError> {
@@ -255,7 +256,7 @@ impl<V: Vector> Constraints<V> {
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
-        let [positions, rates] = self.left(system, room, place);
+        let [positions, rates] = self.left(system, workspace, place);
         self.left = [positions.0, rates.0];
         for (level, roundoff) in self.scales.roundoff().into_iter().enumerate() {
             let before = self.left_before[level] + roundoff;
@@ -274,23 +275,23 @@ impl<V: Vector> Constraints<V> {
         }
         let all = self.choice.clone();
         let first = levels.first().copied().unwrap_or(Level::Positions);
-        let prepared = self.prepare(system, room, (t, place.q[0]), first);
-        if self.kept.is_none() && self.is_weak(&prepared, room, place.q[0]) {
+        let prepared = self.prepare(system, workspace, (t, place.q[0]), first);
+        if self.kept.is_none() && self.is_weak(&prepared, workspace, place.q[0]) {
             // What holds so little would turn rounding of positions into a move.
             let by = (&self.scales, None);
             let holding = Rank::Holding(fork::WEAK);
             self.choice = all.made(system, (t, place.q[0]), holding, by)?;
-            self.prepare(system, room, (t, place.q[0]), first)?;
+            self.prepare(system, workspace, (t, place.q[0]), first)?;
         } else {
             prepared?;
         }
-        self.scales.note_metric(room.metric.as_slice());
+        self.scales.note_metric(workspace.metric.as_slice());
         let mut done = Ok(());
         for level in levels {
-            let left = self.left(system, room, place)[*level as usize];
-            done = done.and_then(|()| self.newton(system, room, place, *level, left));
+            let left = self.left(system, workspace, place)[*level as usize];
+            done = done.and_then(|()| self.newton(system, workspace, place, *level, left));
         }
-        let [positions, rates] = self.left(system, room, place);
+        let [positions, rates] = self.left(system, workspace, place);
         self.choice = all;
         done?;
         self.left = [positions.0, rates.0];
@@ -313,39 +314,43 @@ impl<V: Vector> Constraints<V> {
     fn newton<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Place<'_, V>,
         level: Level,
         (mut left, mut worst): (f64, usize),
     ) -> Result<(), StepError> {
         let at = level as usize;
         let mut fresh = true;
-        let mut far = self.distance(room, level);
+        let mut far = self.distance(workspace, level);
         for _ in 0..ROUNDS {
             if left <= self.worked_off() {
                 return Ok(());
             }
-            self.correction(room, level);
+            self.correction(workspace, level);
             let mut part = 1.0;
             let mut near;
             loop {
                 let [y, low] = place.level(level);
-                for (j, by) in room.column.iter().enumerate() {
+                for (j, by) in workspace.column.iter().enumerate() {
                     let (y, low) = (&mut y.as_mut_slice()[j], &mut low.as_mut_slice()[j]);
                     if part == 1.0 {
-                        room.before[j] = *y;
+                        workspace.before[j] = *y;
                     }
-                    (*y, *low) = two_sum(room.before[j], *low + part * by);
+                    (*y, *low) = two_sum(workspace.before[j], *low + part * by);
                 }
-                (left, worst) = self.left(system, room, place)[at];
-                near = self.distance(room, level);
+                (left, worst) = self.left(system, workspace, place)[at];
+                near = self.distance(workspace, level);
                 // Far from the constraints a whole step may be too long.
                 if near <= (1.0 - 0.25 * part) * far || part < 0.01 || left < NEAR {
                     break;
                 }
                 part *= 0.5;
             }
-            for (moved, by) in self.moved[at].as_mut_slice().iter_mut().zip(&*room.column) {
+            for (moved, by) in self.moved[at]
+                .as_mut_slice()
+                .iter_mut()
+                .zip(&*workspace.column)
+            {
                 *moved += part * by;
             }
             if left <= self.worked_off() {
@@ -358,30 +363,30 @@ impl<V: Vector> Constraints<V> {
             if fresh {
                 // Where rows come to depend on each other on the way, there is no way on.
                 let at = (place.t, &*place.q[0]);
-                if self.prepare(system, room, at, level).is_err() {
+                if self.prepare(system, workspace, at, level).is_err() {
                     break;
                 }
-                near = self.distance(room, level);
+                near = self.distance(workspace, level);
             }
             far = near;
         }
         // It may stand at the roundoff of the constraints themselves.
-        for _ in 0..=room.m {
-            let promised = self.promised(room, place, level);
+        for _ in 0..=workspace.m {
+            let promised = self.promised(workspace, place, level);
             let last = &*place.level(level)[0];
             if promised.0 <= RESIDUAL
-                || (promised.0 <= CONSISTENT && self.scales.is_roundoff(at, room.column, last))
+                || (promised.0 <= CONSISTENT && self.scales.is_roundoff(at, workspace.column, last))
             {
                 return Ok(());
             }
             (left, worst) = promised;
-            if !self.is_rounding(system, room, place, level, worst) {
+            if !self.is_rounding(system, workspace, place, level, worst) {
                 break;
             }
-            let row = &room.matrix[worst * room.n..][..room.n];
+            let row = &workspace.matrix[worst * workspace.n..][..workspace.n];
             let of_row = match level {
-                Level::Positions => room.positions[worst],
-                Level::Rates => room.rates[worst],
+                Level::Positions => workspace.positions[worst],
+                Level::Rates => workspace.rates[worst],
             };
             self.scales.note_grain(at, row, of_row);
         }
@@ -393,64 +398,67 @@ impl<V: Vector> Constraints<V> {
     }
 
     /// Whether the residual of a row is rounding in its evaluation, where the correction in
-    /// `room.column` did not take it away: along this, the row scatters by as much as the residual,
+    /// `workspace.column` did not take it away: along this, the row scatters by as much as the residual,
     /// although its slope is the same.
     fn is_rounding<S: System<Vector = V>>(
         &self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         place: &mut Place<'_, V>,
         level: Level,
         k: usize,
     ) -> bool {
-        let n = room.n;
-        let seen = |room: &Room<'_, S::Matrix>| {
-            let terms = room.matrix[k * n..][..n].iter().zip(&*room.column);
+        let n = workspace.n;
+        let seen = |workspace: &Workspace<'_, S::Matrix>| {
+            let terms = workspace.matrix[k * n..][..n]
+                .iter()
+                .zip(&*workspace.column);
             let slope: f64 = terms.clone().map(|(g, by)| g * by).sum();
             let length: f64 = terms.map(|(g, by)| (g * by).abs()).sum();
             let left = match level {
-                Level::Positions => room.positions[k],
-                Level::Rates => room.rates[k],
+                Level::Positions => workspace.positions[k],
+                Level::Rates => workspace.rates[k],
             };
             (left, slope, length)
         };
-        let (left, slope, length) = seen(room);
-        room.before
+        let (left, slope, length) = seen(workspace);
+        workspace
+            .before
             .copy_from_slice(place.level(level)[0].as_slice());
         let (mut scatters, mut turns) = (0.0_f64, 0.0_f64);
         for part in [-1.0, -0.5, -0.25, -0.125, 0.125, 0.25, 0.5, 1.0] {
             let y = place.level(level)[0].as_mut_slice().iter_mut();
-            for ((y, before), by) in y.zip(&*room.before).zip(&*room.column) {
+            for ((y, before), by) in y.zip(&*workspace.before).zip(&*workspace.column) {
                 *y = before + part * by;
             }
-            self.left(system, room, place);
-            let (there, slope_there, _) = seen(room);
+            self.left(system, workspace, place);
+            let (there, slope_there, _) = seen(workspace);
             scatters = scatters.max((there - left - part * slope).abs());
             turns = turns.max((slope_there - slope).abs());
         }
         place.level(level)[0]
             .as_mut_slice()
-            .copy_from_slice(room.before);
-        self.left(system, room, place);
+            .copy_from_slice(workspace.before);
+        self.left(system, workspace, place);
         turns <= 1e-3 * length && scatters >= 0.0625 * left.abs()
     }
 
-    /// What is left of the rows at a state, relative to their scale, and where most; all
-    /// residuals, and the constraint matrix, stay in the room.
+    /// The greatest residuals of the rows at a state, relative to their scale, and where they are; all
+    /// residuals, and the constraint matrix, stay in the workspace.
     fn left<S: System<Vector = V>>(
         &self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         place: &Place<'_, V>,
     ) -> [(f64, usize); 2] {
         let (q, v) = (&*place.q[0], &*place.v[0]);
-        system.constraint_positions(place.t, q, room.positions);
-        system.constraint_rates(place.t, q, v, room.rates);
-        system.constraint_matrix(place.t, q, room.matrix);
+        system.constraint_positions(place.t, q, workspace.positions);
+        system.constraint_rates(place.t, q, v, workspace.rates);
+        system.constraint_matrix(place.t, q, workspace.matrix);
         let mut most = [(0.0, 0), (0.0, 0)];
-        for k in 0..room.m {
+        for k in 0..workspace.m {
             let is_chosen = self.choice.has(k);
-            for (most, now) in most.iter_mut().zip(self.relative(room, k, q, v)) {
+            for (most, now) in most.iter_mut().zip(self.relative(workspace, k, q, v)) {
                 // Others come nearer with the chosen ones, unless they contradict them.
                 if !is_chosen && !(now.now <= CONSISTENT) {
                     continue;
@@ -464,12 +472,17 @@ impl<V: Vector> Constraints<V> {
         most
     }
 
-    /// What is left of the chosen rows on one level, relative to what is promised, and where most.
-    fn promised<M>(&self, room: &Room<'_, M>, place: &Place<'_, V>, level: Level) -> (f64, usize) {
+    /// The greatest residual of the chosen rows on one level, relative to what is promised, and where it is.
+    fn promised<M>(
+        &self,
+        workspace: &Workspace<'_, M>,
+        place: &Place<'_, V>,
+        level: Level,
+    ) -> (f64, usize) {
         let mut most = (0.0, 0);
         for chosen in 0..self.choice.rank {
             let k = self.choice.row(chosen);
-            let now = self.relative(room, k, place.q[0], place.v[0])[level as usize];
+            let now = self.relative(workspace, k, place.q[0], place.v[0])[level as usize];
             if !(now.promised <= most.0) {
                 most = (now.promised, k);
             }
@@ -477,24 +490,30 @@ impl<V: Vector> Constraints<V> {
         most
     }
 
-    fn relative<M>(&self, room: &Room<'_, M>, k: usize, q: &V, v: &V) -> [scale::Relative; 2] {
-        let row = &room.matrix[k * room.n..][..room.n];
-        let left = [room.positions[k], room.rates[k]];
+    fn relative<M>(
+        &self,
+        workspace: &Workspace<'_, M>,
+        k: usize,
+        q: &V,
+        v: &V,
+    ) -> [scale::Relative; 2] {
+        let row = &workspace.matrix[k * workspace.n..][..workspace.n];
+        let left = [workspace.positions[k], workspace.rates[k]];
         self.scales.relative(k, row, left, q, v)
     }
 
-    /// Whether the rows that were not chosen agree with those that were; notes what is left, and the
+    /// Whether the rows that were not chosen agree with those that were; notes the residual, and the
     /// size of the terms.
     fn check<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        room: &Room<'_, S::Matrix>,
+        workspace: &Workspace<'_, S::Matrix>,
         place: &Place<'_, V>,
     ) -> Result<(), StepError> {
         let (q, v) = (&*place.q[0], &*place.v[0]);
         let mut most = (0.0, 0);
         for (k, _) in system.constraints().enumerate() {
-            let [positions, rates] = self.relative(room, k, q, v).map(|of| of.promised);
+            let [positions, rates] = self.relative(workspace, k, q, v).map(|of| of.promised);
             let now = if positions > rates { positions } else { rates };
             if !(now <= most.0) {
                 most = (now, k);
@@ -508,17 +527,21 @@ impl<V: Vector> Constraints<V> {
                 t: place.t,
             });
         }
-        for (k, row) in room.matrix.chunks_exact(room.n.max(1)).enumerate() {
+        for (k, row) in workspace
+            .matrix
+            .chunks_exact(workspace.n.max(1))
+            .enumerate()
+        {
             let by_rates = dot(row, v.as_slice());
             self.scales
-                .note_terms(k, row, (room.rates[k] - by_rates).abs());
+                .note_terms(k, row, (workspace.rates[k] - by_rates).abs());
         }
         Ok(())
     }
 
     /// Whether accelerations obey the rows that were not chosen, too.
     ///
-    /// They are sums of what forces would give and of what constraints take away again, so what is left
+    /// They are sums of what forces would give and of what constraints take away again, so the residual
     /// is measured by the forces as well: in balance nothing else is there.
     pub fn check_accelerations<S: System<Vector = V>>(
         &self,
@@ -526,22 +549,22 @@ impl<V: Vector> Constraints<V> {
         (t, q, v, u): (f64, &V, &V, &S::Inputs),
         a: &V,
     ) -> Result<(), StepError> {
-        in_room(system, t, q.as_slice().len(), |room| {
-            system.constraint_matrix(t, q, room.matrix);
-            system.constraint_drift(t, q, v, room.row);
-            system.mass_matrix(t, q, &mut room.metric);
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            system.constraint_matrix(t, q, workspace.matrix);
+            system.constraint_drift(t, q, v, workspace.row);
+            system.mass_matrix(t, q, &mut workspace.metric);
             let mut f = a.zeros_like();
             system.forces(t, q, v, u, &mut f);
-            let inertias = room.metric.as_slice().iter().step_by(room.n + 1);
-            for (free, inertia) in room.column.iter_mut().zip(inertias) {
+            let inertias = workspace.metric.as_slice().iter().step_by(workspace.n + 1);
+            for (free, inertia) in workspace.column.iter_mut().zip(inertias) {
                 *free = if *inertia > 0.0 { 1.0 / inertia } else { 0.0 };
             }
-            for (free, f) in room.column.iter_mut().zip(f.as_slice()) {
+            for (free, f) in workspace.column.iter_mut().zip(f.as_slice()) {
                 *free *= f.abs();
             }
-            for (k, row) in room.matrix.chunks_exact(room.n).enumerate() {
-                let (mut left, mut scale) = (-room.row[k], room.row[k].abs());
-                for ((g, a), free) in row.iter().zip(a.as_slice()).zip(&*room.column) {
+            for (k, row) in workspace.matrix.chunks_exact(workspace.n).enumerate() {
+                let (mut left, mut scale) = (-workspace.row[k], workspace.row[k].abs());
+                for ((g, a), free) in row.iter().zip(a.as_slice()).zip(&*workspace.column) {
                     left += g * a;
                     scale += (g * a).abs() + g.abs() * free;
                 }
@@ -562,47 +585,52 @@ impl<V: Vector> Constraints<V> {
     fn prepare<S: System<Vector = V>>(
         &self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         at: (f64, &V),
         level: Level,
     ) -> Result<(), StepError> {
         let fixed = self.kept.as_ref().map(|kept| &kept[level as usize]);
-        prepare(system, room, at, (&self.choice, fixed))
+        prepare(system, workspace, at, (&self.choice, fixed))
     }
 
-    /// The least move, in the metric of inertia, that takes what is left of the constraints away to
+    /// The least move, in the metric of inertia, that takes the residual of the constraints away to
     /// first order: `−L⁻ᵀ Q R⁻ᵀ g`.
-    fn correction<M: Vector>(&self, room: &mut Room<'_, M>, level: Level) {
-        let count = self.along_basis(room, level);
-        room.column.fill(0.0);
-        for (j, along) in room.basis.chunks_exact(room.n).take(count).enumerate() {
-            for (x, along) in room.column.iter_mut().zip(along) {
-                *x -= room.row[j] * along;
+    fn correction<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) {
+        let count = self.along_basis(workspace, level);
+        workspace.column.fill(0.0);
+        for (j, along) in workspace
+            .basis
+            .chunks_exact(workspace.n)
+            .take(count)
+            .enumerate()
+        {
+            for (x, along) in workspace.column.iter_mut().zip(along) {
+                *x -= workspace.row[j] * along;
             }
         }
-        backward(room.metric.as_slice(), room.column);
+        backward(workspace.metric.as_slice(), workspace.column);
     }
 
     /// How long that move is.
-    fn distance<M: Vector>(&self, room: &mut Room<'_, M>, level: Level) -> f64 {
-        let count = self.along_basis(room, level);
-        length(&room.row[..count])
+    fn distance<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) -> f64 {
+        let count = self.along_basis(workspace, level);
+        length(&workspace.row[..count])
     }
 
     /// `R⁻ᵀ g` to `row`, for the rows of a level; says how many these are.
-    fn along_basis<M: Vector>(&self, room: &mut Room<'_, M>, level: Level) -> usize {
+    fn along_basis<M: Vector>(&self, workspace: &mut Workspace<'_, M>, level: Level) -> usize {
         let count = match level {
             Level::Positions => self.choice.holonomic,
             Level::Rates => self.choice.rank,
         };
         for j in 0..count {
             let k = self.choice.row(j);
-            room.row[j] = match level {
-                Level::Positions => room.positions[k],
-                Level::Rates => room.rates[k],
+            workspace.row[j] = match level {
+                Level::Positions => workspace.positions[k],
+                Level::Rates => workspace.rates[k],
             };
         }
-        solve_transposed(room, self.choice.rank, count);
+        solve_transposed(workspace, self.choice.rank, count);
         count
     }
 
@@ -630,17 +658,17 @@ impl<V: Vector> Constraints<V> {
         a: &mut V,
     ) -> Result<(), StepError> {
         let choice = self.best_at(system, t, q)?;
-        in_room(system, t, q.as_slice().len(), |room| {
-            reactions_along(system, room, &choice, (t, q, v, u), a)?;
-            let metric = room.metric.as_slice();
-            for (j, along) in room
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            reactions_along(system, workspace, &choice, (t, q, v, u), a)?;
+            let metric = workspace.metric.as_slice();
+            for (j, along) in workspace
                 .basis
-                .chunks_exact(room.n)
+                .chunks_exact(workspace.n)
                 .take(choice.rank)
                 .enumerate()
             {
                 for (z, along) in a.as_mut_slice().iter_mut().zip(along) {
-                    *z += room.row[j] * along;
+                    *z += workspace.row[j] * along;
                 }
             }
             backward(metric, a.as_mut_slice());
@@ -674,10 +702,10 @@ impl<V: Vector> Constraints<V> {
     ) -> Result<(), StepError> {
         let mut z = q.zeros_like();
         let choice = self.best_at(system, t, q)?;
-        in_room(system, t, q.as_slice().len(), |room| {
-            reactions_along(system, room, &choice, (t, q, v, u), &mut z)?;
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            reactions_along(system, workspace, &choice, (t, q, v, u), &mut z)?;
             multipliers.fill(0.0);
-            room.least_norm(multipliers, |j| choice.row(j), choice.rank);
+            workspace.least_norm(multipliers, |j| choice.row(j), choice.rank);
             Ok(())
         })
     }
@@ -686,26 +714,26 @@ impl<V: Vector> Constraints<V> {
 /// Factorizes at a pose, with rows of a choice and coordinates that are fixed.
 fn prepare<S: System>(
     system: &S,
-    room: &mut Room<'_, S::Matrix>,
+    workspace: &mut Workspace<'_, S::Matrix>,
     (t, q): (f64, &S::Vector),
     (choice, fixed): (&Choice<S::Vector>, Option<&S::Vector>),
 ) -> Result<(), StepError> {
-    system.constraint_matrix(t, q, room.matrix);
-    room.fix_rows(fixed);
-    room.factor(system, t, q, fixed)?;
-    let (n, rank) = (room.n, choice.rank);
+    system.constraint_matrix(t, q, workspace.matrix);
+    workspace.fix_rows(fixed);
+    workspace.factor(system, t, q, fixed)?;
+    let (n, rank) = (workspace.n, choice.rank);
     for j in 0..rank {
         let k = choice.row(j);
-        let (known, rest) = room.basis.split_at_mut(j * n);
+        let (known, rest) = workspace.basis.split_at_mut(j * n);
         let new = &mut rest[..n];
-        new.copy_from_slice(&room.matrix[k * n..][..n]);
-        forward(room.metric.as_slice(), new);
+        new.copy_from_slice(&workspace.matrix[k * n..][..n]);
+        forward(workspace.metric.as_slice(), new);
         let whole = length(new);
         // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
         for pass in 0..2 {
             for (i, known) in known.chunks_exact(n).enumerate() {
                 let along = remove(known, new);
-                let entry = &mut room.triangle[i * rank + j];
+                let entry = &mut workspace.triangle[i * rank + j];
                 *entry = if pass == 0 { along } else { *entry + along };
             }
         }
@@ -715,46 +743,46 @@ fn prepare<S: System>(
             return Err(StepError::Singular { singular, t });
         }
         new.iter_mut().for_each(|x| *x /= left);
-        room.triangle[j * rank + j] = left;
+        workspace.triangle[j * rank + j] = left;
     }
     Ok(())
 }
 
-/// `z = L⁻¹ f` to `z`, and to `room.row` what the reactions add along the basis, `R⁻ᵀ γ − Qᵀ z`.
+/// `z = L⁻¹ f` to `z`, and to `workspace.row` what the reactions add along the basis, `R⁻ᵀ γ − Qᵀ z`.
 fn reactions_along<S: System>(
     system: &S,
-    room: &mut Room<'_, S::Matrix>,
+    workspace: &mut Workspace<'_, S::Matrix>,
     choice: &Choice<S::Vector>,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     z: &mut S::Vector,
 ) -> Result<(), StepError> {
-    prepare(system, room, (t, q), (choice, None))?;
+    prepare(system, workspace, (t, q), (choice, None))?;
     system.forces(t, q, v, u, z);
-    system.constraint_drift(t, q, v, room.rates);
+    system.constraint_drift(t, q, v, workspace.rates);
     for j in 0..choice.rank {
-        room.row[j] = room.rates[choice.row(j)];
+        workspace.row[j] = workspace.rates[choice.row(j)];
     }
-    solve_transposed(room, choice.rank, choice.rank);
-    forward(room.metric.as_slice(), z.as_mut_slice());
-    for (j, along) in room
+    solve_transposed(workspace, choice.rank, choice.rank);
+    forward(workspace.metric.as_slice(), z.as_mut_slice());
+    for (j, along) in workspace
         .basis
-        .chunks_exact(room.n)
+        .chunks_exact(workspace.n)
         .take(choice.rank)
         .enumerate()
     {
-        room.row[j] -= dot(along, z.as_slice());
+        workspace.row[j] -= dot(along, z.as_slice());
     }
     Ok(())
 }
 
 /// `R⁻ᵀ row` in place, for the first `count` rows of `rank`.
-fn solve_transposed<M>(room: &mut Room<'_, M>, rank: usize, count: usize) {
+fn solve_transposed<M>(workspace: &mut Workspace<'_, M>, rank: usize, count: usize) {
     for j in 0..count {
-        let mut sum = room.row[j];
+        let mut sum = workspace.row[j];
         for i in 0..j {
-            sum -= room.triangle[i * rank + j] * room.row[i];
+            sum -= workspace.triangle[i * rank + j] * workspace.row[i];
         }
-        room.row[j] = sum / room.triangle[j * rank + j];
+        workspace.row[j] = sum / workspace.triangle[j * rank + j];
     }
 }
 

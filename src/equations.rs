@@ -4,7 +4,7 @@
 //! M a = f + Gᵀ λ + τᵀ F,   G a = γ
 //! ```
 //!
-//! with the multipliers `λ` of the constraints and the frictions `F` of the contacts. `M`, `f`, `G`, `γ` and
+//! with the multipliers `λ` of the constraints and the friction forces `F` of the contacts. `M`, `f`, `G`, `γ` and
 //! `a` come from different functions of a machine, and elimination has gone between them: an error in any
 //! of them shows here.
 //!
@@ -40,7 +40,7 @@ const DEPENDENT: f64 = 1e-8;
 /// How far the states beside one are, relative to the sizes of its numbers, and how many there are.
 const BESIDE: (f64, usize) = (1e-3, 4);
 
-/// Checks that the accelerations, multipliers and frictions of a machine at a state obey its equations of
+/// Checks that the accelerations, multipliers and friction forces of a machine at a state obey its equations of
 /// motion to rounding: `M a = f + Gᵀ λ + τᵀ F` and `G a = γ`.
 ///
 /// Every run checks this at its start. A machine that has no accelerations there, or no matrix of its
@@ -129,8 +129,8 @@ fn worst<S: System>(
         .map(|i| right[i].abs() + sizes[0][i].abs() + sizes[1][i].abs())
         .collect();
     let rows = matrix.chunks_exact(n).zip(&multipliers);
-    let frictions = contacts.iter().map(|contact| &contact.friction);
-    for (row, force) in rows.chain(slips.chunks_exact(n).zip(frictions)) {
+    let friction_forces = contacts.iter().map(|contact| &contact.friction);
+    for (row, force) in rows.chain(slips.chunks_exact(n).zip(friction_forces)) {
         for i in 0..n {
             right[i] += row[i] * force;
             size[i] += (row[i] * force).abs();
@@ -201,7 +201,7 @@ fn worst<S: System>(
     is_finite.then_some(worst)
 }
 
-/// Accelerations, multipliers and frictions, as a run finds them.
+/// Accelerations, multipliers and friction forces, as a run finds them.
 fn solve<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),

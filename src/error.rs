@@ -99,7 +99,7 @@ pub enum Error {
         /// Others that it depends on at this state, which it contradicts; none if there just is no
         /// solution near.
         with: std::vec::Vec<String>,
-        /// What is left of it, relative to the size of its terms.
+        /// Its residual, relative to the size of its terms.
         residual: f64,
         /// Time, in s.
         t: f64,
@@ -132,18 +132,18 @@ pub enum Error {
     Fork {
         /// The constraint that loses its hold.
         constraint: String,
-        /// What is left of it beside the others, relative to what it had at the start.
+        /// Its length beside the others, relative to what it had at the start.
         left: f64,
         /// Time, in s.
         t: f64,
     },
-    /// The machine lends no room for the work on its constraints ([`System::lend`]).
-    NoRoomForConstraints {
+    /// The machine gives no workspace for the work on its constraints ([`System::with_workspace`]).
+    NoWorkspaceForConstraints {
         /// Time, in s.
         t: f64,
     },
-    /// The machine lends no room for the work on its contacts ([`System::lend`]).
-    NoRoomForContacts {
+    /// The machine gives no workspace for the work on its contacts ([`System::with_workspace`]).
+    NoWorkspaceForContacts {
         /// Time, in s.
         t: f64,
     },
@@ -186,7 +186,7 @@ pub enum Error {
         /// When it ended, in s.
         t: f64,
     },
-    /// Accelerations, multipliers and frictions do not obey the equations of motion at a state: the
+    /// Accelerations, multipliers and friction forces do not obey the equations of motion at a state: the
     /// functions of the machine contradict each other, and none of them can be trusted.
     EquationsViolated {
         /// The coordinate, or the constraint, whose equation is violated the most.
@@ -286,7 +286,7 @@ impl Error {
                         q: std::vec::Vec::new(),
                         v: std::vec::Vec::new(),
                     },
-                    Pivot::NoRoom => Self::NoRoomForContacts { t },
+                    Pivot::NoWorkspace => Self::NoWorkspaceForContacts { t },
                     Pivot::NotDifferentiated(_) => {
                         Self::ContactsNotDifferentiated { contact: name, t }
                     }
@@ -302,7 +302,7 @@ impl Error {
                 residual,
                 t,
             },
-            StepError::NoRoom { t } => Self::NoRoomForConstraints { t },
+            StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
             StepError::StepTooSmall {
                 coordinate,
@@ -516,14 +516,14 @@ impl Display for Error {
                 }
                 write!(f, ". Keep fewer numbers, or give values that agree")
             }
-            Self::NoRoomForConstraints { t } => write!(
+            Self::NoWorkspaceForConstraints { t } => write!(
                 f,
-                "the machine lends no room for the work on its constraints at t = {t} s",
+                "the machine gives no workspace for the work on its constraints at t = {t} s",
                 t = Short(*t)
             ),
-            Self::NoRoomForContacts { t } => write!(
+            Self::NoWorkspaceForContacts { t } => write!(
                 f,
-                "the machine lends no room for the work on its contacts at t = {t} s",
+                "the machine gives no workspace for the work on its contacts at t = {t} s",
                 t = Short(*t)
             ),
             Self::ContactsNotDifferentiated { contact, t } => write!(
@@ -672,7 +672,7 @@ impl Display for Warning {
                 relative,
             } => write!(
                 f,
-                "the energies do not balance: {residual:.1e} J are left over, {relative:.1e} of what was turned over, \
+                "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of what was turned over, \
                  where tolerance and rounding explain {explained:.1e} J; the motion is less exact than was asked for, or \
                  its equations and its energies do not belong together"
             ),

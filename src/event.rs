@@ -16,10 +16,10 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::piece::Piece;
+use crate::interpolant::Interpolant;
 use crate::run::made;
 use crate::stepper::{InputLaw, Stepper};
-use crate::{Alongside, Coordinates, Error, Machine, State, System, Vector};
+use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
 /// Where in a step the sign is looked at: events that come and go between two of these are missed.
 pub(crate) const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -113,7 +113,7 @@ impl<M: Machine> Watch<'_, M> {
     /// Each number of the state is moved by its own rounding, and by as much as it moves in the rounding
     /// of time; what that changes is what rounding may have made of a zero. A change that does not grow
     /// with the move is a jump of the function, which has the right sign on either side.
-    fn settle<L: InputLaw<M::System>, A: Alongside<M::System>>(
+    fn settle<L: InputLaw<M::System>, A: Quadratures<M::System>>(
         &mut self,
         system: &M::System,
         stepper: &Stepper<'_, M::System, L, A>,
@@ -203,11 +203,11 @@ impl<M: Machine> Watch<'_, M> {
 
 /// Adds the events of the last step to `events`, in the order in which they happened, up to the first
 /// that ends the run, which is the answer.
-pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
+pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     watches: &mut [Watch<'_, M>],
     system: &M::System,
     stepper: &mut Stepper<'_, M::System, L, A>,
-    piece: &mut Option<Piece<<M::System as System>::Vector>>,
+    interpolant: &mut Option<Interpolant<<M::System as System>::Vector>>,
     events: &mut Vec<Event<Coordinates<M>>>,
 ) -> Result<Option<Terminal>, Error> {
     let mut found = Vec::new();
@@ -231,9 +231,12 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
 
         // There may be something: look again, exactly.
         (watch.side, watch.leave) = before;
-        let piece = made(piece, stepper, system)?;
+        let interpolant = made(interpolant, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
-            watch.value(&state(system, state_at(system, stepper, piece, theta)?))
+            watch.value(&state(
+                system,
+                state_at(system, stepper, interpolant, theta)?,
+            ))
         };
         watch.changes(roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
@@ -264,8 +267,15 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
         if watch.crossing != Crossing::Any && watch.crossing != crossing {
             continue;
         }
-        let Some(piece) = piece else { continue };
-        let at = |theta| Ok(state(system, state_at(system, stepper, piece, theta)?));
+        let Some(interpolant) = interpolant else {
+            continue;
+        };
+        let at = |theta| {
+            Ok(state(
+                system,
+                state_at(system, stepper, interpolant, theta)?,
+            ))
+        };
         if !watch.ends_run {
             events.push(Event {
                 name: watch.name.clone(),
@@ -311,30 +321,30 @@ fn slope(
 pub(crate) type Triple<V> = (f64, V, V);
 
 /// Time and state at a fraction of the last step, good enough to see an event.
-pub(crate) fn glance_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
+pub(crate) fn glance_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     theta: f64,
 ) -> Triple<S::Vector> {
     if theta == 1.0 {
         return (stepper.t(), stepper.q().clone(), stepper.v().clone());
     }
-    let (q, v) = stepper.glance(theta);
+    let (q, v) = stepper.hermite(theta);
     (stepper.t_before() + theta * stepper.last_step(), q, v)
 }
 
 /// Time and state at a fraction of the last step, on the constraints.
-pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Alongside<S>>(
+pub(crate) fn state_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     system: &S,
     stepper: &Stepper<'_, S, L, A>,
-    piece: &Piece<S::Vector>,
+    interpolant: &Interpolant<S::Vector>,
     theta: f64,
 ) -> Result<Triple<S::Vector>, Error> {
     if theta == 1.0 {
         return Ok((stepper.t(), stepper.q().clone(), stepper.v().clone()));
     }
-    let (t, (mut q, mut v)) = (piece.time_at(theta), piece.state_at(theta));
+    let (t, (mut q, mut v)) = (interpolant.time_at(theta), interpolant.state_at(theta));
     stepper
-        .bring(t, &mut q, &mut v)
+        .project(t, &mut q, &mut v)
         .map_err(|error| Error::of_step(error, system))?;
     Ok((t, q, v))
 }
@@ -348,7 +358,7 @@ pub(crate) fn state<S: System>(system: &S, (t, q, v): Triple<S::Vector>) -> Stat
 }
 
 /// The roundoff of time, as a fraction of the last step.
-pub(crate) fn theta_roundoff<S: System, L: InputLaw<S>, A: Alongside<S>>(
+pub(crate) fn theta_roundoff<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
 ) -> f64 {
     let (from, to) = (stepper.t_before(), stepper.t());

@@ -5,7 +5,7 @@
 //! sticks   dw/dt = 0,  |F| ≤ μ₀ |N|          until |F| = μ₀ |N|
 //! ```
 //!
-//! A machine says how accelerations, `dw/dt` and the normal reactions `N` depend on the frictions `F`
+//! A machine says how accelerations, `dw/dt` and the normal reactions `N` depend on the friction forces `F`
 //! of all its contacts ([`System::friction`]): linearly. With the states of the contacts given, what
 //! is left is one equation for each of them, `F + s η μ N(F) = 0` or `dw/dt(F) = 0`, where η is the
 //! sign of `N`. They are solved with a full search for pivots: the matrix is not symmetric, and it
@@ -35,8 +35,8 @@ pub const MOST_CONTACTS: usize = 6;
 #[cfg(feature = "std")]
 const AT_REST: f64 = 1e-10;
 
-/// How many numbers the work on constraints and contacts needs: what [`System::lend`] is asked for.
-pub const fn room(coordinates: usize, constraints: usize, contacts: usize) -> usize {
+/// How many numbers the work on constraints and contacts needs: what [`System::with_workspace`] is asked for.
+pub const fn contact_workspace(coordinates: usize, constraints: usize, contacts: usize) -> usize {
     let of_friction = Layout {
         n: coordinates,
         m: constraints,
@@ -44,7 +44,7 @@ pub const fn room(coordinates: usize, constraints: usize, contacts: usize) -> us
     }
     .len()
         + contacts * (coordinates + 1);
-    let of_constraints = crate::constraint_room(coordinates, constraints);
+    let of_constraints = crate::constraint_workspace(coordinates, constraints);
     if of_friction > of_constraints {
         of_friction
     } else {
@@ -128,7 +128,7 @@ pub(crate) enum Cause {
 ///
 /// # Errors
 /// Beside what makes the machine itself singular, where no motion has these contacts, or several have
-/// ([`Pivot::Contact`]), or the machine lends no room ([`Pivot::NoRoom`]).
+/// ([`Pivot::Contact`]), or the machine lends no workspace ([`Pivot::NoWorkspace`]).
 pub fn contact_forces<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -139,9 +139,9 @@ pub fn contact_forces<S: System>(
     let slips = resting_slips(system, t, q, v);
     with_parts(system, t, q, v, u, |parts, _| {
         let known = Question::from_slips(&slips);
-        let (mode, frictions) = known.answer(parts).map_err(Paradox::singular)?;
-        results(parts, &frictions, accelerations, multipliers);
-        in_contacts(parts, &mode, &frictions, &slips, forces);
+        let (mode, friction_forces) = known.answer(parts).map_err(Paradox::singular)?;
+        results(parts, &friction_forces, accelerations, multipliers);
+        in_contacts(parts, &mode, &friction_forces, &slips, forces);
         Ok(())
     })
 }
@@ -182,7 +182,7 @@ pub fn multipliers_with_friction<S: System>(
     )
 }
 
-/// What the machine says of frictions, and the room beside it.
+/// What the machine says of friction forces, and the workspace beside it.
 fn with_parts<S: System, R>(
     system: &S,
     t: f64,
@@ -196,14 +196,15 @@ fn with_parts<S: System, R>(
         m: system.constraints().len(),
         k: system.contacts().len(),
     };
-    let length = room(layout.n, layout.m, layout.k);
-    system.lend(length, |room| {
+    let length = contact_workspace(layout.n, layout.m, layout.k);
+    system.with_workspace(length, |workspace| {
         // Without an allocator a machine that lends nothing, or too little, has none.
-        let room = room.filter(|room| room.len() >= length);
-        let Some((values, rest)) = room.and_then(|room| room.split_at_mut_checked(layout.len()))
+        let workspace = workspace.filter(|workspace| workspace.len() >= length);
+        let Some((values, rest)) =
+            workspace.and_then(|workspace| workspace.split_at_mut_checked(layout.len()))
         else {
             return Err(Singular {
-                at: Pivot::NoRoom,
+                at: Pivot::NoWorkspace,
                 ratio: 0.0,
             });
         };
@@ -235,21 +236,21 @@ fn resting_slips<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) ->
     slips
 }
 
-/// Accelerations and multipliers with these frictions, as far as there is room for them.
-fn results(parts: &Parts<'_>, frictions: &Each, a: &mut [f64], multipliers: &mut [f64]) {
+/// Accelerations and multipliers with these friction forces, as far as they are asked for.
+fn results(parts: &Parts<'_>, friction_forces: &Each, a: &mut [f64], multipliers: &mut [f64]) {
     for (i, a) in a.iter_mut().enumerate() {
-        *a = parts.sum(i, frictions)[0];
+        *a = parts.sum(i, friction_forces)[0];
     }
     for (i, multiplier) in multipliers.iter_mut().enumerate() {
-        *multiplier = parts.sum(parts.layout.n + i, frictions)[0];
+        *multiplier = parts.sum(parts.layout.n + i, friction_forces)[0];
     }
 }
 
-/// The forces in contacts of these states with these frictions.
+/// The forces in contacts of these states with these friction forces.
 fn in_contacts(
     parts: &Parts<'_>,
     mode: &Mode,
-    frictions: &Each,
+    friction_forces: &Each,
     slips: &Each,
     forces: &mut [ContactForce],
 ) {
@@ -257,8 +258,8 @@ fn in_contacts(
         let sticks = mode.motion[k] == Motion::Sticks;
         *force = ContactForce {
             slip: if sticks { 0.0 } else { slips[k] },
-            normal: parts.sum(parts.normal(k), frictions)[0],
-            friction: frictions[k],
+            normal: parts.sum(parts.normal(k), friction_forces)[0],
+            friction: friction_forces[k],
             sticks,
         };
     }
@@ -301,11 +302,11 @@ impl Contacts {
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
         a: &mut S::Vector,
     ) -> Result<(), Singular> {
-        with_parts(system, t, q, v, u, |parts, room| {
-            let frictions = self.frictions(parts)?;
-            results(parts, &frictions, a.as_mut_slice(), &mut []);
+        with_parts(system, t, q, v, u, |parts, workspace| {
+            let friction_forces = self.friction_forces(parts)?;
+            results(parts, &friction_forces, a.as_mut_slice(), &mut []);
             if self.sticks() {
-                self.still(system, (t, q, v), a, room);
+                self.still(system, (t, q, v), a, workspace);
             }
             Ok(())
         })
@@ -322,14 +323,14 @@ impl Contacts {
     ) -> Result<(), Singular> {
         let slips = slips(system, t, q, v);
         with_parts(system, t, q, v, u, |parts, _| {
-            let frictions = self.frictions(parts)?;
-            results(parts, &frictions, &mut [], multipliers);
-            in_contacts(parts, &self.mode, &frictions, &slips, forces);
+            let friction_forces = self.friction_forces(parts)?;
+            results(parts, &friction_forces, &mut [], multipliers);
+            in_contacts(parts, &self.mode, &friction_forces, &slips, forces);
             Ok(())
         })
     }
 
-    /// The powers of the frictions, in W: the work that what moves by itself does through them, and
+    /// The powers of the friction forces, in W: the work that what moves by itself does through them, and
     /// what is lost, `−Σ Fₖ wₖ`. Together they are the power on the coordinates, `Σ Fₖ τₖ v`.
     pub fn power<S: System>(
         &self,
@@ -337,17 +338,17 @@ impl Contacts {
         (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     ) -> [f64; 2] {
         let slips = slips(system, t, q, v);
-        let power = with_parts(system, t, q, v, u, |parts, room| {
-            let frictions = self.frictions(parts)?;
+        let power = with_parts(system, t, q, v, u, |parts, workspace| {
+            let friction_forces = self.friction_forces(parts)?;
             let n = parts.layout.n;
-            let rows = &mut room[..self.count * n];
+            let rows = &mut workspace[..self.count * n];
             system.slip_matrix(t, q, rows);
             let mut power = [0.0; 2];
             for (k, row) in rows.chunks_exact(n).enumerate() {
                 let rate: f64 = row.iter().zip(v.as_slice()).map(|(tau, v)| tau * v).sum();
-                power[0] += frictions[k] * rate;
+                power[0] += friction_forces[k] * rate;
                 if self.mode.motion[k] != Motion::Sticks {
-                    power[1] -= frictions[k] * slips[k];
+                    power[1] -= friction_forces[k] * slips[k];
                 }
             }
             power[0] += power[1];
@@ -366,15 +367,15 @@ impl Contacts {
     ) -> Result<[[Margin; 2]; MOST_CONTACTS], StepError> {
         let slips = slips(system, t, q, v);
         let margins = with_parts(system, t, q, v, u, |parts, _| {
-            let frictions = self.frictions(parts)?;
+            let friction_forces = self.friction_forces(parts)?;
             let mut margins = [[Margin::ENDLESS; 2]; MOST_CONTACTS];
             for (k, margin) in margins[..self.count].iter_mut().enumerate() {
-                let [normal, terms] = parts.sum(parts.normal(k), &frictions);
+                let [normal, terms] = parts.sum(parts.normal(k), &friction_forces);
                 *margin = match self.mode.motion[k] {
                     Motion::Sticks => {
                         let coefficient = parts.static_friction(k);
                         let reserve = Margin {
-                            value: coefficient * normal.abs() - frictions[k].abs(),
+                            value: coefficient * normal.abs() - friction_forces[k].abs(),
                             rounding: ROUNDING * coefficient * terms,
                         };
                         [reserve, Margin::ENDLESS]
@@ -470,7 +471,7 @@ impl Contacts {
         let own = (k, self.mode.motion[k]);
         let at = |singular| StepError::Singular { singular, t };
         if change.cause == Cause::BrokeAway {
-            let held = with_parts(system, t, q, v, u, |parts, _| self.frictions(parts));
+            let held = with_parts(system, t, q, v, u, |parts, _| self.friction_forces(parts));
             let held = held.map_err(at)?;
             // Against what held it. Just here its slip may not even grow: it is where the friction of
             // what sticks and of what slides are the same.
@@ -513,12 +514,14 @@ impl Contacts {
         self.mode.motion[..self.count].contains(&Motion::Sticks)
     }
 
-    fn frictions(&self, parts: &Parts<'_>) -> Result<Each, Singular> {
+    fn friction_forces(&self, parts: &Parts<'_>) -> Result<Each, Singular> {
         let none = || Paradox {
             contact: 0,
             several: false,
         };
-        parts.frictions(&self.mode).ok_or_else(|| none().singular())
+        parts
+            .friction_forces(&self.mode)
+            .ok_or_else(|| none().singular())
     }
 
     /// Accelerations of what sticks that only rounding keeps from being what they must be: where one
@@ -528,10 +531,10 @@ impl Contacts {
         system: &S,
         (t, q, v): (f64, &S::Vector, &S::Vector),
         a: &mut S::Vector,
-        room: &mut [f64],
+        workspace: &mut [f64],
     ) {
         let n = q.as_slice().len();
-        let (rows, drift) = room[..self.count * (n + 1)].split_at_mut(self.count * n);
+        let (rows, drift) = workspace[..self.count * (n + 1)].split_at_mut(self.count * n);
         system.slip_matrix(t, q, rows);
         system.slip_drift(t, q, v, drift);
         for (k, row) in rows.chunks_exact(n).enumerate() {
@@ -558,7 +561,7 @@ impl Contacts {
         if !(0..self.count).any(moving) {
             return Ok(());
         }
-        let stopped = with_parts(system, t, q, &before, u, |parts, room| {
+        let stopped = with_parts(system, t, q, &before, u, |parts, workspace| {
             let (n, count) = (parts.layout.n, self.count);
             // dw = W Λ for impulses Λ along the contacts: those that rest get dw = −w.
             let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
@@ -584,7 +587,7 @@ impl Contacts {
                     }
                 }
             }
-            let matrix = &mut room[..count * n];
+            let matrix = &mut workspace[..count * n];
             system.slip_matrix(t, q, matrix);
             for (k, row) in matrix.chunks_exact(n).enumerate() {
                 if resting[k]

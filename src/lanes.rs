@@ -22,7 +22,7 @@ use crate::{Singular, System, Vector};
 /// // Four pendulums, each with another upper rod, in the same state.
 /// let lengths = [0.5, 1.0, 1.5, 2.0];
 /// let systems = lengths.map(|l1| DoublePendulum { l1, ..Default::default() }.prepare());
-/// let four = Several::new(systems.each_ref());
+/// let four = Batch::new(systems.each_ref());
 ///
 /// let q = [Lanes::splat(0.3), Lanes::splat(-0.2)];
 /// let v = [Lanes::splat(0.0); 2];
@@ -33,8 +33,8 @@ use crate::{Singular, System, Vector};
 /// # Ok::<(), lagrangian::SomeSingular<4>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Several<S: Abreast<N>, const N: usize> {
-    equations: S::Several,
+pub struct Batch<S: Batched<N>, const N: usize> {
+    equations: S::Batch,
     /// The same, for where one of them stops the others.
     systems: [S; N],
     /// The lanes that have no accelerations at all, where there are any.
@@ -62,7 +62,7 @@ impl<const N: usize> Display for SomeSingular<N> {
 
 impl<const N: usize> core::error::Error for SomeSingular<N> {}
 
-impl<S: Abreast<N>, const N: usize> Several<S, N> {
+impl<S: Batched<N>, const N: usize> Batch<S, N> {
     /// A system for each lane.
     pub fn new(systems: [&S; N]) -> Self {
         let singular = systems.map(S::is_singular);
@@ -70,8 +70,8 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
         let whole = systems.into_iter().find(|system| !system.is_singular());
         let stand_in = |system: &S| if system.is_singular() { whole } else { None };
         let evaluated = systems.map(|system| stand_in(system).unwrap_or(system));
-        Several {
-            equations: S::abreast(evaluated),
+        Batch {
+            equations: S::batch(evaluated),
             systems: systems.map(|system| *system),
             singular: singular.contains(&true).then_some(singular),
         }
@@ -79,12 +79,12 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
 
     /// The same system in every lane.
     pub fn of(system: &S) -> Self {
-        Several::new([system; N])
+        Batch::new([system; N])
     }
 
     /// What emitted functions take for these systems. A system that has no accelerations at all is
     /// represented by another one.
-    pub fn equations(&self) -> &S::Several {
+    pub fn equations(&self) -> &S::Batch {
         &self.equations
     }
 
@@ -99,10 +99,10 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
         t: Lanes<N>,
         q: &S::Vectors,
         v: &S::Vectors,
-        u: &S::SeveralInputs,
+        u: &S::BatchInputs,
         a: &mut S::Vectors,
     ) -> Result<(), SomeSingular<N>> {
-        let evaluated = S::accelerations_abreast(&self.equations, t, q, v, u, a);
+        let evaluated = S::batch_accelerations(&self.equations, t, q, v, u, a);
         match (evaluated, self.singular) {
             (Ok(()), None) => Ok(()),
             (Ok(()), Some(singular)) => self.one_by_one(singular, t, (q, v, u), a),
@@ -116,7 +116,7 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
         &self,
         lanes: [bool; N],
         t: Lanes<N>,
-        (q, v, u): (&S::Vectors, &S::Vectors, &S::SeveralInputs),
+        (q, v, u): (&S::Vectors, &S::Vectors, &S::BatchInputs),
         a: &mut S::Vectors,
     ) -> Result<(), SomeSingular<N>> {
         let mut singular = [None; N];
@@ -151,45 +151,45 @@ impl<S: Abreast<N>, const N: usize> Several<S, N> {
     }
 
     /// Inputs for each lane, side by side.
-    pub fn inputs(&self, inputs: [&S::Inputs; N]) -> S::SeveralInputs {
-        S::inputs_abreast(inputs)
+    pub fn inputs(&self, inputs: [&S::Inputs; N]) -> S::BatchInputs {
+        S::batch_inputs(inputs)
     }
 
     /// The inputs that nobody sets, in every lane.
-    pub fn default_inputs(&self, system: &S) -> S::SeveralInputs {
-        S::inputs_abreast([&system.default_inputs(); N])
+    pub fn default_inputs(&self, system: &S) -> S::BatchInputs {
+        S::batch_inputs([&system.default_inputs(); N])
     }
 }
 
-/// Equations of motion of which `N` can be evaluated at once, by [`Several`]. Emitted code
+/// Equations of motion of which `N` can be evaluated at once, by [`Batch`]. Emitted code
 /// implements it.
-pub trait Abreast<const N: usize>: System + Copy {
+pub trait Batched<const N: usize>: System + Copy {
     /// The equations of `N` systems.
-    type Several: Clone + Copy + core::fmt::Debug;
+    type Batch: Clone + Copy + core::fmt::Debug;
     /// One row of lanes per coordinate, in the order of the description.
     type Vectors: LaneVector<N, Vector = Self::Vector>;
     /// The inputs of `N` systems by name.
-    type SeveralInputs;
+    type BatchInputs;
 
     /// The equations of these systems.
-    fn abreast(systems: [&Self; N]) -> Self::Several;
+    fn batch(systems: [&Self; N]) -> Self::Batch;
 
     /// Inputs for each of them.
-    fn inputs_abreast(inputs: [&Self::Inputs; N]) -> Self::SeveralInputs;
+    fn batch_inputs(inputs: [&Self::Inputs; N]) -> Self::BatchInputs;
 
     /// The inputs of one of them; `lane` is less than N.
-    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Self::Inputs;
+    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Self::Inputs;
 
     /// Whether the parameters alone leave the system without accelerations.
     fn is_singular(&self) -> bool;
 
     /// [`System::accelerations`] of every lane, or of none if one of them has none.
-    fn accelerations_abreast(
-        several: &Self::Several,
+    fn batch_accelerations(
+        several: &Self::Batch,
         t: Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
-        u: &Self::SeveralInputs,
+        u: &Self::BatchInputs,
         a: &mut Self::Vectors,
     ) -> Result<(), Singular>;
 }

@@ -59,10 +59,10 @@ mod constraints;
 mod friction;
 #[cfg(feature = "std")]
 mod implicit;
+mod interpolant;
 mod lanes;
 mod math;
 pub mod methods;
-mod piece;
 mod stages;
 mod stepper;
 mod system;
@@ -89,15 +89,15 @@ mod simulation;
 #[cfg(feature = "std")]
 mod solution;
 
-pub use balance::{Alongside, Energies, EnergyBalance, EnergyIntegrals, NoBalance};
-pub use constraints::{constraint_room, least_multipliers};
+pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
+pub use constraints::{constraint_workspace, least_multipliers};
 pub use friction::{
-    ContactForce, MOST_CONTACTS, accelerations_with_friction, contact_forces,
-    multipliers_with_friction, room,
+    ContactForce, MOST_CONTACTS, accelerations_with_friction, contact_forces, contact_workspace,
+    multipliers_with_friction,
 };
-pub use lanes::{Abreast, LaneVector, Several, SomeSingular};
+pub use interpolant::Interpolant;
+pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method};
-pub use piece::Piece;
 pub use stepper::{
     DefaultInputs, InputFunction, InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper,
     Tolerance, Work,

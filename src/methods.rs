@@ -150,7 +150,7 @@ pub struct Tableau {
     /// Differential Equations I*, 2nd ed., 1993, section II.10, eq. (10.17).
     pub coarse_error: Option<&'static [f64]>,
     /// Weights of the coefficients of dense output beyond those of the cubic through both ends (see
-    /// [`Piece`](crate::Piece)).
+    /// [`Interpolant`](crate::Interpolant)).
     pub dense: &'static [&'static [f64]],
     /// The least and the greatest factor by which one step may follow another.
     pub step_change: (f64, f64),

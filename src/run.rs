@@ -4,13 +4,13 @@ use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
-use crate::balance::{Alongside, Energies, EnergyBalance, Explained};
+use crate::balance::{Energies, EnergyBalance, Explained, Quadratures};
 use crate::constraints::{Constraints, Miss, closest};
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, state};
 use crate::friction::{Change, Contacts, Motion};
-use crate::piece::Piece;
+use crate::interpolant::Interpolant;
 use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
@@ -20,10 +20,10 @@ use crate::{Coordinates, Error, Machine, Pivot, Singular, State, System, Vector,
 /// Makes the run of a simulation; with an error if something ended it early.
 ///
 /// An error instead of a solution means that the run could not begin.
-pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
+pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     simulation: Simulation<'_, M, L>,
     start: State<Coordinates<M>>,
-    alongside: A,
+    quadratures: A,
 ) -> Result<(Solution<M, L>, Option<Error>), Error> {
     let clock = Instant::now();
     let Simulation {
@@ -82,7 +82,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
     let mut stepper = Stepper::new(
         &system,
         &law,
-        alongside,
+        quadratures,
         settings.method,
         tolerance,
         at_start,
@@ -194,7 +194,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>>(
 const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 
 /// A run in the making.
-struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> {
+struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
     stepper: Stepper<'r, M::System, &'r L, A>,
     settings: &'r Settings,
@@ -223,9 +223,9 @@ struct Record<M: Machine> {
 type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 
 /// The motion within the last step, made when it is first needed.
-type LastPiece<M> = Option<Piece<VectorOf<M>>>;
+type LastInterpolant<M> = Option<Interpolant<VectorOf<M>>>;
 
-impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M, L, A> {
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
     /// Steps to the end, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
         // What will have ended the run, once the end of the stepper is reached.
@@ -251,10 +251,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                     .explain(error, self.stepper.q(), self.stepper.v()));
             }
 
-            let mut piece = None;
+            let mut interpolant = None;
             if pending.is_none()
                 && ending.is_ok()
-                && let Some((t, change)) = self.contact_changed(&mut piece)?
+                && let Some((t, change)) = self.contact_changed(&mut interpolant)?
             {
                 let step = self.stepper.last_step();
                 self.stepper.retreat(t);
@@ -267,17 +267,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             // A run ends within a step by taking that step again, up to there: so the end is as
             // exact as every other step's, and so is the balance of energy.
             if ending.is_ok()
-                && let Some((t, assumption)) = self.assumption_ended(&mut piece)?
+                && let Some((t, assumption)) = self.assumption_ended(&mut interpolant)?
             {
                 self.stepper.retreat(t);
                 ending = Err(Error::AssumptionEnded { assumption, t });
                 pending = None;
                 continue;
             }
-            if let Some(found) = self.find_events(&mut piece)? {
+            if let Some(found) = self.find_events(&mut interpolant)? {
                 return self.end_at(found);
             }
-            self.keep(&mut piece)?;
+            self.keep(&mut interpolant)?;
             if self.shall_stop() {
                 return Ok(Ending::Stopped);
             }
@@ -291,7 +291,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     /// When the state of a contact ended in the last step, and which.
     fn contact_changed(
         &mut self,
-        piece: &mut LastPiece<M>,
+        interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, Change)>, Error> {
         let Self { model, stepper, .. } = self;
         let Some(contacts) = stepper.contacts().clone() else {
@@ -309,8 +309,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
         for theta in event::LOOKS {
             let ended = contacts.seem_ended(&margins(&event::glance_at(stepper, theta))?);
             for (change, kind) in ended.into_iter().flatten() {
-                let piece = made(piece, stepper, model.system)?;
-                let at = |theta| event::state_at(model.system, stepper, piece, theta);
+                let interpolant = made(interpolant, stepper, model.system)?;
+                let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
                 let exactly = |theta| Ok(margins(&at(theta)?)?[change.contact][kind]);
                 if !exactly(theta)?.is_lost_since(exactly(theta_before)?) {
                     continue;
@@ -415,7 +415,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     /// at the end of the step: like events, assumptions are looked at several times within each.
     fn assumption_ended(
         &mut self,
-        piece: &mut LastPiece<M>,
+        interpolant: &mut LastInterpolant<M>,
     ) -> Result<Option<(f64, String)>, Error> {
         let Self { model, stepper, .. } = self;
         if model.plainly_holds(stepper) {
@@ -426,10 +426,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             else {
                 continue;
             };
-            let piece = made(piece, stepper, model.system)?;
-            let at = |theta| event::state_at(model.system, stepper, piece, theta);
+            let interpolant = made(interpolant, stepper, model.system)?;
+            let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
             let margin = |theta| at(theta).map(|state| model.margin(index, state));
-            // It held at the beginning of the step; a glance may see it end where it does not.
+            // It held at the beginning of the step; the polynomial may see it end where it does not.
             if theta < 1.0 && margin(theta)? > 0.0 {
                 continue;
             }
@@ -441,7 +441,10 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     }
 
     /// Notes the events of the last step; returns the one that ends the run.
-    fn find_events(&mut self, piece: &mut LastPiece<M>) -> Result<Option<Terminal>, Error> {
+    fn find_events(
+        &mut self,
+        interpolant: &mut LastInterpolant<M>,
+    ) -> Result<Option<Terminal>, Error> {
         let Self {
             model,
             stepper,
@@ -453,7 +456,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             &mut callbacks.watches,
             model.system,
             stepper,
-            piece,
+            interpolant,
             &mut record.events,
         )
     }
@@ -515,8 +518,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     }
 
     /// Keeps what was asked for of the last step.
-    fn keep(&mut self, piece: &mut LastPiece<M>) -> Result<(), Error> {
-        self.keep_samples(piece)?;
+    fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
+        self.keep_samples(interpolant)?;
         self.enter_energies();
         if let Some(steps) = &mut self.record.steps {
             steps.push(&self.stepper);
@@ -535,7 +538,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
     }
 
     /// The samples within the last step; that at the end of the run is added there.
-    fn keep_samples(&mut self, piece: &mut LastPiece<M>) -> Result<(), Error> {
+    fn keep_samples(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         let Some(interval) = self.settings.every else {
             return Ok(());
         };
@@ -550,9 +553,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
                 (self.stepper.q().clone(), self.stepper.v().clone())
             } else {
                 let system = self.model.system;
-                let (mut q, mut v) = made(piece, &mut self.stepper, system)?.state(t);
+                let (mut q, mut v) = made(interpolant, &mut self.stepper, system)?.state(t);
                 self.stepper
-                    .bring(t, &mut q, &mut v)
+                    .project(t, &mut q, &mut v)
                     .map_err(|error| Error::of_step(error, system))?;
                 (q, v)
             };
@@ -570,7 +573,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
             record,
             ..
         } = self;
-        let Some(integrals) = stepper.alongside().integrals() else {
+        let Some(integrals) = stepper.quadratures().integrals() else {
             return;
         };
         let (t, q, v) = (stepper.t(), stepper.q(), stepper.v());
@@ -605,18 +608,18 @@ impl<M: Machine, L: InputLaw<M::System>, A: Alongside<M::System>> Run<'_, '_, M,
 }
 
 /// The motion within the last step.
-pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Alongside<S>>(
-    piece: &'p mut Option<Piece<S::Vector>>,
+pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    interpolant: &'p mut Option<Interpolant<S::Vector>>,
     stepper: &mut Stepper<'_, S, L, A>,
     system: &S,
-) -> Result<&'p Piece<S::Vector>, Error> {
-    match piece {
-        Some(piece) => Ok(piece),
+) -> Result<&'p Interpolant<S::Vector>, Error> {
+    match interpolant {
+        Some(interpolant) => Ok(interpolant),
         None => {
             let made = stepper
-                .piece()
+                .interpolant()
                 .map_err(|error| Error::of_step(error, system))?;
-            Ok(piece.insert(made))
+            Ok(interpolant.insert(made))
         }
     }
 }
@@ -641,7 +644,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// cubic: then one that is linear in the coordinates holds between them. A machine without
     /// assumptions pays nothing for looking.
     #[inline]
-    fn plainly_holds<A: Alongside<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
+    fn plainly_holds<A: Quadratures<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
         let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
             // Facts do not depend on inputs: those of now are as good as any.
             let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
@@ -812,7 +815,7 @@ fn number_name(coordinate: &str, level: usize) -> String {
 }
 
 /// A run that is stopped where less than this is left of a constraint is stopped by that: rounding in
-/// what is left of positions grows as its inverse square in the rates, to ten digits here.
+/// the residual of positions grows as its inverse square in the rates, to ten digits here.
 const NEAR_FORK: f64 = 1e-2;
 
 /// Moves of the start that are less than this, relative to the size of a number, are no news: about
@@ -998,13 +1001,13 @@ fn check_start<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> R
     Ok(())
 }
 
-fn balance<S: System, L: InputLaw<S>, A: Alongside<S>>(
+fn balance<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     energies: &[Energies],
     explained: &Explained,
     kinetic_energy: f64,
 ) -> Option<EnergyBalance> {
-    let integrals = stepper.alongside().integrals()?;
+    let integrals = stepper.quadratures().integrals()?;
     let (first, last) = (energies.first()?, energies.last()?);
     let turned_over = kinetic_energy + integrals.work_turned_over() + last.dissipated;
     Some(EnergyBalance {
@@ -1017,7 +1020,7 @@ fn balance<S: System, L: InputLaw<S>, A: Alongside<S>>(
     })
 }
 
-fn warnings<S: System, L: InputLaw<S>, A: Alongside<S>>(
+fn warnings<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     settings: &Settings,
     stepper: &Stepper<'_, S, L, A>,
     mut warnings: Vec<Warning>,

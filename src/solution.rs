@@ -8,12 +8,12 @@ use crate::compensated::Sum;
 use crate::constraints::Constraints;
 use crate::event::{Event, state};
 use crate::friction::{ContactForce, Contacts};
+use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
-use crate::piece::{Ends, Piece};
 use crate::simulation::{Callbacks, Of, Resumed, Settings};
-use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, bring};
+use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, project};
 use crate::{
-    Alongside, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, Simulation,
+    Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, Quadratures, Simulation,
     State, Stepper, System, Vector, Warning,
 };
 
@@ -67,7 +67,7 @@ pub struct Statistics {
     pub rejected: usize,
     /// Evaluations of the accelerations.
     pub evaluations: usize,
-    /// The greatest that was left of the constraints after any step, relative to the size of their
+    /// The greatest residual of the constraints after any step, relative to the size of their
     /// terms: see [`Stepper::constraint_residual`].
     pub constraint_residual: f64,
     /// When the motion was first seen to be stiff, in s: when steps were held short by the stability of
@@ -203,7 +203,7 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     fn sampler(&self) -> Sampler<'_, M, L> {
         Sampler {
             run: self,
-            piece: None,
+            interpolant: None,
         }
     }
 
@@ -271,8 +271,8 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     }
 
     /// A state within the run, on the constraints.
-    fn bring(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
-        bring(&self.system, &self.constraints, t, &mut q, &mut v)
+    fn project(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
+        project(&self.system, &self.constraints, t, &mut q, &mut v)
             .map_err(|error| Error::of_step(error, &self.system))?;
         Ok((q, v))
     }
@@ -420,7 +420,7 @@ impl<M: Machine, L> Debug for Solution<M, L> {
 /// Evaluates a run at times that mostly follow one another.
 struct Sampler<'a, M: Machine, L> {
     run: &'a Solution<M, L>,
-    piece: Option<(usize, Piece<VectorOf<M>>)>,
+    interpolant: Option<(usize, Interpolant<VectorOf<M>>)>,
 }
 
 impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
@@ -434,8 +434,8 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         if t == end.t {
             return Ok(end.clone());
         }
-        let (q, v) = self.piece(t)?.1.state(t);
-        let (q, v) = self.run.bring(t, (q, v))?;
+        let (q, v) = self.interpolant(t)?.1.state(t);
+        let (q, v) = self.run.project(t, (q, v))?;
         Ok(state(system, (t, q, v)))
     }
 
@@ -456,9 +456,9 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             return Ok(if t == first.t { *first } else { *last });
         }
 
-        let (index, piece) = self.piece(t)?;
+        let (index, interpolant) = self.interpolant(t)?;
         let before = &run.energies[*index];
-        let (q, v) = run.bring(t, piece.state(t))?;
+        let (q, v) = run.project(t, interpolant.state(t))?;
         let u = run.inputs(t, &q, &v);
         let mut energies = Energies {
             t,
@@ -469,7 +469,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         let half = 0.5 * (t - before.t);
         for (node, weight) in GAUSS {
             let t = before.t + half * (1.0 + node);
-            let (q, v) = run.bring(t, piece.state(t))?;
+            let (q, v) = run.project(t, interpolant.state(t))?;
             let mut a = q.zeros_like();
             let u = run
                 .accelerations(t, &q, &v, &mut a)
@@ -486,7 +486,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
     }
 
     /// The step that `t` is in, and the motion within it.
-    fn piece(&mut self, t: f64) -> Result<&(usize, Piece<VectorOf<M>>), Error> {
+    fn interpolant(&mut self, t: f64) -> Result<&(usize, Interpolant<VectorOf<M>>), Error> {
         let Solution {
             system, start, end, ..
         } = self.run;
@@ -499,19 +499,19 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         }
         let steps = self.run.steps.as_ref().ok_or(Error::StepsForgotten)?;
         let index = steps.index(t);
-        let known = self.piece.take().filter(|(known, _)| *known == index);
-        let piece = match known {
-            Some(piece) => piece,
+        let known = self.interpolant.take().filter(|(known, _)| *known == index);
+        let interpolant = match known {
+            Some(interpolant) => interpolant,
             None => {
                 let accelerations =
                     |t, q: &_, v: &_, a: &mut _| self.run.accelerations(t, q, v, a).map(|_| ());
-                let piece = steps
-                    .piece(index, self.run.method, accelerations)
+                let interpolant = steps
+                    .interpolant(index, self.run.method, accelerations)
                     .map_err(|error| Error::of_step(error, system))?;
-                (index, piece)
+                (index, interpolant)
             }
         };
-        Ok(self.piece.insert(piece))
+        Ok(self.interpolant.insert(interpolant))
     }
 }
 
@@ -559,7 +559,7 @@ impl<V: Vector> Steps<V> {
     }
 
     /// Adds the last step.
-    pub fn push<S: System<Vector = V>, L: InputLaw<S>, A: Alongside<S>>(
+    pub fn push<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         stepper: &Stepper<'_, S, L, A>,
     ) {
@@ -577,7 +577,7 @@ impl<V: Vector> Steps<V> {
 
     /// Notes that the accelerations jump now: a step of no length, that keeps the end of the last one
     /// apart from the beginning of the next.
-    pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Alongside<S>>(
+    pub fn jump<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         stepper: &Stepper<'_, S, L, A>,
     ) {
@@ -619,12 +619,12 @@ impl<V: Vector> Steps<V> {
         after.saturating_sub(1)
     }
 
-    fn piece(
+    fn interpolant(
         &self,
         step: usize,
         method: &Method,
         accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
-    ) -> Result<Piece<V>, StepError> {
+    ) -> Result<Interpolant<V>, StepError> {
         let (start, h) = self.times[step];
         let stride = self.stride();
         let [q0, v0, stages @ ..] = &self.vectors[step * stride..][..stride] else {
@@ -638,7 +638,7 @@ impl<V: Vector> Steps<V> {
             k[stage].clone_from(a);
         }
         k[method.tableau.stages].clone_from(a1);
-        Piece::new(
+        Interpolant::new(
             method,
             &Ends {
                 start,

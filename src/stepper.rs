@@ -6,7 +6,7 @@ mod implicitly;
 
 use core::fmt::{self, Display};
 
-use crate::balance::{Alongside, NoBalance};
+use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
 #[cfg(feature = "std")]
@@ -14,11 +14,11 @@ use crate::friction::Change;
 use crate::friction::Contacts;
 #[cfg(feature = "std")]
 use crate::implicit::Implicit;
+use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;
 use crate::methods::{MAX_STAGES, Method, Row};
-use crate::piece::{Ends, Piece, glance};
 use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
 use crate::{Singular, System, Vector};
 #[cfg(feature = "std")]
@@ -123,14 +123,14 @@ pub enum StepError {
     Inconsistent {
         /// The one that is violated the most.
         constraint: usize,
-        /// What is left of it, relative to the size of its terms.
+        /// Its residual, relative to the size of its terms.
         residual: f64,
         /// Time, in s.
         t: f64,
     },
-    /// [`System::lend`] lends no room for the work on constraints; or the method is implicit, and there
+    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit, and there
     /// is no allocator (feature `std`).
-    NoRoom {
+    NoWorkspace {
         /// Time, in s.
         t: f64,
     },
@@ -170,9 +170,9 @@ impl Display for StepError {
                  the size of its terms",
                 constraint + 1
             ),
-            Self::NoRoom { t } => write!(
+            Self::NoWorkspace { t } => write!(
                 f,
-                "there is no room for the work on constraints, or for an implicit method, at t = {t:e} s"
+                "there is no workspace for the constraints, or for an implicit method, at t = {t:e} s"
             ),
             Self::Changed { t } => write!(
                 f,
@@ -213,7 +213,7 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     method: &'static Method,
     tolerance: Tolerance<S::Vector>,
     model: Model<'s, S, L>,
-    alongside: A,
+    quadratures: A,
     end: f64,
     longest: f64,
 
@@ -263,7 +263,7 @@ struct Stiffness {
     since: Option<f64>,
 }
 
-impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
+impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Makes ready to go from time `t`, with `q` and `v`, to time `end`, later or earlier. A machine
     /// with constraints starts at the state on them that is nearest, in the metric of its inertia.
     ///
@@ -272,7 +272,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     pub fn new(
         system: &'s S,
         law: L,
-        alongside: A,
+        quadratures: A,
         method: &'static Method,
         tolerance: Tolerance<S::Vector>,
         (t, q, v): (f64, S::Vector, S::Vector),
@@ -285,7 +285,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         };
         #[cfg(not(feature = "std"))]
         if method.tableau.spectrum.is_some() {
-            return Err(StepError::NoRoom { t });
+            return Err(StepError::NoWorkspace { t });
         }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
@@ -307,7 +307,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
                 constraints,
                 contacts: None,
             },
-            alongside,
+            quadratures,
             end,
             longest: f64::INFINITY,
             k: core::array::from_fn(|_| zeros.clone()),
@@ -328,7 +328,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             model,
             now,
             k,
-            alongside,
+            quadratures,
             work,
             ..
         } = &mut stepper;
@@ -353,7 +353,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             let at = (now.t, &now.q, &now.v, &model.inputs);
             constraints.check_accelerations(system, at, &k[0])?;
         }
-        model.take_rates(alongside, 0, (now.t, &now.q, &now.v, &k[0]));
+        model.take_rates(quadratures, 0, (now.t, &now.q, &now.v, &k[0]));
         Ok(stepper)
     }
 
@@ -403,9 +403,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     }
 
     /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good
-    /// enough to look for events with. It costs no evaluation, where [`piece`](Self::piece) may.
-    pub fn glance(&self, theta: f64) -> (S::Vector, S::Vector) {
-        glance(
+    /// enough to look for events with. It costs no evaluation, where [`interpolant`](Self::interpolant) may.
+    pub fn hermite(&self, theta: f64) -> (S::Vector, S::Vector) {
+        hermite(
             self.last_step,
             [&self.before.q, &self.now.q],
             [&self.before.v, &self.now.v],
@@ -416,7 +416,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
 
     /// The two inner control points of the last step as a cubic curve in Bézier's form, at a third
     /// and two thirds of it: the curve stays within the hull of these and its ends. Cheaper than a
-    /// [`glance`](Self::glance), of order 3.
+    /// [`hermite`](Self::hermite), of order 3.
     #[cfg(feature = "std")]
     pub(crate) fn control_points(&self) -> [(f64, S::Vector, S::Vector); 2] {
         let third = self.last_step / 3.0;
@@ -453,7 +453,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         &self.model.inputs
     }
 
-    /// The greatest that was left of the constraints after any step, relative to the size of their
+    /// The greatest residual of the constraints after any step, relative to the size of their
     /// terms; 0 for a machine without constraints.
     ///
     /// On positions, `gₖ` relative to `Σⱼ |∂gₖ/∂qⱼ| |qⱼ|`; on rates, relative to `Σⱼ |Gₖⱼ| |vⱼ| +
@@ -509,7 +509,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let newest = self.newest;
         let work = &mut self.work;
         model.accelerations(now.t, &now.q, &now.v, &mut k[newest], work)?;
-        model.take_rates(&mut self.alongside, 0, (now.t, &now.q, &now.v, &k[newest]));
+        model.take_rates(
+            &mut self.quadratures,
+            0,
+            (now.t, &now.q, &now.v, &k[newest]),
+        );
         self.end = end;
         self.step = step;
         self.error_before = 1e-4;
@@ -524,9 +528,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         self.work
     }
 
-    /// What was integrated alongside so far.
-    pub fn alongside(&self) -> &A {
-        &self.alongside
+    /// The quadratures so far: what is integrated beside the motion.
+    pub fn quadratures(&self) -> &A {
+        &self.quadratures
     }
 
     /// The step to be tried next, in s.
@@ -559,8 +563,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     /// inputs reads a cell that was written, or a system by hand has cells of its own. The next step
     /// begins with a new evaluation, and forgets the derivatives that an implicit method has kept.
     ///
-    /// The last step stays what it was: [`glance`](Self::glance), [`a`](Self::a) and
-    /// [`inputs`](Self::inputs) are of before until the next one is taken. A [`piece`](Self::piece) of it has
+    /// The last step stays what it was: [`hermite`](Self::hermite), [`a`](Self::a) and
+    /// [`inputs`](Self::inputs) are of before until the next one is taken. An [`interpolant`](Self::interpolant) of it has
     /// to be taken before, if the method needs evaluations for it, and is an error after.
     ///
     /// ```
@@ -615,7 +619,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         if self.newest == stages {
             self.newest = 0;
             self.now.copy_from(&self.before);
-            self.alongside.retreat(self.method.tableau.a[stages]);
+            self.quadratures.retreat(self.method.tableau.a[stages]);
             self.work.steps -= 1;
             // It was short enough.
             self.step = self.last_step;
@@ -628,7 +632,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     fn look_again(&mut self) -> Result<(), StepError> {
         let Self {
             model,
-            alongside,
+            quadratures,
             now,
             k,
             newest,
@@ -643,7 +647,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             model.contacts = Some(contacts);
         }
         model.accelerations(at.0, at.1, at.2, &mut k[*newest], work)?;
-        model.take_rates(alongside, 0, (at.0, at.1, at.2, &k[*newest]));
+        model.take_rates(quadratures, 0, (at.0, at.1, at.2, &k[*newest]));
         self.error_before = 1e-4;
         #[cfg(feature = "std")]
         if let Some(implicit) = &mut self.implicit {
@@ -729,13 +733,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
     ///
     /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the
     /// others. The polynomials are on constraints at the ends of the step, and between them as
-    /// exactly as the method is; [`bring`](Self::bring) does the rest.
-    pub fn piece(&mut self) -> Result<Piece<S::Vector>, StepError> {
+    /// exactly as the method is; [`project`](Self::project) does the rest.
+    pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector>, StepError> {
         let needs_evaluations = self.method.scheme.length > self.method.tableau.stages + 1;
         if self.changed && needs_evaluations {
             return Err(StepError::Changed { t: self.now.t });
         }
-        Piece::new(
+        Interpolant::new(
             self.method,
             &Ends {
                 start: Sum {
@@ -751,10 +755,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         )
     }
 
-    /// Brings a state within the last step onto the constraints of the machine, by the least move in
+    /// Projects a state within the last step onto the constraints of the machine, by the least move in
     /// the metric of its inertia.
-    pub fn bring(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
-        bring(self.model.system, &self.model.constraints, t, q, v)
+    pub fn project(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
+        project(self.model.system, &self.model.constraints, t, q, v)
     }
 
     /// Makes now the beginning of a step.
@@ -770,7 +774,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let Self {
             method,
             model,
-            alongside,
+            quadratures,
             before,
             now,
             k,
@@ -788,7 +792,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             let t = before.t + (before.t_low + c * h);
             stage_state((&scheme.rows[i], c, h), [&before.q, &before.v], k, [q, v]);
             model.accelerations(t, q, v, &mut k[i], work)?;
-            model.take_rates(alongside, i, (t, q, v, &k[i]));
+            model.take_rates(quadratures, i, (t, q, v, &k[i]));
         }
 
         advance_state((new_point, h), before, k, now);
@@ -799,8 +803,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         };
         let mut moved = false;
         if scheme.error_needs_end {
-            moved = model.bring(now)?;
-            model.end(now, alongside, stages, k, work)?;
+            moved = model.project(now)?;
+            model.end(now, quadratures, stages, k, work)?;
         }
         let mut error = self.error(h);
         if moved {
@@ -809,7 +813,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let Self {
             method,
             model,
-            alongside,
+            quadratures,
             now,
             k,
             work,
@@ -827,8 +831,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
             };
         }
         if error <= 1.0 && !method.scheme.error_needs_end {
-            moved = model.bring(now)?;
-            model.end(now, alongside, stages, k, work)?;
+            moved = model.project(now)?;
+            model.end(now, quadratures, stages, k, work)?;
             if moved {
                 error = error.max(self.error_of_move());
             }
@@ -862,7 +866,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'s, S, L, A> {
         let stages = self.method.tableau.stages;
         self.newest = stages;
         self.model.accept(&self.now);
-        self.alongside.advance(h, self.method.tableau.a[stages]);
+        self.quadratures.advance(h, self.method.tableau.a[stages]);
         self.work.steps += 1;
         if let Some(stability) = self.method.tableau.stability {
             let due = self
@@ -1164,25 +1168,25 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
 
     /// The acceleration at the new point.
     #[inline]
-    fn end<A: Alongside<S>>(
+    fn end<A: Quadratures<S>>(
         &mut self,
         now: &Point<S::Vector>,
-        alongside: &mut A,
+        quadratures: &mut A,
         stages: usize,
         k: &mut [S::Vector; MAX_STAGES],
         work: &mut Work,
     ) -> Result<(), StepError> {
         self.accelerations(now.t, &now.q, &now.v, &mut k[stages], work)?;
-        self.take_rates(alongside, stages, (now.t, &now.q, &now.v, &k[stages]));
+        self.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
         Ok(())
     }
 
-    /// Brings the end of a step onto the constraints; says whether that moved it.
+    /// Projects the end of a step onto the constraints; says whether that moved it.
     #[inline(always)]
-    fn bring(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
+    fn project(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
         let moved = match &mut self.constraints {
             Some(constraints) if self.system.constraints().len() != 0 => {
-                constraints.bring(self.system, &mut now.place())?
+                constraints.project(self.system, &mut now.place())?
             }
             _ => false,
         };
@@ -1220,20 +1224,20 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     }
 
     #[inline(always)]
-    fn take_rates<A: Alongside<S>>(
+    fn take_rates<A: Quadratures<S>>(
         &self,
-        alongside: &mut A,
+        quadratures: &mut A,
         stage: usize,
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
     ) {
-        alongside.stage(stage, self.system, at, &self.inputs);
+        quadratures.stage(stage, self.system, at, &self.inputs);
         if self.system.contacts().len() != 0
             && let Some(contacts) = &self.contacts
-            && alongside.integrals().is_some()
+            && quadratures.integrals().is_some()
         {
             let (t, q, v, _) = at;
             let [work, lost] = contacts.power(self.system, (t, q, v, &self.inputs));
-            alongside.add(stage, work, lost);
+            quadratures.add(stage, work, lost);
         }
     }
 }
@@ -1282,9 +1286,9 @@ pub(crate) fn accelerations<S: System>(
         .map_err(|singular| StepError::Singular { singular, t })
 }
 
-/// Brings a state within a run onto the constraints.
+/// Projects a state within a run onto the constraints.
 #[inline(always)]
-pub(crate) fn bring<S: System>(
+pub(crate) fn project<S: System>(
     system: &S,
     constraints: &Option<Constraints<S::Vector>>,
     t: f64,
@@ -1293,7 +1297,7 @@ pub(crate) fn bring<S: System>(
 ) -> Result<(), StepError> {
     match constraints {
         Some(constraints) if system.constraints().len() != 0 => {
-            constraints.bring_between(system, t, q, v)
+            constraints.project_between(system, t, q, v)
         }
         _ => Ok(()),
     }

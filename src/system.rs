@@ -275,7 +275,7 @@ pub trait System {
     #[inline(always)]
     fn slip_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// What follows from the frictions `F` of the `k` contacts, all of it linear: first what there is
+    /// What follows from the friction forces `F` of the `k` contacts, all of it linear: first what there is
     /// without any, then what a unit of each adds to it. Each of these `1 + k` parts holds the
     /// accelerations, the multipliers of the constraints, and for each contact `dw/dt` and the normal
     /// reaction `N`. Behind them stand the `k` coefficients `μ` of what slides and the `k` coefficients
@@ -302,12 +302,12 @@ pub trait System {
         core::iter::empty()
     }
 
-    /// Lends `length` numbers to `work`, whatever they are: the room in which a state is brought
+    /// Hands `length` numbers to `work`, whatever they are: the workspace in which a state is projected
     /// onto the constraints, `None` if there is none.
     ///
     /// By default it is allocated for each call, and without `std` there is none. A machine that
-    /// knows its size lends an array: [`constraint_room`](crate::constraint_room) says how long.
-    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+    /// knows its size hands out an array: [`constraint_workspace`](crate::constraint_workspace) says how long.
+    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         #[cfg(feature = "std")]
         {
             work(Some(&mut std::vec![0.0; length]))
@@ -524,8 +524,8 @@ pub enum Pivot {
     Constraint(usize),
     /// That of the contact with this index: the law of friction has no solution, or several.
     Contact(usize),
-    /// None: the machine lends no room to find out what its contacts do ([`System::lend`]).
-    NoRoom,
+    /// None: the machine lends no room to find out what its contacts do ([`System::with_workspace`]).
+    NoWorkspace,
     /// None: accelerations that the contact with this index has a part in are not differentiated. What sticks has no
     /// linearization.
     NotDifferentiated(usize),
@@ -550,7 +550,7 @@ impl Singular {
             Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
             Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
             Pivot::Contact(index) | Pivot::NotDifferentiated(index) => system.contacts().nth(index),
-            Pivot::NoRoom => None,
+            Pivot::NoWorkspace => None,
         };
         name.unwrap_or("?")
     }
@@ -567,7 +567,7 @@ impl Display for Singular {
         match self.at {
             Pivot::Coordinate(index) => write!(
                 f,
-                "the mass matrix cannot be inverted at coordinate number {} (what is left of its inertia: {:e})",
+                "the mass matrix cannot be inverted at coordinate number {} (the pivot is {:e} of its inertia)",
                 index + 1,
                 self.ratio
             ),
@@ -589,7 +589,10 @@ impl Display for Singular {
                     index + 1
                 )
             }
-            Pivot::NoRoom => write!(f, "the machine lends no room for the work on its contacts"),
+            Pivot::NoWorkspace => write!(
+                f,
+                "the machine gives no workspace for the work on its contacts"
+            ),
             Pivot::NotDifferentiated(index) => write!(
                 f,
                 "the accelerations are not differentiated, as contact number {} may stick or slide",

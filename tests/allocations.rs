@@ -39,7 +39,7 @@ fn a_whole_run_of_the_core_allocates_nothing() {
             .unwrap();
             while !stepper.is_done() {
                 stepper.step().unwrap();
-                let piece = stepper.piece().unwrap();
+                let piece = stepper.interpolant().unwrap();
                 assert!(piece.state_at(0.5).0[0].is_finite());
             }
             assert!(stepper.work().steps > 20);
@@ -82,7 +82,7 @@ fn inputs_and_a_balance_of_energy_allocate_nothing() {
         while !stepper.is_done() {
             stepper.step().unwrap();
         }
-        assert!(stepper.alongside().work() != 0.0);
+        assert!(stepper.quadratures().work() != 0.0);
     });
     assert_eq!(count, 0);
 }
@@ -143,9 +143,9 @@ fn constraints_are_kept_without_allocating() {
             .unwrap();
             while !stepper.is_done() {
                 stepper.step().unwrap();
-                let (mut q, mut v) = stepper.piece().unwrap().state_at(0.5);
+                let (mut q, mut v) = stepper.interpolant().unwrap().state_at(0.5);
                 let t = 0.5 * (stepper.t_before() + stepper.t());
-                stepper.bring(t, &mut q, &mut v).unwrap();
+                stepper.project(t, &mut q, &mut v).unwrap();
             }
             assert!(stepper.work().steps > 20);
         })

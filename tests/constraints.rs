@@ -28,12 +28,12 @@ lagrangian::machine! {
 fn a_described_machine_lends_its_own_room() {
     let machine = Bob::default();
     let system = machine.prepare();
-    let most = lagrangian::constraint_room(2, 1);
+    let most = lagrangian::constraint_workspace(2, 1);
     assert_eq!(
-        system.lend(most, |room| room.map(|room| room.len())),
+        system.with_workspace(most, |room| room.map(|room| room.len())),
         Some(most)
     );
-    assert!(system.lend(most + 1, |room| room.is_none()));
+    assert!(system.with_workspace(most + 1, |room| room.is_none()));
 
     let run = Simulation::new(&machine)
         .tolerance(1e-12)
@@ -581,7 +581,7 @@ fn between_the_steps_the_motion_is_on_the_constraints_too() {
     }
 }
 
-/// The steps of a pendulum's run through so many of its periods; what is left of the constraint is
+/// The steps of a pendulum's run through so many of its periods; the residual of the constraint is
 /// looked at after every one of them.
 fn periods(count: f64, method: &'static Method, tolerance: f64) -> (usize, f64) {
     let machine = circle::<1>();
@@ -648,7 +648,10 @@ fn a_machine_that_lends_no_room_is_told_so() {
         ..circle::<1>()
     };
     let refused = Simulation::new(&machine).until(1.0).run(machine.start());
-    assert_eq!(refused.err(), Some(Error::NoRoomForConstraints { t: 0.0 }));
+    assert_eq!(
+        refused.err(),
+        Some(Error::NoWorkspaceForConstraints { t: 0.0 })
+    );
 }
 
 #[test]

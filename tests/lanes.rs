@@ -2,9 +2,7 @@
 
 mod support;
 
-use lagrangian::{
-    Abreast, Lanes, Machine, Number, Several, Singular, SomeSingular, System, Vector,
-};
+use lagrangian::{Batch, Batched, Lanes, Machine, Number, Singular, SomeSingular, System, Vector};
 use support::sampling::{Random, Sample};
 use support::states::vector;
 
@@ -15,10 +13,10 @@ const HOSTILE: [f64; 6] = [f64::NAN, f64::INFINITY, -1e300, 1e22, 5e-324, -0.0];
 fn check<M: Machine, const N: usize>(name: &str, machines: [M; N], random: &mut Random<M>) -> usize
 where
     Lanes<N>: Number,
-    M::System: Abreast<N>,
+    M::System: Batched<N>,
 {
     let systems = machines.map(|machine| machine.prepare());
-    let several = Several::new(systems.each_ref());
+    let several = Batch::new(systems.each_ref());
     let u = several.default_inputs(&systems[0]);
     let (mut compared, mut stopped) = (0, 0);
     for round in 0..50 {
@@ -128,7 +126,7 @@ fn a_system_without_accelerations_is_undefined_in_its_lane_only() {
         ..Default::default()
     };
     let systems = [CartPole::default().prepare(), broken.prepare()];
-    let two = Several::new(systems.each_ref());
+    let two = Batch::new(systems.each_ref());
     let (q, v) = ([0.1, 0.2], [0.3, 0.4]);
     let mut a = [Lanes::splat(0.0); 2];
     let refused = two.accelerations(
@@ -157,7 +155,7 @@ fn a_system_without_accelerations_is_undefined_in_its_lane_only() {
 fn a_pose_without_accelerations_is_refused_though_nothing_is_divided_by_its_pivot() {
     use lagrangian_machines::Crusher9;
     let system = Crusher9::default().prepare();
-    let four = Several::of(&system);
+    let four = Batch::of(&system);
     let v = [0.1; 9];
     let poses: [[f64; 9]; 4] = std::array::from_fn(|lane| {
         let mut q = Crusher9::default().start().q.to_array();

@@ -4,7 +4,7 @@
 mod support;
 
 use lagrangian::scalar::{DoubleDouble, Kernel, Scalar};
-use lagrangian::{Abreast, Lanes, Machine, Number, Pivot, Several, Singular, System, Vector};
+use lagrangian::{Batch, Batched, Lanes, Machine, Number, Pivot, Singular, System, Vector};
 use lagrangian_spec::program::{Arguments, Interpreter, Program, Role};
 use support::library;
 use support::sampling::Random;
@@ -74,12 +74,12 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
 /// Alone and in lanes, with other parameters in every lane.
 fn agrees<M: Machine>(machine: impl Fn(f64) -> M, program: &Program)
 where
-    M::System: Abreast<4>,
+    M::System: Batched<4>,
 {
     let mut random = Random::new(&machine(1.0), 20_261_121);
     let machines: [M; 4] = std::array::from_fn(|lane| machine(1.0 + lane as f64 / 64.0));
     let systems = machines.each_ref().map(Machine::prepare);
-    let several = Several::new(systems.each_ref());
+    let several = Batch::new(systems.each_ref());
     let u = several.default_inputs(&systems[0]);
     for _ in 0..STATES {
         let states: [_; 4] = std::array::from_fn(|_| random.sample());
@@ -183,7 +183,7 @@ fn a_pivot_that_vanishes_is_the_error_of_its_coordinate() {
     );
 
     let systems = [whole, broken, whole, whole].map(|machine| machine.prepare());
-    let several = Several::new(systems.each_ref());
+    let several = Batch::new(systems.each_ref());
     let (q, v) = (state.q.as_slice(), state.v.as_slice());
     let lanes = |of: &[f64]| std::array::from_fn(|i| Lanes::splat(of[i]));
     let u = several.default_inputs(&systems[0]);

@@ -155,7 +155,7 @@ fn a_step_costs_the_evaluations_that_it_says() {
         let stages = method.tableau.stages;
         // The last evaluation of a step is the first of the next.
         assert_eq!(work.evaluations - before, work.steps * stages);
-        stepper.piece().unwrap();
+        stepper.interpolant().unwrap();
         let extra = method.tableau.a.len() - stages - 1;
         assert_eq!(stepper.work().evaluations, work.evaluations + extra);
     }
@@ -253,7 +253,7 @@ fn errors_of_equal_steps(method: &'static Method, h: f64) -> [f64; 2] {
     let mut within = 0.0_f64;
     while !stepper.is_done() {
         stepper.step().unwrap();
-        let piece = stepper.piece().unwrap();
+        let piece = stepper.interpolant().unwrap();
         for i in 1..10 {
             let theta = f64::from(i) / 10.0;
             let (q, v) = piece.state_at(theta);
@@ -358,7 +358,7 @@ fn failed_conditions(tableau: &Tableau, b: &[f64], order: u32, theta: f64) -> Ve
     .collect()
 }
 
-/// The weights `b(θ)` of dense output: the polynomial of `Piece`, term by term.
+/// The weights `b(θ)` of dense output: the polynomial of `Interpolant`, term by term.
 fn dense_weights(tableau: &Tableau, theta: f64) -> Vec<f64> {
     let eta = 1.0 - theta;
     let weight = |row: &[f64], j: usize| row.get(j).copied().unwrap_or(0.0);

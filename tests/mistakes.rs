@@ -629,11 +629,14 @@ fn contacts_without_room_are_told_so() {
         let mut a = [0.0; 2];
         let singular = tight.accelerations(0.0, &start.q, &start.v, &(), &mut a);
         let singular = singular.unwrap_err();
-        assert_eq!((singular.at, singular.ratio), (Pivot::NoRoom, 0.0));
+        assert_eq!((singular.at, singular.ratio), (Pivot::NoWorkspace, 0.0));
         assert!(singular.to_string().contains("lends no room"), "{singular}");
         let refused = Simulation::new(&tight).until(1.0).run(start);
         let error = refused.unwrap_err();
-        assert!(matches!(error, Error::NoRoomForContacts { .. }), "{error}");
+        assert!(
+            matches!(error, Error::NoWorkspaceForContacts { .. }),
+            "{error}"
+        );
         let text = error.to_string();
         assert!(
             text.contains("no room for the work on its contacts"),

@@ -260,7 +260,7 @@ fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
             force.set(u);
             stepper.inputs_changed();
             // The last step was made with what was before; who needs evaluations to look into it is told.
-            let piece = stepper.piece();
+            let piece = stepper.interpolant();
             match method.tableau.a.len() > method.tableau.stages + 1 {
                 true => assert!(matches!(piece, Err(StepError::Changed { .. }))),
                 false => assert!(piece.is_ok()),
@@ -280,7 +280,7 @@ fn an_input_that_is_changed_between_steps_is_seen_by_the_next() {
             }
         }
         // Work becomes kinetic energy.
-        let work = stepper.alongside().work();
+        let work = stepper.quadratures().work();
         assert!(
             (work - 0.5 * v * v).abs() <= 1e-11,
             "{}",

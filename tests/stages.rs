@@ -1,7 +1,7 @@
 //! Accelerations in stages, in emitted code and interpreted: those at once but for rounding.
 #![cfg(feature = "macros")]
 
-use lagrangian::{Lanes, Machine, Several, Staged, System, Vector};
+use lagrangian::{Batch, Lanes, Machine, Staged, System, Vector};
 
 mod support;
 
@@ -97,7 +97,7 @@ fn lanes_share_a_time() {
     let q = |s: f64| [0.01, -0.02, 0.03, s, 0.4, 0.5, 0.12, 1.3, -0.6];
     let v = |s: f64| [0.3, 0.1, -0.2, 10.0 * s, 2.0, -1.0, 0.4, 3.0, s];
     let at_time = crusher::at_time(&system, 0.37);
-    let several: Several<_, 4> = Several::of(&system);
+    let several: Batch<_, 4> = Batch::of(&system);
     let (many_q, many_v) = (lengths.map(q), lengths.map(v));
     let at = crusher::at_position(
         several.equations(),

@@ -256,7 +256,7 @@ pub struct Simulate {
     /// Write the motion to a table, `.csv` or `.parquet`.
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Draw the motion as SVG: coordinates, outputs, energies, and what is left over in their balance.
+    /// Draw the motion as SVG: coordinates, outputs, energies, and the residual of their balance.
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
     /// Write a page that shows the machine move, beside its curves, parameters and equations; one file, for any browser.

@@ -1,4 +1,4 @@
-//! A run as a drawing that a paper can print: coordinates, energies, and what is left over in the energy balance.
+//! A run as a drawing that a paper can print: coordinates, energies, and the residual of the energy balance.
 
 use plotters::prelude::*;
 use plotters::style::FontFamily;

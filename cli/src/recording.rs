@@ -9,7 +9,7 @@ pub enum Kind {
     Rate,
     /// An energy: kinetic, potential, their sum.
     Energy,
-    /// What is left over in the energy balance.
+    /// The residual of the energy balance.
     Residual,
     /// A quantity that the spec asks to observe.
     Output,

@@ -372,7 +372,7 @@ pub fn record(run: &Run) -> Recording {
     }
 }
 
-/// What is left over in the energy balance at a time: known at the ends of steps, interpolated between them.
+/// The residual of the energy balance at a time: known at the ends of steps, interpolated between them.
 fn residual_at(energies: &[Energies], t: f64) -> f64 {
     let Some(first) = energies.first() else {
         return 0.0;
@@ -495,14 +495,14 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, conta
             balance.work, balance.dissipated
         ));
         output::line(format_args!(
-            "    left over {:.3e}, {:.1e} of what was turned over",
+            "    residual {:.3e}, {:.1e} of what was turned over",
             balance.residual(),
             balance.relative()
         ));
     }
     if run.system().constraints().len() > 0 {
         output::line(format_args!(
-            "  constraints: left over {:.1e} of their terms",
+            "  constraints: residual {:.1e} of their terms",
             statistics.constraint_residual
         ));
     }

@@ -66,7 +66,7 @@ fn what_is_left_of_constraints_is_reported_and_multipliers_are_recorded() {
 
     let (status, out, _) = simulate(&spec, &[]);
     assert_eq!(status, 0);
-    assert!(out.contains("constraints: left over"), "{out}");
+    assert!(out.contains("constraints: residual"), "{out}");
 }
 
 #[test]

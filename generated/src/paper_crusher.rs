@@ -1209,15 +1209,15 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+impl<const N: usize> ::lagrangian::Batched<N> for Prepared
 where
     ::lagrangian::Lanes<N>: ::lagrangian::Number,
 {
-    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::Lanes<N>>;
     type Vectors = [::lagrangian::Lanes<N>; 9];
-    type SeveralInputs = Inputs;
+    type BatchInputs = Inputs;
 
-    fn abreast(systems: [&Self; N]) -> Self::Several {
+    fn batch(systems: [&Self; N]) -> Self::Batch {
         let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
@@ -1270,11 +1270,11 @@ where
         }
     }
 
-    fn inputs_abreast(_: [&Inputs; N]) -> Self::SeveralInputs {
+    fn batch_inputs(_: [&Inputs; N]) -> Self::BatchInputs {
         Inputs {}
     }
 
-    fn inputs_of_lane(_: &Self::SeveralInputs, _: usize) -> Inputs {
+    fn inputs_of_lane(_: &Self::BatchInputs, _: usize) -> Inputs {
         Inputs {}
     }
 
@@ -1282,12 +1282,12 @@ where
         self.singular.is_some()
     }
 
-    fn accelerations_abreast(
-        p: &Self::Several,
+    fn batch_accelerations(
+        p: &Self::Batch,
         t: ::lagrangian::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
-        _: &Self::SeveralInputs,
+        _: &Self::BatchInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
         <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
@@ -1342,7 +1342,7 @@ fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool 
     !pivot.exceeds(bound)
 }
 
-/// What is left of a pivot, for the message.
+/// The share of a pivot that is no rounding, for the message.
 #[cold]
 fn singular<S: ::lagrangian::Scalar>(
     coordinate: usize,

@@ -661,15 +661,15 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+impl<const N: usize> ::lagrangian::Batched<N> for Prepared
 where
     ::lagrangian::Lanes<N>: ::lagrangian::Number,
 {
-    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::Lanes<N>>;
     type Vectors = [::lagrangian::Lanes<N>; 8];
-    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
 
-    fn abreast(systems: [&Self; N]) -> Self::Several {
+    fn batch(systems: [&Self; N]) -> Self::Batch {
         let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
@@ -685,14 +685,14 @@ where
         }
     }
 
-    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
         let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
         Inputs {
             pull: lanes(|u| u.pull),
         }
     }
 
-    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
         Inputs {
             pull: inputs.pull[lane],
         }
@@ -702,12 +702,12 @@ where
         self.singular.is_some()
     }
 
-    fn accelerations_abreast(
-        p: &Self::Several,
+    fn batch_accelerations(
+        p: &Self::Batch,
         _: ::lagrangian::Lanes<N>,
         q: &Self::Vectors,
         _: &Self::Vectors,
-        u: &Self::SeveralInputs,
+        u: &Self::BatchInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
         <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
@@ -746,7 +746,7 @@ fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool 
     !pivot.exceeds(bound)
 }
 
-/// What is left of a pivot, for the message.
+/// The share of a pivot that is no rounding, for the message.
 #[cold]
 fn singular<S: ::lagrangian::Scalar>(
     coordinate: usize,

@@ -486,8 +486,8 @@ impl ::lagrangian::System for Prepared {
         Ok(())
     }
 
-    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::room(1, 0, 1)];
+    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        let mut room = [0.0; ::lagrangian::contact_workspace(1, 0, 1)];
         work(room.get_mut(..length))
     }
 }
@@ -519,7 +519,7 @@ fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool 
     !pivot.exceeds(bound)
 }
 
-/// What is left of a pivot, for the message.
+/// The share of a pivot that is no rounding, for the message.
 #[cold]
 fn singular<S: ::lagrangian::Scalar>(
     coordinate: usize,

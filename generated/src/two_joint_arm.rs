@@ -645,15 +645,15 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Abreast<N> for Prepared
+impl<const N: usize> ::lagrangian::Batched<N> for Prepared
 where
     ::lagrangian::Lanes<N>: ::lagrangian::Number,
 {
-    type Several = Prepared<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::Lanes<N>>;
     type Vectors = [::lagrangian::Lanes<N>; 2];
-    type SeveralInputs = Inputs<::lagrangian::Lanes<N>>;
+    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
 
-    fn abreast(systems: [&Self; N]) -> Self::Several {
+    fn batch(systems: [&Self; N]) -> Self::Batch {
         let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
         Prepared {
             l1: lanes(|p| p.l1),
@@ -674,7 +674,7 @@ where
         }
     }
 
-    fn inputs_abreast(inputs: [&Inputs; N]) -> Self::SeveralInputs {
+    fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
         let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
         Inputs {
             tau1: lanes(|u| u.tau1),
@@ -682,7 +682,7 @@ where
         }
     }
 
-    fn inputs_of_lane(inputs: &Self::SeveralInputs, lane: usize) -> Inputs {
+    fn inputs_of_lane(inputs: &Self::BatchInputs, lane: usize) -> Inputs {
         Inputs {
             tau1: inputs.tau1[lane],
             tau2: inputs.tau2[lane],
@@ -693,12 +693,12 @@ where
         false
     }
 
-    fn accelerations_abreast(
-        p: &Self::Several,
+    fn batch_accelerations(
+        p: &Self::Batch,
         _: ::lagrangian::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
-        u: &Self::SeveralInputs,
+        u: &Self::BatchInputs,
         result: &mut Self::Vectors,
     ) -> Result<(), ::lagrangian::Singular> {
         <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
@@ -737,7 +737,7 @@ fn check<N: ::lagrangian::Scalar>(
     }
 }
 
-/// What is left of a pivot, for the message.
+/// The share of a pivot that is no rounding, for the message.
 #[cold]
 fn singular<S: ::lagrangian::Scalar>(
     coordinate: usize,

@@ -174,7 +174,7 @@ fn agrees_in_f64<M: Machine + Default>(
                 let row = match emitted.at {
                     Pivot::Coordinate(coordinate) => coordinate,
                     Pivot::Constraint(constraint) => n + constraint,
-                    Pivot::Contact(_) => panic!("{}", place("nothing slides")),
+                    other => panic!("{}: {other:?}", place("nothing slides")),
                 };
                 assert_eq!(row, expected.coordinate, "{}", place("singular"));
                 assert_eq!(

@@ -91,7 +91,7 @@ pub struct Equations<'d> {
     pub sliding: Vec<SlidingEquation<'d>>,
     /// The same machine without the coordinates that constraints settle, if they settle any.
     pub reduction: Option<Box<Reduction<'d>>>,
-    /// What is left of the forces where accelerations are given, `f − M a`, eq. (E25); with
+    /// The residual of the equations of motion where accelerations are given, `f − M a`, eq. (E25); with
     /// constraints `f − M a + Gᵀ λ`, and behind it `γ − G a`. Empty where no derivative is asked
     /// for.
     pub unbalanced: Vec<Expr<'d>>,
@@ -291,7 +291,7 @@ impl<'d> Equations<'d> {
 
     /// The generalized friction on a coordinate where every contact slides along its direction and
     /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
-    /// constraints and other frictions press is not.
+    /// constraints and other friction forces press is not.
     pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
         let friction =
             |s: &SlidingEquation<'d>| -(s.friction * s.normal(model) * s.row[coordinate]);

@@ -179,7 +179,7 @@ pub struct Constraint {
 
 /// How the results of [`Role::Friction`] are arranged.
 ///
-/// Everything is linear in the frictions `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
+/// Everything is linear in the friction forces `F`: `x = x₀ + Σ Fₖ xₖ`. First comes what there is without
 /// friction, then what one unit of each does. A part holds the accelerations, the multipliers of
 /// constraints, and for each contact `dw/dt` and the normal reaction `N`; behind all parts stand `μ`
 /// of each contact and `μ₀` of each.
@@ -386,7 +386,7 @@ pub struct Singular {
     /// The index of the coordinate whose effective inertia vanishes; behind all coordinates that of
     /// a constraint which says nothing that those before it do not say.
     pub coordinate: usize,
-    /// What is left of its inertia, as a share of what it was: pivot over diagonal entry; not
+    /// The share of its inertia that remains: pivot over diagonal entry; not
     /// finite where either is not.
     pub ratio: f64,
 }

@@ -1,4 +1,4 @@
-//! Several numbers side by side, as they are kept in memory.
+//! Batch numbers side by side, as they are kept in memory.
 
 use core::ops::{Index, IndexMut};
 

@@ -275,7 +275,7 @@ impl Vector for f64 {
     }
 }
 
-/// Several numbers, one after another.
+/// Batch numbers, one after another.
 impl<const N: usize> Vector for [f64; N] {
     type Stored = Lanes<N>;
     type Mask = [bool; N];

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use crate::math::sqrt;
 use crate::stepper::{InputLaw, Stepper};
-use crate::{Alongside, Energies, System, Vector};
+use crate::{Energies, Quadratures, System, Vector};
 
 /// Errors of steps are estimates, energies are bent, and bounds are taken at the ends of steps: by so much they
 /// may be exceeded.
@@ -29,7 +29,7 @@ pub(crate) struct Explained {
 
 impl Explained {
     /// Takes the last step into account, with the energies at its end.
-    pub fn take<S: System, L: InputLaw<S>, A: Alongside<S>>(
+    pub fn take<S: System, L: InputLaw<S>, A: Quadratures<S>>(
         &mut self,
         system: &S,
         stepper: &Stepper<'_, S, L, A>,

@@ -1,8 +1,8 @@
 //! Which rows are kept: as many as are independent, and of these the ones that hold best at a pose.
 
 use super::algebra::{forward, length, remove};
-use super::room::{Room, in_room};
 use super::scale::Scales;
+use super::workspace::{Workspace, in_workspace};
 use crate::{StepError, System, Vector};
 
 /// Rows that are independent, those of positions first. There are no more than coordinates.
@@ -67,22 +67,22 @@ impl<V: Vector> Choice<V> {
         (scales, fixed): (&Scales<V>, Option<&V>),
     ) -> Result<Self, StepError> {
         let mut made = Self::none(q.zeros_like());
-        in_room(system, t, q.as_slice().len(), |room| {
-            system.constraint_matrix(t, q, room.matrix);
-            let n = room.n;
-            for (k, row) in room.matrix.chunks_exact(n.max(1)).enumerate() {
-                room.rates[k] = scales.strength(k, row, q);
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            system.constraint_matrix(t, q, workspace.matrix);
+            let n = workspace.n;
+            for (k, row) in workspace.matrix.chunks_exact(n.max(1)).enumerate() {
+                workspace.rates[k] = scales.strength(k, row, q);
             }
-            room.fix_rows(fixed);
-            room.factor(system, t, q, fixed)?;
-            for row in room.matrix.chunks_exact_mut(n.max(1)) {
-                forward(room.metric.as_slice(), row);
+            workspace.fix_rows(fixed);
+            workspace.factor(system, t, q, fixed)?;
+            for row in workspace.matrix.chunks_exact_mut(n.max(1)) {
+                forward(workspace.metric.as_slice(), row);
                 let length = length(row);
                 if length > 0.0 {
                     row.iter_mut().for_each(|x| *x /= length);
                 }
             }
-            let roundoff = room.roundoff();
+            let roundoff = workspace.roundoff();
             for (known, holonomic) in [(self.holonomic, true), (self.rank, false)] {
                 loop {
                     let least = match rank {
@@ -93,13 +93,14 @@ impl<V: Vector> Choice<V> {
                         Rank::Known => break,
                         Rank::Holding(_) => roundoff,
                     };
-                    let Some((k, held)) = made.best(system, room, holonomic, (least, self)) else {
+                    let Some((k, held)) = made.best(system, workspace, holonomic, (least, self))
+                    else {
                         break;
                     };
                     if matches!(rank, Rank::Holding(least) if held <= least) {
                         break;
                     }
-                    made.take(room, k, least);
+                    made.take(workspace, k, least);
                 }
                 if holonomic {
                     made.holonomic = made.rank;
@@ -114,17 +115,17 @@ impl<V: Vector> Choice<V> {
     fn best<S: System<Vector = V>>(
         &self,
         system: &S,
-        room: &Room<'_, S::Matrix>,
+        workspace: &Workspace<'_, S::Matrix>,
         holonomic: bool,
         (least, before): (f64, &Self),
     ) -> Option<(usize, f64)> {
-        if self.rank >= room.n.min(room.m) {
+        if self.rank >= workspace.n.min(workspace.m) {
             return None;
         }
         let held = |k: usize| {
-            let left = length(&room.matrix[k * room.n..][..room.n]);
+            let left = length(&workspace.matrix[k * workspace.n..][..workspace.n]);
             // The weaker a row, the more of its direction is rounding.
-            (left > least).then_some((k, left * room.rates[k]))
+            (left > least).then_some((k, left * workspace.rates[k]))
         };
         let rows = || {
             let rows = system.constraints().enumerate();
@@ -138,23 +139,25 @@ impl<V: Vector> Choice<V> {
 
     /// Adds a row to those chosen, if it is independent by more than `least`, and takes its direction
     /// out of the others.
-    fn take<M: Vector>(&mut self, room: &mut Room<'_, M>, k: usize, least: f64) {
-        let n = room.n;
-        room.column.copy_from_slice(&room.matrix[k * n..][..n]);
-        room.matrix[k * n..][..n].fill(0.0);
+    fn take<M: Vector>(&mut self, workspace: &mut Workspace<'_, M>, k: usize, least: f64) {
+        let n = workspace.n;
+        workspace
+            .column
+            .copy_from_slice(&workspace.matrix[k * n..][..n]);
+        workspace.matrix[k * n..][..n].fill(0.0);
         // Once more: a direction that little is left of has lost its right angles.
-        for known in room.basis[..self.rank * n].chunks_exact(n) {
-            remove(known, room.column);
+        for known in workspace.basis[..self.rank * n].chunks_exact(n) {
+            remove(known, workspace.column);
         }
-        let left = length(room.column);
+        let left = length(workspace.column);
         if left <= least {
             return;
         }
-        let new = &mut room.basis[self.rank * n..][..n];
-        for (new, x) in new.iter_mut().zip(&*room.column) {
+        let new = &mut workspace.basis[self.rank * n..][..n];
+        for (new, x) in new.iter_mut().zip(&*workspace.column) {
             *new = x / left;
         }
-        for row in room.matrix.chunks_exact_mut(n) {
+        for row in workspace.matrix.chunks_exact_mut(n) {
             remove(new, row);
         }
         self.rows.as_mut_slice()[self.rank] = k as f64;

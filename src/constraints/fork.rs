@@ -8,7 +8,7 @@
 //! taken away again by the next move onto the constraints, where `ε` is no longer small. So, while a motion
 //! passes such a pose,
 //!
-//! * its stages are brought onto the constraints before their accelerations are evaluated;
+//! * its stages are projected onto the constraints before their accelerations are evaluated;
 //! * accelerations within [`PASSED_OVER`] are those between two states on the same branch, one before
 //!   and one after, which are well held: an error of order `ε²`;
 //! * a state with `ε` below [`WEAK`] is not moved along what holds so little: it goes on as it came, which is
@@ -18,7 +18,7 @@
 
 use super::algebra::{backward, remove};
 use super::choice::Rank;
-use super::room::{Room, in_room};
+use super::workspace::{Workspace, in_workspace};
 use super::{Constraints, Level, Place};
 use crate::{Singular, StepError, System, Vector};
 
@@ -38,23 +38,23 @@ impl<V: Vector> Constraints<V> {
     /// How much of its greatest length the weakest of the chosen rows has left beside the others at a pose;
     /// 0 where it has nothing.
     pub fn hold<S: System<Vector = V>>(&self, system: &S, t: f64, q: &V) -> f64 {
-        let hold = in_room(system, t, q.as_slice().len(), |room| {
-            self.prepare(system, room, (t, q), Level::Rates)?;
-            Ok(self.held(room, q))
+        let hold = in_workspace(system, t, q.as_slice().len(), |workspace| {
+            self.prepare(system, workspace, (t, q), Level::Rates)?;
+            Ok(self.held(workspace, q))
         });
         hold.unwrap_or(0.0)
     }
 
     /// The same where rows have been factorized.
-    fn held<M: Vector>(&self, room: &Room<'_, M>, q: &V) -> f64 {
+    fn held<M: Vector>(&self, workspace: &Workspace<'_, M>, q: &V) -> f64 {
         let rank = self.choice.rank;
         let mut least: f64 = 1.0;
         for j in 0..rank {
-            let entries = (0..=j).map(|i| room.triangle[i * rank + j]);
+            let entries = (0..=j).map(|i| workspace.triangle[i * rank + j]);
             let whole = crate::math::sqrt(entries.map(|x| x * x).sum());
             let k = self.choice.row(j);
-            let row = &room.matrix[k * room.n..][..room.n];
-            let own = room.triangle[j * rank + j] / whole * self.scales.strength(k, row, q);
+            let row = &workspace.matrix[k * workspace.n..][..workspace.n];
+            let own = workspace.triangle[j * rank + j] / whole * self.scales.strength(k, row, q);
             least = least.min(own);
         }
         least
@@ -64,11 +64,11 @@ impl<V: Vector> Constraints<V> {
     pub(super) fn is_weak<M: Vector>(
         &self,
         prepared: &Result<(), StepError>,
-        room: &Room<'_, M>,
+        workspace: &Workspace<'_, M>,
         q: &V,
     ) -> bool {
         match prepared {
-            Ok(()) => self.held(room, q) < WEAK,
+            Ok(()) => self.held(workspace, q) < WEAK,
             Err(StepError::Singular { singular, .. }) => {
                 matches!(singular.at, crate::Pivot::Constraint(_))
             }
@@ -92,7 +92,7 @@ impl<V: Vector> Constraints<V> {
         self.at_fork = self.at_fork && self.hold(system, t, q) < IN_SIGHT;
     }
 
-    /// Accelerations of a state that is first brought onto the constraints: a stage is off them by what the
+    /// Accelerations of a state that is first projected onto the constraints: a stage is off them by what the
     /// method leaves of it, and that, too, would grow as `1/ε²`.
     pub(super) fn accelerations_at_fork<S: System<Vector = V>>(
         &self,
@@ -171,13 +171,13 @@ impl<V: Vector> Constraints<V> {
             q: [q, q_low],
             v: [v, v_low],
         };
-        in_room(system, t, place.q[0].as_slice().len(), |room| {
-            own.prepare(system, room, (t, place.q[0]), Level::Positions)?;
-            let [left, _] = own.left(system, room, place);
-            own.newton(system, room, place, Level::Positions, left)?;
-            own.prepare(system, room, (t, place.q[0]), Level::Rates)?;
-            let [_, left] = own.left(system, room, place);
-            own.newton(system, room, place, Level::Rates, left)
+        in_workspace(system, t, place.q[0].as_slice().len(), |workspace| {
+            own.prepare(system, workspace, (t, place.q[0]), Level::Positions)?;
+            let [left, _] = own.left(system, workspace, place);
+            own.newton(system, workspace, place, Level::Positions, left)?;
+            own.prepare(system, workspace, (t, place.q[0]), Level::Rates)?;
+            let [_, left] = own.left(system, workspace, place);
+            own.newton(system, workspace, place, Level::Rates, left)
         })
     }
 
@@ -192,15 +192,15 @@ impl<V: Vector> Constraints<V> {
         let choice = self
             .choice
             .made(system, (t, q), Rank::Known, (&self.scales, None))?;
-        in_room(system, t, q.as_slice().len(), |room| {
-            super::prepare(system, room, (t, q), (&choice, None))?;
-            let (n, l) = (room.n, room.metric.as_slice());
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            super::prepare(system, workspace, (t, q), (&choice, None))?;
+            let (n, l) = (workspace.n, workspace.metric.as_slice());
             let change = change.as_mut_slice();
             // z = Lᵀ x
             for i in 0..n {
                 change[i] = (i..n).map(|k| l[k * n + i] * change[k]).sum();
             }
-            for along in room.basis.chunks_exact(n).take(choice.rank) {
+            for along in workspace.basis.chunks_exact(n).take(choice.rank) {
                 remove(along, change);
             }
             backward(l, change);

@@ -1,7 +1,7 @@
 //! What a run tells of its constraints.
 
 use super::choice::Rank;
-use super::room::in_room;
+use super::workspace::in_workspace;
 use super::{Constraints, INDEPENDENT, Level};
 use crate::{Pivot, StepError, System, Vector};
 
@@ -18,10 +18,10 @@ impl<V: Vector> Constraints<V> {
 
         // What rounding leaves of 0 beside 1.
         const NOTHING: f64 = 1e-6;
-        in_room(system, t, q.as_slice().len(), |room| {
-            self.prepare(system, room, (t, q), Level::Rates)?;
-            room.combine(|j| self.choice.row(j), self.choice.rank);
-            let others = room.matrix.chunks_exact(room.n).enumerate();
+        in_workspace(system, t, q.as_slice().len(), |workspace| {
+            self.prepare(system, workspace, (t, q), Level::Rates)?;
+            workspace.combine(|j| self.choice.row(j), self.choice.rank);
+            let others = workspace.matrix.chunks_exact(workspace.n).enumerate();
             let others = others.filter(|(k, _)| !self.choice.has(*k));
             let others = others.map(|(k, x)| {
                 let on = (0..self.choice.rank).filter(|&j| x[j].abs() > NOTHING);
@@ -47,12 +47,12 @@ impl<V: Vector> Constraints<V> {
         self.choose(system, before.0, before.1, Rank::Revealed(INDEPENDENT))?;
         let mut held = before.1.zeros_like();
         let held = held.as_mut_slice();
-        in_room(system, before.0, before.1.as_slice().len(), |room| {
-            self.prepare(system, room, before, Level::Rates)?;
+        in_workspace(system, before.0, before.1.as_slice().len(), |workspace| {
+            self.prepare(system, workspace, before, Level::Rates)?;
             for (j, held) in held.iter_mut().take(self.choice.rank).enumerate() {
-                *held = room.triangle[j * self.choice.rank + j];
+                *held = workspace.triangle[j * self.choice.rank + j];
             }
-            let prepared = self.prepare(system, room, now, Level::Rates);
+            let prepared = self.prepare(system, workspace, now, Level::Rates);
             if let Err(StepError::Singular { singular, .. }) = prepared
                 && let Pivot::Constraint(k) = singular.at
             {
@@ -60,7 +60,7 @@ impl<V: Vector> Constraints<V> {
             }
             prepared?;
             let left = (0..self.choice.rank).map(|j| {
-                let left = room.triangle[j * self.choice.rank + j] / held[j];
+                let left = workspace.triangle[j * self.choice.rank + j] / held[j];
                 (self.choice.row(j), left)
             });
             Ok(left.min_by(|a, b| a.1.total_cmp(&b.1)))

@@ -203,14 +203,14 @@ impl<V: Vector> Scales<V> {
         }
     }
 
-    /// Whether a move is no more than what is left anyway, relative to the numbers that it moves.
+    /// Whether a move is no more than the residual anyway, relative to the numbers that it moves.
     pub fn is_roundoff(&self, level: usize, by: &[f64], y: &V) -> bool {
         let sizes = self.sizes[level].as_slice();
         let mut of = by.iter().zip(sizes).zip(y.as_slice());
         of.all(|((by, size), y)| by.abs() <= RESIDUAL * size.max(y.abs()))
     }
 
-    /// What rounding alone may change in what is left of positions and rates, relative to their scale.
+    /// What rounding alone may change in the residuals of positions and rates, relative to their scale.
     /// The rows that rates go through turn by as much as angles are rounded.
     pub fn roundoff(&self) -> [f64; 2] {
         let angles = self.angles.as_slice().iter().zip(self.sizes[0].as_slice());

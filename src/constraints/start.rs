@@ -1,7 +1,7 @@
-//! The start of a run is brought onto the constraints.
+//! The start of a run is projected onto the constraints.
 
 use super::choice::{Choice, Rank};
-use super::room::{Room, in_room};
+use super::workspace::{Workspace, in_workspace};
 use super::{Constraints, INDEPENDENT, Level, Place};
 use crate::{Singular, StepError, System, Vector};
 
@@ -136,9 +136,9 @@ impl<V: Vector> Constraints<V> {
             let by = (&self.scales, fixed);
             self.choice = known.made(system, (place.t, place.q[0]), rank, by)?;
             self.redundant = self.choice.rank < system.constraints().len();
-            let approached = in_room(system, place.t, n, |room| {
-                self.note_bends(system, room, (place.t, place.q[0]));
-                self.approach(system, room, place, levels)
+            let approached = in_workspace(system, place.t, n, |workspace| {
+                self.note_bends(system, workspace, (place.t, place.q[0]));
+                self.approach(system, workspace, place, levels)
             });
             match approached {
                 Ok(has_moved) => moved |= has_moved,
@@ -148,9 +148,9 @@ impl<V: Vector> Constraints<V> {
                 }
             }
         }
-        in_room(system, place.t, n, |room| {
-            self.left(system, room, place);
-            self.check(system, room, place)
+        in_workspace(system, place.t, n, |workspace| {
+            self.left(system, workspace, place);
+            self.check(system, workspace, place)
         })?;
         Ok(moved)
     }
@@ -160,18 +160,18 @@ impl<V: Vector> Constraints<V> {
     fn note_bends<S: System<Vector = V>>(
         &mut self,
         system: &S,
-        room: &mut Room<'_, S::Matrix>,
+        workspace: &mut Workspace<'_, S::Matrix>,
         (t, q): (f64, &V),
     ) {
         let mut s = q.zeros_like();
-        system.constraint_drift(t, q, &s, room.row);
+        system.constraint_drift(t, q, &s, workspace.row);
         for part in 0..DISPLACEMENTS {
             self.scales.displacement(part, &mut s);
-            system.constraint_drift(t, q, &s, room.positions);
+            system.constraint_drift(t, q, &s, workspace.positions);
             s.as_mut_slice().iter_mut().for_each(|s| *s = -*s);
-            system.constraint_drift(t, q, &s, room.rates);
-            for k in 0..room.m {
-                let even = 0.5 * (room.positions[k] + room.rates[k]) - room.row[k];
+            system.constraint_drift(t, q, &s, workspace.rates);
+            for k in 0..workspace.m {
+                let even = 0.5 * (workspace.positions[k] + workspace.rates[k]) - workspace.row[k];
                 self.scales.note_bend(k, 0.5 * even.abs());
             }
         }

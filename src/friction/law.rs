@@ -67,7 +67,7 @@ impl Layout {
     }
 }
 
-/// What follows from the frictions.
+/// What follows from the friction forces.
 pub(super) struct Parts<'p> {
     pub layout: Layout,
     pub values: &'p [f64],
@@ -79,11 +79,11 @@ impl Parts<'_> {
         self.values[part * self.layout.part() + i]
     }
 
-    /// Entry `i` with all frictions, and the size of its terms.
-    pub fn sum(&self, i: usize, frictions: &Each) -> [f64; 2] {
+    /// Entry `i` with all friction forces, and the size of its terms.
+    pub fn sum(&self, i: usize, friction_forces: &Each) -> [f64; 2] {
         let alone = self.at(0, i);
         let mut sum = [alone, alone.abs()];
-        for (k, friction) in frictions[..self.layout.k].iter().enumerate() {
+        for (k, friction) in friction_forces[..self.layout.k].iter().enumerate() {
             let term = self.at(1 + k, i) * friction;
             sum = [sum[0] + term, sum[1] + term.abs()];
         }
@@ -108,8 +108,8 @@ impl Parts<'_> {
         self.values[(1 + self.layout.k) * self.layout.part() + self.layout.k + contact]
     }
 
-    /// The frictions of contacts in given states; none where there is no such motion.
-    pub fn frictions(&self, mode: &Mode) -> Option<Each> {
+    /// The friction forces of contacts in given states; none where there is no such motion.
+    pub fn friction_forces(&self, mode: &Mode) -> Option<Each> {
         let count = self.layout.k;
         let mut rows = [[0.0; MOST_CONTACTS + 1]; MOST_CONTACTS];
         for (k, row) in rows[..count].iter_mut().enumerate() {
@@ -128,19 +128,20 @@ impl Parts<'_> {
         solve(&mut rows, count)
     }
 
-    /// Whether contacts in given states can have these frictions: what sticks no more than it can
+    /// Whether contacts in given states can have these friction forces: what sticks no more than it can
     /// hold, what slides on the side to which it is said to press. The state to which a contact turns
     /// where its reaction is zero is not asked for the side: rounding would decide.
-    fn admits(&self, mode: &Mode, frictions: &Each, turned: Option<Turned>) -> bool {
+    fn admits(&self, mode: &Mode, friction_forces: &Each, turned: Option<Turned>) -> bool {
         (0..self.layout.k).all(|k| {
             if turned == Some((k, mode.motion[k], mode.press[k])) {
                 return true;
             }
-            let [normal, terms] = self.sum(self.normal(k), frictions);
+            let [normal, terms] = self.sum(self.normal(k), friction_forces);
             match mode.motion[k] {
                 Motion::Sticks => {
                     let most = self.static_friction(k) * normal.abs();
-                    frictions[k].abs() <= most + ROUNDING * (most + self.static_friction(k) * terms)
+                    friction_forces[k].abs()
+                        <= most + ROUNDING * (most + self.static_friction(k) * terms)
                 }
                 Motion::Slides(_) => mode.press[k] * normal >= -ROUNDING * terms,
             }
@@ -148,8 +149,8 @@ impl Parts<'_> {
     }
 
     /// Whether what slides off from rest does so in its direction.
-    fn departs(&self, mode: &Mode, frictions: &Each, contact: usize) -> bool {
-        let [rate, terms] = self.sum(self.slip_rate(contact), frictions);
+    fn departs(&self, mode: &Mode, friction_forces: &Each, contact: usize) -> bool {
+        let [rate, terms] = self.sum(self.slip_rate(contact), friction_forces);
         match mode.motion[contact] {
             Motion::Sticks => true,
             Motion::Slides(sign) => sign * rate >= -ROUNDING * terms,
@@ -208,26 +209,26 @@ impl Question {
         let mut best: Option<(Mode, Each)> = None;
         let mut several = None;
         self.each(count, &mut |mode| {
-            let Some(frictions) = parts.frictions(&mode) else {
+            let Some(friction_forces) = parts.friction_forces(&mode) else {
                 return;
             };
             let departs =
-                |k: usize| self.motion[k].is_some() || parts.departs(&mode, &frictions, k);
-            if !parts.admits(&mode, &frictions, self.turned) || !(0..count).all(departs) {
+                |k: usize| self.motion[k].is_some() || parts.departs(&mode, &friction_forces, k);
+            if !parts.admits(&mode, &friction_forces, self.turned) || !(0..count).all(departs) {
                 return;
             }
             let Some((known, other)) = &best else {
-                best = Some((mode, frictions));
+                best = Some((mode, friction_forces));
                 return;
             };
             let more = sticking(&mode).cmp(&sticking(known));
-            if parts.same(&frictions, other) {
+            if parts.same(&friction_forces, other) {
                 if more.is_gt() {
-                    best = Some((mode, frictions));
+                    best = Some((mode, friction_forces));
                 }
             } else if holds_more && more.is_ne() {
                 if more.is_gt() {
-                    best = Some((mode, frictions));
+                    best = Some((mode, friction_forces));
                     several = None;
                 }
             } else {

@@ -493,7 +493,7 @@ fn padded(row: &[f64]) -> [f64; MAX_STAGES] {
     weights
 }
 
-/// The weights `b(θ)` of dense output: the polynomial of [`Piece`](crate::Piece), term by term.
+/// The weights `b(θ)` of dense output: the polynomial of [`Interpolant`](crate::Interpolant), term by term.
 fn dense_weights(tableau: &Tableau, theta: f64) -> [f64; MAX_STAGES] {
     let eta = 1.0 - theta;
     let weight = |row: &[f64], j: usize| row.get(j).copied().unwrap_or(0.0);

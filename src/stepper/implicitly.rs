@@ -1,13 +1,13 @@
 //! A step whose stages depend on each other.
 
 use super::{Stepper, not_finite};
-use crate::balance::Alongside;
+use crate::balance::Quadratures;
 use crate::compensated::two_sum;
 use crate::implicit::Task;
 use crate::stages::{advance_state, stage_state};
 use crate::{InputLaw, StepError, System};
 
-impl<S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'_, S, L, A> {
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just tolerable;
     /// infinite if its stages could not be found.
     pub(super) fn attempt_implicitly(
@@ -20,7 +20,7 @@ impl<S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'_, S, L, A> {
             method,
             tolerance,
             model,
-            alongside,
+            quadratures,
             before,
             now,
             k,
@@ -71,13 +71,13 @@ impl<S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'_, S, L, A> {
             return Ok(error);
         }
 
-        if alongside.integrals().is_some() {
+        if quadratures.integrals().is_some() {
             for i in 1..stages {
                 let c = method.tableau.c[i];
                 let t = before.t + (before.t_low + c * h);
                 stage_state((&rows[i], c, h), [&before.q, &before.v], k, [q, v]);
                 model.set_inputs(t, q, v);
-                model.take_rates(alongside, i, (t, q, v, &k[i]));
+                model.take_rates(quadratures, i, (t, q, v, &k[i]));
             }
         }
         // The last stage is the end. Its acceleration is the slope of the polynomial there: an
@@ -85,7 +85,7 @@ impl<S: System, L: InputLaw<S>, A: Alongside<S>> Stepper<'_, S, L, A> {
         let (known, end) = k.split_at_mut(stages);
         end[0].clone_from(&known[stages - 1]);
         model.set_inputs(now.t, &now.q, &now.v);
-        let moved = model.bring(now)?;
+        let moved = model.project(now)?;
         Ok(if moved {
             error.max(self.error_of_move())
         } else {

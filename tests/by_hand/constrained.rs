@@ -1,7 +1,7 @@
 //! Small machines with constraints, whose equations fit into a few lines.
 
 use lagrangian::{
-    Assumption, Constraint, Machine, Quantity, Singular, State, System, constraint_room,
+    Assumption, Constraint, Machine, Quantity, Singular, State, System, constraint_workspace,
 };
 
 /// A machine of `N` coordinates and `M` constraints, given by its functions. `p` is its one
@@ -242,8 +242,8 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
         Ok(())
     }
 
-    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        assert!(length <= constraint_room(N, M));
+    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+        assert!(length <= constraint_workspace(N, M));
         let mut room = [0.0; 512];
         work(self.lends.then(|| &mut room[..length]))
     }

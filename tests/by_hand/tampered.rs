@@ -185,7 +185,7 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
         has.then_some("pad").into_iter()
     }
 
-    fn lend<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
+    fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         let mut room = vec![0.0; length];
         match self.slip {
             Slip::Room(lent) => work(lent.map(|lent| &mut room[..lent])),

@@ -24,7 +24,7 @@ pub struct Landscape<'a, 'd> {
 /// What a guide is at one place, with every number of one kind.
 struct Local<N> {
     along: Vec<N>,
-    by_frictions: Vec<N>,
+    by_friction_forces: Vec<N>,
     friction: N,
     /// What the reaction consists of: columns of numbers, one after the other.
     parts: Vec<N>,
@@ -48,7 +48,7 @@ impl<'a, 'd> Landscape<'a, 'd> {
         let guides = form.guides.iter().map(|guide| {
             [guide.weights.as_slice(), &[guide.load]].map(|reaction| {
                 let mut list = guide.along.clone();
-                list.extend(&guide.by_frictions);
+                list.extend(&guide.by_friction_forces);
                 list.push(guide.friction);
                 list.extend(reaction);
                 evaluation(&list)
@@ -93,10 +93,10 @@ impl<'a, 'd> Landscape<'a, 'd> {
             let parts = values.split_off(n + count + 1);
             let friction = values[n + count];
             values.truncate(n + count);
-            let by_frictions = values.split_off(n);
+            let by_friction_forces = values.split_off(n);
             locals.push(Local {
                 along: values,
-                by_frictions,
+                by_friction_forces,
                 friction,
                 parts,
             });
@@ -106,13 +106,13 @@ impl<'a, 'd> Landscape<'a, 'd> {
     }
 }
 
-/// `(1 + κ μ) N = ν + ρ·a`, solved for N: by elimination, as frictions change reactions little.
+/// `(1 + κ μ) N = ν + ρ·a`, solved for N: by elimination, as friction forces change reactions little.
 fn eliminate<N: Scalar>(guides: &mut [Local<N>]) {
     let count = guides.len();
-    let frictions: Vec<N> = guides.iter().map(|guide| guide.friction).collect();
+    let friction_forces: Vec<N> = guides.iter().map(|guide| guide.friction).collect();
     let mut matrix: Vec<Vec<N>> = Vec::new();
     for (i, guide) in guides.iter().enumerate() {
-        let coupled = guide.by_frictions.iter().zip(&frictions);
+        let coupled = guide.by_friction_forces.iter().zip(&friction_forces);
         let mut row: Vec<N> = coupled.map(|(kappa, mu)| *kappa * *mu).collect();
         row[i] = row[i] + N::ONE;
         matrix.push(row);

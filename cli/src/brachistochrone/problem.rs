@@ -95,10 +95,10 @@ fn guides<'d>(
     };
     let scalars = list(&|guide| vec![guide.load, guide.friction]);
     let weights = list(&|guide| guide.weights.clone());
-    let by_frictions = list(&|guide| guide.by_frictions.clone());
+    let by_friction_forces = list(&|guide| guide.by_friction_forces.clone());
     let along = list(&|guide| guide.along.clone());
     let coupling = DMatrix::from_fn(count, count, |i, j| {
-        f64::from(u8::from(i == j)) + by_frictions[i][j] * scalars[j][1]
+        f64::from(u8::from(i == j)) + by_friction_forces[i][j] * scalars[j][1]
     });
     let loads = DMatrix::from_fn(count, n + 1, |i, j| match j {
         0 => scalars[i][0],

@@ -356,11 +356,11 @@ fn energy(report: &Report<'_, '_>) -> String {
             joules(balance.end),
         ),
         row(
-            "left over: what is wrong with the run",
+            "residual: what is wrong with the run",
             joules(balance.residual()),
         ),
         row(
-            "left over, as a part of the energy turned over",
+            "residual, as a part of the energy turned over",
             Cell::Figure(share),
         ),
     ];

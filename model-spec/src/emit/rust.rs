@@ -220,7 +220,7 @@ impl<'a> Emitter<'a> {
         self.impl_linearize();
         self.impl_staged();
         if self.program.contacts.is_empty() {
-            self.impl_abreast();
+            self.impl_batched();
         }
         self.helpers();
         self.writer.finish()

@@ -41,7 +41,7 @@ pub struct Guided<'d> {
     /// `ρ`.
     pub weights: Vec<Expr<'d>>,
     /// `κ`, by the guides in their order.
-    pub by_frictions: Vec<Expr<'d>>,
+    pub by_friction_forces: Vec<Expr<'d>>,
     /// `μ`.
     pub friction: Expr<'d>,
 }
@@ -169,7 +169,7 @@ fn guided<'d>(
     };
     let along = each(&sliding.row, "the direction");
     let weights = each(&sliding.by_accelerations, "the reaction to accelerations");
-    let by_frictions = each(&sliding.by_frictions, "the reaction to friction");
+    let by_friction_forces = each(&sliding.by_friction_forces, "the reaction to friction");
     let load = of(sliding.load, "the reaction at rest", of_motion);
     let friction = of(sliding.friction, "the coefficient of friction", of_place);
     // What it slides on may be driven.
@@ -186,7 +186,7 @@ fn guided<'d>(
         along,
         load,
         weights,
-        by_frictions,
+        by_friction_forces,
         friction,
     }
 }

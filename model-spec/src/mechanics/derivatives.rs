@@ -19,7 +19,7 @@ use super::refusal;
 use super::symmetric::Symmetric;
 use crate::model::{Model, Variable};
 
-/// What is left of the equations of a machine with constraints: `f − M a + Gᵀ λ`, and behind it
+/// The residual of the equations of a machine with constraints: `f − M a + Gᵀ λ`, and behind it
 /// `γ − G a`.
 pub(super) fn constrained<'d>(
     model: &Model<'d>,

@@ -68,8 +68,8 @@ pub struct OracleSliding<'d> {
     pub unbalanced: Expr<'d>,
     /// What the multipliers of the constraints do along that displacement,
     pub by_multipliers: Vec<Expr<'d>>,
-    /// what the frictions of the contacts do,
-    pub by_frictions: Vec<Expr<'d>>,
+    /// what the friction forces of the contacts do,
+    pub by_friction_forces: Vec<Expr<'d>>,
     /// and what the normal reactions do.
     pub by_normals: Vec<Expr<'d>>,
     /// `μ` and `μ₀`.
@@ -178,7 +178,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
                 .iter()
                 .map(|c| along(&|i| c.row[i]))
                 .collect(),
-            by_frictions: rates
+            by_friction_forces: rates
                 .iter()
                 .map(|[w, _]| along(&|i| w.diff(x.v[i])))
                 .collect(),

@@ -51,7 +51,7 @@ pub struct SlidingEquation<'d> {
     /// `χ(q, t)`, by the multipliers of the constraints.
     pub by_multipliers: Vec<Expr<'d>>,
     /// `κ(q, t)`, by the friction of each contact.
-    pub by_frictions: Vec<Expr<'d>>,
+    pub by_friction_forces: Vec<Expr<'d>>,
     /// `μ`.
     pub friction: Expr<'d>,
     /// `μ₀`, of what sticks.
@@ -182,7 +182,7 @@ pub(super) fn sliding<'d>(
             load: normal.load,
             by_accelerations: normal.by_accelerations,
             by_multipliers: normal.by_multipliers,
-            by_frictions: normal.by_frictions,
+            by_friction_forces: normal.by_friction_forces,
             friction: sliding.friction,
             static_friction: sliding.static_friction.unwrap_or(sliding.friction),
         });
@@ -297,7 +297,7 @@ struct Normal<'d> {
     load: Expr<'d>,
     by_accelerations: Vec<Expr<'d>>,
     by_multipliers: Vec<Expr<'d>>,
-    by_frictions: Vec<Expr<'d>>,
+    by_friction_forces: Vec<Expr<'d>>,
 }
 
 impl<'d> Normal<'d> {
@@ -306,7 +306,7 @@ impl<'d> Normal<'d> {
             .by_accelerations
             .iter_mut()
             .chain(&mut self.by_multipliers)
-            .chain(&mut self.by_frictions);
+            .chain(&mut self.by_friction_forces);
         std::iter::once(&mut self.load).chain(lists)
     }
 }
@@ -354,7 +354,7 @@ impl<'d> Reactions<'d> {
                     .iter()
                     .map(|c| along(k, &|i| -c.row[i]))
                     .collect(),
-                by_frictions: moved
+                by_friction_forces: moved
                     .iter()
                     .map(|[slip, _]| along(k, &|i| -slip[i]))
                     .collect(),

@@ -450,7 +450,7 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// With any frictions the accelerations, multipliers and normal reactions obey the equations of
+    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
     /// motion, of the constraints, and of the displacements that would open the guides.
     fn check_friction(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
         let (n, point) = (oracle.residual.len(), self.number);
@@ -461,12 +461,12 @@ impl<'a, 'd> Point<'a, 'd> {
         };
         let (m, count, part) = (layout.constraints, layout.contacts, layout.part());
         let responses = self.call(Role::Friction, layout.len())?;
-        let frictions: Vec<Residue> = (0..count as u64)
+        let friction_forces: Vec<Residue> = (0..count as u64)
             .map(|k| Residue::random(self.number, 1_000_000 + k))
             .collect();
         let values: Vec<Residue> = (0..part)
             .map(|i| {
-                let own = frictions.iter().enumerate();
+                let own = friction_forces.iter().enumerate();
                 own.fold(responses[i], |sum, (k, f)| {
                     sum + *f * responses[(k + 1) * part + i]
                 })
@@ -488,7 +488,7 @@ impl<'a, 'd> Point<'a, 'd> {
         if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
             return Err(Disagreement::Constraint { constraint, point }.into());
         }
-        for (contact, friction) in oracle.sliding.iter().zip(&frictions) {
+        for (contact, friction) in oracle.sliding.iter().zip(&friction_forces) {
             let row = self.evaluate(&contact.row, a)?;
             for (left, tau) in left.iter_mut().zip(row) {
                 *left = *left - tau * *friction;
@@ -508,7 +508,11 @@ impl<'a, 'd> Point<'a, 'd> {
             }
             let terms = [
                 (&contact.by_multipliers, multipliers, -Residue::ONE),
-                (&contact.by_frictions, &frictions[..], -Residue::ONE),
+                (
+                    &contact.by_friction_forces,
+                    &friction_forces[..],
+                    -Residue::ONE,
+                ),
                 (&contact.by_normals, normals, -Residue::ONE),
             ];
             let mut open = known[1];

@@ -6,7 +6,7 @@
 //!
 //! * energies, `M`, `h`, `Q`, `f`, the power of drives and dampers, outputs, facts and the start;
 //! * residual, rate, row and drift of each constraint, slip, row and drift of each guide;
-//! * accelerations, multipliers, and what frictions bring about, by putting them into `M a = f + Gᵀλ
+//! * accelerations, multipliers, and what friction forces bring about, by putting them into `M a = f + Gᵀλ
 //!   + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open the guides;
 //! * derivatives, by running the accelerations over dual numbers;
 //! * accelerations in stages, and the pivots that are guarded.
@@ -1023,7 +1023,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         Ok(())
     }
 
-    /// With any frictions the accelerations, multipliers and normal reactions obey the equations of
+    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
     /// motion, of the constraints, and of the displacements that would open the guides.
     fn check_friction(
         &mut self,
@@ -1039,11 +1039,11 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             contacts: count,
         };
         let responses = self.call(Role::Friction, at, layout.len())?;
-        let frictions = self.many(2, count);
+        let friction_forces = self.many(2, count);
         let part = layout.part();
         let values: Vec<R> = (0..part)
             .map(|i| {
-                let own = frictions.iter().enumerate();
+                let own = friction_forces.iter().enumerate();
                 own.fold(responses[i], |sum, (k, &f)| {
                     sum + f * responses[(k + 1) * part + i]
                 })
@@ -1055,7 +1055,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         let rows = self.call(Role::SlipMatrix, at, count * n)?;
         let drifts = self.call(Role::SlipDrift, at, count)?;
         let mut forces = computed.forces.clone();
-        for (row, &friction) in rows.chunks(n).zip(&frictions) {
+        for (row, &friction) in rows.chunks(n).zip(&friction_forces) {
             for (force, &tau) in forces.iter_mut().zip(row) {
                 *force = *force + tau * friction;
             }
@@ -1080,7 +1080,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         }
         let pressed = Pressed {
             multipliers,
-            frictions: &frictions,
+            friction_forces: &friction_forces,
             normals,
             signs,
         };
@@ -1143,7 +1143,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
                     open = open.plus(-(constraint.along * multiplier));
                 }
                 for (j, contact) in literal.sliding.iter().enumerate() {
-                    let friction = pressed.signs[j] * pressed.frictions[j];
+                    let friction = pressed.signs[j] * pressed.friction_forces[j];
                     open = open.plus(-(contact.slip_along * friction));
                     open = open.plus(-(sides[j] * contact.off_along * normal(j)));
                 }
@@ -1350,7 +1350,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
 /// What acts in the guides.
 struct Pressed<'a, R> {
     multipliers: &'a [R],
-    frictions: &'a [R],
+    friction_forces: &'a [R],
     normals: &'a [R],
     /// Whether the program counts slips as the spec does.
     signs: &'a [R],

@@ -130,8 +130,12 @@ fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
                 ("face", face.normal(model), normal),
                 ("slot", slot.normal(model), -(normal * sin)),
                 // Friction on the face, along (−cos α, sin α), lifts too: N_face cos α = … + F sin α.
-                ("face by face", face.by_frictions[0], sin / cos),
-                ("face by slot", face.by_frictions[1], model.dag.one() / cos),
+                ("face by face", face.by_friction_forces[0], sin / cos),
+                (
+                    "face by slot",
+                    face.by_friction_forces[1],
+                    model.dag.one() / cos,
+                ),
             ],
         );
     });

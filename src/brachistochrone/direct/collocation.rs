@@ -381,7 +381,7 @@ impl Path {
         scales
     }
 
-    /// What is left of the conditions, relative to the scales.
+    /// The residuals of the conditions, relative to the scales.
     fn rest(&self, system: &impl Pontryagin, from: &[f64], to: &[f64], scales: &[f64]) -> f64 {
         let (m, n) = (system.states(), from.len());
         let rule = Rule::new();

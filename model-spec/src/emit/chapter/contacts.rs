@@ -72,9 +72,9 @@ impl<'d> Chapter<'_, 'd> {
             }
         }
         let mut blocks = vec![heading, Block::Formula(rows)];
-        if contact.by_frictions.iter().any(|by| !by.is_zero()) {
+        if contact.by_friction_forces.iter().any(|by| !by.is_zero()) {
             blocks.push(Block::Paragraph(words![
-                "The frictions of other contacts press on this guide as well; that is left out of ",
+                "The friction forces of other contacts press on this guide as well; that is left out of ",
                 letter('N'),
                 " here.",
             ]));

@@ -105,7 +105,7 @@ impl Emitter<'_> {
     }
 
     /// Room for the work on constraints and contacts: an array, where that is no burden to a stack.
-    pub(super) fn lend(&mut self) {
+    pub(super) fn workspace(&mut self) {
         let (n, m, contacts) = (
             self.program.coordinates.len(),
             self.program.constraints.len(),
@@ -124,13 +124,13 @@ impl Emitter<'_> {
             ["Option", "FnOnce", "f64", "usize"].map(|name| self.types.known(name));
         let runtime = &self.options.runtime;
         let length = match contacts {
-            0 => format!("{runtime}::constraint_room({n}, {m})"),
-            _ => format!("{runtime}::room({n}, {m}, {contacts})"),
+            0 => format!("{runtime}::constraint_workspace({n}, {m})"),
+            _ => format!("{runtime}::contact_workspace({n}, {m}, {contacts})"),
         };
         let room = format!("let mut room = [0.0; {length}];");
         self.writer.gap();
         self.writer.signature(
-            "fn lend<R>",
+            "fn with_workspace<R>",
             &[
                 "&self".to_owned(),
                 format!("length: {usize}"),
@@ -144,7 +144,7 @@ impl Emitter<'_> {
     }
 
     /// A small function that the methods about constraints and contacts call.
-    pub(super) fn helper_of_room(&mut self) {
+    pub(super) fn helper_of_filling(&mut self) {
         if self.program.constraints.is_empty() && self.program.contacts.is_empty() {
             return;
         }

@@ -1,4 +1,4 @@
-//! Several systems at once: what the runtime's `Several` asks of emitted code.
+//! Several systems at once: what the runtime's `Batch` asks of emitted code.
 
 use super::Emitter;
 use super::types::Types;
@@ -6,8 +6,8 @@ use crate::emit::layout::{self, Layout};
 use crate::program::Role;
 
 impl Emitter<'_> {
-    /// `Abreast`: fields put side by side, and the function that runs them.
-    pub(super) fn impl_abreast(&mut self) {
+    /// `Batched`: fields put side by side, and the function that runs them.
+    pub(super) fn impl_batched(&mut self) {
         let runtime = self.options.runtime.clone();
         let Types {
             prepared,
@@ -19,24 +19,24 @@ impl Emitter<'_> {
             ["f64", "usize", "bool", "Result"].map(|name| self.types.known(name));
         let number = format!("{runtime}::Lanes<{lanes}>");
         let has_inputs = !self.inputs.is_empty();
-        let several_inputs = match has_inputs {
+        let batch_inputs = match has_inputs {
             true => format!("{inputs}<{number}>"),
             false => inputs.clone(),
         };
         let n = self.program.dimension();
         self.writer.gap();
         self.writer.line(format!(
-            "impl<const {lanes}: {usize}> {runtime}::Abreast<{lanes}> for {prepared}"
+            "impl<const {lanes}: {usize}> {runtime}::Batched<{lanes}> for {prepared}"
         ));
         self.writer.line("where");
         self.writer
             .line(format!("    {number}: {runtime}::Number,"));
         self.writer.open("{");
         self.writer
-            .line(format!("type Several = {prepared}<{number}>;"));
+            .line(format!("type Batch = {prepared}<{number}>;"));
         self.writer.line(format!("type Vectors = [{number}; {n}];"));
         self.writer
-            .line(format!("type SeveralInputs = {several_inputs};"));
+            .line(format!("type BatchInputs = {batch_inputs};"));
 
         // A number of every system as lanes.
         let gather = format!("let lanes = |number: fn(&Self) -> {f64}|");
@@ -44,9 +44,9 @@ impl Emitter<'_> {
         let is_empty = self.prepared.is_empty();
         let argument = if is_empty { "_" } else { "systems" };
         self.writer.signature(
-            "fn abreast",
+            "fn batch",
             &[format!("{argument}: [&Self; {lanes}]")],
-            Some("Self::Several"),
+            Some("Self::Batch"),
         );
         if !is_empty {
             self.writer
@@ -64,9 +64,9 @@ impl Emitter<'_> {
         self.writer.gap();
         let argument = if has_inputs { "inputs" } else { "_" };
         self.writer.signature(
-            "fn inputs_abreast",
+            "fn batch_inputs",
             &[format!("{argument}: [&{inputs}; {lanes}]")],
-            Some("Self::SeveralInputs"),
+            Some("Self::BatchInputs"),
         );
         let value = match has_inputs {
             true => {
@@ -90,7 +90,7 @@ impl Emitter<'_> {
         self.writer.signature(
             "fn inputs_of_lane",
             &[
-                format!("{several}: &Self::SeveralInputs"),
+                format!("{several}: &Self::BatchInputs"),
                 format!("{lane}: {usize}"),
             ],
             Some(&inputs),
@@ -115,11 +115,11 @@ impl Emitter<'_> {
         });
         self.writer.close("}");
 
-        self.accelerations_abreast(&number, &format!("{result}<(), {runtime}::Singular>"));
+        self.batch_accelerations(&number, &format!("{result}<(), {runtime}::Singular>"));
         self.writer.close("}");
     }
 
-    fn accelerations_abreast(&mut self, number: &str, result: &str) {
+    fn batch_accelerations(&mut self, number: &str, result: &str) {
         let n = self.program.dimension();
         let call = self.accelerations_in_place(number, "p");
         let used = match self.emitted(Role::Accelerations) {
@@ -127,11 +127,11 @@ impl Emitter<'_> {
             None => Vec::new(),
         };
         let arguments = [
-            ("p", "&Self::Several"),
+            ("p", "&Self::Batch"),
             ("t", number),
             ("q", "&Self::Vectors"),
             ("v", "&Self::Vectors"),
-            ("u", "&Self::SeveralInputs"),
+            ("u", "&Self::BatchInputs"),
         ]
         .map(|(name, kind)| {
             let is_used = used.iter().any(|(used, _)| *used == name);
@@ -143,7 +143,7 @@ impl Emitter<'_> {
         .collect::<Vec<_>>();
         self.writer.gap();
         self.writer
-            .signature("fn accelerations_abreast", &arguments, Some(result));
+            .signature("fn batch_accelerations", &arguments, Some(result));
         match call {
             Some(call) => call.into_iter().for_each(|line| self.writer.line(line)),
             None => {

@@ -190,7 +190,7 @@ impl Emitter<'_> {
         self.constraints();
         self.contacts();
         self.kept_at_start();
-        self.lend();
+        self.workspace();
         self.writer.close("}");
     }
 
@@ -404,7 +404,7 @@ impl Emitter<'_> {
             self.writer.close("}");
         }
         self.helpers_of_constraints();
-        self.helper_of_room();
+        self.helper_of_filling();
         self.helpers_of_guards();
     }
 
@@ -492,7 +492,7 @@ impl Emitter<'_> {
         let usize = self.types.known("usize");
         self.writer.gap();
         self.writer
-            .line("/// What is left of a pivot, for the message.");
+            .line("/// The share of a pivot that is no rounding, for the message.");
         self.writer.line("#[cold]");
         self.writer.signature(
             &format!("fn singular<{scalar}: {runtime}::Scalar>"),

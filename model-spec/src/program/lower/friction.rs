@@ -1,4 +1,4 @@
-//! What the frictions of the contacts bring about, eqs. (E32)–(E34): `M a = f + Gᵀλ + Σ τᵀF`.
+//! What the friction forces of the contacts bring about, eqs. (E32)–(E34): `M a = f + Gᵀλ + Σ τᵀF`.
 //!
 //! How large they are is not decided here, for it depends on what sticks and what slides. But
 //! everything is linear in them. So the elimination of `M` takes one column more for each contact,
@@ -66,7 +66,7 @@ struct Contact {
     load: Scaled,
     by_accelerations: Vec<Scaled>,
     by_multipliers: Vec<Scaled>,
-    by_frictions: Vec<Scaled>,
+    by_friction_forces: Vec<Scaled>,
     friction: Scaled,
     static_friction: Scaled,
 }
@@ -86,7 +86,7 @@ impl Contact {
             row: many(&sliding.row),
             by_accelerations: many(&sliding.by_accelerations),
             by_multipliers: many(&sliding.by_multipliers),
-            by_frictions: many(&sliding.by_frictions),
+            by_friction_forces: many(&sliding.by_friction_forces),
         }
     }
 }
@@ -138,7 +138,7 @@ fn results(
             .map(|contact| {
                 let start = match part.checked_sub(1) {
                     None => contact.load,
-                    Some(k) => contact.by_frictions[k],
+                    Some(k) => contact.by_friction_forces[k],
                 };
                 let by = [
                     (

@@ -20,7 +20,7 @@ const MAX_COEFFICIENTS: usize = 8;
 /// kⱼ` belong to the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
 /// Equations I*, 2nd ed., 1993, section II.6.
 #[derive(Clone, Debug)]
-pub struct Piece<V> {
+pub struct Interpolant<V> {
     start: Sum,
     h: f64,
     length: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Ends<'a, V> {
     pub v: [&'a V; 2],
 }
 
-impl<V: Vector> Piece<V> {
+impl<V: Vector> Interpolant<V> {
     /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v,
     /// a)` is called for the stages beyond the step that they need, whose accelerations go into
     /// `k`.
@@ -55,7 +55,7 @@ impl<V: Vector> Piece<V> {
         } = ends;
         let n = q0.as_slice().len();
         let zeros = q0.zeros_like();
-        let mut piece = Self {
+        let mut interpolant = Self {
             start,
             h,
             length: 4 + scheme.dense_length,
@@ -66,7 +66,7 @@ impl<V: Vector> Piece<V> {
         for stage in tableau.stages + 1..scheme.length {
             let c = tableau.c[stage];
             // Coefficients not yet set lend their room.
-            let (q, v) = (&mut piece.q[0], &mut piece.v[0]);
+            let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
             stage_state((&scheme.rows[stage], c, h), [q0, v0], k, [q, v]);
             accelerations(start.high + (start.low + c * h), q, v, &mut k[stage])?;
         }
@@ -77,16 +77,16 @@ impl<V: Vector> Piece<V> {
             let q = cubic([at(q0), at(q1)], [h * at(v0), h * at(v1)]);
             let v = cubic([at(v0), at(v1)], [h * at(a0), h * at(a1)]);
             for power in 0..4 {
-                piece.q[power].as_mut_slice()[i] = q[power];
-                piece.v[power].as_mut_slice()[i] = v[power];
+                interpolant.q[power].as_mut_slice()[i] = q[power];
+                interpolant.v[power].as_mut_slice()[i] = v[power];
             }
             for (row, power) in scheme.dense[..scheme.dense_length].iter().zip(4..) {
                 let [[position], [velocity]] = weigh::<1, V>(row, k, i);
-                piece.q[power].as_mut_slice()[i] = h * h * position;
-                piece.v[power].as_mut_slice()[i] = h * velocity;
+                interpolant.q[power].as_mut_slice()[i] = h * h * position;
+                interpolant.v[power].as_mut_slice()[i] = h * velocity;
             }
         }
-        Ok(piece)
+        Ok(interpolant)
     }
 
     /// Coordinates and rates at time `t`, which should be in the step.
@@ -137,7 +137,7 @@ fn evaluate<V: Vector>(coefficients: &[V], theta: f64) -> V {
 /// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the
 /// quintic through positions, velocities and accelerations. Costs no evaluation and is of order 5;
 /// good enough to look for events with.
-pub(crate) fn glance<V: Vector>(
+pub(crate) fn hermite<V: Vector>(
     h: f64,
     [q0, q1]: [&V; 2],
     [v0, v1]: [&V; 2],

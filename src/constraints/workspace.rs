@@ -1,12 +1,12 @@
-//! The room for the work on constraints, and what is made in it of one state: the metric, and the
+//! The workspace for the work on constraints, and what is made in it of one state: the metric, and the
 //! multipliers of least norm.
 
 use super::algebra::{backward, cholesky, dot, forward, length, solve_triangle};
-use super::constraint_room;
+use super::constraint_workspace;
 use crate::{StepError, System, Vector};
 
-/// The room for the work, in parts.
-pub(super) struct Room<'r, M> {
+/// The workspace, in parts.
+pub(super) struct Workspace<'r, M> {
     pub n: usize,
     pub m: usize,
     /// `L`, lower triangle, row after row.
@@ -27,7 +27,7 @@ pub(super) struct Room<'r, M> {
     pub lengths: &'r mut [f64],
 }
 
-impl<M: Vector> Room<'_, M> {
+impl<M: Vector> Workspace<'_, M> {
     /// Makes `L` at a state; the matrix of the constraints is there already, with zeros in the columns
     /// of coordinates that are fixed.
     pub fn factor<S: System<Matrix = M>>(
@@ -186,25 +186,25 @@ impl<M: Vector> Room<'_, M> {
     }
 }
 
-/// Lends the room for the work on constraints, in parts.
-pub(super) fn in_room<S: System, R>(
+/// Hands out the workspace of the constraints, in parts.
+pub(super) fn in_workspace<S: System, R>(
     system: &S,
     t: f64,
     coordinates: usize,
-    work: impl FnOnce(&mut Room<'_, S::Matrix>) -> Result<R, StepError>,
+    work: impl FnOnce(&mut Workspace<'_, S::Matrix>) -> Result<R, StepError>,
 ) -> Result<R, StepError> {
     let (n, m) = (coordinates, system.constraints().len());
     let rank = m.min(n);
-    system.lend(constraint_room(n, m), |room| {
-        let mut rest = room.ok_or(StepError::NoRoom { t })?;
+    system.with_workspace(constraint_workspace(n, m), |workspace| {
+        let mut rest = workspace.ok_or(StepError::NoWorkspace { t })?;
         let mut part = |length: usize| {
             let (part, left) = core::mem::take(&mut rest)
                 .split_at_mut_checked(length)
-                .ok_or(StepError::NoRoom { t })?;
+                .ok_or(StepError::NoWorkspace { t })?;
             rest = left;
             Ok(part)
         };
-        work(&mut Room {
+        work(&mut Workspace {
             n,
             m,
             metric: S::Matrix::zeros(n * n),
