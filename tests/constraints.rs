@@ -477,7 +477,7 @@ fn what_a_description_keeps_of_its_start_stays() {
 
     // What goes on from an event is no start: whatever an impact makes of it is brought onto the
     // constraints by the least move.
-    let mut after = run.end().clone();
+    let mut after = *run.end();
     (after.v.x, after.v.y) = (1.0, 1.0);
     let (x, y) = (after.q.x, after.q.y);
     let along = x - y;
