@@ -663,7 +663,12 @@ impl Language for Emitter<'_> {
 
 /// True where a pivot vanishes, or is no number.
 fn condition(guard: &Guard, pivot: &str, scale: &str) -> String {
-    format!("!({pivot} > {scale} * {})", number(guard.tolerance).text)
+    let tolerance = number(guard.tolerance).text;
+    // A scale may be a sum, and all of it is meant.
+    match scale.contains(' ') {
+        true => format!("!({pivot} > ({scale}) * {tolerance})"),
+        false => format!("!({pivot} > {scale} * {tolerance})"),
+    }
 }
 
 fn number(x: f64) -> Expression {
