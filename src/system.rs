@@ -524,7 +524,7 @@ pub enum Pivot {
     Constraint(usize),
     /// That of the contact with this index: the law of friction has no solution, or several.
     Contact(usize),
-    /// None: the machine lends no room to find out what its contacts do ([`System::with_workspace`]).
+    /// None: the machine gives no workspace to find out what its contacts do ([`System::with_workspace`]).
     NoWorkspace,
     /// None: accelerations that the contact with this index has a part in are not differentiated. What sticks has no
     /// linearization.

@@ -630,7 +630,10 @@ fn contacts_without_room_are_told_so() {
         let singular = tight.accelerations(0.0, &start.q, &start.v, &(), &mut a);
         let singular = singular.unwrap_err();
         assert_eq!((singular.at, singular.ratio), (Pivot::NoWorkspace, 0.0));
-        assert!(singular.to_string().contains("lends no room"), "{singular}");
+        assert!(
+            singular.to_string().contains("gives no workspace"),
+            "{singular}"
+        );
         let refused = Simulation::new(&tight).until(1.0).run(start);
         let error = refused.unwrap_err();
         assert!(
@@ -639,7 +642,7 @@ fn contacts_without_room_are_told_so() {
         );
         let text = error.to_string();
         assert!(
-            text.contains("no room for the work on its contacts"),
+            text.contains("no workspace for the work on its contacts"),
             "{text}"
         );
     }
