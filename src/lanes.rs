@@ -16,7 +16,7 @@ use crate::{Singular, System, Vector};
 /// times as long.)
 ///
 /// ```
-/// use lagrangian::{Lanes, Several};
+/// use lagrangian::{Batch, Lanes};
 /// use lagrangian_machines::DoublePendulum;
 ///
 /// // Four pendulums, each with another upper rod, in the same state.
