@@ -188,6 +188,17 @@ impl<T: Scalar> Along<T> {
     }
 }
 
+/// Where the displacements of the guides are.
+#[derive(Clone, Copy, PartialEq)]
+enum Guides {
+    /// At zero.
+    Shut,
+    /// Anywhere. What moves off with a body moves off by the displacement itself, so (E38) holds with the
+    /// same `c` and `α`; and what acts between two points shows that it depends on both, though it may
+    /// do no work where the guides are shut, as a spring straight across one.
+    Ajar,
+}
+
 /// The machine in which guides are relaxed, with what its symbols are at a point.
 struct Relaxed<'m, 'd> {
     model: &'m Model<'d>,
@@ -205,10 +216,10 @@ impl<'m, 'd> Relaxed<'m, 'd> {
         })
     }
 
-    /// The value of a symbol where all guides are shut.
-    fn value<T: Number>(&self, point: u64, symbol: Symbol) -> T {
+    /// The value of a symbol where all guides are shut, or where they are ajar.
+    fn value<T: Number>(&self, (point, guides): (u64, Guides), symbol: Symbol) -> T {
         let open = |symbols: &[Symbol]| symbols[self.coordinates..].contains(&symbol);
-        match open(&self.x.q) || open(&self.x.v) {
+        match guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
             true => T::ZERO,
             false => T::random(point, symbol),
         }
@@ -218,7 +229,7 @@ impl<'m, 'd> Relaxed<'m, 'd> {
     /// column.
     fn derivatives<T: Number>(
         &self,
-        point: u64,
+        point: (u64, Guides),
         expressions: &[Expr<'d>],
         by: &[Symbol],
     ) -> Vec<Vec<T>> {
@@ -233,6 +244,23 @@ impl<'m, 'd> Relaxed<'m, 'd> {
             values.into_iter().map(|x: Dual<T>| x.derivative).collect()
         };
         by.iter().map(column).collect()
+    }
+}
+
+impl Relaxed<'_, '_> {
+    /// The guides along which (E38) holds where they are ajar too: what is built in other ways than by
+    /// frames and points may move off by more than the displacement.
+    fn hold_ajar<T: Number>(&self, motion: &Motion<T>, alongs: &[(usize, Along<T>)]) -> Vec<usize> {
+        let (_, places) = parts(self.model);
+        let columns = self.derivatives::<T>((motion.point, Guides::Ajar), &places, &self.x.q);
+        let is_met = |along: &Along<T>, row: usize| {
+            let amiss = along.amiss(columns.iter().map(|column| column[row]));
+            amiss.is_finite() && amiss.size_beside(motion.size) == 0.0
+        };
+        let hold = alongs
+            .iter()
+            .filter(|(_, along)| (0..places.len()).all(|row| is_met(along, row)));
+        hold.map(|(guide, _)| *guide).collect()
     }
 }
 
@@ -254,12 +282,17 @@ impl<T: Number> Motion<T> {
             .flat_map(|s| s.direction.iter().copied())
             .collect();
         let all: Vec<Expr<'_>> = expressions.iter().chain(&directions).copied().collect();
-        let values = |point| evaluate(model.dag, &all, |s| relaxed.value::<T>(point, s));
+        let values = |point| {
+            evaluate(model.dag, &all, |s| {
+                relaxed.value::<T>((point, Guides::Shut), s)
+            })
+        };
         let (point, values) = points
             .by_ref()
             .map(|point| (point, values(point)))
             .find(|(_, values)| values.iter().all(|x| x.is_finite()))?;
-        let columns = relaxed.derivatives::<T>(point, &expressions, &relaxed.x.q);
+        let shut = (point, Guides::Shut);
+        let columns = relaxed.derivatives::<T>(shut, &expressions, &relaxed.x.q);
         let entries = columns.iter().flatten();
         let size = entries.map(|x| x.size_beside(0.0)).fold(0.0, f64::max);
         Some(Motion {
@@ -473,6 +506,7 @@ impl<T: Number> Motion<T> {
                 relaxed: &relaxed,
                 model,
                 alongs,
+                ajar: relaxed.hold_ajar(motion, alongs),
             };
             written.refused(looked_at)
         };
@@ -624,6 +658,8 @@ struct Written<'s, 'm, 'd, T> {
     relaxed: &'s Relaxed<'m, 'd>,
     model: &'m Model<'d>,
     alongs: &'s [(usize, Along<T>)],
+    /// The guides along which (E38) holds where they are ajar too.
+    ajar: Vec<usize>,
 }
 
 impl<'d, T: Number> Written<'_, '_, 'd, T> {
@@ -695,12 +731,16 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
         x.size_beside(1.0) == 0.0
     }
 
-    /// The derivatives of an expression by all columns; nothing where it has none.
+    /// The derivatives of an expression by all columns, where the guides are shut; nothing where it has
+    /// none.
     fn slopes(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+        self.slopes_where(Guides::Shut, expression, by)
+    }
+
+    fn slopes_where(&self, guides: Guides, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
         let of = |list: Vec<T>| list[0];
-        let columns = self
-            .relaxed
-            .derivatives::<T>(self.motion.point, &[expression], by);
+        let point = (self.motion.point, guides);
+        let columns = self.relaxed.derivatives::<T>(point, &[expression], by);
         let slopes: Vec<T> = columns.into_iter().map(of).collect();
         slopes.iter().all(|x| x.is_finite()).then_some(slopes)
     }
@@ -711,6 +751,42 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             let amiss = along.amiss(slopes.iter().copied());
             (!self.is_zero(amiss)).then_some((*guide, amiss))
         })
+    }
+
+    /// The first guide along which what acts by an expression does not change as the bodies do, and
+    /// acts across it on what is carried; or is `unsaid` by how much it changes along it.
+    fn first_unsaid(
+        &self,
+        expression: Expr<'d>,
+        by: &[Symbol],
+        unsaid: impl Fn(&[T], usize, T) -> bool,
+    ) -> Option<Option<usize>> {
+        let slopes = self.slopes(expression, by)?;
+        let on_bodies = &slopes[self.motion.coordinates..];
+        let depends_on_bodies = on_bodies.iter().any(|&pull| !self.is_zero(pull));
+        let mut otherwise: Vec<usize> = Vec::new();
+        if depends_on_bodies {
+            let ajar = self.slopes_where(Guides::Ajar, expression, by)?;
+            otherwise.extend(self.amiss(&slopes).map(|(guide, _)| guide));
+            let amiss = self.amiss(&ajar).map(|(guide, _)| guide);
+            otherwise.extend(amiss.filter(|guide| self.ajar.contains(guide)));
+        }
+        let pulls_across = |&guide: &usize| {
+            let mut pulls = on_bodies.chunks_exact(2).enumerate();
+            pulls.any(|(other, pull)| {
+                let [x, y] = self.motion.directions[other];
+                match other == guide {
+                    true => !self.is_zero(pull[1] * x - pull[0] * y),
+                    false => pull.iter().any(|&pull| !self.is_zero(pull)),
+                }
+            })
+        };
+        let across = otherwise.into_iter().find(pulls_across);
+        Some(across.or_else(|| {
+            let mut amiss = self.amiss(&slopes);
+            let found = amiss.find(|&(guide, amiss)| unsaid(&slopes, guide, amiss));
+            found.map(|(guide, _)| guide)
+        }))
     }
 
     fn diagnostic(&self, guide: usize, span: Span, what: &str, help: &str) -> Diagnostic {
@@ -751,13 +827,12 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     /// A stretch in coordinates: it grows by a metre for each metre along the guide if what stretches
     /// lies along the guide.
     fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
-        let slopes = self.slopes(stretch, &self.relaxed.x.q)?;
-        let across = self.amiss(&slopes).find(|&(guide, amiss)| {
+        let across = self.first_unsaid(stretch, &self.relaxed.x.q, |_, guide, amiss| {
             let [x, y] = self.motion.directions[guide];
             !self.is_zero(amiss * amiss - (x * x + y * y))
-        });
+        })?;
         let help = "give it `from` and `to`, points of bodies; or, if it acts along the guide alone, say its energy under `potentials`";
-        Some(across.map(|(guide, _)| self.diagnostic(guide, span, what, help)))
+        Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
     /// What acts with the derivatives of an expression as forces: an energy or what makes one, a
@@ -766,23 +841,13 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     /// between a body and a place in coordinates pulls on that place too, and nobody says what holds it
     /// across the guide.
     fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
-        let slopes = self.slopes(expression, by)?;
-        let (forces, on_bodies) = slopes.split_at(self.motion.coordinates);
-        let is_unsaid = |&(guide, _): &(usize, T)| {
+        let unsaid = self.first_unsaid(expression, by, |slopes, guide, _| {
             let along = self.alongs.iter().find(|(k, _)| *k == guide);
-            let mut pulls = on_bodies.chunks_exact(2).enumerate().map(|(other, pull)| {
-                let [x, y] = self.motion.directions[other];
-                match other == guide {
-                    true => !self.is_zero(pull[1] * x - pull[0] * y),
-                    false => pull.iter().any(|&pull| !self.is_zero(pull)),
-                }
-            });
-            pulls.any(|pulls| pulls)
-                || along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
-        };
-        let unsaid = self.amiss(&slopes).find(is_unsaid);
+            let forces = &slopes[..self.motion.coordinates];
+            along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
+        })?;
         let help = "say it by positions of bodies; or build the one body on the frame of the other, so that what acts between them is carried by the guide";
-        Some(unsaid.map(|(guide, _)| self.diagnostic(guide, span, what, help)))
+        Some(unsaid.map(|guide| self.diagnostic(guide, span, what, help)))
     }
 
     /// A force at a point in coordinates is right where it acts along the guide.
@@ -792,7 +857,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             .map(|&x| self.slopes(x, &self.relaxed.x.q))
             .collect::<Option<_>>()?;
         let value = evaluate(self.model.dag, value, |symbol| {
-            self.relaxed.value::<T>(self.motion.point, symbol)
+            self.relaxed
+                .value::<T>((self.motion.point, Guides::Shut), symbol)
         });
         if !value.iter().all(|x: &T| x.is_finite()) {
             return None;

@@ -435,6 +435,43 @@ fn what_guides_carry_and_coordinates_move_is_known() {
 }
 
 #[test]
+fn what_acts_from_a_place_that_moves_with_the_body_and_is_none_of_it_is_refused_straight_across_too()
+ {
+    // Above the cart, beside it at its height, and in between: written by its frame, it is the cart's; by formulas, nobody's.
+    let with = |place: &str, section: &str| {
+        let text = format!(
+            "machine Above in plane {{
+                parameters {{ m: kg = 1, mu: 1 = 0.1, l: m = 1, k: N/m = 30 }}
+                coordinates {{ x: m = 0.2 }}
+                frames {{ floor = ground.shift(x, 0) }}
+                bodies {{ cart {{ mass: m, frame: floor }} }}
+                gravity (0, -k*l/m);
+                sliding {{ rail {{ body: cart, on: ground, direction: (1, 0), friction: mu }} }}
+                {section}
+            }}"
+        );
+        text.replace("PLACE", place)
+    };
+    let spring = "springs { s { stiffness: k, from: PLACE, to: cart.at, length: l/2 } }";
+    let potential = "potentials { v: k/2*(norm(PLACE - cart.at) - l/2)^2 }";
+    for section in [spring, potential] {
+        for (place, is_right) in [
+            ("floor.point(0, l)", true),
+            ("floor.point(l, 2*l)", true),
+            ("(2*l, l)", true),
+            ("(x, l)", false),
+            ("(x + l, 2*l)", false),
+            ("(x + l, 0)", true),
+        ] {
+            match (&codes(&with(place, section))[..], is_right) {
+                ([], true) | ([(Code::Untied, _)], false) => {}
+                (found, _) => panic!("{place}, {section}: {found:?}"),
+            }
+        }
+    }
+}
+
+#[test]
 fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_any_coordinates() {
     // A block on the slope of a cart that it is not built on, in any two coordinates. What pushes the block
     // along the slope may push the cart back, or not; what pushes the cart alone does not ask.
