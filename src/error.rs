@@ -231,7 +231,7 @@ pub struct KeptContradiction {
     pub of_rates: bool,
     /// What is kept of the numbers in it; none where it contradicts through others.
     pub kept: std::vec::Vec<String>,
-    /// What is left of it where the constraints are met best, in `unit`.
+    /// Its residual where all constraints together are met best, in `unit`.
     pub residual: f64,
     /// The SI unit of the residual.
     pub unit: String,

@@ -271,6 +271,8 @@ pub struct Modes {
     pub spec: Spec,
     #[command(flatten)]
     pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
     /// Let a coordinate turn at a constant rate, as in `--steady phi=150`; without a number at the rate with which it starts,
     /// with `phi=solve` at one that is to be found.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]

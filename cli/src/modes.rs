@@ -13,7 +13,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
-use lagrangian::{Machine, System};
+use lagrangian::{Machine, Simulation, System};
 use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::program::Role;
 use lagrangian_symbolic::Dag;
@@ -69,6 +69,7 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
             missing.names.join("=… --set ")
         ))
     })?;
+    reading::check_kept(&machine.start(), &call.keep)?;
     if let Some(vary) = &call.vary {
         let trace = vary::trace(call, vary, &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
@@ -76,9 +77,11 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let mut start = machine.start();
     set_start(&mut start, &call.start)?;
     let wanted = wanted(call, &mut start.v)?;
-    let q = start.q.values;
+    let q = start.q.values.clone();
     refuse_drives(&machine, &q, &wanted)?;
-    let motion = motion(&machine, &q, &wanted)?;
+    start.v.values = rates(&wanted);
+    let from = on_constraints(&machine, &call.keep, start)?;
+    let motion = motion(&machine, &from, &wanted)?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -89,6 +92,25 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
         output::text(&text(&names, &units, &q, &wanted, &motion));
     }
     Ok(())
+}
+
+/// The pose from which to look: where something of the start is kept, the start of a run, which keeps it.
+fn on_constraints(
+    machine: &InterpretedMachine,
+    keep: &call::Keep,
+    start: lagrangian::State<Named>,
+) -> Result<Vec<f64>, Failure> {
+    let system = machine.prepare();
+    let is_kept = match reading::kept_names(keep) {
+        Some(names) => !names.is_empty(),
+        None => system.kept_at_start().len() != 0,
+    };
+    if !is_kept || system.constraints().len() == 0 {
+        return Ok(start.q.values);
+    }
+    let simulation = Simulation::new(machine).until(start.t);
+    let run = reading::keep(simulation, keep).run(start);
+    Ok(run.map_err(Failure::run)?.start().q.values.clone())
 }
 
 /// The steady motion that is reached from `q`, and the motions near it.

@@ -260,7 +260,7 @@ pub fn keep<'a>(
 }
 
 /// What a call keeps; none where it says nothing.
-fn kept_names(keep: &call::Keep) -> Option<&[String]> {
+pub fn kept_names(keep: &call::Keep) -> Option<&[String]> {
     match keep.names.as_slice() {
         [] => None,
         [only] if only == "none" => Some(&[]),

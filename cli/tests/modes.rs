@@ -1400,3 +1400,35 @@ fn what_cannot_be_varied_is_told_at_the_word() {
     refused(&[coin, "--vary", "m=1..-2:5"], "a mass is positive");
     refused(&[coin, "--vary", "m=1..2:5", "--out", "a.txt"], "`.csv`");
 }
+
+/// A bob on a ring, which a spring pulls to the top or the bottom, from a start beside the ring.
+#[test]
+fn what_is_kept_of_the_start_says_from_where_to_look() {
+    let spec = |keep: &str| {
+        let text = format!(
+            "machine Ring in plane {{ parameters {{ k: N/m = 1 }} coordinates {{ x: m = 0.6, y: m = 3 }} \
+             bodies {{ bob {{ mass: 1, at: (x, y) }} }} gravity none; springs {{ s {{ stiffness: k, stretch: x }} }} \
+             constraints {{ ring: x^2 + y^2 = 1 }} {keep} }}"
+        );
+        Scratch::new("ring.machine", &text)
+    };
+    let free = spec("");
+    for arguments in [&[][..], &["--keep", "x"]] {
+        let found = modes(&[&[free.path()], arguments].concat());
+        close(number(&found["q"]["y"]), 1.0);
+    }
+    // No point of the ring is at y = 3: the nearest is at x = 0.
+    let off = "with `y` kept, `ring` is 8.0000e0 m^2 off";
+    let kept = spec("keep { y }");
+    for call in [&[free.path(), "--keep", "y"][..], &[kept.path()]] {
+        let (ok, _, error) = said(call);
+        assert!(!ok && error.contains(off), "{error}");
+    }
+    let found = modes(&[kept.path(), "--keep", "none"]);
+    close(number(&found["q"]["y"]), 1.0);
+    let (ok, _, error) = said(&[free.path(), "--keep", "z"]);
+    assert!(
+        !ok && error.contains("--keep z: no coordinate named `z`"),
+        "{error}"
+    );
+}

@@ -198,7 +198,7 @@ impl Search {
         }
     }
 
-    /// What is left where the search stands.
+    /// The constraints that are not met where the search stands, with their residuals.
     fn misses(&self) -> Vec<Miss> {
         let most = self.left.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let rows = self.rows.iter().zip(&self.left).zip(&self.sizes);

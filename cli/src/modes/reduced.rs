@@ -117,55 +117,30 @@ pub struct Linearized {
     pub tangent: DMatrix<f64>,
 }
 
+/// All matrices of a [`Linearized`], borrowed in one way.
+macro_rules! matrices {
+    ($of:expr, $($borrow:tt)+) => {
+        [
+            $($borrow)+ $of.rates,
+            $($borrow)+ $of.forces,
+            $($borrow)+ $of.mass,
+            $($borrow)+ $of.by_places,
+            $($borrow)+ $of.as_balanced,
+            $($borrow)+ $of.by_rates,
+            $($borrow)+ $of.followers_by_places,
+            $($borrow)+ $of.along,
+            $($borrow)+ $of.tangent,
+        ]
+    };
+}
+
 impl Linearized {
     fn each(&self) -> [&DMatrix<f64>; 9] {
-        let Linearized {
-            rates,
-            forces,
-            mass,
-            by_places,
-            as_balanced,
-            by_rates,
-            followers_by_places,
-            along,
-            tangent,
-        } = self;
-        [
-            rates,
-            forces,
-            mass,
-            by_places,
-            as_balanced,
-            by_rates,
-            followers_by_places,
-            along,
-            tangent,
-        ]
+        matrices!(self, &)
     }
 
     fn each_mut(&mut self) -> [&mut DMatrix<f64>; 9] {
-        let Linearized {
-            rates,
-            forces,
-            mass,
-            by_places,
-            as_balanced,
-            by_rates,
-            followers_by_places,
-            along,
-            tangent,
-        } = self;
-        [
-            rates,
-            forces,
-            mass,
-            by_places,
-            as_balanced,
-            by_rates,
-            followers_by_places,
-            along,
-            tangent,
-        ]
+        matrices!(self, &mut)
     }
 
     /// The largest of two, number by number.
@@ -342,7 +317,7 @@ impl<'a> Reduced<'a> {
                 let row = rows.row(k).transpose();
                 let measured = lower.solve_lower_triangular(&row);
                 let measured = measured.ok_or(Fault::Singular(0))?;
-                if let Some(unit) = beside(&known, &measured, INDEPENDENT) {
+                if let Some(unit) = across(&known, &measured, INDEPENDENT) {
                     known.push(unit);
                     // Each coordinate in its own length.
                     let scaled = DVector::from_fn(n, |j, _| row[j] / lower.row(j).norm());
@@ -453,7 +428,7 @@ impl<'a> Reduced<'a> {
             if !longest.is_finite() {
                 return Err(Fault::Unmet(worst));
             }
-            // Not nearer than rounding: what is left is as good as it gets.
+            // The corrections are rounding, and become no smaller.
             if longest == 0.0 || (longest <= 1e-14 && longest >= 0.25 * before) {
                 break;
             }
@@ -753,9 +728,9 @@ fn constants(values: &[f64]) -> Vec<Number> {
     values.iter().map(|x| Number::from_f64(*x)).collect()
 }
 
-/// What is left of a vector beside orthonormal ones, of length 1; nothing where that is less than a share
-/// of it.
-fn beside(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
+/// The component of a vector across orthonormal ones, made a unit vector; none where it is shorter than the share
+/// `least` of the vector.
+fn across(known: &[DVector<f64>], vector: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
     let mut left = vector.clone();
     // Twice is enough: W. Kahan in B. N. Parlett, The Symmetric Eigenvalue Problem, 6-9.
     for _ in 0..2 {

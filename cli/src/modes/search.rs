@@ -4,7 +4,7 @@
 //! coordinate on which r does not depend stays where it is. Directions in which r does not change but for rounding are free,
 //! and nothing moves along them; nor along those in which r itself is nothing but rounding. So a machine that stands stays.
 //!
-//! Rates that are to be found balance as much of r as they can; coordinates are displaced for what is left of it only.
+//! Rates that are to be found balance as much of r as they can; coordinates are displaced for its residual only.
 //!
 //! On the way to one of many equilibria the stiffness along the others is not yet 0, but as small as the forces that remain;
 //! what comes to less than those says nothing. So steps are damped as Levenberg and Marquardt do, by the size of these

@@ -303,7 +303,9 @@ impl<'a> Tracer<'a> {
         set_start(&mut start, &self.call.start)?;
         let mut wanted = self.wanted.clone();
         wanted.rates = super::wanted(self.call, &mut start.v)?.rates;
-        Ok((start.q.values, wanted))
+        start.v.values = super::rates(&wanted);
+        let from = super::on_constraints(machine, &self.call.keep, start)?;
+        Ok((from, wanted))
     }
 
     fn find(

@@ -78,6 +78,7 @@ impl Builder<'_> {
             name: format!("x{k}"),
             start: self.random.number(-1.5, 1.5),
             rate: self.random.number(-1.5, 1.5),
+            kept: [false; 2],
         });
         k
     }
@@ -805,6 +806,10 @@ impl Builder<'_> {
             let positive = Expr::Parameter(self.random.below(self.machine.parameters.len()));
             self.machine.assumptions.push(positive);
         }
+        if self.random.chance(15) {
+            let i = self.any_coordinate();
+            self.machine.coordinates[i].kept = [self.random.chance(60), self.random.chance(60)];
+        }
         if kind == Kind::Guided {
             return;
         }
@@ -860,6 +865,7 @@ pub fn chain(random: &mut Random) -> (Machine, String) {
             name: format!("x{i}"),
             start: random.number(-1.5, 1.5),
             rate: random.number(-1.5, 1.5),
+            kept: [false; 2],
         });
         let link = machine.frames.len();
         let step = Step::Turn(2, q(i - 1));

@@ -61,6 +61,8 @@ pub struct Coordinate {
     pub name: String,
     pub start: f64,
     pub rate: f64,
+    /// Whether start and rate stay where the start is off the constraints. It is on them.
+    pub kept: [bool; 2],
 }
 
 #[derive(Clone, Debug)]

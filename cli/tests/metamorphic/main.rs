@@ -131,7 +131,6 @@ fn is_full() -> bool {
 }
 
 #[test]
-#[ignore = "a spring that a formula holds straight above a guided body is taken for one of the body alone: cargo test --workspace --test metamorphic -- --ignored"]
 fn random_machines_said_otherwise_are_the_same() {
     let total = each("evaluation", MACHINES, evaluation::task);
     if is_full() {
@@ -168,7 +167,6 @@ fn the_command_prints_the_same_modes_and_accelerations() {
 }
 
 #[test]
-#[ignore = "a machine near a singular place is refused: cargo test --workspace --test metamorphic -- --ignored"]
 fn they_are_the_same_in_c() {
     println!("C: METAMORPHIC_SEED={}", seed());
     commands::as_c();

@@ -79,7 +79,7 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
         return;
     };
     let (rewritten, single) = rewrite(&case, &mut random);
-    if rewritten.names.is_empty() || rewritten.by_formulas {
+    if rewritten.names.is_empty() {
         return;
     }
     let Ok(Some(expected)) = Expected::of_rewritten(&case, &rewritten, &single) else {

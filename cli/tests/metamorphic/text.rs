@@ -1,8 +1,8 @@
 //! A machine as the text of a spec.
 
 use super::machine::{
-    Approximation, Elastic, Expr, Force, Machine, Meaning, PURE, Step, Stretch, Surface, Unit,
-    Vector,
+    Approximation, Coordinate, Elastic, Expr, Force, Machine, Meaning, PURE, Step, Stretch,
+    Surface, Unit, Vector,
 };
 
 /// An item of a section.
@@ -307,6 +307,16 @@ pub fn items(machine: &Machine) -> Vec<Item> {
     let words = ["time", "coordinates"];
     for (word, _) in words.iter().zip(machine.stages).filter(|(_, on)| *on) {
         item("stages", (*word).into(), (*word).into());
+    }
+    for Coordinate { name, kept, .. } in &machine.coordinates {
+        let [start, rate] = [name.clone(), format!("der({name})")];
+        for (text, _) in [start, rate]
+            .into_iter()
+            .zip(kept)
+            .filter(|(_, kept)| **kept)
+        {
+            item("keep", text.clone(), text);
+        }
     }
     items
 }

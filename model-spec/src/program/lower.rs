@@ -13,7 +13,7 @@ use super::choose::{Basis, Candidate, Choice, Form, best};
 use super::formula::formula;
 use super::graph::{Graph, Id, Scaled};
 use super::net::Net;
-use super::quantity::{Needs, Sizes};
+use super::quantity::Sizes;
 use super::rounding::{Rounding, States};
 use super::schedule::{Code, schedule};
 use super::solve::{self, Elimination, Pivot, Solution, System};
@@ -376,12 +376,7 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         contacts: equations.sliding.len(),
         derivatives: model.derivatives.len(),
     };
-    let is_there = match role.row().needs {
-        Needs::Nothing | Needs::Request => true,
-        Needs::Constraints => sizes.constraints > 0,
-        Needs::Contacts => sizes.contacts > 0,
-    };
-    if !is_there {
+    if !role.row().needs.are_met(sizes) {
         return None;
     }
     let (constraints, sliding) = (equations.constraints.iter(), equations.sliding.iter());

@@ -81,6 +81,17 @@ pub enum Needs {
     Request,
 }
 
+impl Needs {
+    /// Whether a machine of these sizes has the quantity, or may be asked for it.
+    pub fn are_met(self, sizes: Sizes) -> bool {
+        match self {
+            Needs::Nothing | Needs::Request => true,
+            Needs::Constraints => sizes.constraints > 0,
+            Needs::Contacts => sizes.contacts > 0,
+        }
+    }
+}
+
 /// Where a function is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {

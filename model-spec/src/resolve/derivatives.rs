@@ -4,7 +4,7 @@ use super::Resolver;
 use super::names::{Namespace, suggestion, with_help};
 use super::value::MemberId;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::model::{Name, Variable};
+use crate::model::Variable;
 use crate::syntax::{Index, SectionKind};
 
 /// The words that stand for all variables of a kind, with the section that declares these.
@@ -47,23 +47,8 @@ impl Resolver<'_, '_, '_> {
             return Vec::new();
         };
         let index = self.members[member].index;
-        let members: Vec<MemberId> = self.groups[group]
-            .members
-            .iter()
-            .filter(|(other, _)| index.is_none() || **other == index)
-            .map(|(_, &member)| member)
-            .collect();
-        if members.is_empty() && !self.groups[group].broken {
-            let shown = Name {
-                base: base.text.clone(),
-                index,
-            };
-            self.error(
-                Code::IndexOutOfRange,
-                name.span,
-                format!("there is no `{shown}`"),
-            );
-        }
+        let members = self.members_under(group, index);
+        self.check_members(&members, group, (&base.text, index), name.span);
         let mut variables = Vec::new();
         for member in members {
             let section = self.declaration(member).section;

@@ -12,8 +12,8 @@ use crate::mechanics::circles;
 use crate::model::bounds::BoundKind;
 use crate::model::{
     Action, Approximation, ApproximationKind, Body, Circle, Constant, Constraint, Contact,
-    ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Name, Output,
-    Parameter, Place, Rolling, Rotation, Sliding, Space, Surface, Term, Torque, Touching, stage,
+    ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Output, Parameter,
+    Place, Rolling, Rotation, Sliding, Space, Surface, Term, Torque, Touching, stage,
 };
 use crate::source::Span;
 use crate::syntax::{self, Expression, ExpressionKind, Quantity, Record, SectionKind};
@@ -1333,20 +1333,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return Vec::new();
         };
         let index = self.members[member].index;
-        let mut members: Vec<MemberId> = self.groups[group]
-            .members
-            .iter()
-            .filter(|(other, _)| index.is_none() || **other == index)
-            .map(|(_, &member)| member)
-            .collect();
-        if members.is_empty() && !self.groups[group].broken {
-            let shown = Name {
-                base: name.base.text.clone(),
-                index,
-            };
-            let message = format!("there is no `{shown}`");
-            self.error(Code::IndexOutOfRange, name.span, message);
-        }
+        let mut members = self.members_under(group, index);
+        self.check_members(&members, group, (&name.base.text, index), name.span);
         members.retain(|&member| {
             let section = self.declaration(member).section;
             if section != SectionKind::Coordinates {

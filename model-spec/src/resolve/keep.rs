@@ -1,7 +1,7 @@
 //! Which start values stay as they are where the start does not obey the constraints.
 
 use super::Resolver;
-use super::names::{Namespace, show};
+use super::names::Namespace;
 use super::value::MemberId;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Variable;
@@ -26,21 +26,13 @@ impl Resolver<'_, '_, '_> {
             return Vec::new();
         };
         let index = self.members[member].index;
-        let members: Vec<MemberId> = self.groups[group]
-            .members
-            .iter()
-            .filter(|(other, _)| index.is_none() || **other == index)
-            .map(|(_, &member)| member)
-            .collect();
+        let members = self.members_under(group, index);
         let is_coordinate =
             |&member: &MemberId| self.declaration(member).section == SectionKind::Coordinates;
         if is_inherited && !members.iter().any(is_coordinate) {
             return Vec::new();
         }
-        if members.is_empty() && !self.groups[group].broken {
-            let message = format!("there is no `{}`", show(base, index));
-            self.error(Code::IndexOutOfRange, name.span, message);
-        }
+        self.check_members(&members, group, (base, index), name.span);
         let mut kept = Vec::new();
         for member in members {
             let section = self.declaration(member).section;

@@ -315,6 +315,29 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         self.group_of.get(&(namespace, base)).copied()
     }
 
+    /// The members that a name with this index means: one, or all of a family where there is no index.
+    pub fn members_under(&self, group: usize, index: Option<i64>) -> Vec<MemberId> {
+        let members = self.groups[group].members.iter();
+        members
+            .filter(|(other, _)| index.is_none() || **other == index)
+            .map(|(_, &member)| member)
+            .collect()
+    }
+
+    /// Refuses a name that means none of the members that there are.
+    pub fn check_members(
+        &mut self,
+        members: &[MemberId],
+        group: usize,
+        (base, index): (&str, Option<i64>),
+        span: Span,
+    ) {
+        if members.is_empty() && !self.groups[group].broken {
+            let message = format!("there is no `{}`", show(base, index));
+            self.error(Code::IndexOutOfRange, span, message);
+        }
+    }
+
     /// Tells which members a name has, later layers replacing what earlier ones say.
     pub fn expand(&mut self, group: usize) {
         let declarations = self.groups[group].declarations.clone();

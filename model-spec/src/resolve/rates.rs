@@ -4,7 +4,7 @@ use lagrangian_symbolic::Expr;
 use rustc_hash::FxHashMap;
 
 use super::Resolver;
-use super::names::{Namespace, declared_measure, show};
+use super::names::{Namespace, declared_measure};
 use super::published::variable;
 use super::value::{MemberId, Scope, limits};
 use crate::diagnostic::{Code, Diagnostic};
@@ -74,19 +74,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             return None;
         };
-        let members: Vec<MemberId> = self.groups[group]
-            .members
-            .iter()
-            .filter(|(other, _)| index.is_none() || **other == index)
-            .map(|(_, &member)| member)
-            .collect();
+        let members = self.members_under(group, index);
         if is_inherited && !members.iter().any(|&member| self.is_coordinate(member)) {
             return None;
         }
-        if members.is_empty() && !self.groups[group].broken {
-            let message = format!("there is no `{}`", show(&name.text, index));
-            self.error(Code::IndexOutOfRange, item.name.span, message);
-        }
+        self.check_members(&members, group, (&name.text, index), item.name.span);
         let measure = declared_measure(&item.content);
         let unit = measure.as_ref().map(|measure| measure.unit);
         if !self.is_unit_of_state(&item.content, unit) {

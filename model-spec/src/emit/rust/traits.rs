@@ -226,15 +226,12 @@ impl Emitter<'_> {
     /// A method for each row of the table that this machine has, and that solves for nothing.
     fn quantities(&mut self) {
         let sizes = self.program.sizes();
-        let is_there = |needs| match needs {
-            Needs::Nothing => true,
-            Needs::Constraints => sizes.constraints > 0,
-            Needs::Contacts => sizes.contacts > 0,
-            Needs::Request => false,
+        let is_method = |role: &Role| {
+            let needs = role.row().needs;
+            needs != Needs::Request && needs.are_met(sizes) && !role.inverts()
         };
-        let there = Role::all().filter(|role| is_there(role.row().needs) && !role.inverts());
         let f64 = self.types.known("f64");
-        for role in there {
+        for role in Role::all().filter(is_method) {
             let (row, call) = (role.row(), self.call(role));
             let Some(shape) = row.extent.shape(sizes) else {
                 continue;
