@@ -9,10 +9,11 @@
 mod support;
 mod timing;
 
+use lagrangian_emit::rust;
+use lagrangian_mechanics::Equations;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::Role;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::emit::rust;
-use lagrangian_spec::mechanics::Equations;
-use lagrangian_spec::program::{Program, Proved, Role};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 use support::library;
@@ -122,7 +123,7 @@ fn compile(machine: &str, constants: &[(&str, i64)]) -> (Times, Outcome) {
     let model = model.expect("a machine of the library has no mistakes");
     let (derive, equations) = seconds(|| Equations::derive(&model, &mut report));
     let equations = equations.expect("a machine of the library can be derived");
-    let (lower, program) = seconds(|| Program::lower(&model, &equations));
+    let (lower, program) = seconds(|| lagrangian_mechanics::lower(&model, &equations));
     let (prove, program) = seconds(|| Proved::new(program, &model, &equations));
     let program = program.expect("a machine of the library is proved");
     let (emit, rust) = seconds(|| rust::module(&program, &rust::Options::default()));

@@ -13,7 +13,8 @@ use std::hint::black_box;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Batch, Batched, LaneVector, Lanes, Machine, Number, System, Vector};
-use lagrangian_spec::program::{Program, Proved, Role};
+use lagrangian_mechanics::Proved;
+use lagrangian_program::{Program, Role};
 use support::accuracy::Judge;
 use support::library;
 use support::sampling::{Random, Sample};

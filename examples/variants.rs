@@ -6,7 +6,7 @@
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{Disk, Files, Sources};
 

@@ -10,9 +10,11 @@ use std::sync::Arc;
 use std::vec;
 use std::vec::Vec;
 
+use lagrangian_mechanics::Proved;
+use lagrangian_program as program;
+use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
-use lagrangian_spec::program::{self, Arguments, Interpreter, Program, Proved, Role, Shape, Slot};
 use lagrangian_spec::token::normalized;
 
 use crate::{

@@ -52,8 +52,6 @@
 extern crate std;
 
 mod balance;
-#[cfg(feature = "std")]
-pub mod brachistochrone;
 mod compensated;
 mod constraints;
 mod friction;

@@ -4,16 +4,15 @@
 mod support;
 
 use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_mechanics::Proved;
 use lagrangian_native::Fused;
+use lagrangian_program::{Arguments, Candidate, Interpreter, MOST_ROUNDING, Role, Slot};
 use lagrangian_scalar::DoubleDouble;
-use lagrangian_spec::program::{
-    Arguments, Candidate, Interpreter, MOST_ROUNDING, Proved, Role, Slot,
-};
 use support::library::{self, CONSTRAINED, MACHINES};
 use support::random::SplitMix;
 use support::sampling::{Random, Sample};
 
-/// The states that an estimate looks at: see `model-spec/src/program/rounding.rs`.
+/// The states that an estimate looks at: see `crates/program/src/rounding.rs`.
 const ESTIMATED: f64 = 31.0;
 /// The states at which errors are measured here.
 const STATES: usize = 101;

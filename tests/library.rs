@@ -1,6 +1,6 @@
 //! The machines of the library move as the literature says: closed forms, invariants, limits.
 //!
-//! Their equations are held against textbooks in `model-spec/tests/mechanics/`.
+//! Their equations are held against textbooks in `crates/mechanics/tests/mechanics/`.
 
 mod support;
 

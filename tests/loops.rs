@@ -5,7 +5,7 @@ mod support;
 
 use lagrangian::scalar::{DoubleDouble, Kernel, Scalar};
 use lagrangian::{Batch, Batched, Lanes, Machine, Number, Pivot, Singular, System, Vector};
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Role};
+use lagrangian_program::{Arguments, Interpreter, Program, Role};
 use support::library;
 use support::sampling::Random;
 use support::states::vector;
@@ -30,7 +30,7 @@ struct Interpreted<'a> {
 }
 
 impl Kernel<f64> for Interpreted<'_> {
-    type Output = Result<Vec<f64>, lagrangian_spec::program::Singular>;
+    type Output = Result<Vec<f64>, lagrangian_program::Singular>;
 
     fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
         let mut results = vec![0.0; self.arguments.q.len()];
@@ -45,7 +45,7 @@ fn interpreted(
     parameters: &[f64],
     q: &[f64],
     v: &[f64],
-) -> Result<Vec<f64>, lagrangian_spec::program::Singular> {
+) -> Result<Vec<f64>, lagrangian_program::Singular> {
     let arguments = Arguments {
         t: 0.0,
         q,

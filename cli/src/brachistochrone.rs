@@ -11,10 +11,10 @@ mod tried;
 
 use std::time::Instant;
 
-use lagrangian::brachistochrone::direct::Search;
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, System};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_brachistochrone::direct::Search;
+use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Dag;
 
 use crate::call::{self, Assignment};

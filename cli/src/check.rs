@@ -1,9 +1,9 @@
 //! `lagrangian check`: everything that is wrong with a spec, and printed equations against the
 //! derived ones.
 
-use lagrangian_spec::compare::{self, Comparison, Quoted};
-use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::mechanics::{Freedom, Independent, freedom as freedom_of};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::{Freedom, Independent, freedom as freedom_of};
+use lagrangian_print::compare::{self, Comparison, Quoted};
 use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
 use serde::Serialize;

@@ -1,10 +1,10 @@
 //! `lagrangian derive`: the derived equations, or the code.
 
 use clap::ValueEnum;
-use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::emit;
-use lagrangian_spec::emit::document::Document;
-use lagrangian_spec::program::{Candidate, Counts, Program};
+use lagrangian_emit as emit;
+use lagrangian_mechanics::Compiled;
+use lagrangian_print::document::Document;
+use lagrangian_program::{Candidate, Counts, Program};
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
@@ -105,9 +105,9 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
             },
         ),
         Form::C => emit::c::file(program, &origin, &formulas()),
-        Form::Markdown => emit::markdown::text(&Document::new(compiled)),
-        Form::Latex => emit::latex::text(&Document::new(compiled)),
-        Form::Html => emit::html::text(&Document::new(compiled)),
+        Form::Markdown => lagrangian_print::markdown::text(&Document::new(compiled)),
+        Form::Latex => lagrangian_print::latex::text(&Document::new(compiled)),
+        Form::Html => lagrangian_print::html::text(&Document::new(compiled)),
     }
 }
 

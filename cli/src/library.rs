@@ -9,9 +9,10 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use lagrangian_emit as emit;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::{LONGEST_SCHEDULED, Program, Slot};
 use lagrangian_spec::diagnostic::nearest;
-use lagrangian_spec::emit;
-use lagrangian_spec::program::{LONGEST_SCHEDULED, Program, Proved, Slot};
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
@@ -99,14 +100,14 @@ fn file_name(path: &Path) -> String {
 
 /// The exports, and what stands beside them.
 const EXPORT: &str = include_str!("library/export.rs");
-const SCALAR: &str = include_str!("../../scalar/src/lib.rs");
-const KERNEL: &str = include_str!("../../scalar/src/kernel.rs");
-const REAL: &str = include_str!("../../scalar/src/real.rs");
-const LANES: &str = include_str!("../../native/src/lanes.rs");
-const REGISTER: &str = include_str!("../../native/src/register.rs");
-const SINCOS: &str = include_str!("../../native/src/sincos.rs");
-const VECTOR: &str = include_str!("../../native/src/vector.rs");
-const X86: &str = include_str!("../../native/src/x86.rs");
+const SCALAR: &str = include_str!("../../crates/scalar/src/lib.rs");
+const KERNEL: &str = include_str!("../../crates/scalar/src/kernel.rs");
+const REAL: &str = include_str!("../../crates/scalar/src/real.rs");
+const LANES: &str = include_str!("../../crates/native/src/lanes.rs");
+const REGISTER: &str = include_str!("../../crates/native/src/register.rs");
+const SINCOS: &str = include_str!("../../crates/native/src/sincos.rs");
+const VECTOR: &str = include_str!("../../crates/native/src/vector.rs");
+const X86: &str = include_str!("../../crates/native/src/x86.rs");
 
 /// The whole library as one file of Rust.
 fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, Failure> {

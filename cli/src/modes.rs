@@ -14,8 +14,8 @@ use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Machine, Simulation, System};
-use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::program::Role;
+use lagrangian_mechanics::Compiled;
+use lagrangian_program::Role;
 use lagrangian_symbolic::Dag;
 use nalgebra::Complex;
 use serde_json::{Map, Value, json};

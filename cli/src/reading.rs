@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lagrangian::interpreted::{InterpretedMachine, Named, UnknownName};
 use lagrangian::{Machine, Simulation, State};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::source::{Disk, Files, SourceId, Sources};

@@ -15,7 +15,7 @@ pub mod script;
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::Method;
 use lagrangian::{Error, State};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
 

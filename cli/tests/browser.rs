@@ -10,8 +10,8 @@ use std::process::{Command, Stdio};
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation, Solution};
+use lagrangian_mechanics::Compiled;
 use lagrangian_scalar::{DoubleDouble, Scalar};
-use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};

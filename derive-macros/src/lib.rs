@@ -10,9 +10,9 @@ mod tokens;
 use std::path::PathBuf;
 use std::thread;
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_emit::rust;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::emit::rust;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Files, SourceId, Sources};
 use lagrangian_spec::syntax::{Ident, Spec};
@@ -234,7 +234,7 @@ fn on_a_large_stack<T: Send + 'static>(
 
 /// The machine's name, wherever it stands outside of brackets, gets its place in the user's source.
 fn named(tokens: TokenStream, name: &str, place: Span) -> TokenStream {
-    let name = lagrangian_spec::emit::identifier(name);
+    let name = lagrangian_emit::identifier(name);
     let with_place = |mut tree: TokenTree| {
         if let TokenTree::Ident(ident) = &mut tree
             && *ident == name

@@ -2,7 +2,7 @@
 //! not. The numbers of the program may be anything; there must be no panic on the way.
 #![no_main]
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{InMemory, Sources};
 use libfuzzer_sys::fuzz_target;

@@ -7,9 +7,10 @@ use std::fmt::Debug;
 use lagrangian::scalar::{DoubleDouble, Interval, Kernel, Scalar};
 use lagrangian::{Machine, Number, Pivot, System};
 use lagrangian_machines as machines;
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::{Arguments, Interpreter, Program, Role, Singular};
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Proved, Role, Singular};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 

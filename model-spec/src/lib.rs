@@ -7,18 +7,15 @@
 //! Each stage is a plain value: print it, compare it, test it alone. A stage reads the one before
 //! it and never edits it; whatever is wrong with a spec goes into one [`Report`].
 
-pub mod compare;
-pub mod compile;
 pub mod diagnostic;
-pub mod emit;
-pub mod mechanics;
+pub mod identity;
 pub mod model;
-pub mod program;
 pub mod resolve;
 pub mod source;
 pub mod syntax;
 pub mod token;
-pub mod unit;
+
+pub use lagrangian_units as unit;
 
 use diagnostic::Report;
 use lagrangian_symbolic::{Dag, Rational};
@@ -51,7 +48,7 @@ pub fn parse(sources: &mut Sources, name: &str, text: &str, report: &mut Report)
 /// }";
 /// let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
 /// let files = &mut InMemory::new();
-/// let ball = lagrangian_spec::model(&dag, "ball.machine", text, &[], files, &mut sources, &mut report)
+/// let ball = crate::model(&dag, "ball.machine", text, &[], files, &mut sources, &mut report)
 ///     .ok_or_else(|| report.render_short(&sources))?;
 /// assert_eq!(ball.coordinates[1].unit.to_string(), "m");
 /// # Ok::<(), String>(())

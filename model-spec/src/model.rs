@@ -11,16 +11,16 @@
 //! * vectors and points have two components in the plane and three in space, along the ground's
 //!   axes.
 
-use std::fmt;
-
 use lagrangian_symbolic::{Dag, Expr};
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
+pub use crate::unit::{Name, Stages, Variable};
 
 pub mod bounds;
+pub mod circles;
 
 use bounds::Bound;
 
@@ -134,22 +134,6 @@ impl Model<'_> {
     }
 }
 
-/// What may stay while the rest changes, so that its work is not done again.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Stages {
-    /// Time.
-    pub time: bool,
-    /// Time and coordinates.
-    pub coordinates: bool,
-}
-
-impl Stages {
-    /// Whether nothing is asked for.
-    pub fn is_empty(self) -> bool {
-        self == Stages::default()
-    }
-}
-
 /// Where the machine lives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
@@ -165,24 +149,6 @@ impl Space {
         match self {
             Space::Plane => 2,
             Space::Space => 3,
-        }
-    }
-}
-
-/// The name of an item, or of a member of a family: `link[3]`.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Name {
-    /// The name as declared.
-    pub base: String,
-    /// The member of the family, where it is one.
-    pub index: Option<i64>,
-}
-
-impl fmt::Display for Name {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.index {
-            Some(index) => write!(f, "{}[{index}]", self.base),
-            None => f.write_str(&self.base),
         }
     }
 }
@@ -278,27 +244,6 @@ pub struct Assumption<'d> {
     pub strict: bool,
     /// Where the spec says it.
     pub span: Span,
-}
-
-/// What accelerations depend on, and can be differentiated by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Variable {
-    /// A coordinate, by its index in [`Model::coordinates`].
-    Coordinate(usize),
-    /// The rate of a coordinate.
-    Rate(usize),
-    /// An input, by its index in [`Model::inputs`].
-    Input(usize),
-    /// A parameter, by its index in [`Model::parameters`].
-    Parameter(usize),
-}
-
-impl Variable {
-    /// Every coordinate, then every rate: what a linearization needs.
-    pub fn of_state(coordinates: usize) -> Vec<Variable> {
-        let q = (0..coordinates).map(Variable::Coordinate);
-        q.chain((0..coordinates).map(Variable::Rate)).collect()
-    }
 }
 
 /// The index of a pose in [`Model::poses`].
@@ -710,7 +655,7 @@ impl<'d> PrintedTerm<'d> {
     pub fn text(&self) -> String {
         let factors = self.factors.iter();
         let factors = factors.map(|factor| (factor.text.as_str(), factor.divides));
-        crate::compare::product(self.negative, factors)
+        product(self.negative, factors)
     }
 
     /// The same with the other sign.
@@ -729,6 +674,21 @@ impl<'d> PrintedTerm<'d> {
         let product = dag.product(factors);
         Some(if self.negative { -product } else { product })
     }
+}
+
+/// `-a*b/c`.
+pub fn product<'a>(negative: bool, factors: impl IntoIterator<Item = (&'a str, bool)>) -> String {
+    let mut text = String::from(if negative { "-" } else { "" });
+    for (k, (factor, divides)) in factors.into_iter().enumerate() {
+        text += match (k, divides) {
+            (0, false) => "",
+            (0, true) => "1/",
+            (_, false) => "*",
+            (_, true) => "/",
+        };
+        text += factor;
+    }
+    text
 }
 
 /// What a printed formula is for; bodies and coordinates by their indices.

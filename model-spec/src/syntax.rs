@@ -69,15 +69,11 @@ mod unit;
 pub(crate) const NO_BRANCHES: &str =
     "expressions have no branches: write them with `max`, `min`, `abs` or `sign`";
 
-/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`.
-pub(crate) fn rate_name(coordinate: &str, index: impl std::fmt::Display) -> String {
-    format!("der({coordinate}{index})")
-}
-
 /// The coordinate whose rate has a name.
 pub(crate) fn coordinate_of_rate(name: &str) -> Option<&str> {
     name.strip_prefix("der(")?.strip_suffix(')')
 }
 
+pub(crate) use crate::unit::rate_name;
 pub use ast::*;
 pub use expression::NESTING_LIMIT;

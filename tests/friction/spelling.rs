@@ -6,7 +6,7 @@ use std::ops::{Add, Mul};
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{ContactForce, Machine, System, contact_forces};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Code, Report};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::Dag;

@@ -1,7 +1,7 @@
 //! How exact accelerations are, and how exact they can be: rounding analysis of `M a = f`.
 
+use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Singular};
 use lagrangian_scalar::{DoubleDouble, Interval, Scalar};
-use lagrangian_spec::program::{Arguments, Interpreter, Program, Role, Shape, Singular};
 
 use super::references::greatest;
 

@@ -2,10 +2,11 @@
 //! interpreter.
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::Equations;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::Candidate;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::mechanics::Equations;
-use lagrangian_spec::program::{Candidate, Program, Proved};
 use lagrangian_spec::source::{Disk, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 
@@ -139,7 +140,7 @@ pub fn program_by(
         // Those of `compiled` may have been multiplied out already.
         let equations = Equations::derive(model, &mut Report::new()).expect("derived before");
         let expanded = equations.expanded();
-        let program = Program::lower_by(model, &equations, expanded.as_ref(), choose);
+        let program = lagrangian_mechanics::lower_by(model, &equations, expanded.as_ref(), choose);
         Proved::new(program, model, &equations).expect("a proof")
     })
 }

@@ -1,7 +1,7 @@
 //! Random states of a machine, and how exact its accelerations are there.
 
 use lagrangian::{Machine, System, Vector};
-use lagrangian_spec::program::Program;
+use lagrangian_program::Program;
 
 use super::accuracy::Judge;
 use super::random::SplitMix;

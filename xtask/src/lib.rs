@@ -3,10 +3,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_emit::rust;
+use lagrangian_mechanics::Compiled;
+use lagrangian_program::quantity::{Extent, Kind, Needs, Role, Row};
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::emit::rust;
-use lagrangian_spec::program::quantity::{Extent, Kind, Needs, Role, Row};
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_emit::rust;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::emit::rust;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::{Dag, Rational};
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use lagrangian::brachistochrone::direct::{Sought, Terrain, Trial};
-use lagrangian::brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
+use lagrangian_brachistochrone::direct::{Sought, Terrain, Trial};
+use lagrangian_brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
 use serde_json::{Map, Value, json};
 
 use super::forward::Arrival;

@@ -1,9 +1,9 @@
 //! A machine outside of the conditions (17), as the direct method sees it: its own expressions over any numbers.
 
 use lagrangian::Scalar;
-use lagrangian::brachistochrone::Contact;
-use lagrangian::brachistochrone::direct::Terrain;
-use lagrangian_spec::mechanics::Brachistochronic;
+use lagrangian_brachistochrone::Contact;
+use lagrangian_brachistochrone::direct::Terrain;
+use lagrangian_mechanics::Brachistochronic;
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Evaluation, Expr, Symbol};
 

@@ -2,7 +2,7 @@
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Machine, Simulation};
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use serde_json::{Value, json};
 
 use super::figures;

@@ -1,9 +1,9 @@
 //! From a compiled machine and its parameters to numbers.
 
-use lagrangian::brachistochrone::{Guide, Problem, Unsolved};
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::mechanics::{Brachistochronic, Guided};
+use lagrangian_brachistochrone::{Guide, Problem, Unsolved};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::{Brachistochronic, Guided};
 use lagrangian_symbolic::{Expr, evaluate};
 use nalgebra::DMatrix;
 

@@ -1,7 +1,7 @@
 //! What a search tried, in words and in JSON.
 
-use lagrangian::brachistochrone::Unsolved;
-use lagrangian::brachistochrone::direct::{Outcome, Start, Trial};
+use lagrangian_brachistochrone::Unsolved;
+use lagrangian_brachistochrone::direct::{Outcome, Start, Trial};
 use serde_json::{Map, Value, json};
 
 use super::problem::explained;

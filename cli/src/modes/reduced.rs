@@ -17,8 +17,8 @@
 
 use lagrangian::System;
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
+use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
-use lagrangian_spec::program::{Arguments, Interpreter, Role, Shape};
 use nalgebra::{DMatrix, DVector};
 
 use super::precise;

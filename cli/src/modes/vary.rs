@@ -6,7 +6,7 @@
 
 use lagrangian::Machine as _;
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Severity;
 use nalgebra::Complex;
 

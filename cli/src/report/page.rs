@@ -1,10 +1,10 @@
 //! The page: its text, its tables, and the files it is made from.
 
 use lagrangian::{Ending, Machine, System};
-use lagrangian_spec::compile::Compiled;
-use lagrangian_spec::emit::document::{Block, Document};
-use lagrangian_spec::emit::html as derivation;
-use lagrangian_spec::program::{Program, Role};
+use lagrangian_mechanics::Compiled;
+use lagrangian_print::document::{Block, Document};
+use lagrangian_print::html as derivation;
+use lagrangian_program::{Program, Role};
 
 use super::Report;
 use super::html::{self, Cell, text as safe};
@@ -542,7 +542,7 @@ fn equations(compiled: &Compiled<'_>) -> String {
 
 /// How long a block is as HTML.
 fn length(block: &Block) -> usize {
-    let section = lagrangian_spec::emit::document::Section {
+    let section = lagrangian_print::document::Section {
         title: String::new(),
         blocks: vec![block.clone()],
     };

@@ -12,7 +12,7 @@
 //! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
 //! vectors are places in the list of values that the page computes.
 
-use lagrangian_spec::mechanics::{body_axes, placed};
+use lagrangian_spec::model::circles::{body_axes, placed};
 use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;

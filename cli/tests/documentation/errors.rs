@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_spec::syntax::SectionKind;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use lagrangian_spec::compile::Compiled;
+use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::{Code, Report};
 use lagrangian_spec::source::{Disk, Sources};
 

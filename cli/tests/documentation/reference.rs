@@ -59,8 +59,8 @@ fn every_section_has_an_entry_with_an_example() {
 fn shown_at(code: &str) -> String {
     match code {
         // Four megabytes would be a burden to the repository.
-        "source-too-large" => "../model-spec/tests/ui.rs".to_owned(),
-        "internal-error" => "../model-spec/tests/program/proved.rs".to_owned(),
+        "source-too-large" => "../crates/mechanics/tests/ui.rs".to_owned(),
+        "internal-error" => "../crates/mechanics/tests/program/proved.rs".to_owned(),
         code => format!("../tests/ui/{code}.machine"),
     }
 }

@@ -7,9 +7,10 @@ use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+use lagrangian_emit as emit;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::Role;
 use lagrangian_scalar::{DoubleDouble, Scalar};
-use lagrangian_spec::emit;
-use lagrangian_spec::program::{Proved, Role};
 use nalgebra::{Complex, DMatrix};
 use serde_json::{Value, json};
 
@@ -397,9 +398,9 @@ pub fn as_c() {
 
 fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
     let prefix = emit::snake_case(&program.name);
-    let defaults = |slots: &[lagrangian_spec::program::Slot]| {
+    let defaults = |slots: &[lagrangian_program::Slot]| {
         let value =
-            |slot: &lagrangian_spec::program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
+            |slot: &lagrangian_program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
         let values: Vec<String> = slots
             .iter()
             .map(|slot| format!("{:?}", value(slot)))

@@ -4,11 +4,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{ContactForce, Machine as _, System as _, contact_forces, least_multipliers};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::Proved;
+use lagrangian_program::{Arguments, Interpreter, Role};
 use lagrangian_scalar::{DoubleDouble, Scalar};
-use lagrangian_spec::compile::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model;
-use lagrangian_spec::program::{Arguments, Interpreter, Proved, Role};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_spec::syntax::SectionKind;
 use lagrangian_symbolic::Dag;
@@ -340,8 +341,7 @@ pub fn hold(program: &Proved, expected: &Expected) -> Vec<String> {
     };
     let State { t, q, v } = &expected.state;
     let n = q.len();
-    let value =
-        |slot: &lagrangian_spec::program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
+    let value = |slot: &lagrangian_program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
     let parameters: Vec<f64> = program.parameters.iter().map(value).collect();
     let inputs = wide(&program.inputs.iter().map(value).collect::<Vec<f64>>());
     let mut interpreter = Interpreter::new(program, &wide(&parameters));
@@ -503,8 +503,7 @@ fn hold_equations(program: &Proved, case: &Case, random: &mut Random) -> Vec<Str
         bound: ROUNDINGS * size * size / truth.pivot,
     };
     let n = case.machine.coordinates.len();
-    let value =
-        |slot: &lagrangian_spec::program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
+    let value = |slot: &lagrangian_program::Slot| slot.default.as_ref().map_or(0.0, |x| x.value);
     let parameters: Vec<f64> = program.parameters.iter().map(value).collect();
     let inputs = wide(&program.inputs.iter().map(value).collect::<Vec<f64>>());
     let mut interpreter = Interpreter::new(program, &wide(&parameters));

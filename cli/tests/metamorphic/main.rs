@@ -14,7 +14,7 @@ mod evaluation;
 mod generate;
 mod jet;
 mod machine;
-#[path = "../../../model-spec/tests/random_machines/random.rs"]
+#[path = "../../../crates/mechanics/tests/random_machines/random.rs"]
 mod random;
 mod rewrite;
 mod simulation;

@@ -8,8 +8,8 @@ use super::names::{Content, Namespace, declared_measure, declared_unit, suggesti
 use super::value::{Limit, MemberId, Scalar, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::mechanics::circles;
 use crate::model::bounds::BoundKind;
+use crate::model::circles;
 use crate::model::{
     Action, Approximation, ApproximationKind, Body, Circle, Constant, Constraint, Contact,
     ContactGeometry, Coordinate, Elastic, Force, Frame, Inertia, Input, Local, Output, Parameter,

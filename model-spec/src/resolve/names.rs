@@ -864,7 +864,8 @@ fn with_unit(word: &str, help: Option<String>) -> Option<String> {
     };
     match (unit, help) {
         (Some(unit), Some(help)) => Some(format!(
-            "{help}; or the unit `{unit}`, which stands behind a number: `2*{unit}`"
+            "{}, or the unit `{unit}`? A unit stands behind a number: `2*{unit}`",
+            help.trim_end_matches('?')
         )),
         (Some(unit), None) => Some(format!(
             "did you mean the unit `{unit}`? It stands behind a number: `2*{unit}`"

@@ -5,7 +5,7 @@ use lagrangian_symbolic::{Expr, evaluate};
 use super::Resolver;
 use super::names::Namespace;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::mechanics::experiment;
+use crate::identity;
 use crate::model::{Action, Model, Space, stage};
 use crate::syntax::{SectionKind, Spec};
 use crate::unit::Unit;
@@ -115,7 +115,7 @@ fn hanging<'d>(model: &Model<'d>) -> Option<(crate::source::Span, String)> {
             let stationary = (0..4).all(|point| {
                 let value = |other| match other == symbol {
                     true => 0.0,
-                    false => experiment::number(point, other),
+                    false => identity::number(point, other),
                 };
                 let values = evaluate(model.dag, &[slope, curvature], value);
                 values[0].abs() <= 1e-12 * values[1].abs()

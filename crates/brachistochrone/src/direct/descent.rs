@@ -1,0 +1,466 @@
+//! Ways of straight pieces, made fast: where Newton's method starts.
+//!
+//! Along a piece from q to q + Δ the velocity is `Δ σ̇`, and with the energy of motion `K = ½ Δ·A Δ σ̇²` the balance (8) is
+//!
+//! ```text
+//! dK/dσ = −ρ        ρ = Δ·R(q, Δ σ̇) − ½ σ̇² Δ·∂A[Δ] Δ                                          (11)
+//! ```
+//!
+//! At a corner W of (9) stays, so a turn by y in the metric S changes K by the factor `exp(−2 κ y)`. A piece takes
+//! `2/(σ̇₀ + σ̇₁)`, exact where coefficients are constant, else to the second order of its length.
+//!
+//! The places between the ends are moved until N times the sum of the squares of the N times is least. It is the square of the whole
+//! time where these are equal, and never less: so pieces become equal in time, and the least is the fastest way of N pieces.
+//! It is approached by the method of Broyden, Fletcher, Goldfarb and Shanno, J. Nocedal and S. J. Wright, *Numerical
+//! Optimization* (2006), alg. 7.4, from the Hessian that would be right if neither masses nor speeds changed with the place.
+//!
+//! A way that the machine cannot go from rest is lent a speed at the start, which is taken away while the way gets better.
+
+use lagrangian_scalar::{Dual, Scalar};
+
+use super::Terrain;
+use super::budget::Counted;
+use crate::linear::{Cholesky, Matrix, dot};
+
+/// Armijo's condition: of the decrease that the slope foretells, so much is asked for.
+const ENOUGH: f64 = 1e-4;
+
+/// A step moves no place by more than this part of the length of the way: it is not to leap over what is in between.
+const REACH: f64 = 0.2;
+
+/// The most halvings of a step.
+const HALVINGS: usize = 25;
+
+/// The most times that the lent energy is made less.
+const ROUNDS: usize = 40;
+
+/// Parts of the lent energy that are tried next, the boldest first.
+const LESS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
+
+/// Less energy may make the time greater, by this factor of its square at once.
+const WORSE: f64 = 4.0;
+
+/// So often pieces are halved to see how much energy is lacking.
+const FINE: usize = 4;
+
+/// A way of straight pieces.
+#[derive(Clone, Debug)]
+pub struct Way {
+    /// Where the pieces meet, the ends among them.
+    pub places: Vec<Vec<f64>>,
+}
+
+/// How a way is gone.
+#[derive(Clone, Debug)]
+pub struct Walk {
+    /// The time of each piece, in s.
+    pub times: Vec<f64>,
+    /// The energy of motion at the end of each piece, in J, with the lent one.
+    energies: Vec<f64>,
+}
+
+impl Walk {
+    /// What is made least, in s².
+    fn objective(&self) -> f64 {
+        self.times.len() as f64 * self.times.iter().map(|t| t * t).sum::<f64>()
+    }
+
+    /// The time of the whole way, in s.
+    pub fn time(&self) -> f64 {
+        self.times.iter().sum()
+    }
+}
+
+/// Why a way is not gone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stop {
+    /// This energy, in J, is lacking at the start; infinite where no speed helps.
+    Lacks(f64),
+    /// The budget is spent.
+    Spent,
+}
+
+impl Way {
+    /// Twice as many pieces.
+    pub fn halved(&self) -> Way {
+        let mut places = std::vec![self.places[0].clone()];
+        for pair in self.places.windows(2) {
+            let middle = pair[0].iter().zip(&pair[1]).map(|(a, b)| 0.5 * (a + b));
+            places.push(middle.collect());
+            places.push(pair[1].clone());
+        }
+        Way { places }
+    }
+
+    fn moved(&self, step: &[f64], part: f64) -> Way {
+        let n = self.places[0].len();
+        let mut places = self.places.clone();
+        let last = places.len() - 1;
+        for (place, step) in places[1..last].iter_mut().zip(step.chunks(n)) {
+            place.iter_mut().zip(step).for_each(|(x, d)| *x += part * d);
+        }
+        Way { places }
+    }
+}
+
+/// A machine that goes along ways.
+#[derive(Debug)]
+pub struct Descent<'a, T> {
+    terrain: Counted<'a, T>,
+    /// Whether turns cost speed, or save friction.
+    rough: bool,
+}
+
+impl<'a, T: Terrain> Descent<'a, T> {
+    pub fn new(terrain: Counted<'a, T>, rough: bool) -> Self {
+        let rough = rough && terrain.coordinates() == 2;
+        Descent { terrain, rough }
+    }
+
+    /// Time of a piece, and the energy at its end; `kinetic` is `None` at rest, `before` where no corner stands at the start.
+    fn piece<N: Scalar>(
+        &self,
+        kinetic: Option<N>,
+        before: Option<&[N]>,
+        start: &[N],
+        end: &[N],
+    ) -> [N; 2] {
+        let number = N::from_f64;
+        let (half, two) = (number(0.5), number(2.0));
+        let along: Vec<N> = start.iter().zip(end).map(|(a, b)| *b - *a).collect();
+        let kinetic = match (kinetic, before) {
+            (Some(kinetic), Some(before)) if self.rough => {
+                kinetic * self.turned(before, start, &along)
+            }
+            _ => kinetic.unwrap_or(N::ZERO),
+        };
+        let rests = kinetic.to_f64() == 0.0;
+        let middle: Vec<Dual<N>> = start
+            .iter()
+            .zip(end)
+            .zip(&along)
+            .map(|((a, b), d)| Dual {
+                value: half * (*a + *b),
+                derivative: *d,
+            })
+            .collect();
+        let n = along.len();
+        let mut mass = Dual::ZERO;
+        for (k, entry) in self.terrain.inertia(&middle).iter().enumerate() {
+            mass = mass + *entry * Dual::constant(along[k / n] * along[k % n]);
+        }
+        let place: Vec<N> = middle.iter().map(|x| x.value).collect();
+        let against = |square: N, rate: N| {
+            let v: Vec<N> = along.iter().map(|d| *d * rate).collect();
+            let resistance = self.terrain.resistance(&place, &v);
+            let work = along.iter().zip(&resistance);
+            let work = work.fold(N::ZERO, |sum, (d, r)| sum + *d * *r);
+            work - half * square * mass.derivative
+        };
+        // The rate from the energy, whose root has no slope at rest.
+        let square = |energy: N| two * energy / mass.value;
+        let first = match rests {
+            true => N::ZERO,
+            false => square(kinetic).sqrt(),
+        };
+        let half_way = kinetic - half * against(first * first, first);
+        let between = square(half_way);
+        let after = kinetic - against(between, between.sqrt());
+        let last = square(after).sqrt();
+        [two / (first + last), after]
+    }
+
+    /// What a corner does to the energy.
+    fn turned<N: Scalar>(&self, before: &[N], corner: &[N], along: &[N]) -> N {
+        let inertia = self.terrain.inertia(corner);
+        let came = [corner[0] - before[0], corner[1] - before[1]];
+        let half = N::from_f64(0.5);
+        let even = half * (inertia[1] + inertia[2]);
+        let skew = half * (inertia[1] - inertia[2]);
+        let root = (inertia[0] * inertia[3] - even * even).sqrt();
+        let ahead = came[0] * (inertia[0] * along[0] + even * along[1])
+            + came[1] * (even * along[0] + inertia[3] * along[1]);
+        let aside = root * (came[0] * along[1] - came[1] * along[0]);
+        let turn = aside.atan2(ahead);
+        (-(turn + turn) * skew / root).exp()
+    }
+
+    /// How the way is gone with this energy at the start; `None` where it is not.
+    fn walk(&self, way: &Way, lent: f64) -> Option<Walk> {
+        let mut walk = Walk {
+            times: Vec::new(),
+            energies: Vec::new(),
+        };
+        let mut kinetic = Some(lent).filter(|lent| *lent > 0.0);
+        for (k, pair) in way.places.windows(2).enumerate() {
+            let before = k.checked_sub(1).map(|k| way.places[k].as_slice());
+            let [time, after] = self.piece(kinetic, before, &pair[0], &pair[1]);
+            if !(time > 0.0 && time.is_finite() && after > 0.0 && after.is_finite()) {
+                return None;
+            }
+            walk.times.push(time);
+            walk.energies.push(after);
+            kinetic = Some(after);
+        }
+        walk.objective().is_finite().then_some(walk)
+    }
+
+    /// Derivatives of the objective by the places between the ends.
+    fn slopes(&self, way: &Way, lent: f64, walk: &Walk) -> Vec<f64> {
+        let n = way.places[0].len();
+        let count = walk.times.len();
+        let mut slopes = std::vec![0.0; (count + 1) * n];
+        // By the energy at the end of a piece.
+        let mut by_energy = 0.0;
+        for k in (0..count).rev() {
+            let mut numbers: Vec<Dual<f64>> = Vec::new();
+            let first = if self.rough { k.saturating_sub(1) } else { k };
+            for place in &way.places[first..=k + 1] {
+                numbers.extend(place.iter().map(|x| Dual::constant(*x)));
+            }
+            let (energy, moves) = match k {
+                0 => (lent, false),
+                _ => (walk.energies[k - 1], true),
+            };
+            let weight = 2.0 * count as f64 * walk.times[k];
+            let slope = |numbers: &[Dual<f64>], by: f64| {
+                let kinetic = (energy > 0.0).then_some(Dual {
+                    value: energy,
+                    derivative: by,
+                });
+                let (before, rest) = numbers.split_at((k - first) * n);
+                let (start, end) = rest.split_at(n);
+                let before = (!before.is_empty()).then_some(before);
+                let [time, after] = self.piece(kinetic, before, start, end);
+                weight * time.derivative + by_energy * after.derivative
+            };
+            for i in 0..numbers.len() {
+                let place = first + i / n;
+                if place > 0 && place < count {
+                    numbers[i].derivative = 1.0;
+                    slopes[first * n + i] += slope(&numbers, 0.0);
+                    numbers[i].derivative = 0.0;
+                }
+            }
+            by_energy = if moves { slope(&numbers, 1.0) } else { 0.0 };
+        }
+        slopes[n..count * n].to_vec()
+    }
+
+    /// The Hessian, as if neither masses nor speeds changed with the place.
+    fn stiffness(&self, way: &Way, walk: &Walk) -> Option<Cholesky> {
+        let n = way.places[0].len();
+        let count = walk.times.len();
+        let size = (count - 1) * n;
+        let mut matrix: Matrix = std::vec![std::vec![0.0; size]; size];
+        for (k, pair) in way.places.windows(2).enumerate() {
+            let middle: Vec<f64> = pair[0]
+                .iter()
+                .zip(&pair[1])
+                .map(|(a, b)| 0.5 * (a + b))
+                .collect();
+            let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
+            let inertia = self.terrain.inertia(&middle);
+            let mass: f64 = (0..n * n)
+                .map(|e| inertia[e] * along[e / n] * along[e % n])
+                .sum();
+            let weight = 2.0 * count as f64 * walk.times[k] * walk.times[k] / mass;
+            for i in 0..n {
+                for j in 0..n {
+                    let entry = 0.5 * weight * (inertia[i * n + j] + inertia[j * n + i]);
+                    let mut add = |a: usize, b: usize, sign: f64| {
+                        let inner = 1..count;
+                        if inner.contains(&a) && inner.contains(&b) {
+                            matrix[(a - 1) * n + i][(b - 1) * n + j] += sign * entry;
+                        }
+                    };
+                    add(k, k, 1.0);
+                    add(k + 1, k + 1, 1.0);
+                    add(k, k + 1, -1.0);
+                    add(k + 1, k, -1.0);
+                }
+            }
+        }
+        Cholesky::new(&matrix).ok()
+    }
+
+    /// The longest move of a place, relative to the way.
+    fn reach(&self, way: &Way, step: &[f64]) -> f64 {
+        let n = way.places[0].len();
+        let inertia = self.terrain.inertia(&way.places[way.places.len() / 2]);
+        let length = |d: &[f64]| -> f64 {
+            let square: f64 = (0..n * n).map(|k| inertia[k] * d[k / n] * d[k % n]).sum();
+            square.max(0.0).sqrt()
+        };
+        let pieces = way.places.windows(2).map(|pair| {
+            let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
+            length(&along)
+        });
+        let whole: f64 = pieces.sum();
+        step.chunks(n).map(length).fold(0.0, f64::max) / whole
+    }
+
+    /// Makes the way faster, with this energy at the start, until its objective is within this part of the least nearby, or
+    /// for so many steps.
+    fn improve(
+        &self,
+        way: &mut Way,
+        walk: &mut Walk,
+        lent: f64,
+        part: f64,
+        steps: usize,
+    ) -> Result<(), Stop> {
+        let mut history: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+        if way.places.len() < 3 {
+            return Ok(());
+        }
+        let mut slopes = self.slopes(way, lent, walk);
+        for _ in 0..steps {
+            if self.terrain.budget.is_spent() {
+                return Err(Stop::Spent);
+            }
+            let Some(stiffness) = self.stiffness(way, walk) else {
+                return Ok(());
+            };
+            let step = direction(&stiffness, &history, &slopes);
+            let gain = -dot(&slopes, &step);
+            if gain.is_nan() || gain <= part * walk.objective() {
+                return Ok(());
+            }
+            let mut share = (REACH / self.reach(way, &step)).min(1.0);
+            let mut found = None;
+            for _ in 0..HALVINGS {
+                let next = way.moved(&step, share);
+                let walk_there = self.walk(&next, lent);
+                let least = walk.objective() - ENOUGH * share * gain;
+                if let Some(there) = walk_there.filter(|there| there.objective() <= least) {
+                    found = Some((next, there));
+                    break;
+                }
+                share *= 0.5;
+            }
+            let Some((next, there)) = found else {
+                if history.is_empty() {
+                    return Ok(()); // Rounding is reached.
+                }
+                history.clear();
+                continue;
+            };
+            (*way, *walk) = (next, there);
+            let after = self.slopes(way, lent, walk);
+            let moved: Vec<f64> = step.iter().map(|d| share * d).collect();
+            let change: Vec<f64> = after.iter().zip(&slopes).map(|(a, b)| a - b).collect();
+            if dot(&moved, &change) > 1e-8 * share * gain {
+                history.push((moved, change));
+            }
+            slopes = after;
+        }
+        Ok(())
+    }
+
+    /// Makes a way one that is gone from rest.
+    ///
+    /// # Errors
+    /// If it cannot be gone, or the budget is spent.
+    pub fn released(&self, way: &mut Way) -> Result<Walk, Stop> {
+        let rest = std::vec![0.0; way.places[0].len()];
+        let works = way.places.windows(2).map(|pair| {
+            let middle: Vec<f64> = pair[0]
+                .iter()
+                .zip(&pair[1])
+                .map(|(a, b)| 0.5 * (a + b))
+                .collect();
+            let force = self.terrain.resistance(&middle, &rest);
+            let parts = pair[1].iter().zip(&pair[0]).zip(&force);
+            parts.map(|((b, a), f)| (b - a) * f).sum::<f64>().abs()
+        });
+        let scale: f64 = works.sum();
+        if !(scale > 0.0 && scale.is_finite()) {
+            return Err(Stop::Lacks(f64::INFINITY));
+        }
+        let mut lent = 0.0;
+        let mut walk = self.walk(way, lent);
+        while walk.is_none() {
+            lent = if lent == 0.0 {
+                scale / 16.0
+            } else {
+                2.0 * lent
+            };
+            if lent > 1e6 * scale {
+                return Err(Stop::Lacks(f64::INFINITY));
+            }
+            walk = self.walk(way, lent);
+        }
+        let Some(mut walk) = walk else {
+            return Err(Stop::Lacks(lent));
+        };
+        for round in 0..=ROUNDS {
+            if lent == 0.0 {
+                return Ok(walk);
+            }
+            if round == ROUNDS {
+                break;
+            }
+            self.improve(way, &mut walk, lent, 1e-3, 15)?;
+            let bound = WORSE * walk.objective();
+            let borne = |part: &f64| {
+                let there = self.walk(way, part * lent)?;
+                (there.objective() < bound).then_some((part * lent, there))
+            };
+            match LESS.iter().find_map(borne) {
+                Some(less) => (lent, walk) = less,
+                None => break,
+            }
+        }
+        Err(Stop::Lacks(self.lacking(way, lent)))
+    }
+
+    /// The energy without which the way cannot be gone, as far as it is known not to be enough. Long pieces leap over what is in
+    /// between, so it is looked at in short ones.
+    fn lacking(&self, way: &Way, lent: f64) -> f64 {
+        let fine = (0..FINE).fold(way.clone(), |way, _| way.halved());
+        let lents = (0..10).map(|k| lent * f64::from(1 << k));
+        let walks = lents.map(|lent| (lent, self.walk(&fine, lent)));
+        for (lent, walk) in walks {
+            if let Some(walk) = walk {
+                return lent
+                    - walk
+                        .energies
+                        .iter()
+                        .fold(f64::INFINITY, |least, k| least.min(*k));
+            }
+        }
+        f64::INFINITY
+    }
+
+    /// Makes a way that is gone from rest the fastest nearby, as far as its pieces tell.
+    ///
+    /// # Errors
+    /// If it cannot be gone, or the budget is spent.
+    pub fn fastest(&self, way: &mut Way) -> Result<Walk, Stop> {
+        let mut walk = self.walk(way, 0.0).ok_or(Stop::Lacks(0.0))?;
+        self.improve(way, &mut walk, 0.0, 1e-7, 150)?;
+        Ok(walk)
+    }
+}
+
+/// The step of the quasi-Newton method: two loops over what was learnt on the way.
+fn direction(stiffness: &Cholesky, history: &[(Vec<f64>, Vec<f64>)], slopes: &[f64]) -> Vec<f64> {
+    let mut step: Vec<f64> = slopes.iter().map(|g| -g).collect();
+    let mut parts = Vec::new();
+    for (moved, change) in history.iter().rev() {
+        let part = dot(moved, &step) / dot(moved, change);
+        step.iter_mut()
+            .zip(change)
+            .for_each(|(x, y)| *x -= part * y);
+        parts.push(part);
+    }
+    step = stiffness.solve(&step);
+    for ((moved, change), part) in history.iter().zip(parts.iter().rev()) {
+        let back = dot(change, &step) / dot(moved, change);
+        step.iter_mut()
+            .zip(moved)
+            .for_each(|(x, s)| *x += (part - back) * s);
+    }
+    step
+}

@@ -1,0 +1,141 @@
+//! Machines with constant coefficients, whose fastest motion is a closed form, and the way from there to a machine itself.
+
+use lagrangian_scalar::Scalar;
+
+use super::Terrain;
+use super::budget::Budget;
+use super::collocation::Path;
+use super::pontryagin::Pontryagin;
+use super::{between, rows, symmetric};
+use crate::linear::{dot, times};
+use crate::problem::Problem;
+
+/// The least step on the way from the frozen machine to the real one.
+const LEAST_STEP: f64 = 1.0 / 64.0;
+
+/// A part θ of the way from constant coefficients to those of a machine.
+pub struct Blend<'a, T> {
+    terrain: &'a T,
+    frozen: &'a Frozen,
+    part: f64,
+}
+
+impl<T: Terrain> Terrain for Blend<'_, T> {
+    fn coordinates(&self) -> usize {
+        self.terrain.coordinates()
+    }
+
+    fn inertia<N: Scalar>(&self, q: &[N]) -> Vec<N> {
+        let real = match self.part == 0.0 {
+            true => std::vec![N::ZERO; self.frozen.inertia.len()],
+            false => self.terrain.inertia(q),
+        };
+        self.between(&self.frozen.inertia, real)
+    }
+
+    fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
+        let real = match self.part == 0.0 {
+            true => std::vec![N::ZERO; self.frozen.resistance.len()],
+            false => self.terrain.resistance(q, v),
+        };
+        self.between(&self.frozen.resistance, real)
+    }
+}
+
+impl<T> Blend<'_, T> {
+    fn between<N: Scalar>(&self, frozen: &[f64], real: Vec<N>) -> Vec<N> {
+        if self.part == 1.0 {
+            return real;
+        }
+        let (part, rest) = (N::from_f64(self.part), 1.0 - self.part);
+        let pairs = frozen.iter().zip(real);
+        pairs
+            .map(|(frozen, real)| part * real + N::from_f64(rest * frozen))
+            .collect()
+    }
+}
+
+/// A machine with constant coefficients to start from.
+pub struct Frozen {
+    inertia: Vec<f64>,
+    resistance: Vec<f64>,
+    pub problem: Problem,
+}
+
+impl Frozen {
+    /// A part of the way from here to the machine itself.
+    pub fn towards<'a, T>(&'a self, terrain: &'a T, part: f64) -> Blend<'a, T> {
+        Blend {
+            terrain,
+            frozen: self,
+            part,
+        }
+    }
+}
+
+/// Machines to start from, the likeliest first: frozen half-way, at the start, half-way with the mean force of the straight
+/// way, and one that falls straight to the end.
+pub fn frozen(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<Frozen> {
+    let n = from.len();
+    let half = between(from, to, 0.5);
+    let rest = std::vec![0.0; n];
+    let at_rest = |part: f64| terrain.resistance(&between(from, to, part), &rest);
+    let middle = terrain.inertia(&half);
+    let even = symmetric(middle.clone(), n);
+    let [one, two, three] = [0.0, 0.5, 1.0].map(at_rest);
+    let mean = (0..n).map(|i| (one[i] + 4.0 * two[i] + three[i]) / 6.0);
+    let mean: Vec<f64> = mean.collect();
+    let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+    let momentum = times(&rows(&even, n), &way);
+    // With the acceleration that the work on the straight way gives, or else of gravity.
+    let length = dot(&momentum, &way).max(f64::MIN_POSITIVE);
+    let push = (dot(&mean, &way).abs() / length).max(f64::EPSILON);
+    let falling = momentum.iter().map(|p| -push * p).collect();
+    let candidates = [
+        (middle.clone(), two),
+        (terrain.inertia(from), one),
+        (middle, mean.clone()),
+        (even.clone(), mean),
+        (even, falling),
+    ];
+    let known = candidates.into_iter().filter_map(|(inertia, resistance)| {
+        let even = symmetric(inertia.clone(), n);
+        let skew: Vec<f64> = inertia.iter().zip(&even).map(|(a, s)| a - s).collect();
+        let problem = Problem::new(&rows(&even, n), &resistance)
+            .and_then(|problem| problem.with_friction(&std::vec![0.0; n], &rows(&skew, n)));
+        let problem = problem.ok()?;
+        Some(Frozen {
+            inertia,
+            resistance,
+            problem,
+        })
+    });
+    known.collect()
+}
+
+/// The path of the machine itself, from that of the frozen one; and how far it came.
+pub fn carried<P: Pontryagin>(
+    start: Path,
+    from: &[f64],
+    to: &[f64],
+    system: impl Fn(f64) -> P,
+    budget: &Budget,
+) -> (Option<Path>, f64) {
+    let (mut path, mut part, mut step) = (start, 0.0_f64, 1.0_f64);
+    while part < 1.0 {
+        let next = (part + step).min(1.0);
+        match path.clone().corrected(&system(next), from, to, budget) {
+            Some(found) => {
+                (path, part) = (found, next);
+                step *= 2.0;
+            }
+            None => {
+                step /= 2.0;
+                if step < LEAST_STEP || budget.is_spent() {
+                    return (None, part);
+                }
+            }
+        }
+    }
+    (Some(path), part)
+}

@@ -1,0 +1,311 @@
+//! The fastest motion that was found, and everything about it at any moment.
+
+use std::f64::consts::PI;
+
+use super::Terrain;
+use super::collocation::{Path, Stage, advanced};
+use super::hamiltonian::Driven;
+use super::pontryagin::Pontryagin;
+use super::rule::{Rule, through};
+use super::trial::{Outcome, Trial};
+use crate::linear::{Cholesky, Lu, dot};
+use crate::solution::{Lapse, Moment, lapses};
+
+/// Moments at which guides, and sudden turns, are looked at.
+const LOOKS: u32 = 64;
+
+/// The fastest motion of a [`Terrain`] from rest at one place to another.
+#[derive(Clone, Debug)]
+pub struct Sought<T> {
+    pub(super) system: Driven<T>,
+    pub(super) path: Path,
+    pub(super) change: f64,
+    pub(super) ends: [Vec<f64>; 2],
+    pub(super) tried: Vec<Trial>,
+    pub(super) evaluations: u64,
+}
+
+impl<T: Terrain> Sought<T> {
+    /// From when on other directions would save time, in s after the start: Legendre's condition fails there, or Jacobi's.
+    pub(super) fn refused(&self) -> Option<f64> {
+        self.saddle().or_else(|| self.conjugate())
+    }
+
+    /// The time that it takes, in s.
+    pub fn time(&self) -> f64 {
+        self.path.time
+    }
+
+    /// By how much the time changed when the stretches were halved for the last time, in s: more than the error.
+    pub fn change(&self) -> f64 {
+        self.change
+    }
+
+    /// In how many stretches, each of the order 8.
+    pub fn stretches(&self) -> usize {
+        self.path.stretches()
+    }
+
+    /// What was tried, and what came of each; this motion is the fastest of those that were found.
+    pub fn tried(&self) -> &[Trial] {
+        &self.tried
+    }
+
+    /// The times of other motions that are faster than their neighbours, in s, the fastest first; none is less than this one's.
+    pub fn others(&self) -> Vec<f64> {
+        let found = self.tried.iter().filter_map(|trial| match trial.outcome {
+            Outcome::Found { time } => Some(time),
+            _ => None,
+        });
+        let mut times: Vec<f64> = found.collect();
+        times.sort_by(f64::total_cmp);
+        times.drain(..times.len().min(1));
+        times
+    }
+
+    /// The times of ways of straight pieces, or of extremals, in s, that are less than this one's and could not be followed to a motion that is
+    /// faster than its neighbours: while there are any, this one may not be the fastest.
+    pub fn doubts(&self) -> Vec<f64> {
+        let times = self.tried.iter().filter_map(|trial| match trial.outcome {
+            Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => Some(time),
+            _ => None,
+        });
+        // Straight pieces are good to so much.
+        times
+            .filter(|time| *time < (1.0 - 1e-3) * self.time())
+            .collect()
+    }
+
+    /// How much the search did, in evaluations as [`Search::budget`](super::Search::budget) counts them.
+    pub fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// The machine that moves.
+    pub fn terrain(&self) -> &T {
+        &self.system.terrain
+    }
+
+    /// Where it starts and where it ends.
+    pub fn ends(&self) -> [&[f64]; 2] {
+        [&self.ends[0], &self.ends[1]]
+    }
+
+    /// The multipliers `p` of the coordinates at the start, in s for a unit of each: by so much longer it takes from there.
+    pub fn costs(&self) -> &[f64] {
+        let n = self.system.n();
+        &self.path.nodes[0][n + 1..2 * n + 1]
+    }
+
+    /// How far Pontryagin's function is from 1, at most, at the ends of stretches and half-way.
+    pub fn residual(&self) -> f64 {
+        let looks = 2 * self.stretches();
+        let moments = (1..=looks).map(|k| {
+            let stage = self.stage(self.time() * k as f64 / looks as f64);
+            (self.system.value(&stage.y, &stage.z) - 1.0).abs()
+        });
+        moments.fold(0.0, f64::max)
+    }
+
+    /// States and multipliers at a time, by one stretch from the last end before it.
+    fn stage(&self, time: f64) -> Stage {
+        let count = self.stretches();
+        let whole = (time / self.time()).clamp(0.0, 1.0) * count as f64;
+        let k = (whole as usize).min(count - 1);
+        let part = whole - k as f64;
+        let (start, old) = (&self.path.nodes[k], &self.path.stages[k]);
+        let points = Rule::new().points;
+        let mut states = std::vec![(0.0, start.as_slice())];
+        states.extend(points.iter().zip(old).map(|(c, s)| (*c, s.y.as_slice())));
+        let controls = points.iter().zip(old);
+        let controls: Vec<(f64, &[f64])> = controls.map(|(c, s)| (*c, s.z.as_slice())).collect();
+        let guess = |x: f64| Stage {
+            y: through(&states, x),
+            z: through(&controls, x),
+        };
+        let y = match part {
+            0.0 => start.clone(),
+            1.0 => self.path.nodes[k + 1].clone(),
+            _ => {
+                let stages = points.map(|c| guess(c * part)).to_vec();
+                let length = part * self.time() / count as f64;
+                advanced(&self.system, start, stages, length)
+            }
+        };
+        let z = self.steered(&y, guess(part).z);
+        Stage { y, z }
+    }
+
+    /// The control that makes H stationary, from a guess with some digits.
+    fn steered(&self, y: &[f64], mut z: Vec<f64>) -> Vec<f64> {
+        let first = y.len();
+        for _ in 0..4 {
+            let (slopes, second) = self.system.curvatures(y, &z);
+            let block: Vec<Vec<f64>> = second[first..]
+                .iter()
+                .map(|r| r[first..].to_vec())
+                .collect();
+            let Some(factors) = Lu::new(block) else {
+                break;
+            };
+            let change = factors.solve(&slopes[first..]);
+            z.iter_mut().zip(change).for_each(|(z, d)| *z -= d);
+        }
+        z
+    }
+
+    /// The motion at a time, in s; before the start and after the end, at these.
+    pub fn at(&self, time: f64) -> Moment {
+        let n = self.system.n();
+        let (m, wide) = (n + 1, 2 * (n + 1));
+        let Stage { y, z } = self.stage(time);
+        let (slopes, second) = self.system.curvatures(&y, &z);
+        // ẏ and ż, and so the rate of v = ∂H/∂p.
+        let mut rate: Vec<f64> = slopes[m..wide].to_vec();
+        rate.extend(slopes[..m].iter().map(|x| -x));
+        let right: Vec<f64> = second[wide..]
+            .iter()
+            .map(|row| -dot(&row[..wide], &rate))
+            .collect();
+        let block: Vec<Vec<f64>> = second[wide..].iter().map(|r| r[wide..].to_vec()).collect();
+        let turning = Lu::new(block).map_or_else(|| right.clone(), |factors| factors.solve(&right));
+        rate.extend(turning);
+        let q = y[..n].to_vec();
+        let v = slopes[m..m + n].to_vec();
+        let a: Vec<f64> = second[m..m + n].iter().map(|row| dot(row, &rate)).collect();
+        let terrain = &self.system.terrain;
+        let inertia = terrain.inertia(&q);
+        let resistance = terrain.resistance(&q, &v);
+        let control = (0..n).map(|i| dot(&inertia[i * n..(i + 1) * n], &a) + resistance[i]);
+        let control = control.collect();
+        let (contacts, friction_power) = terrain.contacts(&q, &v, &a);
+        let mass = terrain.mass(&q);
+        let length = |matrix: &[f64], x: &[f64], y: &[f64]| -> f64 {
+            (0..n * n).map(|k| matrix[k] * x[k / n] * y[k % n]).sum()
+        };
+        let unit = self.system.direction(&z);
+        let kinetic = length(&mass, &unit, &unit).sqrt();
+        let first = self.system.direction(&self.path.stages[0][0].z);
+        let along = length(&inertia, &first, &unit);
+        let turned = match self.system.is_plane() {
+            true => z[0] - self.path.stages[0][0].z[0],
+            false => {
+                let sizes = length(&inertia, &first, &first) * length(&inertia, &unit, &unit);
+                (along / sizes.sqrt()).clamp(-1.0, 1.0).acos()
+            }
+        };
+        // ∂H/∂(speed in the metric of a): E dλ, as W = E U and U √(ê·a ê) is that speed.
+        let measure = self.system.measure(&q, &unit, &z);
+        let multiplier = y[wide - 1] * measure / kinetic;
+        Moment {
+            time: time.clamp(0.0, self.time()),
+            turned,
+            q,
+            v,
+            a,
+            direction: unit.iter().map(|x| x / kinetic).collect(),
+            control,
+            friction_power,
+            multiplier,
+            contacts,
+        }
+    }
+
+    /// Guides that slide backwards, or whose reaction becomes negative.
+    pub fn lapses(&self) -> Vec<Lapse> {
+        let looks = (0..=LOOKS).map(|k| self.at(self.time() * f64::from(k) / f64::from(LOOKS)));
+        let moments: Vec<Moment> = looks.collect();
+        let slip = |guide: usize, moment: &Moment| {
+            let terrain = &self.system.terrain;
+            terrain.contacts(&moment.q, &moment.direction, &moment.a).0[guide].slip
+        };
+        lapses(&self.system.terrain.guides(), &moments, slip)
+    }
+
+    /// Between which sudden turns of the direction, in rad, nothing would be faster at any moment (Weierstrass); of two
+    /// coordinates, in steps of a degree. A turn right round multiplies the speed by `exp(∓2π κ)`: with friction in it none
+    /// is the best there.
+    pub fn best_among_turns(&self) -> [f64; 2] {
+        const STEPS: u32 = 180;
+        if !self.system.is_plane() {
+            return [-PI, PI];
+        }
+        let states = self.path.nodes.iter().zip(&self.path.stages);
+        let states: Vec<(&[f64], Vec<f64>)> = states
+            .map(|(y, stages)| (y.as_slice(), self.steered(y, stages[0].z.clone())))
+            .collect();
+        let gains = |turn: f64| {
+            states.iter().any(|(y, z)| {
+                let now = self.system.value(y, z);
+                let turned = self.system.value(y, &[z[0] + turn]);
+                turned > now + 64.0 * f64::EPSILON * now.abs().max(1.0)
+            })
+        };
+        [-1.0, 1.0].map(|side| {
+            let angle = |step: u32| side * PI * f64::from(step) / f64::from(STEPS);
+            let good = (1..=STEPS).take_while(|step| !gains(angle(*step)));
+            angle(u32::try_from(good.count()).unwrap_or(STEPS))
+        })
+    }
+
+    /// Legendre's condition: H is greatest, and not least, for the directions of the motion.
+    fn saddle(&self) -> Option<f64> {
+        let n = self.system.n();
+        let first = 2 * (n + 1);
+        let free = if self.system.is_plane() { 1 } else { n };
+        for (k, stages) in self.path.stages.iter().enumerate() {
+            for stage in stages {
+                let (_, second) = self.system.curvatures(&stage.y, &stage.z);
+                let bent = (0..free).map(|i| {
+                    let row = &second[first + i][first..first + free];
+                    row.iter().map(|x| -x).collect()
+                });
+                if Cholesky::new(&bent.collect()).is_err() {
+                    return Some(self.time() * k as f64 / self.stretches() as f64);
+                }
+            }
+        }
+        None
+    }
+
+    /// Jacobi's condition: extremals to the end, from whatever state they come, do not meet before it. With the state (q, W)
+    /// their family has n parameters beside the time, and its Jacobian vanishes where they meet.
+    fn conjugate(&self) -> Option<f64> {
+        let (system, path) = (&self.system, &self.path);
+        let n = system.n();
+        let (m, last) = (n + 1, self.stretches());
+        let moment = |k: usize| self.time() * k as f64 / last as f64;
+        let Some(transitions) = path.transitions(system) else {
+            return Some(moment(last));
+        };
+        // At the end q stays and λ is 0; p and W change so that H stays 1.
+        let (_, slopes) = system.slopes(&path.nodes[last], &path.last);
+        let free: Vec<usize> = (n..m + n).collect();
+        let greatest = |k: &usize| (slopes[*k] * path.nodes[last][*k]).abs();
+        let by_size = |a: &usize, b: &usize| greatest(a).total_cmp(&greatest(b));
+        let tied = free.iter().copied().max_by(by_size)?;
+        let mut family: Vec<Vec<f64>> = Vec::new();
+        for k in free.into_iter().filter(|k| *k != tied) {
+            let mut change = std::vec![0.0; 2 * m];
+            (change[k], change[tied]) = (1.0, -slopes[k] / slopes[tied]);
+            family.push(change);
+        }
+        let mut sign = None;
+        for k in (1..last).rev() {
+            let Some(factors) = Lu::new(transitions[k].clone()) else {
+                return Some(moment(k));
+            };
+            family = family.iter().map(|change| factors.solve(change)).collect();
+            let (_, slopes) = system.slopes(&path.nodes[k], &path.stages[k][0].z);
+            let mut columns: Vec<Vec<f64>> = family.iter().map(|y| y[..m].to_vec()).collect();
+            columns.push(slopes[m..2 * m].to_vec());
+            let Some(positive) = Lu::new(columns).map(|factors| factors.is_positive()) else {
+                return Some(moment(k));
+            };
+            if *sign.get_or_insert(positive) != positive {
+                return Some(moment(k));
+            }
+        }
+        None
+    }
+}

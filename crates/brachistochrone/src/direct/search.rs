@@ -1,0 +1,507 @@
+//! The search for the fastest motion: many starts, each made fast, then smooth.
+
+use std::cmp::Ordering;
+
+use lagrangian_scalar::Dual;
+
+use super::budget::{Budget, Counted};
+use super::collocation::Path;
+use super::descent::{Descent, Stop, Walk, Way};
+use super::frozen::{carried, frozen};
+use super::hamiltonian::Driven;
+use super::motion::Sought;
+use super::trial::{Outcome, Start, Trial};
+use super::ways::{PIECES, guessed, ways};
+use super::{SKEW, Terrain, between, rows, symmetric};
+use crate::error::Unsolved;
+use crate::linear::{Cholesky, Matrix, dot};
+
+/// The time is settled when halving changes it by less than this part; at order 8 it is then good to the last digits.
+const SETTLED: f64 = 1e-12;
+
+/// Straight pieces, and the stretches on which they are made smooth, the cheapest first.
+const LEVELS: [[usize; 2]; 3] = [[16, 8], [32, 16], [64, 32]];
+
+/// The most stretches.
+const STRETCHES: usize = 256;
+
+/// Times of straight pieces are this near to those of the smooth motions, relatively: 16 pieces to a thousandth or so.
+const NEAR: f64 = 0.03;
+
+/// Ways nearer to each other than this part of their length are one; smooth ones, and those of straight pieces.
+const SAME: [f64; 2] = [1e-5, 0.03];
+
+/// The most that a search may do, in numbers that inertia or resistance is evaluated with: some seconds for an interpreted
+/// machine, a fraction of one for a compiled machine.
+const BUDGET: u64 = 4_000_000;
+
+/// How to look for the fastest motion.
+#[derive(Clone, Debug)]
+pub struct Search {
+    guesses: Vec<Vec<Vec<f64>>>,
+    stretches: Option<usize>,
+    budget: u64,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Search {
+            guesses: Vec::new(),
+            stretches: None,
+            budget: BUDGET,
+        }
+    }
+}
+
+/// What one start led to.
+struct Candidate {
+    trial: usize,
+    way: Way,
+    walk: Walk,
+}
+
+/// A smooth motion, and by how much its time changed at last.
+struct Smooth {
+    trial: usize,
+    path: Path,
+    change: f64,
+}
+
+impl Search {
+    /// From the straight way and from ways to either side of it, as far as a budget of some seconds goes.
+    pub fn new() -> Search {
+        Search::default()
+    }
+
+    /// Starts also from a way through these places, at least two. Where it begins and ends it is moved to the ends that are
+    /// asked for, so that the motion to a near end may be given.
+    pub fn guess(mut self, places: Vec<Vec<f64>>) -> Search {
+        self.guesses.push(places);
+        self
+    }
+
+    /// On so many equal stretches of time, instead of as many as it takes, for those who look at the error.
+    pub fn stretches(mut self, stretches: usize) -> Search {
+        self.stretches = Some(stretches.max(1));
+        self
+    }
+
+    /// Does so much at most, in evaluations of [`Terrain::inertia`] and [`Terrain::resistance`], each counted once for every
+    /// real number in the type it is made with. What was begun is ended, so somewhat more may be done. It is 4 million unless
+    /// it is said.
+    pub fn budget(mut self, evaluations: u64) -> Search {
+        self.budget = evaluations;
+        self
+    }
+
+    /// The fastest motion of a machine from rest at one place to another: the fastest of those that the starts lead to.
+    ///
+    /// # Errors
+    /// Why there is none, or none that was found; see [`Unsolved`].
+    pub fn solve<T: Terrain>(
+        &self,
+        terrain: T,
+        from: &[f64],
+        to: &[f64],
+    ) -> Result<Sought<T>, Unsolved> {
+        self.refuse_lists(terrain.coordinates(), from, to)?;
+        let frame = frame(&terrain, from)?;
+        let skew = skew(&terrain, from, to);
+        refuse_loops(from.len(), skew)?;
+        let budget = Budget::new(self.budget);
+        let counted = Counted::new(&terrain, &budget);
+        let guesses = self.guesses.iter();
+        let guesses = guesses.map(|places| (Start::Guess, guessed(&counted, places, from, to)));
+        let mut starts: Vec<(Start, Way)> = guesses.collect();
+        starts.extend(ways(&counted, from, to));
+        let rise = rise(&terrain, from, to);
+        let falls = is_potential(&terrain, &starts);
+        // What a potential takes, no way gives back. Level ends are a matter of rounding.
+        let looks = rise.work <= 1e-9 * rise.size || !falls || skew.1 > SKEW;
+        let hunt = Hunt {
+            system: Driven::new(counted.clone(), frame.clone()),
+            descent: Descent::new(counted, skew.1 > SKEW),
+            budget: &budget,
+            ends: [from, to],
+            stretches: self.stretches,
+        };
+        let mut tried = Vec::new();
+        let found = match looks {
+            true => hunt.follow(starts, &mut tried),
+            false => None,
+        };
+        let Some(Smooth { path, change, .. }) = found else {
+            return Err(match falls && rise.work >= 0.0 {
+                true => Unsolved::NotBelow { rise: rise.work },
+                false => Unsolved::NotFound { tried },
+            });
+        };
+        let ends = [from.to_vec(), to.to_vec()];
+        Ok(Sought {
+            system: Driven::new(terrain, frame),
+            path,
+            change,
+            ends,
+            tried,
+            evaluations: budget.spent(),
+        })
+    }
+
+    fn refuse_lists(&self, n: usize, from: &[f64], to: &[f64]) -> Result<(), Unsolved> {
+        let places = self.guesses.iter().flatten().map(|place| place.as_slice());
+        let places = places.map(|place| ("a place of the guess", place));
+        let ends = [("the start", from), ("the end", to)];
+        for (what, list) in ends.into_iter().chain(places) {
+            let found = list.len();
+            if found != n || n == 0 {
+                let expected = n.max(1);
+                return Err(Unsolved::Size {
+                    what,
+                    expected,
+                    found,
+                });
+            }
+            if !list.iter().all(|x| x.is_finite()) {
+                return Err(Unsolved::NotFinite { what });
+            }
+        }
+        if let Some(short) = self.guesses.iter().find(|places| places.len() < 2) {
+            return Err(Unsolved::Size {
+                what: "the guess",
+                expected: 2,
+                found: short.len(),
+            });
+        }
+        match from == to {
+            true => Err(Unsolved::SameEnds),
+            false => Ok(()),
+        }
+    }
+}
+
+/// A search that goes on.
+struct Hunt<'a, T> {
+    system: Driven<Counted<'a, T>>,
+    descent: Descent<'a, T>,
+    budget: &'a Budget,
+    ends: [&'a [f64]; 2],
+    stretches: Option<usize>,
+}
+
+impl<T: Terrain> Hunt<'_, T> {
+    /// The fastest of the motions that these starts lead to.
+    fn follow(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Option<Smooth> {
+        let mut found: Vec<Smooth> = Vec::new();
+        for candidate in self.candidates(starts, tried) {
+            let trial = candidate.trial;
+            let (outcome, smooth) = self.smoothed(candidate, &found);
+            tried[trial].outcome = outcome;
+            found.extend(smooth);
+        }
+        if found.is_empty() {
+            let (outcome, smooth) = self.thawed(tried.len());
+            tried.push(Trial {
+                start: Start::Frozen,
+                outcome,
+            });
+            found.extend(smooth);
+        }
+        // Of equal ones the first, as a mirror makes them equal.
+        let by_time = |a: &Smooth, b: &Smooth| a.path.time.total_cmp(&b.path.time);
+        found
+            .into_iter()
+            .reduce(|best, next| match by_time(&next, &best) {
+                Ordering::Less => next,
+                _ => best,
+            })
+    }
+
+    /// Different ways of straight pieces that are the fastest nearby, the fastest first; every start has its trial.
+    fn candidates(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Candidate> {
+        let mut found: Vec<Candidate> = Vec::new();
+        for (start, mut way) in starts {
+            let trial = tried.len();
+            let released = self.descent.released(&mut way);
+            let gone = released.and_then(|_| self.descent.fastest(&mut way));
+            let outcome = match gone {
+                Ok(walk) => {
+                    let same = found.iter().find(|known| {
+                        let far = distance(&self.system.terrain, &known.way.places, &way.places);
+                        far < SAME[1] && (known.walk.time() / walk.time() - 1.0).abs() < NEAR
+                    });
+                    match same {
+                        Some(known) => Outcome::Same { trial: known.trial },
+                        None => {
+                            found.push(Candidate { trial, way, walk });
+                            Outcome::Unfinished
+                        }
+                    }
+                }
+                Err(Stop::Lacks(energy)) => Outcome::Lacks { energy },
+                Err(Stop::Spent) => Outcome::Unfinished,
+            };
+            tried.push(Trial { start, outcome });
+        }
+        found.sort_by(|a, b| a.walk.time().total_cmp(&b.walk.time()));
+        found
+    }
+
+    /// The smooth motion at a way of straight pieces.
+    fn smoothed(&self, candidate: Candidate, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+        let Candidate {
+            trial,
+            mut way,
+            mut walk,
+        } = candidate;
+        for [pieces, stretches] in LEVELS {
+            while way.places.len() <= pieces {
+                way = way.halved();
+                // What long pieces leapt over may be in the way of shorter ones.
+                let released = self.descent.released(&mut way);
+                match released.and_then(|_| self.descent.fastest(&mut way)) {
+                    Ok(finer) => walk = finer,
+                    Err(Stop::Lacks(energy)) => return (Outcome::Lacks { energy }, None),
+                    Err(Stop::Spent) => return (Outcome::Unfinished, None),
+                }
+            }
+            let stretches = self.stretches.unwrap_or(stretches);
+            let [from, to] = self.ends;
+            let path = Path::along(&self.system, &way, &walk, stretches);
+            let path = path.and_then(|path| path.corrected(&self.system, from, to, self.budget));
+            // Newton's method may have gone elsewhere.
+            let near = |path: &Path| (path.time / walk.time() - 1.0).abs() < NEAR;
+            if let Some(path) = path.filter(near) {
+                return self.judged(trial, path, known);
+            }
+            if self.budget.is_spent() {
+                return (Outcome::Unfinished, None);
+            }
+        }
+        (Outcome::NotSmooth { time: walk.time() }, None)
+    }
+
+    /// The path on as many stretches as it takes, if it is a new one and faster than its neighbours.
+    fn judged(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+        let Some((path, change)) = self.settled(path) else {
+            return (Outcome::Unfinished, None);
+        };
+        let same = known.iter().find(|known| {
+            let [one, other] = [&known.path, &path].map(|path| path.places(PIECES));
+            distance(&self.system.terrain, &one, &other) < SAME[0]
+        });
+        if let Some(known) = same {
+            return (Outcome::Same { trial: known.trial }, None);
+        }
+        let time = path.time;
+        let sought = Sought {
+            system: self.system.clone(),
+            path,
+            change,
+            ends: self.ends.map(<[f64]>::to_vec),
+            tried: Vec::new(),
+            evaluations: 0,
+        };
+        match sought.refused() {
+            Some(since) => (Outcome::NotLeast { time, since }, None),
+            None => {
+                let path = sought.path;
+                let smooth = Smooth {
+                    trial,
+                    path,
+                    change,
+                };
+                (Outcome::Found { time }, Some(smooth))
+            }
+        }
+    }
+
+    /// Halves the stretches until the time stays, or the budget is spent; and by how much it changed at last, in s.
+    fn settled(&self, mut path: Path) -> Option<(Path, f64)> {
+        let mut change = f64::INFINITY;
+        let most = self.stretches.unwrap_or(STRETCHES);
+        let [from, to] = self.ends;
+        while path.stretches() < most {
+            let finer = path.halved().corrected(&self.system, from, to, self.budget);
+            let Some(finer) = finer else {
+                break;
+            };
+            let before = change;
+            change = (finer.time - path.time).abs();
+            path = finer;
+            // Or rounding is reached, and halving changes no more.
+            if change <= SETTLED * path.time || (change >= before && change <= 1e-10 * path.time) {
+                break;
+            }
+        }
+        (self.stretches.is_some() || change <= 1e-6 * path.time).then_some((path, change))
+    }
+
+    /// From closed forms.
+    fn thawed(&self, trial: usize) -> (Outcome, Option<Smooth>) {
+        let [from, to] = self.ends;
+        let mut reached = 0.0_f64;
+        let terrain = &self.system.terrain;
+        for frozen in frozen(terrain, from, to) {
+            if self.budget.is_spent() {
+                return (Outcome::Unfinished, None);
+            }
+            let system = |part| self.system.of(frozen.towards(terrain, part));
+            let motion = frozen.problem.solve(from, to).ok();
+            let stretches = self.stretches.unwrap_or(LEVELS[0][1]);
+            let start = motion.and_then(|motion| Path::guess(&system(0.0), &motion, stretches));
+            let Some(start) = start else {
+                continue;
+            };
+            let (path, part) = carried(start, from, to, system, self.budget);
+            reached = reached.max(part);
+            if let Some(path) = path {
+                return self.judged(trial, path, &[]);
+            }
+        }
+        (Outcome::Lost { part: reached }, None)
+    }
+}
+
+/// How far ways with as many places are from each other, at most, in the metric of the middle, relative to the length.
+fn distance(terrain: &impl Terrain, one: &[Vec<f64>], other: &[Vec<f64>]) -> f64 {
+    let n = one[0].len();
+    let metric = symmetric(terrain.inertia(&one[one.len() / 2]), n);
+    let apart = |x: &[f64], y: &[f64]| -> f64 {
+        let d: Vec<f64> = x.iter().zip(y).map(|(x, y)| x - y).collect();
+        let square: f64 = metric
+            .chunks(n)
+            .zip(&d)
+            .map(|(row, x)| x * dot(row, &d))
+            .sum();
+        square.max(0.0).sqrt()
+    };
+    let whole: f64 = one.windows(2).map(|pair| apart(&pair[0], &pair[1])).sum();
+    let pairs = one.iter().zip(other);
+    pairs.map(|(x, y)| apart(x, y)).fold(0.0, f64::max) / whole
+}
+
+/// Columns orthonormal in the metric `sym A` of the start, in which directions are measured.
+fn frame(terrain: &impl Terrain, from: &[f64]) -> Result<Matrix, Unsolved> {
+    let n = from.len();
+    let even = rows(&symmetric(terrain.inertia(from), n), n);
+    let factor = Cholesky::new(&even)
+        .map_err(|(coordinate, ratio)| Unsolved::FrictionOutweighsInertia { coordinate, ratio })?;
+    // Columns of L⁻ᵀ: solutions of Lᵀ f = e.
+    Ok((0..n)
+        .map(|k| {
+            let mut unit = std::vec![0.0; n];
+            unit[k] = 1.0;
+            factor.solve_upper(&unit)
+        })
+        .collect())
+}
+
+/// The two coordinates in which `A` is skew most on the straight way, and how much, relative to the inertia of both.
+fn skew(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> ([usize; 2], f64) {
+    let n = from.len();
+    let mut most = ([0, 0], 0.0_f64);
+    for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        let inertia = terrain.inertia(&between(from, to, part));
+        for i in 0..n {
+            for j in 0..i {
+                let skew = 0.5 * (inertia[i * n + j] - inertia[j * n + i]).abs();
+                let skew = skew / (inertia[i * n + i] * inertia[j * n + j]).abs().sqrt();
+                if skew > most.1 {
+                    most = ([j, i], skew);
+                }
+            }
+        }
+    }
+    most
+}
+
+/// With three coordinates or more, no fastest motion survives friction that makes `A` skew.
+fn refuse_loops(n: usize, (coordinates, skew): ([usize; 2], f64)) -> Result<(), Unsolved> {
+    match n > 2 && skew > SKEW {
+        true => Err(Unsolved::LoopsFeed { coordinates, skew }),
+        false => Ok(()),
+    }
+}
+
+/// Work against everything that resists at rest, in J.
+struct Rise {
+    work: f64,
+    /// Of its parts, without their signs.
+    size: f64,
+}
+
+/// On the straight way.
+fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
+    let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+    let rest = std::vec![0.0; from.len()];
+    let steps = 64;
+    let mut rise = Rise {
+        work: 0.0,
+        size: 0.0,
+    };
+    // Gauss' rule of two points, so that the work is good to the last digits.
+    for k in 0..steps {
+        for z in [-1.0, 1.0] {
+            let part = (f64::from(k) + 0.5 + 0.5 * z / 3.0_f64.sqrt()) / f64::from(steps);
+            let force = terrain.resistance(&between(from, to, part), &rest);
+            let work = 0.5 * dot(&force, &way) / f64::from(steps);
+            rise.work += work;
+            rise.size += work.abs();
+        }
+    }
+    rise
+}
+
+/// Whether what resists is a potential's force, and whatever depends on velocities gives no energy: at all places of these ways.
+fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
+    ways.iter().all(|(_, way)| {
+        let places = way.places.iter().step_by(3);
+        places.into_iter().all(|q| loses(terrain, q))
+    })
+}
+
+/// At one place: the force at rest is without curl, and in motion `v·R(q, v) ≥ v·R(q, 0) + ½ v·∂A[v] v`.
+fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
+    let n = q.len();
+    let still = std::vec![Dual::constant(0.0); n];
+    let along = |v: &[f64]| -> Vec<Dual<f64>> {
+        let pairs = q.iter().zip(v);
+        pairs
+            .map(|(value, derivative)| Dual {
+                value: *value,
+                derivative: *derivative,
+            })
+            .collect()
+    };
+    let unit = |i: usize, x: f64| {
+        let mut unit = std::vec![0.0; n];
+        unit[i] = x;
+        unit
+    };
+    let slopes: Vec<Vec<f64>> = (0..n)
+        .map(|i| {
+            let force = terrain.resistance(&along(&unit(i, 1.0)), &still);
+            force.iter().map(|f| f.derivative).collect()
+        })
+        .collect();
+    let size = slopes
+        .iter()
+        .flatten()
+        .fold(0.0_f64, |most, x| most.max(x.abs()));
+    let curls = (0..n * n).any(|k| {
+        let [one, other] = [slopes[k / n][k % n], slopes[k % n][k / n]];
+        (one - other).abs() > 1e-9 * size
+    });
+    let feeds = (0..2 * n).any(|k| {
+        let v = unit(k / 2, if k % 2 == 0 { 1.0 } else { -1.0 });
+        let [moving, rest] =
+            [v.clone(), std::vec![0.0; n]].map(|rate| dot(&terrain.resistance(q, &rate), &v));
+        let inertia = terrain.inertia(&along(&v));
+        let bent: f64 = (0..n * n)
+            .map(|e| inertia[e].derivative * v[e / n] * v[e % n])
+            .sum();
+        let gain = rest + 0.5 * bent - moving;
+        gain > 1e-9 * (rest.abs() + bent.abs() + moving.abs())
+    });
+    !curls && !feeds
+}

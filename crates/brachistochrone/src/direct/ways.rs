@@ -1,0 +1,108 @@
+//! Ways to start from.
+
+use super::Terrain;
+use super::descent::Way;
+use super::trial::Start;
+use super::{between, symmetric};
+use crate::linear::dot;
+
+/// So many straight pieces at first.
+pub const PIECES: usize = 16;
+
+/// How far aside ways go in the middle, of the length of the straight one: of two coordinates, and of more.
+const ASIDE: [&[f64]; 2] = [&[0.35, 1.0], &[0.5]];
+
+/// The straight way, and ways that leave it to either side of it, across it in the metric of its middle.
+pub fn ways(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
+    let n = from.len();
+    let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
+    let product =
+        |x: &[f64], y: &[f64]| -> f64 { (0..n * n).map(|k| metric[k] * x[k / n] * y[k % n]).sum() };
+    let straight: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+    let length = product(&straight, &straight).max(0.0).sqrt();
+    let mut found = std::vec![(Start::Straight, bowed(from, to, &std::vec![0.0; n]))];
+    // Schmidt's method; the unit that is nearest to the straight way is left out.
+    let mut across: Vec<Vec<f64>> = std::vec![straight.iter().map(|x| x / length).collect()];
+    let share = |i: &usize| product(&across[0], &unit(n, *i)).abs() / metric[i * n + i].sqrt();
+    let nearest = (0..n).max_by(|a, b| share(a).total_cmp(&share(b)));
+    for i in (0..n).filter(|i| Some(*i) != nearest) {
+        let mut next = unit(n, i);
+        for known in &across {
+            let part = product(known, &next);
+            next.iter_mut().zip(known).for_each(|(x, k)| *x -= part * k);
+        }
+        let size = product(&next, &next).max(0.0).sqrt();
+        if size > 0.0 {
+            across.push(next.iter().map(|x| x / size).collect());
+        }
+    }
+    for part in ASIDE[usize::from(n > 2)] {
+        for direction in &across[1..] {
+            for side in [1.0, -1.0] {
+                let by: Vec<f64> = direction.iter().map(|x| side * part * length * x).collect();
+                let way = bowed(from, to, &by);
+                found.push((Start::Bowed { by }, way));
+            }
+        }
+    }
+    found
+}
+
+fn unit(n: usize, i: usize) -> Vec<f64> {
+    (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
+}
+
+/// At the part `τ²` of the way at the part τ of the time, as from rest under a constant force, and aside by a half sine.
+fn bowed(from: &[f64], to: &[f64], by: &[f64]) -> Way {
+    let place = |k: usize| {
+        let part = (k as f64 / PIECES as f64).powi(2);
+        let mut place = between(from, to, part);
+        if k < PIECES {
+            let aside = (core::f64::consts::PI * part).sin();
+            place.iter_mut().zip(by).for_each(|(x, d)| *x += aside * d);
+        } else {
+            place.copy_from_slice(to);
+        }
+        place
+    };
+    Way {
+        places: (0..=PIECES).map(place).collect(),
+    }
+}
+
+/// A way through given places, whose ends are moved to these; what is between moves with them, by its part of the length.
+pub fn guessed(terrain: &impl Terrain, places: &[Vec<f64>], from: &[f64], to: &[f64]) -> Way {
+    let n = from.len();
+    let metric = symmetric(terrain.inertia(&between(from, to, 0.5)), n);
+    let mut lengths = std::vec![0.0];
+    let mut whole = 0.0;
+    for pair in places.windows(2) {
+        let along: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| b - a).collect();
+        let mass: Vec<f64> = metric.chunks(n).map(|row| dot(row, &along)).collect();
+        whole += dot(&along, &mass).max(0.0).sqrt();
+        lengths.push(whole);
+    }
+    let [first, last] = [&places[0], &places[places.len() - 1]];
+    let place = |k: usize| {
+        let part = (k as f64 / PIECES as f64).powi(2);
+        let length = part * whole;
+        let after = lengths
+            .partition_point(|l| *l < length)
+            .clamp(1, places.len() - 1);
+        let piece = lengths[after] - lengths[after - 1];
+        let inner = if piece > 0.0 {
+            (length - lengths[after - 1]) / piece
+        } else {
+            0.0
+        };
+        let there = between(&places[after - 1], &places[after], inner);
+        (0..n)
+            .map(|i| there[i] + (1.0 - part) * (from[i] - first[i]) + part * (to[i] - last[i]))
+            .collect()
+    };
+    let mut places: Vec<Vec<f64>> = (0..=PIECES).map(place).collect();
+    // To the last digit.
+    places[0] = from.to_vec();
+    places[PIECES] = to.to_vec();
+    Way { places }
+}

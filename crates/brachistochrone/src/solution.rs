@@ -1,0 +1,248 @@
+//! The fastest motion, and everything about it at any moment.
+
+use super::linear::{dot, times};
+use super::plane::Arc;
+use super::problem::{Frame, Problem};
+
+/// Moments at which [`Brachistochrone::lapses`] looks at the guides.
+const LOOKS: u32 = 256;
+
+/// The fastest motion from rest at one place to another.
+#[derive(Clone, Debug)]
+pub struct Brachistochrone {
+    problem: Problem,
+    frame: Frame,
+    arc: Arc,
+    start: Vec<f64>,
+    end: Vec<f64>,
+    /// `S` of [`plane`](super::plane), in the unit of V.
+    scale: f64,
+    /// `R cos x₀`.
+    descent: f64,
+    /// `x₀`, in rad.
+    first: f64,
+}
+
+/// The motion at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Time since the start, in s.
+    pub time: f64,
+    /// Through which angle the direction has turned, in rad, in the metric of the motion.
+    pub turned: f64,
+    /// `q`.
+    pub q: Vec<f64>,
+    /// `v = q̇`.
+    pub v: Vec<f64>,
+    /// `v̇`.
+    pub a: Vec<f64>,
+    /// The direction of motion, a velocity for which twice the kinetic energy `a_αβ v^α v^β` is 1; at rest too.
+    pub direction: Vec<f64>,
+    /// Control forces `u = (a + d) v̇ + b + c`.
+    pub control: Vec<f64>,
+    /// Power of friction `−b·v − v·d v̇`, in W.
+    pub friction_power: f64,
+    /// λ of (44), the multiplier of the principle of work and energy divided by the speed, (31); 0 at the end.
+    pub multiplier: f64,
+    /// What the guides do, in their order.
+    pub contacts: Vec<Contact>,
+}
+
+/// A guide at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Slip `τ·v`, in m/s; friction was taken to act against a positive one.
+    pub slip: f64,
+    /// Normal reaction `ν + ρ·v̇`, in N; a guide that only presses cannot make a negative one.
+    pub reaction: f64,
+}
+
+/// A guide that leaves the law under which the motion was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lapse {
+    /// Name of the guide.
+    pub guide: String,
+    /// When it was first seen, in s.
+    pub time: f64,
+    /// Whether it slides backwards then; otherwise its reaction is negative.
+    pub backwards: bool,
+    /// The least value on the way: of the reaction, in N, or of the slip for motion with unit [`Moment::direction`].
+    pub least: f64,
+}
+
+impl Brachistochrone {
+    pub(super) fn new(
+        problem: Problem,
+        frame: Frame,
+        arc: Arc,
+        start: &[f64],
+        end: &[f64],
+    ) -> Brachistochrone {
+        let first = frame.kappa.atan();
+        let descent = frame.drive * first.cos();
+        let [ahead, aside, _] = arc.whole();
+        // Roots one by one: of a straight way, `ahead` is next to nothing.
+        let scale = (frame.length * descent).sqrt() / ahead.hypot(aside).sqrt();
+        Brachistochrone {
+            problem,
+            frame,
+            arc,
+            start: start.to_vec(),
+            end: end.to_vec(),
+            scale,
+            descent,
+            first,
+        }
+    }
+
+    /// The time that it takes, in s.
+    pub fn time(&self) -> f64 {
+        self.scale / self.descent * self.arc.whole()[2]
+    }
+
+    /// The machine that moves.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// Where it starts and where it ends.
+    pub fn ends(&self) -> [&[f64]; 2] {
+        [&self.start, &self.end]
+    }
+
+    /// The constant κ of friction, positive where turning costs speed; 0 without friction, and with more than two
+    /// coordinates.
+    pub fn kappa(&self) -> f64 {
+        self.frame.kappa
+    }
+
+    /// Through which angle the direction turns in all, in rad, in the metric of the motion.
+    pub fn turn(&self) -> f64 {
+        self.arc.turn()
+    }
+
+    /// The constants `C_α` of Euler's equations (22), a covector; infinite for a whole arch of a cycloid.
+    pub fn constants(&self) -> Vec<f64> {
+        let turn = self.arc.turn();
+        let sin = if self.arc.is_arch() { 0.0 } else { turn.sin() };
+        let length = 1.0 / (self.scale * sin * self.first.cos());
+        let (aside, ahead) = (2.0 * self.first + turn).sin_cos();
+        let [down, across] = &self.frame.coaxes;
+        let parts = down.iter().zip(across);
+        parts
+            .map(|(down, across)| length * (ahead * down + aside * across))
+            .collect()
+    }
+
+    /// Between which sudden turns of the direction, in rad, nothing would be faster at any moment: −π and π where there is
+    /// no better motion at all, less where friction is saved by turning. Positive is the sense in which the motion turns.
+    pub fn best_among_turns(&self) -> [f64; 2] {
+        self.arc.best_among_turns()
+    }
+
+    /// The motion at a time, in s; before the start and after the end, at these.
+    pub fn at(&self, time: f64) -> Moment {
+        let part = time / self.time();
+        self.after_turning(self.arc.turned_after(part))
+    }
+
+    /// The motion when a part of the whole turn has been made, from 0 to 1; so moments are nearer where it turns faster.
+    pub fn after_part(&self, part: f64) -> Moment {
+        self.after_turning(self.arc.turn() * part.clamp(0.0, 1.0))
+    }
+
+    fn after_turning(&self, u: f64) -> Moment {
+        let Brachistochrone { problem, frame, .. } = self;
+        let [down, across] = &frame.axes;
+        let along = |ahead: f64, aside: f64| -> Vec<f64> {
+            let parts = down.iter().zip(across);
+            parts
+                .map(|(down, across)| ahead * down + aside * across)
+                .collect()
+        };
+        let [ahead, aside, time] = self.arc.so_far(u);
+        let (sin, cos) = self.first.sin_cos();
+        let way = along(cos * ahead - sin * aside, sin * ahead + cos * aside);
+        // The unit of the way may be too great for a number where the way in that unit is too small.
+        let scaled = |x: &f64| x * self.scale / self.descent * self.scale;
+        let q = self
+            .start
+            .iter()
+            .zip(&way)
+            .map(|(start, x)| start + scaled(x))
+            .collect();
+        let (sin, cos) = (self.first + u).sin_cos();
+        let [unit, turned] = [along(cos, sin), along(-sin, cos)];
+        let (speed, by_angle) = self.arc.speed(u);
+        let rate = self.descent / self.scale / self.arc.slowness(u);
+        let speed = self.scale * speed;
+        let (faster, turning) = (self.scale * by_angle * rate, speed * rate);
+        let v: Vec<f64> = unit.iter().map(|unit| speed * unit).collect();
+        let parts = unit.iter().zip(&turned);
+        let a: Vec<f64> = parts
+            .map(|(unit, turned)| faster * unit + turning * turned)
+            .collect();
+        let reactive = times(&problem.reactive, &a);
+        let friction_power = -dot(&problem.loads, &v) - dot(&reactive, &v);
+        let inertia = times(&problem.mass, &a);
+        let control = (0..v.len())
+            .map(|i| inertia[i] + reactive[i] + problem.loads[i] + problem.slope[i])
+            .collect();
+        let contacts = problem.guides.iter().map(|guide| Contact {
+            slip: dot(&guide.along, &v),
+            reaction: guide.load + dot(&guide.weights, &a),
+        });
+        // In the metric of the motion |e| = 1; the paper measures speed by the kinetic energy alone.
+        let kinetic = dot(&unit, &times(&problem.mass, &unit)).sqrt();
+        Moment {
+            time: self.scale / self.descent * time,
+            turned: u,
+            q,
+            contacts: contacts.collect(),
+            direction: unit.iter().map(|unit| unit / kinetic).collect(),
+            v,
+            a,
+            control,
+            friction_power,
+            multiplier: self.arc.multiplier(u) / self.descent * kinetic,
+        }
+    }
+
+    /// Guides that slide backwards, or whose reaction becomes negative, at one of 257 moments: there, the friction that was
+    /// assumed is not that of Coulomb.
+    pub fn lapses(&self) -> Vec<Lapse> {
+        let moments = (0..=LOOKS).map(|k| self.after_part(f64::from(k) / f64::from(LOOKS)));
+        let guides = &self.problem.guides;
+        let names: Vec<String> = guides.iter().map(|guide| guide.name.clone()).collect();
+        let slip = |guide: usize, moment: &Moment| dot(&guides[guide].along, &moment.direction);
+        lapses(&names, &moments.collect::<Vec<_>>(), slip)
+    }
+}
+
+/// What guides do at these moments that Coulomb's law does not allow; `slip` is that of a motion with unit
+/// [`Moment::direction`].
+pub(super) fn lapses(
+    guides: &[String],
+    moments: &[Moment],
+    slip: impl Fn(usize, &Moment) -> f64,
+) -> Vec<Lapse> {
+    let mut lapses = Vec::new();
+    for (index, guide) in guides.iter().enumerate() {
+        for backwards in [true, false] {
+            let value = |moment: &Moment| match backwards {
+                true => slip(index, moment),
+                false => moment.contacts[index].reaction,
+            };
+            let least = moments.iter().map(value).fold(f64::INFINITY, f64::min);
+            if let Some(moment) = moments.iter().find(|moment| value(moment) < 0.0) {
+                lapses.push(Lapse {
+                    guide: guide.clone(),
+                    time: moment.time,
+                    backwards,
+                    least,
+                });
+            }
+        }
+    }
+    lapses
+}

@@ -1,0 +1,534 @@
+//! Straight-line code as statements of a language with operators: the part that Rust and C share.
+//!
+//! Every value that is used more than once becomes a variable; one that is used once stands inside the expression that
+//! uses it, as long as that stays readable. The order of the operations inside an expression is that of the program, so
+//! rounding is the same as if every value were a variable.
+
+use lagrangian_symbolic::{self as symbolic, Rational};
+
+use super::layout::{Writer, width};
+use super::names::Scope;
+use lagrangian_program as program;
+use lagrangian_program::{
+    Contracted, Contraction, Contractions, Function, Guard, Op, Source, Value,
+};
+
+mod repeats;
+
+pub use repeats::{Loops, Place, Plan, fill, runs, statements_with_loops};
+
+/// The longest expression that is put into another one.
+const LONGEST_INLINE: usize = 72;
+
+/// The same for one with a call of a method: longer ones are broken by rustfmt.
+const LONGEST_CALL: usize = 58;
+
+/// How a language writes what is no operator.
+pub trait Language {
+    /// A rational number.
+    fn constant(&self, value: &Rational) -> Expression;
+    /// π.
+    fn pi(&self) -> Expression;
+    /// An argument that has no variable of its own; `None` where it has one.
+    fn argument(&self, source: Source) -> Option<Expression>;
+    /// The name that a variable for an argument should have, and what it is set to.
+    fn variable(&self, source: Source) -> (String, String);
+    /// A function of one argument, `a.sqrt()`.
+    fn unary(&self, function: symbolic::Function, argument: &Expression) -> Expression;
+    /// A function of two arguments, `a.atan2(b)`.
+    fn binary(&self, function: symbolic::Function, a: &Expression, b: &Expression) -> Expression;
+    /// `let name = value;`
+    fn bind(&self, writer: &mut Writer, name: &str, value: &str);
+    /// Sine, cosine or both of a variable or an argument.
+    fn sin_cos(
+        &self,
+        writer: &mut Writer,
+        sin: Option<&str>,
+        cos: Option<&str>,
+        angle: &Expression,
+    );
+    /// Leaves the function where a pivot vanishes.
+    fn guard(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2]);
+    /// A free name for a variable, the nearest to `name`.
+    fn identifier(&self, scope: &mut Scope, name: &str) -> String;
+    /// What an angle may be called in the names of its sine and cosine: `theta1`, of `n(q[0])` too.
+    fn angle_name(&self, angle: &str) -> String {
+        let plain = angle.trim_start_matches("r#");
+        plain
+            .chars()
+            .map(|c| if c.is_alphanumeric() { c } else { '_' })
+            .collect()
+    }
+    /// Whether a bound value may be called by its meaning, such as `zero`.
+    fn constant_name(&self, value: &Rational) -> Option<&'static str>;
+    /// What rounding took from a product or a sum.
+    fn error(&self, of: Rounded, a: &Expression, b: &Expression) -> Expression;
+    /// A product and a sum in one operation; `None` where the language keeps them apart.
+    fn contraction(
+        &self,
+        _kind: Contracted,
+        _factors: [&Expression; 2],
+        _term: &Expression,
+    ) -> Option<Expression> {
+        None
+    }
+    /// Whether [`sin_cos_all`](Language::sin_cos_all) is to be used, and products are contracted.
+    fn is_for_speed(&self) -> bool {
+        false
+    }
+    /// Sines and cosines of several angles at once; names for those that are used.
+    fn sin_cos_all(&self, _writer: &mut Writer, _angles: &[Angle]) {}
+}
+
+/// An operation whose rounding error is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rounded {
+    /// `a·b`
+    Product,
+    /// `a + b`
+    Sum,
+}
+
+/// An angle, and the names of its sine and cosine where they are used.
+pub struct Angle {
+    /// The angle: a variable or an argument.
+    pub angle: Expression,
+    /// The variable for its sine.
+    pub sin: Option<String>,
+    /// The variable for its cosine.
+    pub cos: Option<String>,
+}
+
+/// How tightly an expression holds together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Binding {
+    /// `a + b`, `a - b`
+    Sum,
+    /// `a * b`, `a / b`
+    Product,
+    /// `-a`
+    Sign,
+    /// A name, a number, a call.
+    Atom,
+}
+
+/// An expression as text.
+#[derive(Clone, Debug)]
+pub struct Expression {
+    /// The text.
+    pub text: String,
+    /// Its outermost operator.
+    pub binding: Binding,
+    /// Whether it is no longer and no dearer than a name.
+    pub is_leaf: bool,
+}
+
+impl Expression {
+    /// A name, or a number that is as good as one.
+    pub fn leaf(text: impl Into<String>) -> Expression {
+        Expression {
+            text: text.into(),
+            binding: Binding::Atom,
+            is_leaf: true,
+        }
+    }
+
+    /// A call.
+    pub fn call(text: impl Into<String>) -> Expression {
+        Expression {
+            text: text.into(),
+            binding: Binding::Atom,
+            is_leaf: false,
+        }
+    }
+
+    /// A sum.
+    pub fn sum(text: impl Into<String>) -> Expression {
+        Expression {
+            binding: Binding::Sum,
+            ..Expression::call(text)
+        }
+    }
+
+    /// In parentheses where it would fall apart beside something that binds as tightly as `least`.
+    pub fn at_least(&self, least: Binding) -> String {
+        if self.binding >= least {
+            self.text.clone()
+        } else {
+            format!("({})", self.text)
+        }
+    }
+
+    fn operation(operator: &str, binding: Binding, a: &Expression, b: &Expression) -> Expression {
+        // `a - (b - c)` keeps its parentheses, `(a - b) - c` needs none.
+        let tighter = if binding == Binding::Sum {
+            Binding::Product
+        } else {
+            Binding::Sign
+        };
+        let text = format!("{} {operator} {}", a.at_least(binding), b.at_least(tighter));
+        Expression {
+            text,
+            binding,
+            is_leaf: false,
+        }
+    }
+}
+
+/// Writes the statements of a function; the texts of its results come back.
+///
+/// `wanted` are the names that the results should have, where they become variables; a scalar's result does not.
+pub fn statements(
+    writer: &mut Writer,
+    language: &impl Language,
+    function: &Function,
+    scope: Scope,
+    wanted: &[String],
+) -> Vec<Expression> {
+    let mut body = Body::new(writer, language, function, scope, wanted);
+    body.read_arguments();
+    body.all_angles();
+    let mut guards = function.guards.iter().peekable();
+    for index in 0..function.code.len() {
+        body.operation(Value(index as u32));
+        while let Some(guard) = guards.next_if(|guard| body.is_ready(guard, index)) {
+            let pivot = body.bound(guard.pivot);
+            let scale = body.bound(guard.scale);
+            language.guard(body.writer, guard, [&pivot, &scale]);
+        }
+    }
+    body.results()
+}
+
+/// What is left to check after the statements of a function.
+pub struct Unchecked {
+    /// The results.
+    pub results: Vec<Expression>,
+    /// Of each guard the pivot and its scale.
+    pub guards: Vec<[String; 2]>,
+    /// The result that is known last.
+    pub latest: usize,
+}
+
+/// The same without the guards: these are for the caller to check, after everything else.
+pub fn unchecked(
+    writer: &mut Writer,
+    language: &impl Language,
+    function: &Function,
+    scope: Scope,
+    wanted: &[String],
+) -> Unchecked {
+    let mut body = Body::new(writer, language, function, scope, wanted);
+    body.read_arguments();
+    body.all_angles();
+    for index in 0..function.code.len() {
+        body.operation(Value(index as u32));
+    }
+    let results = body.results();
+    let guards = function.guards.iter();
+    let guards = guards.map(|guard| [guard.pivot, guard.scale].map(|value| body.bound(value)));
+    let ready = program::ready(function);
+    let places = 0..function.results.len();
+    let latest = places.max_by_key(|&place| ready[function.results[place].index()]);
+    Unchecked {
+        guards: guards.collect(),
+        results,
+        latest: latest.unwrap_or(0),
+    }
+}
+
+/// Whether an expression is too long to be put into another one.
+fn is_long(text: &str) -> bool {
+    let longest = match text.contains(".mul_") || text.contains(".neg_mul_") {
+        true => LONGEST_CALL,
+        false => LONGEST_INLINE,
+    };
+    width(text) > longest
+}
+
+struct Body<'a, L> {
+    writer: &'a mut Writer,
+    language: &'a L,
+    function: &'a Function,
+    scope: Scope,
+    /// How often each value is used.
+    uses: Vec<u32>,
+    /// Where values stand among others that are counted.
+    places: Vec<Vec<Place>>,
+    /// The names that values should have.
+    wanted: Vec<Option<&'a str>>,
+    /// The text of each value so far.
+    texts: Vec<Option<Expression>>,
+    temporaries: usize,
+    /// How many names of loops there are.
+    names: usize,
+    /// Whether results become variables.
+    binds_results: bool,
+    /// Which products are computed by the sums that use them.
+    contractions: Contractions,
+}
+
+impl<'a, L: Language> Body<'a, L> {
+    fn new(
+        writer: &'a mut Writer,
+        language: &'a L,
+        function: &'a Function,
+        scope: Scope,
+        wanted: &'a [String],
+    ) -> Body<'a, L> {
+        let n = function.code.len();
+        let contractions = match language.is_for_speed() {
+            true => Contractions::of(function),
+            false => Contractions::none(function),
+        };
+        let mut names = vec![None; n];
+        for (value, name) in function.results.iter().zip(wanted) {
+            names[value.index()].get_or_insert(name.as_str());
+        }
+        Body {
+            writer,
+            language,
+            function,
+            scope,
+            uses: program::uses(function),
+            places: vec![Vec::new(); n],
+            wanted: names,
+            texts: vec![None; n],
+            temporaries: 0,
+            names: 0,
+            binds_results: !wanted.is_empty(),
+            contractions,
+        }
+    }
+
+    /// Variables for the arguments that are used.
+    fn read_arguments(&mut self) {
+        let mut reads: Vec<(Source, usize)> = Vec::new();
+        for (index, op) in self.function.code.iter().enumerate() {
+            if let Op::Read(source) = *op {
+                match self.language.argument(source) {
+                    Some(argument) => self.texts[index] = Some(argument),
+                    None => reads.push((source, index)),
+                }
+            }
+        }
+        reads.sort();
+        for (source, index) in reads {
+            let (name, value) = self.language.variable(source);
+            let name = self.language.identifier(&mut self.scope, &name);
+            self.language.bind(self.writer, &name, &value);
+            self.texts[index] = Some(Expression::leaf(name));
+        }
+    }
+
+    /// Whether what a guard compares is there after the operation at an index.
+    fn is_ready(&self, guard: &Guard, index: usize) -> bool {
+        let is_argument = |value: Value| matches!(self.function.op(value), Op::Read(_));
+        let is_there = |value: Value| value.index() <= index || is_argument(value);
+        is_there(guard.pivot) && is_there(guard.scale)
+    }
+
+    /// Sines and cosines that need nothing but arguments and sums and products of them, together.
+    fn all_angles(&mut self) {
+        if !self.language.is_for_speed() {
+            return;
+        }
+        let code = &self.function.code;
+        let angles = program::early_angles(self.function);
+        if angles.is_empty() {
+            return;
+        }
+        let mut is_needed = vec![false; code.len()];
+        angles
+            .iter()
+            .for_each(|angle| is_needed[angle.index()] = true);
+        for (index, op) in code.iter().enumerate().rev() {
+            if is_needed[index] {
+                op.operands()
+                    .for_each(|operand| is_needed[operand.index()] = true);
+            }
+        }
+        for index in (0..code.len()).filter(|&index| is_needed[index]) {
+            self.operation(Value(index as u32));
+        }
+        let named: Vec<Angle> = angles
+            .into_iter()
+            .map(|angle| self.name_angle(angle))
+            .collect();
+        self.language.sin_cos_all(self.writer, &named);
+    }
+
+    fn operation(&mut self, value: Value) {
+        if self.texts[value.index()].is_some() || self.contractions.is_part(value) {
+            return; // read above, the cosine beside a sine, or part of the sum that uses it
+        }
+        let expression = match self.function.op(value).clone() {
+            _ if let Some(sum) = self.contractions.sum(value) => self.contraction(sum),
+            Op::Sin(angle) | Op::Cos(angle) => return self.sin_cos(angle),
+            op => self.expression(op),
+        };
+        self.define(value, expression);
+    }
+
+    /// What a value is: a variable, if it is used again.
+    fn define(&mut self, value: Value, expression: Expression) {
+        let is_cheap = expression.is_leaf || matches!(self.function.op(value), Op::Pi);
+        self.texts[value.index()] = Some(expression);
+        if self.uses[value.index()] > 1 && !is_cheap {
+            self.bound(value);
+        }
+    }
+
+    /// An operation, other than a sine and a cosine.
+    fn expression(&mut self, op: Op) -> Expression {
+        let language = self.language;
+        match op {
+            Op::Constant(rational) => language.constant(&rational),
+            Op::Pi => language.pi(),
+            // All of them were read above.
+            Op::Read(source) => Expression::leaf(language.variable(source).1),
+            Op::Sin(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Sin, a)),
+            Op::Cos(a) => self.combine([a], |[a]| language.unary(symbolic::Function::Cos, a)),
+            Op::Add(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("+", Binding::Sum, a, b)
+            }),
+            Op::Sub(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("-", Binding::Sum, a, b)
+            }),
+            Op::Mul(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("*", Binding::Product, a, b)
+            }),
+            Op::Div(a, b) => self.combine([a, b], |[a, b]| {
+                Expression::operation("/", Binding::Product, a, b)
+            }),
+            Op::Neg(a) => self.combine([a], |[a]| Expression {
+                text: format!("-{}", a.at_least(Binding::Atom)),
+                binding: Binding::Sign,
+                is_leaf: false,
+            }),
+            Op::ProductError(a, b) => {
+                self.combine([a, b], |[a, b]| language.error(Rounded::Product, a, b))
+            }
+            Op::SumError(a, b) => self.combine([a, b], |[a, b]| language.error(Rounded::Sum, a, b)),
+            Op::Unary(function, a) => self.combine([a], |[a]| language.unary(function, a)),
+            Op::Binary(function, a, b) => {
+                self.combine([a, b], |[a, b]| language.binary(function, a, b))
+            }
+        }
+    }
+
+    /// A sum with the product that is contracted into it.
+    fn contraction(&mut self, sum: Contraction) -> Expression {
+        let language = self.language;
+        let [a, b] = sum.factors;
+        self.combine([a, b, sum.term], |[a, b, c]| {
+            language
+                .contraction(sum.kind, [a, b], c)
+                .expect("a language that is for speed contracts")
+        })
+    }
+
+    /// An expression of operands, which become variables where it would get too long.
+    fn combine<const K: usize>(
+        &mut self,
+        operands: [Value; K],
+        write: impl Fn([&Expression; K]) -> Expression,
+    ) -> Expression {
+        loop {
+            let texts = operands.map(|operand| self.text(operand));
+            let expression = write(texts.each_ref());
+            let bindable = operands
+                .into_iter()
+                .zip(texts)
+                .filter(|(_, operand)| !operand.is_leaf);
+            let longest = bindable.max_by_key(|(_, operand)| width(&operand.text));
+            match longest {
+                Some((operand, _)) if is_long(&expression.text) => {
+                    self.bound(operand);
+                }
+                _ => return expression,
+            }
+        }
+    }
+
+    /// Sine and cosine of an angle, whichever of them the function uses.
+    fn sin_cos(&mut self, angle: Value) {
+        let Angle { angle, sin, cos } = self.name_angle(angle);
+        self.language
+            .sin_cos(self.writer, sin.as_deref(), cos.as_deref(), &angle);
+    }
+
+    /// Names for the sine and the cosine of an angle, whichever of them the function uses.
+    fn name_angle(&mut self, angle: Value) -> Angle {
+        self.bound(angle);
+        let argument = self.text(angle);
+        let position = |wanted: Op| self.function.code.iter().position(|op| *op == wanted);
+        let (sin, cos) = (position(Op::Sin(angle)), position(Op::Cos(angle)));
+        let base = self.language.angle_name(&argument.text);
+        let mut name = |function: &str, index: Option<usize>| {
+            let index = index?;
+            let name = format!("{function}_{base}");
+            let name = self.language.identifier(&mut self.scope, &name);
+            self.texts[index] = Some(Expression::leaf(name.clone()));
+            Some(name)
+        };
+        Angle {
+            sin: name("sin", sin),
+            cos: name("cos", cos),
+            angle: argument,
+        }
+    }
+
+    /// The text of a value that was met already.
+    fn text(&self, value: Value) -> Expression {
+        self.texts[value.index()]
+            .clone()
+            .expect("operands come before what uses them")
+    }
+
+    /// The name of a value, which becomes a variable if it is none yet.
+    fn bound(&mut self, value: Value) -> String {
+        let expression = self.text(value);
+        if expression.is_leaf {
+            return expression.text;
+        }
+        let wanted = self
+            .wanted
+            .get(value.index())
+            .copied()
+            .flatten()
+            .map(str::to_owned);
+        let name = wanted.unwrap_or_else(|| {
+            self.temporaries += 1;
+            format!("t{}", self.temporaries - 1)
+        });
+        self.bind(value, &name, &expression.text)
+    }
+
+    fn bind(&mut self, value: Value, name: &str, text: &str) -> String {
+        let name = self.language.identifier(&mut self.scope, name);
+        self.language.bind(self.writer, &name, text);
+        self.texts[value.index()] = Some(Expression::leaf(name.clone()));
+        name
+    }
+
+    fn results(&mut self) -> Vec<Expression> {
+        let results = self.function.results.iter();
+        results.map(|&value| self.result(value)).collect()
+    }
+
+    fn result(&mut self, value: Value) -> Expression {
+        if self.binds_results {
+            let text = self.bound(value);
+            // A matrix is easier to read with `zero` in it than with `S::ZERO`.
+            let named = match self.function.op(value) {
+                Op::Constant(rational) => self.language.constant_name(rational),
+                _ => None,
+            };
+            if let Some(name) = named.filter(|name| !text.starts_with(name)) {
+                self.bind(value, name, &text);
+            }
+        }
+        self.text(value)
+    }
+}

@@ -1,0 +1,600 @@
+//! Statements with loops: what repeats itself is written once.
+//!
+//! The body of a loop is the first iteration's. What it reads is a variable that is set again at
+//! the end of the body (*carried*), an element of an array that is counted up or down, or a
+//! variable from before. What is needed after the loop goes into an array, one element for each
+//! iteration, or, if only the last iteration's is needed, into a variable.
+
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::Rational;
+use rustc_hash::FxHashMap;
+
+use super::{Body, Expression, Language};
+use crate::layout::{Layout, Writer};
+use crate::names::Scope;
+use lagrangian_program::{
+    Contraction, Function, Guard, Kind, Op, Operand, Repeat, Source, Steps, Value,
+};
+
+/// The fewest elements that are copied by a loop; fewer are written out.
+const FEWEST_COPIES: usize = 4;
+
+/// An element of an array: what stands before its index, the index, and what behind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    before: String,
+    index: usize,
+    after: String,
+}
+
+impl Place {
+    /// `before`, the index, `after`.
+    pub fn new(before: impl Into<String>, index: usize, after: impl Into<String>) -> Place {
+        Place {
+            before: before.into(),
+            index,
+            after: after.into(),
+        }
+    }
+
+    /// It as text.
+    pub fn text(&self) -> String {
+        self.at(&self.index.to_string())
+    }
+
+    /// Another element of the same array.
+    fn at(&self, index: &str) -> String {
+        format!("{}{index}{}", self.before, self.after)
+    }
+
+    /// How far another element of the same array is.
+    fn to(&self, other: &Place) -> Option<i64> {
+        let is_same = self.before == other.before && self.after == other.after;
+        is_same.then(|| other.index as i64 - self.index as i64)
+    }
+}
+
+/// Elements of one array at even distances.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How many of a list come before it.
+    pub start: usize,
+    /// How many it has.
+    pub count: usize,
+    /// The first, and from each to the next; nothing for one that stands nowhere.
+    pub first: Option<(Place, i64)>,
+}
+
+impl Run {
+    /// The element that a counter from 0 says.
+    pub fn text(&self, counter: &str) -> Option<String> {
+        let (first, step) = self.first.as_ref()?;
+        Some(first.at(&counted(first.index, *step, counter)))
+    }
+}
+
+/// `first + step·counter`.
+fn counted(first: usize, step: i64, counter: &str) -> String {
+    let multiple = match step.unsigned_abs() {
+        1 => counter.to_owned(),
+        size => format!("{size} * {counter}"),
+    };
+    match (first, step) {
+        (_, 0) => first.to_string(),
+        (0, 1..) => multiple,
+        (_, 1..) => format!("{multiple} + {first}"),
+        _ => format!("{first} - {multiple}"),
+    }
+}
+
+/// A list of elements as runs, the longest first found from the front.
+pub fn runs(list: &[Vec<Place>]) -> Vec<Run> {
+    let mut runs = Vec::new();
+    let mut start = 0;
+    while start < list.len() {
+        let longest = longest(&list[start..]).filter(|run| run.count >= FEWEST_COPIES);
+        let run = longest.unwrap_or(Run {
+            start: 0,
+            count: 1,
+            first: None,
+        });
+        runs.push(Run { start, ..run });
+        start += runs.last().map_or(1, |run| run.count);
+    }
+    runs
+}
+
+/// The longest run that a list begins with, of two elements at least.
+fn longest(list: &[Vec<Place>]) -> Option<Run> {
+    let (first, second) = (list.first()?, list.get(1)?);
+    let pairs = first
+        .iter()
+        .flat_map(|a| second.iter().map(move |b| (a, b)));
+    let all = pairs.filter_map(|(a, b)| {
+        let step = a.to(b)?;
+        let is_next = |(i, places): (usize, &Vec<Place>)| {
+            places
+                .iter()
+                .any(|place| a.to(place) == Some(step * i as i64))
+        };
+        let count = list.iter().enumerate().take_while(|&x| is_next(x)).count();
+        Some(Run {
+            start: 0,
+            count,
+            first: Some((a.clone(), step)),
+        })
+    });
+    all.max_by_key(|run| run.count)
+}
+
+/// How a language writes loops and arrays.
+pub trait Loops: Language {
+    /// The elements of arrays that an argument is, if any.
+    fn places(&self, source: Source) -> Vec<Place>;
+    /// An array of numbers.
+    fn array(&self, writer: &mut Writer, name: &str, items: Layout);
+    /// An array of so many numbers, to be set.
+    fn array_to_set(&self, writer: &mut Writer, name: &str, number: &str, count: usize);
+    /// A variable that may be set again.
+    fn variable_to_set(&self, writer: &mut Writer, name: &str, value: &str);
+    /// Sets a variable or an element.
+    fn set(&self, writer: &mut Writer, what: &str, value: &str);
+    /// The head of a loop that counts from 0; without a name nobody asks for the count.
+    fn open_loop(&self, writer: &mut Writer, counter: Option<&str>, count: usize);
+    /// A guard of a coordinate that is counted.
+    fn guard_of(&self, writer: &mut Writer, guard: &Guard, names: [&str; 2], coordinate: &str);
+    /// The sines and cosines of all angles of an array; where those of the angle at an index stand.
+    fn all_circular(&self, writer: &mut Writer, name: &str, angles: &str, at: usize) -> [Place; 2];
+}
+
+/// The loops of a function.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    steps: Steps,
+    repeats: Vec<Repeat>,
+}
+
+impl Plan {
+    /// The loops of a function of at least so many steps, if it has any.
+    pub fn of(function: &Function, is_for_speed: bool, shortest: usize) -> Option<Plan> {
+        if function.code.len() < shortest {
+            return None;
+        }
+        let mut steps = Steps::of(function, is_for_speed);
+        if steps.steps.len() < shortest {
+            return None;
+        }
+        let repeats = steps.repeats(function);
+        (!repeats.is_empty()).then_some(Plan { steps, repeats })
+    }
+
+    /// The number of steps that are written.
+    pub fn len(&self) -> usize {
+        let saved = self.repeats.iter().map(|r| r.period * (r.count - 1));
+        self.steps.steps.len() - saved.sum::<usize>()
+    }
+
+    /// The number of steps without loops.
+    pub fn len_straight(&self) -> usize {
+        self.steps.steps.len()
+    }
+
+    /// The prepared values that loops count, each list in the order of a loop.
+    pub fn prepared(&self, function: &Function) -> Vec<Vec<u32>> {
+        let slot = |value: &Value| match function.op(*value) {
+            Op::Read(Source::Prepared(slot)) => Some(*slot),
+            _ => None,
+        };
+        let operands = self
+            .repeats
+            .iter()
+            .flat_map(|repeat| repeat.operands.iter().flatten());
+        let columns = operands.filter_map(|operand| match operand {
+            Operand::Column(column) => column.iter().map(slot).collect(),
+            _ => None,
+        });
+        columns.collect()
+    }
+}
+
+/// Writes the statements of a function, what repeats itself as loops; the texts of its results come
+/// back, and the arrays that they stand in.
+pub fn statements_with_loops(
+    writer: &mut Writer,
+    language: &impl Loops,
+    function: &Function,
+    scope: Scope,
+    plan: &Plan,
+) -> Vec<(Expression, Vec<Place>)> {
+    let mut body = Body::new(writer, language, function, scope, &[]);
+    body.leaves();
+    let used_outside = plan.used_outside(function);
+    let mut repeats = plan.repeats.iter().peekable();
+    let mut index = 0;
+    while index < plan.steps.steps.len() {
+        match repeats.next_if(|repeat| repeat.start == index) {
+            Some(repeat) => {
+                body.repeat(plan, repeat, &used_outside);
+                index = repeat.end();
+            }
+            None => {
+                body.step(plan, index);
+                index += 1;
+            }
+        }
+    }
+    let results = function.results.iter();
+    let of = |value: &Value| {
+        let name = Expression::leaf(body.bound(*value));
+        (name, body.places[value.index()].clone())
+    };
+    results.map(of).collect()
+}
+
+impl Plan {
+    /// Whether a value that a loop computes is needed by anything else.
+    fn used_outside(&self, function: &Function) -> Vec<bool> {
+        let mut used = vec![false; function.code.len()];
+        for value in &function.results {
+            used[value.index()] = true;
+        }
+        let mut home = vec![None; function.code.len()];
+        let of_step = |step: usize| {
+            let mut repeats = self.repeats.iter();
+            repeats.position(|repeat| (repeat.start..repeat.end()).contains(&step))
+        };
+        for (index, step) in self.steps.steps.iter().enumerate() {
+            for value in step.defines.into_iter().flatten() {
+                home[value.index()] = of_step(index);
+            }
+        }
+        for (index, step) in self.steps.steps.iter().enumerate() {
+            for operand in &step.operands {
+                if home[operand.index()] != of_step(index) {
+                    used[operand.index()] = true;
+                }
+            }
+        }
+        for (angle, _) in &self.steps.angles {
+            used[angle.index()] = true;
+        }
+        used
+    }
+}
+
+impl<L: Loops> Body<'_, L> {
+    /// Texts for arguments and constants.
+    fn leaves(&mut self) {
+        for index in 0..self.function.code.len() {
+            let value = Value(index as u32);
+            match self.function.op(value) {
+                Op::Read(source) => {
+                    let places = self.language.places(*source);
+                    let text = match (places.first(), self.language.argument(*source)) {
+                        (Some(place), _) => Expression::leaf(place.text()),
+                        (None, Some(argument)) => argument,
+                        (None, None) => Expression::leaf(self.language.variable(*source).1),
+                    };
+                    self.texts[index] = Some(text);
+                    self.places[index] = places;
+                }
+                Op::Constant(_) | Op::Pi => self.operation(value),
+                _ => {}
+            }
+        }
+    }
+
+    /// A step that is no part of a loop.
+    fn step(&mut self, plan: &Plan, index: usize) {
+        let step = &plan.steps.steps[index];
+        match step.kind {
+            Kind::AllCircular => self.all_circular(&plan.steps.angles),
+            Kind::Guard(_) => {
+                let guard = &self.function.guards[step.guard];
+                let names = [guard.pivot, guard.scale].map(|value| self.bound(value));
+                let [pivot, scale] = names.each_ref().map(String::as_str);
+                self.language.guard(self.writer, guard, [pivot, scale]);
+            }
+            _ => {
+                let value = step.defines.into_iter().flatten().next();
+                self.operation(value.expect("an operation defines a value"));
+            }
+        }
+    }
+
+    fn all_circular(&mut self, angles: &[(Value, [Option<Value>; 2])]) {
+        let (name, circular) = ("angles".to_owned(), "circular".to_owned());
+        let values: Vec<Value> = angles.iter().map(|(angle, _)| *angle).collect();
+        self.fill(&name, &values);
+        for (at, (_, pair)) in angles.iter().enumerate() {
+            let mut silent = Writer::default();
+            let writer = if at == 0 {
+                &mut *self.writer
+            } else {
+                &mut silent
+            };
+            let places = self.language.all_circular(writer, &circular, &name, at);
+            for (value, place) in pair.iter().zip(places) {
+                if let Some(value) = value {
+                    self.put(*value, place);
+                }
+            }
+        }
+    }
+
+    /// A value that stands in an array.
+    fn put(&mut self, value: Value, place: Place) {
+        self.texts[value.index()] = Some(Expression::leaf(place.text()));
+        self.places[value.index()] = vec![place];
+    }
+
+    /// An array of values.
+    fn fill(&mut self, name: &str, values: &[Value]) {
+        let places: Vec<Vec<Place>> = values
+            .iter()
+            .map(|value| self.places[value.index()].clone())
+            .collect();
+        let runs = runs(&places);
+        let texts: Vec<String> = values.iter().map(|value| self.text(*value).text).collect();
+        fill(
+            self.writer,
+            self.language,
+            name,
+            &runs,
+            &texts,
+            &str::to_owned,
+            &mut self.scope,
+        );
+    }
+
+    /// A value beyond those of the function.
+    fn alias(&mut self, text: String) -> Value {
+        self.texts.push(Some(Expression::leaf(text)));
+        Value(self.texts.len() as u32 - 1)
+    }
+
+    fn repeat(&mut self, plan: &Plan, repeat: &Repeat, used_outside: &[bool]) {
+        let steps = &plan.steps.steps;
+        let Repeat {
+            start,
+            period,
+            count,
+            ref operands,
+        } = *repeat;
+        let language = self.language;
+        let counter = language.identifier(&mut self.scope.clone(), "i");
+        let mut counts = false;
+
+        // What the operands are called in the loop.
+        let mut aliases: FxHashMap<&Operand, Value> = FxHashMap::default();
+        let mut carried: Vec<(Value, String)> = Vec::new();
+        for operand in operands.iter().flatten() {
+            if aliases.contains_key(operand) {
+                continue;
+            }
+            let alias = match operand {
+                Operand::Same(value) => *value,
+                Operand::Invariant(value) => {
+                    self.bound(*value);
+                    *value
+                }
+                Operand::Carried(value, first) => {
+                    let first = self.text(*first).text;
+                    let name = language.identifier(&mut self.scope, &format!("c{}", self.names));
+                    self.names += 1;
+                    language.variable_to_set(self.writer, &name, &first);
+                    carried.push((*value, name.clone()));
+                    self.alias(name)
+                }
+                Operand::Column(column) => {
+                    counts = true;
+                    let places: Vec<Vec<Place>> = column
+                        .iter()
+                        .map(|value| self.places[value.index()].clone())
+                        .collect();
+                    let run = longest(&places).filter(|run| run.count == count);
+                    let text = match run.and_then(|run| run.text(&counter)) {
+                        Some(text) => text,
+                        None => {
+                            let name =
+                                language.identifier(&mut self.scope, &format!("g{}", self.names));
+                            self.names += 1;
+                            self.fill(&name, column);
+                            format!("{name}[{counter}]")
+                        }
+                    };
+                    self.alias(text)
+                }
+            };
+            aliases.insert(operand, alias);
+        }
+
+        // What is kept of each value: all of it, or the last.
+        let mut kept: Vec<(Value, Kept)> = Vec::new();
+        for (offset, step) in steps[start..start + period].iter().enumerate() {
+            for (which, value) in step.defines.iter().enumerate() {
+                let Some(value) = *value else { continue };
+                let at = |iteration: usize| {
+                    steps[start + iteration * period + offset].defines[which]
+                        .expect("iterations are alike")
+                };
+                let is_used = |iteration: &usize| used_outside[at(*iteration).index()];
+                let used: Vec<usize> = (0..count).filter(is_used).collect();
+                let all: Vec<Value> = (0..count).map(at).collect();
+                let name = match used.as_slice() {
+                    [] => continue,
+                    [only] if *only + 1 == count => {
+                        if let Some((_, name)) = carried.iter().find(|(of, _)| *of == value) {
+                            kept.push((value, Kept::Carried(name.clone(), all[count - 1])));
+                            continue;
+                        }
+                        let name =
+                            language.identifier(&mut self.scope, &format!("c{}", self.names));
+                        let zero = language.constant(&Rational::ZERO).text;
+                        language.variable_to_set(self.writer, &name, &zero);
+                        kept.push((value, Kept::Last(name, all[count - 1])));
+                        self.names += 1;
+                        continue;
+                    }
+                    _ => language.identifier(&mut self.scope, &format!("a{}", self.names)),
+                };
+                self.names += 1;
+                counts = true;
+                let zero = language.constant(&Rational::ZERO).text;
+                language.array_to_set(self.writer, &name, &zero, count);
+                kept.push((value, Kept::All(name, all)));
+            }
+        }
+        let guards = steps[start..start + period].iter();
+        counts |= guards
+            .clone()
+            .any(|step| matches!(step.kind, Kind::Guard(_)));
+        // Whatever is set at the end of the body is a variable from when it is known.
+        let set: BTreeSet<Value> = carried
+            .iter()
+            .map(|(value, _)| *value)
+            .chain(kept.iter().map(|(value, _)| *value))
+            .collect();
+        for value in &set {
+            self.uses[value.index()] += 2;
+        }
+
+        language.open_loop(self.writer, counts.then_some(counter.as_str()), count);
+        for (offset, step) in steps[start..start + period].iter().enumerate() {
+            let of: Vec<Value> = operands[offset].iter().map(|x| aliases[x]).collect();
+            match &step.kind {
+                Kind::Guard(_) => {
+                    let at = |iteration: usize| {
+                        &self.function.guards[steps[start + iteration * period + offset].guard]
+                    };
+                    let (first, second) = (at(0).coordinate, at(1).coordinate);
+                    let coordinate = counted(first, second as i64 - first as i64, &counter);
+                    let names = [of[0], of[1]].map(|value| self.bound(value));
+                    let [pivot, scale] = names.each_ref().map(String::as_str);
+                    let guard = at(0);
+                    language.guard_of(self.writer, guard, [pivot, scale], &coordinate);
+                }
+                Kind::Contraction(kind) => {
+                    let sum = Contraction {
+                        kind: *kind,
+                        factors: [of[0], of[1]],
+                        term: of[2],
+                    };
+                    let expression = self.contraction(sum);
+                    self.define_in_loop(step.defines[0], expression);
+                }
+                Kind::Operation(op) => {
+                    let mut operands = of.iter();
+                    let op = lagrangian_program::with_operands(op, |_| {
+                        *operands
+                            .next()
+                            .expect("as many operands as the operation has")
+                    });
+                    let expression = self.expression(op);
+                    self.define_in_loop(step.defines[0], expression);
+                }
+                Kind::Circular => self.circular_in_loop(of[0], step.defines),
+                Kind::AllCircular => unreachable!("what happens once is in no loop"),
+            }
+        }
+        for (value, kept) in &kept {
+            let name = self.bound(*value);
+            match kept {
+                Kept::All(array, _) => {
+                    language.set(self.writer, &format!("{array}[{counter}]"), &name)
+                }
+                Kept::Last(variable, _) => language.set(self.writer, variable, &name),
+                Kept::Carried(..) => {}
+            }
+        }
+        let new: Vec<String> = carried
+            .iter()
+            .map(|(value, _)| self.bound(*value))
+            .collect();
+        for ((_, name), value) in carried.iter().zip(new) {
+            language.set(self.writer, name, &value);
+        }
+        self.writer.close("}");
+        for value in set {
+            self.uses[value.index()] -= 2;
+        }
+
+        for (_, kept) in kept {
+            match kept {
+                Kept::All(array, values) => {
+                    for (iteration, value) in values.into_iter().enumerate() {
+                        self.put(value, Place::new(format!("{array}["), iteration, "]"));
+                    }
+                }
+                Kept::Last(name, value) | Kept::Carried(name, value) => {
+                    self.texts[value.index()] = Some(Expression::leaf(name));
+                }
+            }
+        }
+    }
+
+    fn define_in_loop(&mut self, value: Option<Value>, expression: Expression) {
+        self.define(value.expect("an operation defines a value"), expression);
+    }
+
+    fn circular_in_loop(&mut self, angle: Value, defines: [Option<Value>; 2]) {
+        self.bound(angle);
+        let angle = self.text(angle);
+        let base = self.language.angle_name(&angle.text);
+        let mut names = [None, None];
+        for ((name, function), value) in names.iter_mut().zip(["sin", "cos"]).zip(defines) {
+            let Some(value) = value else { continue };
+            let free = self
+                .language
+                .identifier(&mut self.scope, &format!("{function}_{base}"));
+            self.texts[value.index()] = Some(Expression::leaf(free.clone()));
+            *name = Some(free);
+        }
+        let [sin, cos] = names.each_ref().map(Option::as_deref);
+        self.language.sin_cos(self.writer, sin, cos, &angle);
+    }
+}
+
+/// What is kept of a value that a loop computes, and in which iterations.
+enum Kept {
+    /// An array, and the values.
+    All(String, Vec<Value>),
+    /// A variable, and the value of the last iteration.
+    Last(String, Value),
+    /// The same, where the variable is carried anyway.
+    Carried(String, Value),
+}
+
+/// An array of numbers, of which some stand in other arrays; `wrap` is done to each.
+pub fn fill(
+    writer: &mut Writer,
+    language: &impl Loops,
+    name: &str,
+    runs: &[Run],
+    texts: &[String],
+    wrap: &dyn Fn(&str) -> String,
+    scope: &mut Scope,
+) {
+    if runs.iter().all(|run| run.first.is_none()) {
+        let items = texts.iter().map(|text| wrap(text));
+        return language.array(writer, name, Layout::array(items));
+    }
+    let counter = language.identifier(&mut scope.clone(), "i");
+    let zero = language.constant(&Rational::ZERO).text;
+    language.array_to_set(writer, name, &wrap(&zero), texts.len());
+    for run in runs {
+        match run.text(&counter) {
+            Some(text) => {
+                language.open_loop(writer, Some(&counter), run.count);
+                let to = format!("{name}[{}]", counted(run.start, 1, &counter));
+                language.set(writer, &to, &wrap(&text));
+                writer.close("}");
+            }
+            None => {
+                let to = format!("{name}[{}]", run.start);
+                language.set(writer, &to, &wrap(&texts[run.start]));
+            }
+        }
+    }
+}

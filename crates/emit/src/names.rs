@@ -1,0 +1,164 @@
+//! Names of the emitted code: those of the spec, made into Rust identifiers that do not clash.
+
+use std::collections::BTreeSet;
+
+use lagrangian_spec::model::Name;
+
+/// Words that Rust keeps for itself, in any edition.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
+    "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return",
+    "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
+    "virtual", "where", "while", "yield",
+];
+
+/// Keywords that not even `r#` makes into names.
+const NEVER_NAMES: &[&str] = &["crate", "self", "super", "Self", "_"];
+
+/// A name of the spec as a Rust identifier.
+pub fn identifier(name: &str) -> String {
+    if NEVER_NAMES.contains(&name) {
+        format!("{name}_")
+    } else if KEYWORDS.contains(&name) {
+        format!("r#{name}")
+    } else {
+        name.to_owned()
+    }
+}
+
+/// `VibratingCrusher` as the name of a module: `vibrating_crusher`.
+pub fn snake_case(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    let mut snake = String::new();
+    for (i, &letter) in letters.iter().enumerate() {
+        let after_small = i > 0 && (letters[i - 1].is_lowercase() || letters[i - 1].is_numeric());
+        let before_small = i > 0
+            && letters[i - 1].is_uppercase()
+            && letters.get(i + 1).is_some_and(|next| next.is_lowercase());
+        if letter.is_uppercase() && (after_small || before_small) {
+            snake.push('_');
+        }
+        snake.extend(letter.to_lowercase());
+    }
+    snake
+}
+
+/// A name that may stand inside another: `q[3]` is `q_3`, `q[-1]` is `q_m1`.
+pub fn flat(name: &Name) -> String {
+    match name.index {
+        Some(index) if index < 0 => format!("{}_m{}", name.base, index.unsigned_abs()),
+        Some(index) => format!("{}_{index}", name.base),
+        None => name.base.clone(),
+    }
+}
+
+/// Hands out names, none twice.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    taken: BTreeSet<String>,
+}
+
+impl Scope {
+    /// Where these names are taken.
+    pub fn with(taken: &[&str]) -> Scope {
+        Scope {
+            taken: taken.iter().map(|&name| name.to_owned()).collect(),
+        }
+    }
+
+    /// `name`, or the nearest name that is free, as a Rust identifier.
+    pub fn take(&mut self, name: &str) -> String {
+        identifier(&self.take_plain(name))
+    }
+
+    /// `name`, or the nearest name that is free.
+    pub fn take_plain(&mut self, name: &str) -> String {
+        let mut name = name.to_owned();
+        while self.taken.contains(&name) {
+            name.push('_');
+        }
+        self.taken.insert(name.clone());
+        name
+    }
+}
+
+/// A field of a struct: one slot, or a family of them as an array.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// The name of the field.
+    pub ident: String,
+    /// The slots, in the order of the array.
+    pub slots: Vec<usize>,
+    /// Whether it is a family.
+    pub is_family: bool,
+}
+
+/// Fields for slots of these names, in the order in which they first occur.
+pub fn fields<'a>(names: impl IntoIterator<Item = &'a Name>) -> Vec<Field> {
+    let mut fields: Vec<(&str, Field)> = Vec::new();
+    for (slot, name) in names.into_iter().enumerate() {
+        match fields
+            .iter_mut()
+            .find(|(base, field)| *base == name.base && field.is_family)
+        {
+            Some((_, field)) => field.slots.push(slot),
+            None => {
+                let ident = identifier(&name.base);
+                let field = Field {
+                    ident,
+                    slots: vec![slot],
+                    is_family: name.index.is_some(),
+                };
+                fields.push((&name.base, field));
+            }
+        }
+    }
+    fields.into_iter().map(|(_, field)| field).collect()
+}
+
+/// For each slot the path of its number in a struct: `m1`, `mass[2]`.
+pub fn paths(fields: &[Field]) -> Vec<String> {
+    let mut paths = vec![String::new(); fields.iter().map(|field| field.slots.len()).sum()];
+    for field in fields {
+        for (index, &slot) in field.slots.iter().enumerate() {
+            paths[slot] = match field.is_family {
+                true => format!("{}[{index}]", field.ident),
+                false => field.ident.clone(),
+            };
+        }
+    }
+    paths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keywords_become_raw_identifiers() {
+        assert_eq!(identifier("type"), "r#type");
+        assert_eq!(identifier("gen"), "r#gen");
+        assert_eq!(identifier("self"), "self_");
+        assert_eq!(identifier("theta"), "theta");
+    }
+
+    #[test]
+    fn modules_are_in_snake_case() {
+        assert_eq!(snake_case("VibratingCrusher"), "vibrating_crusher");
+        assert_eq!(snake_case("Crusher9"), "crusher9");
+        assert_eq!(snake_case("Arm6R"), "arm6_r");
+        assert_eq!(snake_case("RRArm"), "rr_arm");
+        assert_eq!(snake_case("chain"), "chain");
+    }
+
+    #[test]
+    fn families_are_arrays_whose_members_may_stand_apart() {
+        let name = |base: &str, index| Name {
+            base: base.into(),
+            index,
+        };
+        let names = [name("q", Some(1)), name("x", None), name("q", Some(2))];
+        assert_eq!(paths(&fields(&names)), ["q[0]", "x", "q[1]"]);
+    }
+}

@@ -1,0 +1,166 @@
+//! Guided contacts with friction, for whoever decides what sticks and what slides; and the room in
+//! which that and the work on constraints is done.
+
+use super::Emitter;
+use crate::layout::Layout;
+use lagrangian_program::{FrictionLayout, Role};
+
+/// About how many numbers a machine lends from the stack: a quarter of a megabyte.
+const MOST_LENT: usize = 1 << 15;
+
+impl Emitter<'_> {
+    /// What the contacts are called.
+    pub(super) fn table_of_contacts(&mut self) {
+        let contacts = &self.program.contacts;
+        if contacts.is_empty() {
+            return;
+        }
+        let names = contacts.iter().map(|name| format!("{name:?}"));
+        let str = self.types.known("str");
+        self.writer.gap();
+        self.writer
+            .line("/// The names of the contacts that stick and slide.");
+        let head = format!("const CONTACTS: [&{str}; {}] = ", contacts.len());
+        self.writer.expression(&head, &Layout::array(names), ";");
+    }
+
+    /// The methods of `System` that machines without contacts do not have.
+    pub(super) fn contacts(&mut self) {
+        if self.program.contacts.is_empty() {
+            return;
+        }
+        let runtime = self.options.runtime.clone();
+        let str = self.types.known("str");
+        let result = format!(
+            "impl {}<Item = &{str}>",
+            self.types.known("ExactSizeIterator")
+        );
+        self.method("contacts", &[], Some(&result), |body| {
+            body.line("CONTACTS.iter().copied()");
+        });
+        self.slip_ranges();
+        let call = self.call(Role::Friction);
+        let result = format!("{}<(), {runtime}::Singular>", self.types.known("Result"));
+        self.method(
+            "friction",
+            &["t", "q", "v", "u", "to"],
+            Some(&result),
+            |body| {
+                if let Some(call) = call {
+                    body.line(format!("fill(to, &{call}?);"));
+                }
+                body.line("Ok(())");
+            },
+        );
+    }
+
+    /// The slips over intervals, of a state and of prepared parameters that are rounded.
+    fn slip_ranges(&mut self) {
+        let runtime = self.options.runtime.clone();
+        let (function, f64) = (self.emitted(Role::Slips), self.types.known("f64"));
+        let Some(needs) = function.map(|function| self.needs(function)) else {
+            let arguments = ["t", "q", "v", "ranges"];
+            self.method("slip_ranges", &arguments, None, |body| {
+                body.line("ranges.fill([0.0; 2]);");
+            });
+            return;
+        };
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let prepared = names.contains(&"p").then(|| {
+            let near = |slot: usize| format!("near(self.{})", self.prepared[slot]);
+            let mut value = self.prepared_literal(near, &[]);
+            if let Layout::Struct(_, fields) = &mut value
+                && !self.program.prepare.guards.is_empty()
+            {
+                fields.push(("singular".into(), Layout::Atom("self.singular".into())));
+            }
+            value
+        });
+        let passed = names.iter().map(|&name| match name {
+            "t" => "near(t)".to_owned(),
+            "p" => "&p".to_owned(),
+            name => format!("&{name}.map(near)"),
+        });
+        let passed: Vec<String> = passed.collect();
+        let call = format!("{}({})", self.function_name(Role::Slips), passed.join(", "));
+        let interval = format!("{runtime}::scalar::Interval");
+        self.method("slip_ranges", &["t", "q", "v", "ranges"], None, |body| {
+            if !names.is_empty() {
+                body.line(format!(
+                    "let near = |x: {f64}| {interval}::new(x.next_down(), x.next_up());"
+                ));
+            }
+            if let Some(value) = prepared {
+                body.expression("let p = ", &value, ";");
+            }
+            body.line(format!("let slips: [{interval}; _] = {call};"));
+            body.open("for (range, w) in ranges.iter_mut().zip(slips) {");
+            body.line("*range = [w.lo(), w.hi()];");
+            body.close("}");
+        });
+    }
+
+    /// Room for the work on constraints and contacts: an array, where that is no burden to a stack.
+    pub(super) fn workspace(&mut self) {
+        let (n, m, contacts) = (
+            self.program.coordinates.len(),
+            self.program.constraints.len(),
+            self.program.contacts.len(),
+        );
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: m,
+            contacts,
+        };
+        let most = 2 * n * m + n.min(m) * n.min(m) + layout.len();
+        if m + contacts == 0 || most > MOST_LENT {
+            return;
+        }
+        let [option, once, f64, usize] =
+            ["Option", "FnOnce", "f64", "usize"].map(|name| self.types.known(name));
+        let runtime = &self.options.runtime;
+        let length = match contacts {
+            0 => format!("{runtime}::constraint_workspace({n}, {m})"),
+            _ => format!("{runtime}::contact_workspace({n}, {m}, {contacts})"),
+        };
+        let room = format!("let mut room = [0.0; {length}];");
+        self.writer.gap();
+        self.writer.signature(
+            "fn with_workspace<R>",
+            &[
+                "&self".to_owned(),
+                format!("length: {usize}"),
+                format!("work: impl {once}({option}<&mut [{f64}]>) -> R"),
+            ],
+            Some("R"),
+        );
+        self.writer.line(room);
+        self.writer.line("work(room.get_mut(..length))");
+        self.writer.close("}");
+    }
+
+    /// A small function that the methods about constraints and contacts call.
+    pub(super) fn helper_of_filling(&mut self) {
+        if self.program.constraints.is_empty() && self.program.contacts.is_empty() {
+            return;
+        }
+        let f64 = self.types.known("f64");
+        self.writer.gap();
+        self.writer
+            .line("/// Writes numbers where there is room for them.");
+        self.writer.signature(
+            "fn fill",
+            &[format!("to: &mut [{f64}]"), format!("from: &[{f64}]")],
+            None,
+        );
+        self.writer
+            .open("for (to, from) in to.iter_mut().zip(from) {");
+        self.writer.line("*to = *from;");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}

@@ -1,0 +1,72 @@
+//! The words of a spec as documentation of Rust.
+
+use std::fmt::Write as _;
+
+use crate::names::Field;
+use lagrangian_program::Slot;
+use lagrangian_spec::model::Name;
+
+/// Documentation of the spec as documentation of Rust: nothing in it may turn into a test.
+pub(super) fn prose(docs: &str) -> String {
+    let mut is_open = false;
+    let lines = docs.lines().map(|line| {
+        let line = line.trim(); // four blanks would begin a code block
+        if line.starts_with("```") || line.starts_with("~~~") {
+            is_open = !is_open;
+            let mark = &line[..3];
+            return if is_open {
+                format!("{mark}text")
+            } else {
+                mark.to_owned()
+            };
+        }
+        line.to_owned()
+    });
+    let mut text = lines.collect::<Vec<_>>().join("\n").trim().to_owned();
+    if is_open {
+        text.push_str("\n```");
+    }
+    text
+}
+
+/// What a field is: the spec's words, its unit, its default.
+pub(super) fn field_docs(field: &Field, slots: &[Slot], with_default: bool) -> String {
+    let slot = &slots[field.slots[0]];
+    if !field.is_family {
+        return slot_docs(&slot.name, slot, with_default);
+    }
+    let name = Name {
+        base: slot.name.base.clone(),
+        index: None,
+    };
+    let members: Vec<String> = match field.slots.as_slice() {
+        [first, .., last] => vec![
+            slots[*first].name.to_string(),
+            slots[*last].name.to_string(),
+        ],
+        [one] => vec![slots[*one].name.to_string()],
+        [] => Vec::new(),
+    };
+    let docs = slot_docs(&name, slot, false);
+    format!("{docs} Members: `{}`.", members.join("` to `"))
+}
+
+pub(super) fn slot_docs(name: &Name, slot: &Slot, with_default: bool) -> String {
+    let mut docs = prose(&slot.docs);
+    if docs.is_empty() {
+        docs = format!("`{name}`.");
+    } else if !docs.ends_with(['.', '!', '?', ':', '`']) {
+        docs.push('.');
+    }
+    // Behind a list or a block of code a sentence needs a paragraph of its own.
+    let is_plain = !docs.contains("```")
+        && !docs
+            .lines()
+            .any(|line| line.starts_with(['-', '*', '|', '#', '>']));
+    docs.push_str(if is_plain { " " } else { "\n\n" });
+    let _ = write!(docs, "Unit: `{}`.", slot.unit_text); // writing to a String cannot fail
+    if let Some(default) = slot.default.as_ref().filter(|_| with_default) {
+        let _ = write!(docs, " Default: {}.", default.text);
+    }
+    docs
+}

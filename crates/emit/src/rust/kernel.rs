@@ -1,0 +1,450 @@
+//! The functions that integrators call: computed in registers, with whatever instructions the
+//! processor has.
+//!
+//! ```text
+//! accelerations(p, t, q, v, u)        picks the arithmetic for numbers kept as S
+//!   Accelerations { p, t, q, v, u }   the call as a value: a Kernel
+//!     run::<N>()                      the code, on numbers N in registers, always inlined
+//! ```
+//!
+//! A function that is too long for that is cut into pieces, each a value of its own.
+
+use super::Emitter;
+use super::language::{Rust, number};
+use super::types::Types;
+use crate::body::{self, Binding, Plan, Unchecked};
+use crate::cut::{self, Cut, Piece};
+use crate::layout;
+use lagrangian_program::{Function, Guard, Op, Reads, Role, Shape, Source};
+
+impl Emitter<'_> {
+    /// The names of the call of a function, and of its pieces.
+    pub(super) fn names(&self, role: Role) -> [String; 2] {
+        self.types.calls.get(&role).cloned().unwrap_or_default()
+    }
+
+    /// A function that is called often.
+    pub(super) fn kernel(&mut self, function: &Function) {
+        let (plan, cut) = self.parts(function);
+        self.choice(function);
+        self.call_as_value(function);
+        self.run(function, plan.as_ref(), cut.as_ref());
+        if let Some(cut) = &cut {
+            self.pieces(function.role, cut);
+        }
+    }
+
+    /// How a function is written if not as one straight text: with loops, or in pieces.
+    fn parts(&self, function: &Function) -> (Option<Plan>, Option<Cut>) {
+        let longest = self.options.longest_whole;
+        let plan = self
+            .plans
+            .get(&function.role)
+            .filter(|plan| plan.len() <= longest);
+        match plan {
+            Some(plan) => (Some(plan.clone()), None),
+            None => (None, cut::cut(function, self.prepared.len(), longest)),
+        }
+    }
+
+    /// Whether a function is not written as one straight text.
+    pub(super) fn is_in_parts(&self, function: &Function) -> bool {
+        !matches!(self.parts(function), (None, None))
+    }
+
+    /// The function that everybody calls.
+    fn choice(&mut self, function: &Function) {
+        let runtime = self.options.runtime.clone();
+        let scalar = self.types.scalar.clone();
+        let [call, _] = self.names(function.role);
+        let needs = self.needs(function);
+        let result = self.returned(function);
+        self.writer.gap();
+        self.docs(&self.function_docs(function));
+        let name = self.function_name(function.role);
+        let head = format!("pub fn {name}<{scalar}: {runtime}::Number>");
+        let arguments: Vec<String> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, kind)| format!("{name}: {kind}"))
+            .collect();
+        self.writer.signature(&head, &arguments, Some(&result));
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let value = match names.is_empty() {
+            true => {
+                format!("{call}(::core::marker::PhantomData::<{scalar}>)")
+            }
+            false => format!("{call} {{ {} }}", names.join(", ")),
+        };
+        self.writer.line(format!("{scalar}::run({value})"));
+        self.writer.close("}");
+    }
+
+    /// The call as a value.
+    fn call_as_value(&mut self, function: &Function) {
+        let scalar = self.types.scalar.clone();
+        let [call, _] = self.names(function.role);
+        let name = self.function_name(function.role);
+        self.writer.gap();
+        self.docs(&format!(
+            "A call of [`{name}`], to be run with whatever instructions the processor has."
+        ));
+        let arguments = self.arguments(self.needs(function));
+        if arguments.is_empty() {
+            return self.writer.line(format!(
+                "pub struct {call}<{scalar}>(::core::marker::PhantomData<{scalar}>);"
+            ));
+        }
+        let lifetime = lifetime(&arguments);
+        self.writer
+            .open(format!("pub struct {call}<{lifetime}{scalar}> {{"));
+        for (argument, kind) in &arguments {
+            self.writer.line(format!("/// As `{name}` takes it."));
+            self.writer
+                .line(format!("pub {argument}: {},", with_lifetime(kind)));
+        }
+        self.writer.close("}");
+    }
+
+    /// The code.
+    fn run(&mut self, function: &Function, plan: Option<&Plan>, cut: Option<&Cut>) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let [call, _] = self.names(function.role);
+        let copy = self.types.known("Copy");
+        let arguments = self.arguments(self.needs(function));
+        let anonymous = if lifetime(&arguments).is_empty() {
+            ""
+        } else {
+            "'_, "
+        };
+        let result = self.returned(function);
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for {call}<{anonymous}{scalar}> {{"
+        ));
+        self.writer.line(format!("type Output = {result};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
+            &["self".to_owned()],
+            Some("Self::Output"),
+        );
+        self.open_arguments(self.needs(function), function);
+        if self.may_be_singular_from_the_start(function) {
+            self.writer.open("if let Some(singular) = p.singular {");
+            self.writer.line("return Err(singular);");
+            self.writer.close("}");
+        }
+        if let Some(plan) = plan {
+            self.run_loops(function, plan);
+            self.writer.close("}");
+            return self.writer.close("}");
+        }
+        let texts: Vec<String> = match cut {
+            Some(cut) => {
+                self.run_pieces(function.role, cut);
+                self.results_of_pieces(cut, true)
+            }
+            None => {
+                let wanted = self.result_names(function);
+                let body = self.unchecked(function, &wanted);
+                let texts = body.results.iter();
+                let texts: Vec<String> = texts.map(|text| text.at_least(Binding::Atom)).collect();
+                self.checks(function, &body, &texts);
+                texts
+            }
+        };
+        let name = self.kept(function, &texts);
+        self.writer.line(match self.fails(function) {
+            true => format!("Ok({name})"),
+            false => name,
+        });
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
+    /// The code with what repeats itself as loops.
+    fn run_loops(&mut self, function: &Function, plan: &Plan) {
+        let mut writer = std::mem::take(&mut self.writer);
+        let rust = Rust {
+            emitter: self,
+            in_registers: true,
+        };
+        let mut scope = self.scope();
+        let name = self.function_name(function.role);
+        let name = scope.take(&name);
+        let results =
+            body::statements_with_loops(&mut writer, &rust, function, scope.clone(), plan);
+        let (texts, places): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        let texts: Vec<String> = texts.into_iter().map(|text| text.text).collect();
+        match function.shape {
+            Shape::Vector(_) => {
+                let runs = body::runs(&places);
+                let kept = |text: &str| format!("{text}.store()");
+                body::fill(&mut writer, &rust, &name, &runs, &texts, &kept, &mut scope);
+                writer.line(format!("Ok({name})"));
+            }
+            _ => {
+                let kept: Vec<String> =
+                    texts.iter().map(|text| format!("{text}.store()")).collect();
+                let value = self.arranged(function, &kept);
+                writer.expression(&format!("let {name} = "), &value, ";");
+                writer.line(format!("Ok({name})"));
+            }
+        }
+        self.writer = writer;
+    }
+
+    /// Checks all pivots, after everything has been computed.
+    ///
+    /// A compiler moves what is not needed where a check fails behind it: were there a check within
+    /// the code, one recursion along a chain would have to wait until the one before it, with the
+    /// pivots, has come to its end. So there is one, and it waits for the result that is known last,
+    /// too.
+    fn checks(&mut self, function: &Function, body: &Unchecked, results: &[String]) {
+        if body.guards.is_empty() {
+            return;
+        }
+        let guards = || function.guards.iter().zip(&body.guards);
+        let mut conditions = self.exceeding(function, body);
+        conditions.push(format!("{}.is_finite()", results[body.latest]));
+        // As rustfmt has it, which generated code is held to: on one line of a method, on the next, or
+        // on one line each.
+        let value = format!("{};", conditions.join(" & "));
+        let fits = |line: &str| line.chars().count() <= layout::WIDTH - 8;
+        let [whole, next] = [format!("let sound = {value}"), format!("    {value}")];
+        if fits(&whole) {
+            self.writer.line(whole);
+        } else if fits(&next) {
+            self.writer.line("let sound =");
+            self.writer.line(next);
+        } else {
+            for (place, condition) in conditions.iter().enumerate() {
+                let before = if place == 0 { "let sound = " } else { "    & " };
+                let after = if place + 1 == conditions.len() {
+                    ";"
+                } else {
+                    ""
+                };
+                self.writer.line(format!("{before}{condition}{after}"));
+            }
+        }
+        self.writer.open("if !sound {");
+        for (guard, [pivot, scale]) in guards() {
+            let share = number(guard.tolerance);
+            let coordinate = guard.coordinate;
+            self.writer
+                .line(format!("check({pivot}, {scale}, {share}, {coordinate})?;"));
+        }
+        self.writer.close("}");
+    }
+
+    /// The conditions that pivots have to meet.
+    pub(super) fn exceeding(&self, function: &Function, body: &Unchecked) -> Vec<String> {
+        let register = &self.types.register;
+        let exceeds = |(guard, [pivot, scale]): (&Guard, &[String; 2])| {
+            let share = number(guard.tolerance);
+            format!("{pivot}.exceeds({register}::from_f64({share}) * {scale})")
+        };
+        let guards = function.guards.iter().zip(&body.guards);
+        guards.map(exceeds).collect()
+    }
+
+    /// The results as they are kept outside of registers; their name comes back.
+    fn kept(&mut self, function: &Function, results: &[String]) -> String {
+        let name = self.function_name(function.role);
+        let kept: Vec<String> = results
+            .iter()
+            .map(|text| format!("{text}.store()"))
+            .collect();
+        let value = self.arranged(function, &kept);
+        self.writer
+            .expression(&format!("let {name} = "), &value, ";");
+        name
+    }
+
+    /// Names for the fields, and `n`, which loads a number.
+    fn open_arguments(&mut self, needs: Reads, function: &Function) {
+        let names: Vec<&str> = self
+            .arguments(needs)
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        if !names.is_empty() {
+            self.writer
+                .line(format!("let Self {{ {} }} = self;", names.join(", ")));
+        }
+        if self.loads(function) {
+            self.writer
+                .line(format!("let n = {}::load;", self.types.register));
+        }
+    }
+
+    /// Whether the code of a function reads anything that is kept outside of registers.
+    fn loads(&self, function: &Function) -> bool {
+        let slots = self.prepared.len();
+        function.code.iter().any(|op| match op {
+            Op::Read(Source::Prepared(i)) => (*i as usize) < slots,
+            Op::Read(_) => true,
+            _ => false,
+        })
+    }
+
+    /// The type of what comes back.
+    fn returned(&self, function: &Function) -> String {
+        let result = self.result_type(function);
+        match self.fails(function) {
+            true => self.fallible(&result),
+            false => result,
+        }
+    }
+
+    /// A result that there is not where the mass matrix is singular.
+    fn fallible(&self, result: &str) -> String {
+        let runtime = &self.options.runtime;
+        format!(
+            "{}<{result}, {runtime}::Singular>",
+            self.types.known("Result")
+        )
+    }
+
+    /// Calls the pieces, one after the other.
+    fn run_pieces(&mut self, role: Role, cut: &Cut) {
+        let register = self.types.register.clone();
+        let [_, name] = self.names(role);
+        self.writer.comment(
+            "//",
+            "Too long for one function: each piece leaves in `w` what those after it need.",
+        );
+        self.writer
+            .line(format!("let mut w = [{register}::ZERO; {}];", cut.slots));
+        for (i, piece) in cut.pieces.iter().enumerate() {
+            let mut fields: Vec<&str> = self
+                .fields_of_pieces(cut)
+                .iter()
+                .map(|(name, _)| *name)
+                .collect();
+            fields.push("w: &mut w");
+            let fails = if piece.function.guards.is_empty() {
+                ""
+            } else {
+                "?"
+            };
+            self.writer.line(format!(
+                "{register}::call({name}::<{register}, {i}> {{ {} }}){fails};",
+                fields.join(", ")
+            ));
+        }
+    }
+
+    /// What the pieces are given, `w` apart: what any of them reads.
+    fn fields_of_pieces(&self, cut: &Cut) -> Vec<(&'static str, String)> {
+        let reads = cut.pieces.iter().map(|piece| self.needs_of_piece(piece));
+        let all = reads.fold(Reads::default(), super::functions::union);
+        self.arguments(all)
+    }
+
+    fn pieces(&mut self, role: Role, cut: &Cut) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let [_, name] = self.names(role);
+        let usize = self.types.known("usize");
+        let stored = |kind: &str| {
+            with_lifetime(kind)
+                .replace(&format!("<{scalar}>"), &format!("<{register}::Stored>"))
+                .replace(&format!("[{scalar};"), &format!("[{register}::Stored;"))
+        };
+        self.writer.gap();
+        self.docs(&format!(
+            "What the pieces of [`{}`] are given.",
+            self.function_name(role)
+        ));
+        self.writer.open(format!(
+            "struct {name}<'a, {register}: {runtime}::Scalar, const PIECE: {usize}> {{"
+        ));
+        for (field, kind) in self.fields_of_pieces(cut) {
+            let kind = if kind == scalar {
+                format!("{register}::Stored")
+            } else {
+                stored(&kind)
+            };
+            self.writer.line(format!("{field}: {kind},"));
+        }
+        self.writer
+            .line(format!("w: &'a mut [{register}; {}],", cut.slots));
+        self.writer.close("}");
+        for (i, piece) in cut.pieces.iter().enumerate() {
+            self.kernel_piece(role, i, piece, cut);
+        }
+    }
+
+    fn kernel_piece(&mut self, role: Role, i: usize, piece: &Piece, cut: &Cut) {
+        let runtime = self.options.runtime.clone();
+        let register = self.types.register.clone();
+        let [_, name] = self.names(role);
+        let fails = !piece.function.guards.is_empty();
+        let output = if fails {
+            self.fallible("()")
+        } else {
+            "()".to_owned()
+        };
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{register}: {runtime}::Scalar> {runtime}::scalar::Piece for {name}<'_, {register}, {i}> {{"
+        ));
+        self.writer.line(format!("type Output = {output};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        let result = fails.then_some("Self::Output");
+        self.writer
+            .signature("fn run", &["self".to_owned()], result);
+        let needed: Vec<&str> = self
+            .arguments(self.needs_of_piece(piece))
+            .iter()
+            .map(|(name, _)| *name)
+            .collect();
+        let all = self.fields_of_pieces(cut).len();
+        let rest = if needed.len() < all { ", .." } else { "" };
+        let names: Vec<&str> = needed.into_iter().chain(["w"]).collect();
+        self.writer
+            .line(format!("let Self {{ {}{rest} }} = self;", names.join(", ")));
+        if self.loads(&piece.function) {
+            self.writer.line(format!("let n = {register}::load;"));
+        }
+        let texts = self.statements(&piece.function, &[], true);
+        for (slot, text) in piece.keeps.iter().zip(texts) {
+            self.writer.line(format!("w[{slot}] = {};", text.text));
+        }
+        if fails {
+            self.writer.line("Ok(())");
+        }
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}
+
+/// `'a, ` where any argument is a reference.
+fn lifetime(arguments: &[(&'static str, String)]) -> &'static str {
+    match arguments.iter().any(|(_, kind)| kind.starts_with('&')) {
+        true => "'a, ",
+        false => "",
+    }
+}
+
+/// `&'a [S; 2]` of `&[S; 2]`.
+pub(super) fn with_lifetime(kind: &str) -> String {
+    match kind.strip_prefix('&') {
+        Some(kind) => format!("&'a {kind}"),
+        None => kind.to_owned(),
+    }
+}

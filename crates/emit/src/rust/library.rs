@@ -1,0 +1,256 @@
+//! What a library that is called from C holds of a machine: its parameters, what is prepared of them, and the
+//! accelerations, with the numbers in a row as C passes them.
+
+use super::Emitter;
+use super::kernel::with_lifetime;
+use super::language::number;
+use super::types::{Group, Types, literal};
+use crate::body::Binding;
+use crate::layout::Layout;
+use crate::names::Field;
+use lagrangian_program::{Function, Role, Slot, early_angles};
+
+impl Emitter<'_> {
+    /// The content of the module: of the runtime it needs `Scalar`, `Number`, `Singular` and `scalar::Kernel` only.
+    pub(super) fn library(mut self) -> String {
+        for line in &self.options.origin {
+            self.writer.comment("//", line);
+        }
+        self.writer
+            .line("#![allow(dead_code, unused_variables, non_snake_case, non_camel_case_types)]");
+        self.name_tables();
+        let parameters = Group::new(&self.program.parameters);
+        let Types {
+            machine, scalar, ..
+        } = self.types.clone();
+        self.structure(&machine, "The parameters.", &parameters, false);
+        self.writer.gap();
+        let bound = format!("{scalar}: {}::Scalar", self.options.runtime);
+        self.writer
+            .open(format!("impl<{bound}> {machine}<{scalar}> {{"));
+        self.prepare();
+        self.writer.close("}");
+        self.prepared();
+        self.map_of_prepared();
+        self.prepared_of_a_row(&parameters);
+        let inputs = Group::new(&self.program.inputs);
+        self.structure(&self.types.inputs.clone(), "The inputs.", &inputs, false);
+        if let Some(function) = self.program.function(Role::Accelerations) {
+            self.evaluate(function, &inputs);
+        }
+        self.helpers_of_guards();
+        self.writer.finish()
+    }
+
+    /// Names, units and values of everything that has them.
+    fn name_tables(&mut self) {
+        let program = self.program;
+        let tables = [
+            ("COORDINATES", &program.coordinates),
+            ("PARAMETERS", &program.parameters),
+            ("INPUTS", &program.inputs),
+        ];
+        let f64 = self.types.known("f64");
+        for (table, slots) in tables {
+            let row = |slot: &Slot| {
+                let default = slot.default.as_ref().map(|default| number(default.value));
+                let default = default.unwrap_or_else(|| format!("{f64}::NAN"));
+                Layout::Atom(format!(
+                    "(c{:?}, c{:?}, {default})",
+                    slot.name.to_string(),
+                    slot.unit_text
+                ))
+            };
+            self.writer.gap();
+            self.docs("Names, units, and values where the description has them.");
+            let head = format!(
+                "pub const {table}: [(&::core::ffi::CStr, &::core::ffi::CStr, {f64}); {}] = ",
+                slots.len()
+            );
+            self.writer
+                .expression(&head, &Layout::nested(slots.iter().map(row)), ";");
+        }
+    }
+
+    /// `map`: what is prepared, over other numbers.
+    fn map_of_prepared(&mut self) {
+        let Types {
+            prepared, scalar, ..
+        } = self.types.clone();
+        let (copy, fn_trait) = (self.types.known("Copy"), self.types.known("Fn"));
+        self.writer.gap();
+        self.writer
+            .open(format!("impl<{scalar}: {copy}> {prepared}<{scalar}> {{"));
+        self.docs("The same over other numbers.");
+        self.writer.signature(
+            "pub fn map<R>",
+            &["&self".into(), format!("f: impl {fn_trait}({scalar}) -> R")],
+            Some(&format!("{prepared}<R>")),
+        );
+        let field = |field: Field| {
+            let value = match field.is_family {
+                true => format!("self.{}.map(&f)", field.ident),
+                false => format!("f(self.{})", field.ident),
+            };
+            (field.ident, Layout::Atom(value))
+        };
+        let fields = self.prepared_fields().into_iter().map(field);
+        let mut value = literal(&prepared, fields.collect());
+        if let Layout::Struct(_, fields) = &mut value
+            && !self.program.prepare.guards.is_empty()
+        {
+            fields.push(("singular".into(), Layout::Atom("self.singular".into())));
+        }
+        self.writer.expression("", &value, "");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
+    /// `prepared`: of parameters in the order of the description.
+    fn prepared_of_a_row(&mut self, parameters: &Group<'_>) {
+        let f64 = self.types.known("f64");
+        let Types {
+            prepared, machine, ..
+        } = self.types.clone();
+        self.writer.gap();
+        self.docs("What is prepared of parameters in the order of the description.");
+        let row = format!("row: &[{f64}; {}]", self.program.parameters.len());
+        self.writer.signature(
+            "pub fn prepared",
+            &[row],
+            Some(&format!("{prepared}<{f64}>")),
+        );
+        let value = parameters.literal(&machine, |slot| format!("row[{slot}]"));
+        self.writer.expression("let machine = ", &value, ";");
+        self.writer.line("machine.prepare()");
+        self.writer.close("}");
+    }
+
+    /// `evaluate`: the accelerations, whatever they need of all that a library is given; false at singular poses.
+    fn evaluate(&mut self, function: &Function, inputs: &Group<'_>) {
+        let in_parts = self.is_in_parts(function);
+        if in_parts {
+            self.function(function);
+        }
+        let runtime = self.options.runtime.clone();
+        let Types {
+            prepared, scalar, ..
+        } = self.types.clone();
+        let (bool, n) = (self.types.known("bool"), self.program.dimension());
+        self.writer.gap();
+        self.docs("Puts the accelerations where they go, and says whether they hold.");
+        self.docs("");
+        self.docs(
+            "They don't where the mass matrix is singular; nor may they where an angle of one of several lanes is so \
+             large that it has to be evaluated alone. What is in `result` then is of no use.",
+        );
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("pub fn evaluate<{scalar}: {runtime}::Number>"),
+            &[
+                format!("p: &{prepared}<{scalar}>"),
+                format!("t: {scalar}"),
+                format!("q: &[{scalar}; {n}]"),
+                format!("v: &[{scalar}; {n}]"),
+                format!("row: &[{scalar}; {}]", self.program.inputs.len()),
+                format!("result: &mut [{scalar}; {n}]"),
+            ],
+            Some(&bool),
+        );
+        let needs = self.needs(function);
+        if needs.inputs {
+            let name = self.types.inputs.clone();
+            let value = inputs.literal(&name, |slot| format!("row[{slot}]"));
+            self.writer.expression("let u = ", &value, ";");
+        }
+        let mut arguments = Vec::new();
+        for (name, _) in self.arguments(needs) {
+            arguments.push(match name {
+                "u" if in_parts => "&u",
+                "u" => "u: &u",
+                name => name,
+            });
+        }
+        if in_parts {
+            self.writer
+                .open(format!("match accelerations({}) {{", arguments.join(", ")));
+            self.writer.open("Ok(accelerations) => {");
+            self.writer.line("*result = accelerations;");
+            self.writer.line("true");
+            self.writer.close("}");
+            self.writer.line("Err(_) => false,");
+            self.writer.close("}");
+            return self.writer.close("}");
+        }
+        arguments.push("result");
+        let fields = arguments.join(", ");
+        self.writer
+            .line(format!("{scalar}::run(InPlace {{ {fields} }})"));
+        self.writer.close("}");
+        self.in_place(function);
+    }
+
+    /// The code of the accelerations as a kernel that puts them where they go, in one piece.
+    ///
+    /// Nothing waits for a check: results are left whether they hold or not, then all is asked at once, the size of the
+    /// angles with the pivots. So to a compiler, and to a processor, this is straight code, and whoever calls has the way
+    /// that is taken when something is wrong, out of sight.
+    fn in_place(&mut self, function: &Function) {
+        let runtime = self.options.runtime.clone();
+        let Types {
+            scalar, register, ..
+        } = self.types.clone();
+        let (bool, copy) = (self.types.known("bool"), self.types.known("Copy"));
+        let n = self.program.dimension();
+        let arguments = self.arguments(self.needs(function));
+        self.writer.gap();
+        self.docs("The accelerations, and where they go.");
+        self.writer.open(format!("struct InPlace<'a, {scalar}> {{"));
+        for (argument, kind) in &arguments {
+            self.writer
+                .line(format!("{argument}: {},", with_lifetime(kind)));
+        }
+        self.writer
+            .line(format!("result: &'a mut [{scalar}; {n}],"));
+        self.writer.close("}");
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl<{scalar}: {copy}> {runtime}::scalar::Kernel<{scalar}> for InPlace<'_, {scalar}> {{"
+        ));
+        self.writer.line(format!("type Output = {bool};"));
+        self.writer.gap();
+        self.writer.line("#[inline(always)]");
+        self.writer.signature(
+            &format!("fn run<{register}: {runtime}::Scalar<Stored = {scalar}>>"),
+            &["self".to_owned()],
+            Some(&bool),
+        );
+        let names = arguments.iter().map(|(name, _)| *name);
+        let names: Vec<&str> = names.chain(["result"]).collect();
+        self.writer
+            .line(format!("let Self {{ {} }} = self;", names.join(", ")));
+        self.writer.line(format!("let n = {register}::load;"));
+        let has_far = !early_angles(function).is_empty();
+        self.asks_once = true;
+        let wanted = self.result_names(function);
+        let body = self.unchecked(function, &wanted);
+        self.asks_once = false;
+        for (i, text) in body.results.iter().enumerate() {
+            let text = text.at_least(Binding::Atom);
+            self.writer.line(format!("result[{i}] = {text}.store();"));
+        }
+        let mut conditions = self.exceeding(function, &body);
+        if has_far {
+            conditions.insert(0, "are_near".into());
+        }
+        if self.may_be_singular_from_the_start(function) {
+            conditions.insert(0, "p.singular.is_none()".into());
+        }
+        self.writer.line(match conditions.is_empty() {
+            true => "true".into(),
+            false => conditions.join(" & "),
+        });
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+}

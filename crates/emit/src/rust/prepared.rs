@@ -1,0 +1,201 @@
+//! The fields of the prepared values: one for each, but arrays of those that a loop counts.
+
+use std::collections::BTreeMap;
+
+use super::Emitter;
+use super::language::Rust;
+use super::types::literal;
+use crate::body::{self, Plan};
+use crate::layout::Layout;
+use crate::names::{Field, Scope, flat};
+use lagrangian_program::{Function, Op, Program, Role, Source};
+
+/// The arrays of prepared values that the loops of a program count.
+///
+/// Lists that overlap share an array where they run alike; a value of which another list wants
+/// other neighbours is kept twice.
+pub(super) fn families(
+    program: &Program,
+    plans: &BTreeMap<Role, Plan>,
+    scope: &mut Scope,
+) -> Vec<Field> {
+    let mut lists: Vec<Vec<usize>> = Vec::new();
+    for (role, plan) in plans {
+        let Some(function) = program.function(*role) else {
+            continue;
+        };
+        for list in plan.prepared(function) {
+            let mut list: Vec<usize> = list.into_iter().map(|slot| slot as usize).collect();
+            if list.first() > list.last() {
+                list.reverse();
+            }
+            lists.push(list);
+        }
+    }
+    // The longest first; those of equal length as they were met.
+    lists.sort_by_key(|list| std::cmp::Reverse(list.len()));
+    let mut families: Vec<Vec<usize>> = Vec::new();
+    for list in lists {
+        let mut all = families.iter_mut();
+        match all.find_map(|family| Some((joined(family, &list)?, family))) {
+            Some((joined, family)) => *family = joined,
+            None => families.push(list),
+        }
+    }
+    families.sort();
+    let mut number = 0;
+    let mut name = |slots: &Vec<usize>| {
+        let base = |slot: &usize| match program.prepare.op(program.prepare.results[*slot]) {
+            Op::Read(Source::Parameter(i)) => Some(&program.parameters[*i as usize].name.base),
+            _ => None,
+        };
+        let first = slots.first().and_then(base);
+        match first {
+            Some(first) if slots.iter().all(|slot| base(slot) == Some(first)) => scope.take(first),
+            _ => {
+                number += 1;
+                scope.take(&format!("r{}", number - 1))
+            }
+        }
+    };
+    let field = |slots: Vec<usize>| Field {
+        ident: name(&slots),
+        slots,
+        is_family: true,
+    };
+    families.into_iter().map(field).collect()
+}
+
+/// A family and a list as one, where they overlap, have the same neighbours, and the same order.
+fn joined(family: &[usize], list: &[usize]) -> Option<Vec<usize>> {
+    // How far the list begins before or behind the family.
+    let (in_family, in_list) = list.iter().enumerate().find_map(|(in_list, slot)| {
+        let in_family = family.iter().position(|other| other == slot)?;
+        Some((in_family as isize, in_list as isize))
+    })?;
+    let shift = in_family - in_list;
+    let end = (list.len() as isize + shift).max(family.len() as isize);
+    let mut joined = Vec::new();
+    for at in shift.min(0)..end {
+        let of = |list: &[usize], at: isize| {
+            let at = usize::try_from(at).ok()?;
+            list.get(at).copied()
+        };
+        joined.push(match (of(family, at), of(list, at - shift)) {
+            (Some(a), Some(b)) if a == b => a,
+            (Some(a), None) | (None, Some(a)) => a,
+            _ => return None,
+        });
+    }
+    let mut sorted = joined.clone();
+    sorted.sort_unstable();
+    sorted.dedup();
+    (sorted.len() == joined.len()).then_some(joined)
+}
+
+/// The path of each prepared value.
+pub(super) fn paths(program: &Program, families: &[Field], scope: &mut Scope) -> Vec<String> {
+    let mut anonymous = 0;
+    let values = program.prepare.results.iter().enumerate();
+    let path = |(slot, value): (usize, &_)| {
+        let at = families.iter().find_map(|family| {
+            let at = family.slots.iter().position(|other| *other == slot)?;
+            Some(format!("{}[{at}]", family.ident))
+        });
+        at.unwrap_or_else(|| match program.prepare.op(*value) {
+            Op::Read(Source::Parameter(i)) => {
+                scope.take(&flat(&program.parameters[*i as usize].name))
+            }
+            _ => {
+                anonymous += 1;
+                scope.take(&format!("k{}", anonymous - 1))
+            }
+        })
+    };
+    values.map(path).collect()
+}
+
+impl Emitter<'_> {
+    /// The fields of the prepared values.
+    pub(super) fn prepared_fields(&self) -> Vec<Field> {
+        let is_alone = |slot: &usize| {
+            let mut families = self.prepared_families.iter();
+            families.all(|family| !family.slots.contains(slot))
+        };
+        let alone = |slot: usize| Field {
+            ident: self.prepared[slot].clone(),
+            slots: vec![slot],
+            is_family: false,
+        };
+        let single = (0..self.prepared.len()).filter(is_alone).map(alone);
+        let families = self.prepared_families.iter().cloned();
+        single.chain(families).collect()
+    }
+
+    /// The struct of the prepared values, each number written by `value`; of some families there are
+    /// arrays already, by these names.
+    pub(super) fn prepared_literal(
+        &self,
+        value: impl Fn(usize) -> String,
+        filled: &[String],
+    ) -> Layout {
+        let mut filled = filled.iter();
+        let fields = self.prepared_fields().into_iter().map(|field| {
+            let value = match field.is_family {
+                true => match filled.next() {
+                    Some(array) => Layout::Atom(array.clone()),
+                    None => Layout::array(field.slots.iter().map(|&slot| value(slot))),
+                },
+                false => Layout::Atom(value(field.slots[0])),
+            };
+            (field.ident, value)
+        });
+        literal(&self.types.prepared, fields.collect())
+    }
+
+    /// The loops of `prepare`, where others count what it prepares.
+    pub(super) fn plan_of_prepare(&self, prepare: &Function) -> Option<Plan> {
+        match self.prepared_families.is_empty() {
+            true => None,
+            false => Plan::of(prepare, false, 0),
+        }
+    }
+
+    /// The code of `prepare`; the texts of its results and the arrays of the families come back.
+    pub(super) fn prepare_with_loops(
+        &mut self,
+        prepare: &Function,
+        plan: &Plan,
+    ) -> (Vec<String>, Vec<String>) {
+        let mut writer = std::mem::take(&mut self.writer);
+        let rust = Rust {
+            emitter: self,
+            in_registers: false,
+        };
+        let mut scope = self.scope();
+        let names = self.prepared_families.iter();
+        let names: Vec<String> = names.map(|family| scope.take(&family.ident)).collect();
+        let results = body::statements_with_loops(&mut writer, &rust, prepare, scope.clone(), plan);
+        let (texts, places): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        let texts: Vec<String> = texts.into_iter().map(|text| text.text).collect();
+        for (family, name) in self.prepared_families.iter().zip(&names) {
+            let slots = family.slots.iter();
+            let (texts, places): (Vec<_>, Vec<_>) = slots
+                .map(|slot| (texts[*slot].clone(), places[*slot].clone()))
+                .unzip();
+            let runs = body::runs(&places);
+            let as_it_is = &str::to_owned;
+            body::fill(
+                &mut writer,
+                &rust,
+                name,
+                &runs,
+                &texts,
+                as_it_is,
+                &mut scope,
+            );
+        }
+        self.writer = writer;
+        (texts, names)
+    }
+}

@@ -1,0 +1,391 @@
+//! The structs of a module: parameters, coordinates, inputs, outputs, prepared values.
+
+use super::Emitter;
+use super::docs::{field_docs, prose};
+use super::language::{number, vanishes};
+use super::types::{Group, Types, literal};
+use crate::layout::Layout;
+use crate::names::{Field, flat};
+use lagrangian_program::Function;
+
+impl Emitter<'_> {
+    /// A struct whose fields are named numbers.
+    pub(super) fn structure(
+        &mut self,
+        name: &str,
+        docs: &str,
+        group: &Group<'_>,
+        with_default: bool,
+    ) {
+        let scalar = self.types.scalar.clone();
+        let f64 = self.types.known("f64");
+        self.writer.gap();
+        self.docs(docs);
+        if group.is_empty() && (name == self.types.inputs || name == self.types.outputs) {
+            self.writer
+                .line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
+            return self.writer.line(format!("pub struct {name} {{}}"));
+        }
+        self.writer.line("#[derive(Clone, Copy, Debug, PartialEq)]");
+        self.writer
+            .open(format!("pub struct {name}<{scalar} = {f64}> {{"));
+        for field in &group.fields {
+            let docs = field_docs(field, group.slots, with_default);
+            self.docs(&docs);
+            let kind = match field.is_family {
+                true => format!("[{scalar}; {}]", field.slots.len()),
+                false => scalar.clone(),
+            };
+            self.writer.line(format!("pub {}: {kind},", field.ident));
+        }
+        if group.is_empty() {
+            self.docs("There is nothing to hold; this says which numbers the machine runs over.");
+            self.writer.line(format!(
+                "pub scalar: ::core::marker::PhantomData<{scalar}>,"
+            ));
+        }
+        self.writer.close("}");
+    }
+
+    /// `map`: the same struct over other numbers.
+    pub(super) fn map(&mut self, name: &str, group: &Group<'_>) {
+        let scalar = self.types.scalar.clone();
+        let fn_trait = self.types.known("Fn");
+        self.docs("The same over other numbers.");
+        let argument = if group.is_empty() { "_" } else { "f" };
+        self.writer.signature(
+            "pub fn map<R>",
+            &[
+                "self".into(),
+                format!("{argument}: impl {fn_trait}({scalar}) -> R"),
+            ],
+            Some(&format!("{name}<R>")),
+        );
+        let fields: Vec<(String, Layout)> = group
+            .fields
+            .iter()
+            .map(|field| {
+                let value = match field.is_family {
+                    true => format!("self.{}.map(&f)", field.ident),
+                    false => format!("f(self.{})", field.ident),
+                };
+                (field.ident.clone(), Layout::Atom(value))
+            })
+            .collect();
+        self.writer.expression("", &literal(name, fields), "");
+        self.writer.close("}");
+    }
+
+    /// The struct of the parameters, and what can be done with them.
+    pub(super) fn machine(&mut self) {
+        let name = self.types.machine.clone();
+        let scalar = self.types.scalar.clone();
+        let bound = format!("{scalar}: {}::Scalar", self.options.runtime);
+        let docs = match self.program.docs.is_empty() {
+            true => format!("The machine `{}`: its parameters.", self.program.name),
+            false => prose(&self.program.docs),
+        };
+        let group = Group::new(&self.program.parameters);
+        self.structure(&name, &docs, &group, true);
+        self.defaults(&name, &group);
+        self.writer.gap();
+        self.writer
+            .open(format!("impl<{scalar}> {name}<{scalar}> {{"));
+        self.map(&name, &group);
+        self.writer.close("}");
+        self.writer.gap();
+        self.writer
+            .open(format!("impl<{bound}> {name}<{scalar}> {{"));
+        self.required(&name, &group);
+        self.prepare();
+        self.writer.gap();
+        self.start();
+        self.writer.close("}");
+    }
+
+    /// The whole families that lack a default, as fields.
+    pub(super) fn required_fields(group: &Group<'_>) -> Vec<Field> {
+        let lacks = |field: &&Field| {
+            field
+                .slots
+                .iter()
+                .any(|&slot| group.slots[slot].default.is_none())
+        };
+        group.fields.iter().filter(lacks).cloned().collect()
+    }
+
+    /// `Default`, where every number has one.
+    pub(super) fn defaults(&mut self, name: &str, group: &Group<'_>) {
+        if !Self::required_fields(group).is_empty() {
+            return;
+        }
+        self.writer.gap();
+        self.writer.open(format!(
+            "impl {} for {name} {{",
+            self.types.known("Default")
+        ));
+        self.writer.open("fn default() -> Self {");
+        let value = |slot: usize| {
+            group.slots[slot]
+                .default
+                .as_ref()
+                .map_or("0.0".into(), |default| number(default.value))
+        };
+        self.writer
+            .expression("", &group.literal("Self", value), "");
+        self.writer.close("}");
+        self.writer.close("}");
+    }
+
+    /// `new`, where some parameters have no default.
+    pub(super) fn required(&mut self, name: &str, group: &Group<'_>) {
+        let required = Self::required_fields(group);
+        if required.is_empty() {
+            return;
+        }
+        let scalar = self.types.scalar.clone();
+        let arguments: Vec<String> = required
+            .iter()
+            .map(|field| match field.is_family {
+                true => format!("{}: [{scalar}; {}]", field.ident, field.slots.len()),
+                false => format!("{}: {scalar}", field.ident),
+            })
+            .collect();
+        self.docs(
+            "A machine with these parameters; the others have the defaults of the description.",
+        );
+        self.writer
+            .signature("pub fn new", &arguments, Some("Self"));
+        let default = |slot: usize| match &group.slots[slot].default {
+            Some(default) => format!("{scalar}::from_f64({})", number(default.value)),
+            None => String::new(),
+        };
+        let mut machine = group.literal(name, default);
+        if let Layout::Struct(_, fields) = &mut machine {
+            for (field, value) in fields {
+                if required.iter().any(|required| required.ident == *field) {
+                    *value = Layout::Atom(field.clone());
+                }
+            }
+        }
+        self.writer.expression("", &machine, "");
+        self.writer.close("}");
+        self.writer.gap();
+    }
+
+    /// `prepare`: what depends on parameters alone.
+    pub(super) fn prepare(&mut self) {
+        let Types {
+            prepared, scalar, ..
+        } = &self.types;
+        let result = format!("{prepared}<{scalar}>");
+        let function = &self.program.prepare;
+        self.docs("Computes what depends on the parameters alone, once.");
+        self.writer
+            .signature("pub fn prepare", &["&self".into()], Some(&result));
+        // A guard here says that no state has accelerations: it is kept until they are asked for.
+        let guards = &function.guards;
+        let mut with_guards = Function {
+            guards: Vec::new(),
+            ..function.clone()
+        };
+        with_guards
+            .results
+            .extend(guards.iter().flat_map(|guard| [guard.pivot, guard.scale]));
+        let name = |path: &String| path.replace('[', "_").replace(']', "");
+        let mut wanted: Vec<String> = self.prepared.iter().map(name).collect();
+        for guard in guards {
+            wanted.extend(["pivot", "scale"].map(|what| format!("{what}_{}", guard.coordinate)));
+        }
+        let mut families = Vec::new();
+        let texts: Vec<String> = match self.plan_of_prepare(&with_guards) {
+            Some(plan) => {
+                let (texts, filled) = self.prepare_with_loops(&with_guards, &plan);
+                families = filled;
+                texts
+            }
+            None => {
+                let texts = self.statements(&with_guards, &wanted, false);
+                texts.into_iter().map(|text| text.text).collect()
+            }
+        };
+        let (values, pivots) = texts.split_at(self.prepared.len());
+        for (i, (guard, pair)) in function.guards.iter().zip(pivots.chunks(2)).enumerate() {
+            let (pivot, scale) = (&pair[0], &pair[1]);
+            let condition = vanishes(guard, pivot, scale);
+            match i {
+                0 => self
+                    .writer
+                    .open(format!("let singular = if {condition} {{")),
+                _ => self.writer.middle(&format!("}} else if {condition} {{")),
+            }
+            self.writer.line(format!(
+                "Some(singular({}, {pivot}, {scale}))",
+                guard.coordinate
+            ));
+        }
+        let prepared = match self.prepared_literal(|slot| values[slot].clone(), &families) {
+            Layout::Struct(name, mut fields) if !function.guards.is_empty() => {
+                self.writer.middle("} else {");
+                self.writer.line("None");
+                self.writer.close("};");
+                fields.push(("singular".into(), Layout::Atom("singular".into())));
+                Layout::Struct(name, fields)
+            }
+            prepared => prepared,
+        };
+        self.writer.expression("", &prepared, "");
+        self.writer.close("}");
+    }
+
+    /// `start`: where the description lets the machine begin.
+    pub(super) fn start(&mut self) {
+        let runtime = &self.options.runtime;
+        let Types {
+            coordinates,
+            scalar,
+            ..
+        } = &self.types;
+        let result = format!("{runtime}::State<{coordinates}<{scalar}>>");
+        let values = format!("{coordinates}::from_array");
+        let n = self.program.dimension();
+        let rest = format!("let v = [{scalar}::ZERO; {n}];");
+        let head = format!("{runtime}::State");
+        let is_at_rest = self.program.start.results.len() == n;
+        self.docs(match is_at_rest {
+            true => "The start values of the description, at rest and `t = 0`.",
+            false => "The start values of the description, at `t = 0`.",
+        });
+        self.writer
+            .signature("pub fn start", &["&self".into()], Some(&result));
+        let names = self.program.coordinates.iter().map(|slot| flat(&slot.name));
+        let mut wanted: Vec<String> = names.clone().collect();
+        if !is_at_rest {
+            wanted.extend(names.map(|name| format!("{name}_rate")));
+        }
+        let mut texts = self
+            .statements(&self.program.start, &wanted, false)
+            .into_iter();
+        let q = Layout::array(texts.by_ref().take(n).map(|text| text.text));
+        self.writer.expression("let q = ", &q, ";");
+        if is_at_rest {
+            self.writer.line(rest);
+        } else {
+            let v = Layout::array(texts.map(|text| text.text));
+            self.writer.expression("let v = ", &v, ";");
+        }
+        let fields = vec![
+            ("t".to_owned(), Layout::Atom("0.0".into())),
+            ("q".to_owned(), Layout::Atom(format!("{values}(q)"))),
+            ("v".to_owned(), Layout::Atom(format!("{values}(v)"))),
+        ];
+        self.writer
+            .expression("", &Layout::Struct(head, fields), "");
+        self.writer.close("}");
+    }
+
+    /// The coordinates by name, and as an array.
+    pub(super) fn coordinates(&mut self) {
+        let name = self.types.coordinates.clone();
+        let scalar = self.types.scalar.clone();
+        let copy = self.types.known("Copy");
+        let n = self.program.dimension();
+        let group = Group::new(&self.program.coordinates);
+        let docs = format!(
+            "The coordinates of [`{}`], or their rates, by name.",
+            self.program.name
+        );
+        self.structure(&name, &docs, &group, false);
+        self.writer.gap();
+        self.writer
+            .open(format!("impl<{scalar}: {copy}> {name}<{scalar}> {{"));
+        self.docs(
+            "The numbers in the order of the description: the order of `q` in every function here.",
+        );
+        self.writer
+            .open(format!("pub fn to_array(self) -> [{scalar}; {n}] {{"));
+        let items = group.paths.iter().map(|path| format!("self.{path}"));
+        self.writer.expression("", &Layout::array(items), "");
+        self.writer.close("}");
+        self.writer.gap();
+        self.docs("Names for numbers in the order of the description.");
+        self.writer
+            .open(format!("pub fn from_array(q: [{scalar}; {n}]) -> Self {{"));
+        self.writer
+            .expression("", &group.literal("Self", |slot| format!("q[{slot}]")), "");
+        self.writer.close("}");
+        self.writer.gap();
+        self.map(&name, &group);
+        self.writer.close("}");
+    }
+
+    pub(super) fn inputs(&mut self) {
+        let name = self.types.inputs.clone();
+        let group = Group::new(&self.program.inputs);
+        let docs = format!("What can be set while a [`{}`] runs.", self.program.name);
+        self.structure(&name, &docs, &group, true);
+        if group.is_empty() {
+            return;
+        }
+        self.defaults(&name, &group);
+        let scalar = self.types.scalar.clone();
+        self.writer.gap();
+        self.writer
+            .open(format!("impl<{scalar}> {name}<{scalar}> {{"));
+        self.map(&name, &group);
+        self.writer.close("}");
+    }
+
+    pub(super) fn outputs(&mut self) {
+        let name = self.types.outputs.clone();
+        let group = Group::new(&self.program.outputs);
+        let docs = format!("What can be observed of a [`{}`].", self.program.name);
+        self.structure(&name, &docs, &group, false);
+    }
+
+    pub(super) fn prepared(&mut self) {
+        let Types {
+            prepared,
+            scalar,
+            machine,
+            ..
+        } = self.types.clone();
+        let f64 = self.types.known("f64");
+        let head = format!("pub struct {prepared}<{scalar} = {f64}> {{");
+        let marker = format!("scalar: ::core::marker::PhantomData<{scalar}>,");
+        let docs = format!(
+            "The parameters of a [`{machine}`], with the work done that depends on them alone."
+        );
+        let option = self.types.known("Option");
+        self.writer.gap();
+        self.docs(&docs);
+        self.writer.line("#[derive(Clone, Copy, Debug, PartialEq)]");
+        self.writer.open(head);
+        for field in self.prepared_fields() {
+            let formula = |slot: usize| self.program.prepared.get(slot).map_or("", String::as_str);
+            let (docs, kind) = match field.slots.as_slice() {
+                [first, .., last] if field.is_family => (
+                    format!("`{}` to `{}`", formula(*first), formula(*last)),
+                    format!("[{scalar}; {}]", field.slots.len()),
+                ),
+                slots => {
+                    let formula = slots.first().map_or("", |slot| formula(*slot));
+                    (format!("`{formula}`"), scalar.clone())
+                }
+            };
+            self.docs(&docs);
+            self.writer.line(format!("{}: {kind},", field.ident));
+        }
+        if self.prepared.is_empty() {
+            self.writer.line(marker);
+        }
+        if !self.program.prepare.guards.is_empty() {
+            self.docs("Why these parameters leave the machine without accelerations, if they do.");
+            self.writer.line(format!(
+                "singular: {option}<{}::Singular>,",
+                self.options.runtime
+            ));
+        }
+        self.writer.close("}");
+    }
+}

@@ -1,0 +1,157 @@
+//! What stands in for a machine whose description has errors.
+
+use lagrangian_symbolic::Rational;
+
+use super::{Options, unproved_expansion};
+use lagrangian_program as program;
+use lagrangian_program::quantity::{Needs, Sizes};
+use lagrangian_program::{Function, Op, Program, Role, Shape, Slot, Value};
+use lagrangian_spec::model::{Name, Stages};
+use lagrangian_spec::syntax::{Expression, ExpressionKind, Index, Item, Quantity, Spec};
+use lagrangian_spec::unit::Unit;
+
+/// What stands in for a machine whose description has errors: everything that user code may name, and no motion. So the
+/// errors of the description are not buried under others.
+pub fn stub(spec: &Spec, options: &Options) -> String {
+    if spec.name.text.is_empty() {
+        String::new()
+    } else {
+        unproved_expansion(&standstill(spec), options)
+    }
+}
+
+/// A machine that has the names of a spec, as far as they can be told, and does not move.
+fn standstill(spec: &Spec) -> Program {
+    let slots = |items: &[Item<Quantity>]| {
+        let mut slots: Vec<Slot> = Vec::new();
+        for slot in items.iter().flat_map(|item| standing(spec, item)) {
+            // What is declared twice is one of the errors.
+            let clashes = |known: &Slot| {
+                known.name == slot.name
+                    || (known.name.base == slot.name.base
+                        && known.name.index.is_some() != slot.name.index.is_some())
+            };
+            if !slots.iter().any(clashes) {
+                slots.push(slot);
+            }
+        }
+        slots
+    };
+    let coordinates = slots(&spec.coordinates);
+    let n = coordinates.len();
+    let zeros = |role, shape: Shape| {
+        let (code, results) = match shape.is_empty() {
+            true => (Vec::new(), Vec::new()),
+            false => (
+                vec![Op::Constant(Rational::ZERO)],
+                vec![Value(0); shape.len()],
+            ),
+        };
+        Function {
+            role,
+            code,
+            shape,
+            results,
+            guards: Vec::new(),
+        }
+    };
+    let outputs = slots(&spec.outputs);
+    let sizes = Sizes {
+        coordinates: n,
+        ..Sizes::default()
+    };
+    let everywhere = Role::all().filter(|role| role.row().needs == Needs::Nothing);
+    let mut functions: Vec<Function> = everywhere
+        .filter_map(|role| Some(zeros(role, role.row().extent.shape(sizes)?)))
+        .collect();
+    let asks = |stage: &str| spec.stages.iter().any(|item| item.name.base.text == stage);
+    let stages = Stages {
+        time: asks("time"),
+        coordinates: asks("coordinates"),
+    };
+    if stages.time {
+        functions.push(zeros(Role::AtTime, Shape::Vector(0)));
+    }
+    if stages.coordinates {
+        functions.push(zeros(Role::AtPosition, Shape::Vector(0)));
+    }
+    if !stages.is_empty() {
+        functions.push(zeros(Role::AccelerationsAt, Shape::Vector(n)));
+    }
+    functions.extend((0..outputs.len()).map(|i| zeros(Role::Output(i), Shape::Scalar)));
+    Program {
+        name: spec.name.text.clone(),
+        docs: "The description of this machine has errors.".into(),
+        parameters: slots(&spec.parameters),
+        coordinates,
+        inputs: slots(&spec.inputs),
+        outputs,
+        assumptions: Vec::new(),
+        constraints: Vec::new(),
+        contacts: Vec::new(),
+        kept: Vec::new(),
+        derivatives: Vec::new(),
+        stages,
+        prepare: zeros(Role::Prepare, Shape::Vector(0)),
+        prepared: Vec::new(),
+        start: zeros(Role::Start, Shape::Vector(n)),
+        functions,
+        choices: Vec::new(),
+    }
+}
+
+/// The members of an item, where their number can be told by looking; else one.
+fn standing(spec: &Spec, item: &Item<Quantity>) -> Vec<Slot> {
+    /// The most members of a family that a stub has.
+    const MOST: i64 = 1000;
+    let number = |expression: &Expression| integer(spec, expression);
+    let indices: Vec<Option<i64>> = match &item.name.index {
+        Index::None => vec![None],
+        Index::One(index) => vec![Some(number(index).unwrap_or(1))],
+        Index::Range(range) => {
+            let (low, high) = (
+                number(&range.low).unwrap_or(1),
+                number(&range.high).unwrap_or(1),
+            );
+            (low..=high.clamp(low, low.saturating_add(MOST)))
+                .map(Some)
+                .collect()
+        }
+    };
+    let slot = |index| Slot {
+        name: Name {
+            base: item.name.base.text.clone(),
+            index,
+        },
+        docs: String::new(),
+        unit: Unit::ONE,
+        unit_text: item
+            .content
+            .unit
+            .as_ref()
+            .map_or_else(|| "1".into(), ToString::to_string),
+        default: Some(program::Default {
+            value: 0.0,
+            text: "0".into(),
+        }),
+    };
+    indices.into_iter().map(slot).collect()
+}
+
+/// The value of an expression that is a number, or the name of a constant that is one.
+fn integer(spec: &Spec, expression: &Expression) -> Option<i64> {
+    match &expression.kind {
+        ExpressionKind::Number(text) => text.parse().ok(),
+        ExpressionKind::Name(name) => {
+            let constant = spec
+                .constants
+                .iter()
+                .find(|constant| constant.name.base.text == name.base.text)?;
+            match &constant.content.value.as_ref()?.kind {
+                ExpressionKind::Number(text) => text.parse().ok(),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}

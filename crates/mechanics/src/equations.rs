@@ -1,0 +1,491 @@
+//! From a [`Model`] to its [`Equations`].
+//!
+//! ```text
+//! M a = f = Q − h        M(q, t)   mass matrix
+//!                        h(q, v, t)  bias: every velocity product and explicit-time term
+//!                        Q(q, v, t, u)  applied generalized forces
+//! ```
+//!
+//! Two routes lead there. [`Oracle`] is Lagrange's equations of the second kind, term by term;
+//! [`Equations::derive`] takes the cheap route of [`projected`] wherever it holds, which is always
+//! but under approximations. Tests prove both equal, at random points of a prime field, for every
+//! machine of the library; what is made of any machine is proved on its way out against [`literal`],
+//! the same equations evaluated and not expanded. The numbers (E1), (E2), … are those of `docs/equations.md`.
+//!
+//! What holds here: every expression is defined; `M` has no `v`, `a` or inputs in it, `h` no `a`
+//! and no inputs; `Q` and `f` no `a`; nothing that explicit time contributes is dropped.
+
+mod approximation;
+mod brachistochrone;
+mod carrying;
+mod constraints;
+mod derivatives;
+mod energy;
+mod freedom;
+pub mod groups;
+pub mod integrals;
+mod kinematics;
+mod lagrange;
+pub(crate) mod literal;
+mod lumps;
+mod power;
+mod projected;
+mod reduction;
+pub(crate) mod refusal;
+mod sliding;
+mod symmetric;
+
+use lagrangian_symbolic::{Expr, Node, Symbol, normal};
+
+pub use brachistochrone::{Brachistochronic, Guided, Unmet};
+pub use carrying::Carrying;
+pub use constraints::{ConstraintEquation, constraints};
+pub use freedom::{Freedom, Independent, freedom};
+pub use kinematics::angular_velocities;
+pub use lagrange::{Oracle, OracleConstraint, OracleSliding};
+pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
+pub use refusal::MOST_COORDINATES;
+pub use sliding::{MOST_CONTACTS, SlidingEquation};
+pub use symmetric::Symmetric;
+
+use approximation::Approximations;
+use kinematics::Variables;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::identity;
+use lagrangian_spec::model::Model;
+use projected::{Loads, Projection};
+
+/// The most terms of one entry of `M` or `h` that is multiplied out; longer ones have never been
+/// the shorter program.
+const EXPANDED_TERMS: usize = 200;
+
+/// The most coordinates of equations that are multiplied out: from four links of a chain on they
+/// are not the shorter program, and their terms grow with the cube of the number of coordinates.
+const EXPANDED_COORDINATES: usize = 6;
+
+/// The equations of motion of a machine, and what else is derived from its energies.
+#[derive(Clone, Debug)]
+pub struct Equations<'d> {
+    /// Kinetic energy `T(q, v, t)`, eq. (E1).
+    pub kinetic_energy: Expr<'d>,
+    /// Potential energy `V(q, t)`, eq. (E2).
+    pub potential_energy: Expr<'d>,
+    /// Rayleigh's dissipation function `D(q, v, t)`, eq. (E3).
+    pub dissipation: Expr<'d>,
+    /// Mass matrix `M(q, t)`, eq. (E4).
+    pub mass_matrix: Symmetric<Expr<'d>>,
+    /// Bias `h(q, v, t)`, eq. (E5).
+    pub bias: Vec<Expr<'d>>,
+    /// Applied generalized forces `Q(q, v, t, u)`, eq. (E6).
+    pub applied: Vec<Expr<'d>>,
+    /// `f = Q − h`, eq. (E7), in a form of its own that is shorter than the difference.
+    pub forces: Vec<Expr<'d>>,
+    /// The same equations of motion before projection, where no coordinate is approximated.
+    pub unprojected: Option<Unprojected<'d>>,
+    /// The bilateral constraints, which the accelerations obey and `M`, `h`, `Q` and `f` know nothing
+    /// of.
+    pub constraints: Vec<ConstraintEquation<'d>>,
+    /// The guided contacts with friction, of which `M`, `h`, `Q` and `f` know nothing either.
+    pub sliding: Vec<SlidingEquation<'d>>,
+    /// The same machine without the coordinates that constraints settle, if they settle any.
+    pub reduction: Option<Box<Reduction<'d>>>,
+    /// The residual of the equations of motion where accelerations are given, `f − M a`, eq. (E25); with
+    /// constraints `f − M a + Gᵀ λ`, and behind it `γ − G a`. Empty where no derivative is asked
+    /// for.
+    pub unbalanced: Vec<Expr<'d>>,
+    /// For each variable of [`Model::derivatives`], the derivatives of `f − M a` by it at given
+    /// accelerations, one for each coordinate, and behind these one for each constraint.
+    pub slopes: Vec<Vec<Expr<'d>>>,
+    /// Power of forces, torques, inputs and prescribed motion, eq. (E19). Accelerations may occur.
+    pub work_rate: Expr<'d>,
+    /// Power that dissipation takes, eq. (E18).
+    pub dissipation_rate: Expr<'d>,
+    /// The values of [`Model::outputs`], in their order. Accelerations may occur.
+    pub outputs: Vec<Expr<'d>>,
+    /// What concerns single bodies, in the order of [`Model::bodies`].
+    pub bodies: Vec<BodyEquations<'d>>,
+    /// How `M`, `h` and `f` were derived.
+    pub route: Route,
+}
+
+/// Inertia and loads on the velocities that carry them, before they are projected on coordinates:
+///
+/// ```text
+/// T = ½ Σ weight u w,    Σ (weight ẇ − load) ∂u/∂v = 0
+/// ```
+///
+/// The velocities `u(q, v, t)` are nodes of one graph, in which the velocity of a body is built
+/// from that of what it hangs on. Solving on this graph instead of `M a = f` is what makes a
+/// chain's accelerations linear in its length.
+#[derive(Clone, Debug)]
+pub struct Unprojected<'d> {
+    /// Every pair of velocities with inertia.
+    pub inertia: Vec<InertialPair<'d>>,
+    /// `u` and the load on it.
+    pub loads: Vec<(Expr<'d>, Expr<'d>)>,
+    /// Whether velocities have accelerations where no coordinate has one; if not, these are among
+    /// the loads, and `u̇` is `Σ aᵢ ∂u/∂vᵢ` alone.
+    pub drifts: bool,
+}
+
+/// A term `½ weight u w` of the kinetic energy.
+///
+/// Two bodies may have the same velocity `u`, one along the ground and the other against gravity, so
+/// free fall belongs to the pair, and not to `u`.
+#[derive(Clone, Copy, Debug)]
+pub struct InertialPair<'d> {
+    /// `u`.
+    pub u: Expr<'d>,
+    /// `w`, often `u` again.
+    pub w: Expr<'d>,
+    /// The mass, or moment of inertia; of two different velocities twice the product of inertia.
+    pub weight: Expr<'d>,
+    /// The acceleration of free fall along `u`, of pairs `u u` whose weights are not among the loads:
+    /// the load on `u` is this times `weight`.
+    pub fall: Option<Expr<'d>>,
+}
+
+impl<'d> InertialPair<'d> {
+    /// A pair that gravity does not act on, or whose load by gravity is among the loads.
+    pub(crate) fn weightless(u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) -> InertialPair<'d> {
+        InertialPair {
+            u,
+            w,
+            weight,
+            fall: None,
+        }
+    }
+}
+
+/// What is derived for one body.
+#[derive(Clone, Debug)]
+pub struct BodyEquations<'d> {
+    /// Its mass centre, in ground axes.
+    pub position: Vec<Expr<'d>>,
+    /// The velocity of its mass centre, in ground axes; exact, whatever is approximated.
+    pub velocity: Vec<Expr<'d>>,
+    /// Its kinetic energy.
+    pub kinetic_energy: Expr<'d>,
+}
+
+/// How the equations were derived.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Route {
+    /// By projecting accelerations: short, and equal to Lagrange's equations.
+    Projected,
+    /// By Lagrange's equations of an approximated kinetic energy.
+    Lagrange,
+}
+
+impl<'d> Equations<'d> {
+    /// The equations of a machine; nothing, and a message for each reason, if it has none.
+    pub fn derive(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
+        if refusal::refuse_unsupported(model, report)
+            || refusal::refuse_unturned(model, report)
+            || refusal::refuse_many_coordinates(model, report)
+            || refusal::refuse_many_constraints(model, report)
+        {
+            return None;
+        }
+        // Whatever the machine: what is left undefined by the bound is refused below.
+        model.dag.set_limit(refusal::MOST_SIZE);
+        let equations = Equations::within_bounds(model, report);
+        model.dag.set_limit(usize::MAX);
+        equations
+    }
+
+    /// The same, while the size of the graph is bounded.
+    fn within_bounds(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
+        let approximations = Approximations::of(model);
+        let derived = if approximations.is_empty() {
+            exact(model)
+        } else {
+            approximate(model, &approximations)
+        };
+        let Some(mut equations) = derived else {
+            refusal::refuse_large(model, report);
+            return None;
+        };
+        equations.drop_what_cancels(model);
+        equations.add_power_of_constraints(model);
+        if !model.derivatives.is_empty() {
+            equations.unbalanced =
+                derivatives::constrained(model, &equations.unbalanced, &equations.constraints);
+        }
+        let Some(slopes) = derivatives::slopes(model, &equations.unbalanced) else {
+            refusal::refuse_large(model, report);
+            return None;
+        };
+        equations.slopes = slopes;
+        if !model.dag.is_exhausted() {
+            equations.sliding = sliding::sliding(model, report)?;
+        }
+        equations.reduction = reduction::reduction(model, &equations.constraints);
+        if model.dag.is_exhausted() {
+            refusal::refuse_large(model, report);
+            return None;
+        }
+        let refused = refusal::refuse_undefined(model, &equations, report) || {
+            let (matrix, constraints) = (&equations.mass_matrix, &equations.constraints);
+            refusal::refuse_massless(model, matrix, constraints, report)
+        };
+        (!refused).then_some(equations)
+    }
+
+    /// The same equations with `M` and `h` multiplied out; nothing if that takes too many terms.
+    ///
+    /// Where few coordinates hang on each other that is shorter: what a projection computes along
+    /// one axis and projects back on it cancels. A double pendulum takes 29 multiplications and
+    /// additions so, against 40; a chain of six links 377 against 339. What is applied stays as it
+    /// is: a spring's force must come from its stretch, or the differences that make it are
+    /// rounded.
+    pub fn expanded(&self) -> Option<Equations<'d>> {
+        if self.bias.len() > EXPANDED_COORDINATES {
+            return None;
+        }
+        let mut expanded = self.clone();
+        // How accelerations follow along the machine is the same: the other program has it already.
+        expanded.unprojected = None;
+        expanded.reduction = None;
+        // The bias first: it is what grows beyond the limit.
+        let matrix = expanded.mass_matrix.lower_mut();
+        for entry in expanded.bias.iter_mut().chain(matrix) {
+            *entry = normal::expand(*entry, EXPANDED_TERMS)?.to_expr();
+        }
+        for ((force, &bias), &applied) in expanded
+            .forces
+            .iter_mut()
+            .zip(&expanded.bias)
+            .zip(&self.applied)
+        {
+            // Term by term, so that the sum can be regrouped as one.
+            *force = match bias.node() {
+                Node::Sum(terms) => {
+                    let dag = bias.dag();
+                    let inertia = terms.iter().map(|(x, c)| dag.expr(*x) * -c.clone());
+                    dag.sum([applied].into_iter().chain(inertia))
+                }
+                _ => applied - bias,
+            };
+        }
+        Some(expanded)
+    }
+
+    /// The derivatives of `f − M a`, as they were derived and, for few coordinates, from M and f as
+    /// they are here: where these are multiplied out that may be shorter. Empty where none is asked
+    /// for.
+    pub(crate) fn slopes_in_forms(&self, model: &Model<'d>) -> Vec<Vec<Vec<Expr<'d>>>> {
+        if self.slopes.is_empty() {
+            return Vec::new();
+        }
+        let mut forms = vec![self.slopes.clone()];
+        if self.bias.len() <= EXPANDED_COORDINATES {
+            let unbalanced = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+            let unbalanced = derivatives::constrained(model, &unbalanced, &self.constraints);
+            forms.extend(derivatives::slopes(model, &unbalanced));
+        }
+        forms
+    }
+
+    /// The generalized friction on a coordinate where every contact slides along its direction and
+    /// presses to the side of its normal, eqs. (E33) and (E34): `−Σ μ N τᵢ`, accelerations in it. What
+    /// constraints and other friction forces press is not.
+    pub fn sliding_friction(&self, model: &Model<'d>, coordinate: usize) -> Expr<'d> {
+        let friction =
+            |s: &SlidingEquation<'d>| -(s.friction * s.normal(model) * s.row[coordinate]);
+        model.dag.sum(self.sliding.iter().map(friction))
+    }
+
+    /// Adds the power of constraints that move by themselves, `v·Gᵀλ = v·(M a − f)`; the others do no
+    /// work.
+    fn add_power_of_constraints(&mut self, model: &Model<'d>) {
+        let dag = model.dag;
+        let moves = constraints::rates_at_rest(model, &self.constraints);
+        if moves.iter().all(|rate| rate.is_zero()) {
+            return;
+        }
+        let forces = derivatives::unbalanced(model, &self.mass_matrix, &self.forces);
+        let rows = model.coordinates.iter().zip(forces);
+        let power = rows.map(|(coordinate, left)| -(coordinate.v * left));
+        self.work_rate = dag.sum(std::iter::once(self.work_rate).chain(power));
+    }
+
+    /// Takes coordinates and time out of equations that do not depend on them, eqs. (E21) and
+    /// (E22).
+    fn drop_what_cancels(&mut self, model: &Model<'d>) {
+        let x = Variables::of(model);
+        let candidates: Vec<Symbol> = x.q.iter().copied().chain([x.t]).collect();
+        let energies = [self.kinetic_energy, self.potential_energy, self.dissipation];
+        let sources: Vec<Expr<'d>> = energies.into_iter().chain(self.applied.clone()).collect();
+        let cyclic = identity::cyclic(model.dag, &sources, &candidates);
+        let mut all: Vec<&mut Expr<'d>> = self.dynamics();
+        let values: Vec<Expr<'d>> = all.iter().map(|e| **e).collect();
+        let mut values = identity::without(model.dag, values, &cyclic);
+        identity::settle(model.dag, &mut values);
+        all.iter_mut()
+            .zip(values)
+            .for_each(|(place, value)| **place = value);
+    }
+
+    /// Everything that follows from energies and forces alone.
+    fn dynamics(&mut self) -> Vec<&mut Expr<'d>> {
+        let lists = [
+            &mut self.bias,
+            &mut self.applied,
+            &mut self.forces,
+            &mut self.unbalanced,
+        ];
+        let scalars = [
+            &mut self.kinetic_energy,
+            &mut self.potential_energy,
+            &mut self.dissipation,
+            &mut self.dissipation_rate,
+        ];
+        let vectors = lists.into_iter().flatten();
+        self.mass_matrix
+            .lower_mut()
+            .iter_mut()
+            .chain(vectors)
+            .chain(scalars)
+            .collect()
+    }
+}
+
+/// The exact equations, by projection; nothing if they become too large.
+fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
+    let dag = model.dag;
+    let x = Variables::of(model);
+    let projection = Projection::of(model, &x);
+    let all = 0..x.q.len();
+
+    let kinetic_energies = projection.kinetic_energies();
+    let potential_energy = energy::potential_energy(model);
+    let dissipation = energy::dissipation(model, &mut x.coasting(model));
+
+    let mut weightless = Loads::default();
+    projection.add_applied(&mut weightless);
+    let mut applied = Loads::default();
+    projection.add_gravity(&mut applied);
+    projection.add_applied(&mut applied);
+    // Inertia with gravity in it, reversed: one sweep for all that acts.
+    let mut forces = projection.bias_loads(-1, true);
+    projection.add_applied(&mut forces);
+
+    Some(Equations {
+        kinetic_energy: dag.sum(kinetic_energies.iter().copied()),
+        potential_energy,
+        dissipation,
+        mass_matrix: projection.mass_matrix()?,
+        bias: projection.project(&projection.bias_loads(1, false), all.clone()),
+        applied: projection.project(&applied, all.clone()),
+        unprojected: Some(projection.unprojected(&weightless, &forces)),
+        constraints: constraints::constraints(model),
+        sliding: Vec::new(),
+        reduction: None,
+        forces: projection.project(&forces, all),
+        unbalanced: match model.derivatives.is_empty() {
+            true => Vec::new(),
+            false => projection.unbalanced(),
+        },
+        slopes: Vec::new(),
+        work_rate: power::work_rate(model, &x, &projection, potential_energy),
+        dissipation_rate: power::dissipation_rate(model, &x, dissipation),
+        outputs: model.outputs.iter().map(|output| output.value).collect(),
+        bodies: bodies(model, &x, kinetic_energies),
+        route: Route::Projected,
+    })
+}
+
+/// The equations of approximated energies, by Lagrange; nothing if they become too large.
+fn approximate<'d>(
+    model: &Model<'d>,
+    approximations: &Approximations<'d>,
+) -> Option<Equations<'d>> {
+    let dag = model.dag;
+    let x = Variables::of(model);
+    let projection = Projection::of(model, &x);
+
+    let frozen = |mut rate| {
+        let motions = kinematics::literal_motion(model, &mut rate);
+        motions
+            .iter()
+            .map(|motion| approximations.motion(motion))
+            .collect::<Vec<_>>()
+    };
+    let motions = frozen(x.coasting(model));
+    let driving = frozen(x.explicit(model));
+    let pairs = model.bodies.iter().zip(&motions);
+    let kinetic_energies = pairs
+        .clone()
+        .map(|(body, u)| energy::kinetic_energy(body, u));
+    let kinetic_energies = approximations.energies(&kinetic_energies.collect::<Vec<_>>());
+    let driven = pairs
+        .zip(&driving)
+        .map(|((body, u), u_0)| energy::kinetic_form(body, u, u_0));
+
+    let kinetic_energy = dag.sum(kinetic_energies.iter().copied());
+    let potential_energy = approximations.energy(energy::potential_energy(model));
+    let dissipation = energy::dissipation(model, &mut x.coasting(model));
+    let dissipation = approximations.energy(dissipation);
+    let driven = approximations.energy(dag.sum(driven));
+
+    let (mass_matrix, bias) = lagrange::inertia(model, &x, kinetic_energy)?;
+    let mut loads = Loads::of_energies(dag, potential_energy, dissipation);
+    projection.add_forces(&mut loads);
+    let applied = projection.project(&loads, 0..x.q.len());
+    let forces: Vec<Expr<'d>> = applied
+        .iter()
+        .zip(&bias)
+        .map(|(&applied, &bias)| applied - bias)
+        .collect();
+    let unbalanced = match model.derivatives.is_empty() {
+        true => Vec::new(),
+        false => derivatives::unbalanced(model, &mass_matrix, &forces),
+    };
+    Some(Equations {
+        kinetic_energy,
+        potential_energy,
+        dissipation,
+        mass_matrix,
+        forces,
+        bias,
+        applied,
+        unprojected: None,
+        constraints: constraints::constraints(model),
+        sliding: Vec::new(),
+        reduction: None,
+        unbalanced,
+        slopes: Vec::new(),
+        work_rate: power::work_rate_of_energies(
+            model,
+            &x,
+            &projection,
+            [kinetic_energy, potential_energy, driven],
+        ),
+        dissipation_rate: power::dissipation_rate(model, &x, dissipation),
+        outputs: model.outputs.iter().map(|output| output.value).collect(),
+        bodies: bodies(model, &x, kinetic_energies),
+        route: Route::Lagrange,
+    })
+}
+
+/// Where bodies are, how fast they move, and their share of the kinetic energy.
+fn bodies<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    kinetic_energies: Vec<Expr<'d>>,
+) -> Vec<BodyEquations<'d>> {
+    let mut rate = x.coasting(model);
+    let of_body =
+        |(body, kinetic_energy): (&lagrangian_spec::model::Body<'d>, Expr<'d>)| BodyEquations {
+            position: body.at.clone(),
+            velocity: body.at.iter().map(|&x| rate.of(x)).collect(),
+            kinetic_energy,
+        };
+    model
+        .bodies
+        .iter()
+        .zip(kinetic_energies)
+        .map(of_body)
+        .collect()
+}

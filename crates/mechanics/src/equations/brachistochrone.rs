@@ -1,0 +1,239 @@
+//! From a machine to the problem of its fastest motion: conditions (17), recognized.
+//!
+//! ```text
+//! a_αβ constant    Q_α = −c_α constant    slip τ, load ν, weights ρ and μ of every guide constant
+//! ```
+//!
+//! The letters are those of D. Đurić, *On Brachistochronic Motion of a Multibody System with Real Constraints*:
+//! `b_α = Σ μ ν τ_α` and `d_αβ = Σ μ τ_α ρ_β` belong to the power of friction `−b·v − v·d a`. Whatever constant forces act
+//! besides gravity count as slopes of a potential.
+//!
+//! Outside of these conditions masses, forces and friction may depend on coordinates, and forces on velocities too; then
+//! `−Q_α` includes the inertia forces that velocities make.
+
+use std::fmt;
+
+use lagrangian_symbolic::{Expr, Symbol};
+
+use super::{Equations, SlidingEquation};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::Model;
+
+/// The problem of a machine's fastest motion, over symbols of parameters.
+#[derive(Clone, Debug)]
+pub struct Brachistochronic<'d> {
+    /// `a_αβ`, by rows.
+    pub mass: Vec<Vec<Expr<'d>>>,
+    /// `c_α = −Q_α`, inertia forces included.
+    pub slope: Vec<Expr<'d>>,
+    /// The guides that slide.
+    pub guides: Vec<Guided<'d>>,
+}
+
+/// A guide that slides and presses: `N = ν + ρ·a + Σ κ F`, with the friction `F = −μ N` of each guide.
+#[derive(Clone, Debug)]
+pub struct Guided<'d> {
+    /// Its name.
+    pub name: String,
+    /// `τ`.
+    pub along: Vec<Expr<'d>>,
+    /// `ν`, in N.
+    pub load: Expr<'d>,
+    /// `ρ`.
+    pub weights: Vec<Expr<'d>>,
+    /// `κ`, by the guides in their order.
+    pub by_friction_forces: Vec<Expr<'d>>,
+    /// `μ`.
+    pub friction: Expr<'d>,
+}
+
+/// A condition that a machine does not meet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unmet {
+    /// A coefficient depends on what changes along the motion.
+    Varies {
+        /// The coefficient.
+        what: String,
+        /// The coordinate, its rate as `der(q)`, the input, or `t`.
+        with: String,
+    },
+    /// The machine has constraints: its coordinates are not free.
+    Constrained,
+    /// There are no coordinates.
+    Empty,
+}
+
+impl fmt::Display for Unmet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Varies { what, with } => write!(f, "{what} depends on `{with}`"),
+            Self::Constrained => {
+                write!(
+                    f,
+                    "the machine has constraints, so that its coordinates are not free"
+                )
+            }
+            Self::Empty => write!(f, "the machine has no coordinates"),
+        }
+    }
+}
+
+impl<'d> Brachistochronic<'d> {
+    /// The problem under (17), or every condition that is not met.
+    ///
+    /// # Errors
+    /// The conditions that the machine does not meet, each with the first thing on which a coefficient depends.
+    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
+        Self::within(model, equations, [Reach::Parameters; 2])
+    }
+
+    /// The problem where masses and friction depend on coordinates, and forces and loads on velocities too.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of): constraints, explicit time, inputs, and friction that depends on velocities.
+    pub fn anywhere(model: &Model<'d>, equations: &Equations<'d>) -> Result<Self, Vec<Unmet>> {
+        Self::within(model, equations, [Reach::Coordinates, Reach::Rates])
+    }
+
+    fn within(
+        model: &Model<'d>,
+        equations: &Equations<'d>,
+        [of_place, of_motion]: [Reach; 2],
+    ) -> Result<Self, Vec<Unmet>> {
+        let mut unmet = Vec::new();
+        let n = model.coordinates.len();
+        if n == 0 {
+            unmet.push(Unmet::Empty);
+        }
+        if !equations.constraints.is_empty() {
+            unmet.push(Unmet::Constrained);
+        }
+        let name = |i: usize| model.coordinates[i].name.to_string();
+        let mass = (0..n).map(|i| {
+            let entries = (0..n).map(|j| {
+                let what = format!(
+                    "the mass a of `{}` and `{}`",
+                    name(i.max(j)),
+                    name(i.min(j))
+                );
+                let entry = *equations.mass_matrix.get(i.max(j), i.min(j));
+                checked(model, entry, &what, of_place, &mut unmet)
+            });
+            entries.collect()
+        });
+        let mass: Vec<Vec<Expr<'d>>> = mass.collect();
+        let slope = (0..n).map(|i| {
+            let force = format!("the force on `{}`", name(i));
+            // What explicit time or a changing mass adds to the inertia is a force as well.
+            let drive = format!("the inertia force on `{}`", name(i));
+            let applied = checked(model, equations.applied[i], &force, of_motion, &mut unmet);
+            let bias = checked(model, equations.bias[i], &drive, of_motion, &mut unmet);
+            bias - applied
+        });
+        let slope = slope.collect();
+        let guides = equations.sliding.iter();
+        let guides = guides
+            .map(|sliding| guided(model, sliding, [of_place, of_motion], &mut unmet))
+            .collect();
+        // The matrix is symmetric, and an entry is told once.
+        let mut told = Vec::new();
+        for condition in unmet {
+            if !told.contains(&condition) {
+                told.push(condition);
+            }
+        }
+        match told.is_empty() {
+            true => Ok(Brachistochronic {
+                mass,
+                slope,
+                guides,
+            }),
+            false => Err(told),
+        }
+    }
+}
+
+fn guided<'d>(
+    model: &Model<'d>,
+    sliding: &SlidingEquation<'d>,
+    [of_place, of_motion]: [Reach; 2],
+    unmet: &mut Vec<Unmet>,
+) -> Guided<'d> {
+    let name = &sliding.name;
+    let mut of = |value: Expr<'d>, what: &str, reach: Reach| {
+        checked(model, value, &format!("{what} of `{name}`"), reach, unmet)
+    };
+    let mut each = |list: &[Expr<'d>], what: &str| -> Vec<Expr<'d>> {
+        list.iter()
+            .map(|&value| of(value, what, of_place))
+            .collect()
+    };
+    let along = each(&sliding.row, "the direction");
+    let weights = each(&sliding.by_accelerations, "the reaction to accelerations");
+    let by_friction_forces = each(&sliding.by_friction_forces, "the reaction to friction");
+    let load = of(sliding.load, "the reaction at rest", of_motion);
+    let friction = of(sliding.friction, "the coefficient of friction", of_place);
+    // What it slides on may be driven.
+    let moving = model.coordinates.iter().zip(&sliding.row);
+    let moving = model.dag.sum(moving.map(|(c, &row)| row * c.v));
+    if identity::equal(sliding.slip, moving) != Some(true) {
+        unmet.push(Unmet::Varies {
+            what: format!("the slip of `{name}` while the machine is at rest"),
+            with: "t".to_owned(),
+        });
+    }
+    Guided {
+        name: name.clone(),
+        along,
+        load,
+        weights,
+        by_friction_forces,
+        friction,
+    }
+}
+
+/// What a coefficient may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Reach {
+    Parameters,
+    Coordinates,
+    Rates,
+}
+
+/// The coefficient with nothing in it beyond its reach; told where there is.
+fn checked<'d>(
+    model: &Model<'d>,
+    value: Expr<'d>,
+    what: &str,
+    reach: Reach,
+    unmet: &mut Vec<Unmet>,
+) -> Expr<'d> {
+    if let Some(settled) = identity::as_function_of_parameters(value) {
+        return settled;
+    }
+    let changes = |symbol: &Expr<'d>| {
+        let symbol: Option<Symbol> = symbol.as_symbol();
+        symbol.is_some_and(|symbol| {
+            value.depends_on(symbol)
+                && identity::equal(value.diff(symbol), model.dag.zero()) != Some(true)
+        })
+    };
+    let coordinates = model.coordinates.iter().map(|c| (c.q, c.name.to_string()));
+    let rates = model.coordinates.iter();
+    let rates = rates.map(|c| (c.v, format!("der({})", c.name)));
+    let inputs = model.inputs.iter();
+    let inputs = inputs.map(|input| (input.symbol, input.name.to_string()));
+    let named = coordinates
+        .filter(|_| reach < Reach::Coordinates)
+        .chain(rates.filter(|_| reach < Reach::Rates))
+        .chain(inputs)
+        .chain([(model.time, "t".to_owned())]);
+    let found = named.into_iter().find(|(symbol, _)| changes(symbol));
+    if found.is_some() || reach == Reach::Parameters {
+        unmet.push(Unmet::Varies {
+            what: what.to_owned(),
+            with: found.map_or_else(|| "the motion".to_owned(), |(_, name)| name),
+        });
+    }
+    value
+}

@@ -1,0 +1,985 @@
+//! What a guide carries, and on what a force on a coordinate acts.
+//!
+//! The normal reaction of a guide is found by letting its body go (E33), and counts what the spec
+//! builds on that body. A body may move with the same coordinates and not be built on it: then
+//! something ties the two that the spec does not name, and whether it pulls across the guide cannot
+//! be known. That is found out by letting the guided body go *along* its guide, where it moves
+//! anyhow:
+//!
+//! ```text
+//! J_δ e = J_q c + Σ α n_δ                                                  (E38)
+//! ```
+//!
+//! `J` are the velocities of all bodies, by the rates of the coordinates (`q`), or by displacements of
+//! the guided bodies (`δ`). If a displacement along the guide is a motion of the machine, but for guides
+//! that open, then Newton's law along the guide holds for what the guide carries with the forces that
+//! the spec names. If it is none, something else has to pull there, and of that the spec says
+//! nothing. Both sides are compared in the prime field, so that the look of an expression does not
+//! matter.
+//!
+//! A body may also be free to move along the guide on its own, and yet be written by the coordinate of
+//! the guided body. Then (E38) holds, and what holds the body across the guide is as open. So of a body
+//! that moves with a coordinate of a guide it is asked that this guide carries it, or that another one
+//! does which that coordinate moves.
+//!
+//! Whatever else depends on coordinates (constraints, springs, points of forces) is held against the
+//! same `c` and `α`: what depends on where the guided body is changes by (E38) as the bodies do. What
+//! does not is written in coordinates, and acts along the guide. Where it cannot act along the guide
+//! alone, it must be written by positions. A force on a coordinate acts on the bodies that this moves. If
+//! the guide carries only some of them, and the force is none that could act on these alone, nobody says
+//! how it is shared.
+
+use lagrangian_scalar::{Dual, Residue, Scalar};
+use lagrangian_symbolic::{Expr, Node, Symbol, evaluate};
+
+use super::constraints::{self, ConstraintEquation};
+use super::kinematics::Variables;
+use super::lagrange::gradient;
+use super::sliding;
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::{Action, Inertia, Model, Place, PoseId, Rotation, Sliding};
+use lagrangian_spec::source::Span;
+
+/// Points of the prime field that are tried until all expressions have a value at one of them: each
+/// square root has one at every second point.
+const TRIALS: u64 = 256;
+
+/// Points that are tried for what acts on a machine, if it has no value at the first: in the prime field,
+/// and then, for what has no values there, in ordinary numbers.
+const TRIALS_OF_ACTIONS: [u64; 2] = [16, 4];
+
+/// Multiplications that the question whether (E38) holds may take, if nothing is zero: some seconds.
+const WORK: usize = 500_000_000;
+
+/// Multiplications that the search for the body to blame may take.
+const WORK_OF_BLAME: usize = 100_000_000;
+
+/// Ordinary numbers count as zero below this, relative to the greatest of their kind. They take the
+/// place of the prime field only where that has no values.
+const CLEAR: f64 = 1e-9;
+
+/// Which bodies the guides of a machine carry, and on which bodies forces on its coordinates act.
+///
+/// All lists are of indices, ascending: bodies as in [`Model::bodies`], guides as in
+/// [`Model::sliding`], coordinates as in [`Model::coordinates`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Carrying {
+    /// For each guide, the bodies that move off with it: the guided one, and what is built on it.
+    /// The weight and the inertia of these, with all that the spec lets pull on them, make its normal
+    /// reaction; what a guide between them and another body carries comes through that guide.
+    pub carried: Vec<Vec<usize>>,
+    /// For each coordinate, the bodies that move while it changes and all others rest. A force on the
+    /// coordinate acts on these.
+    pub moved: Vec<Vec<usize>>,
+    /// For each guide, the coordinates whose change is part of a displacement along it, the `c` of
+    /// (E38): a force on such a coordinate pushes what the guide carries. Where it moves none of that,
+    /// or other bodies too in a way that forces on the carried ones alone cannot, it pushes through a tie of
+    /// which nobody says how it pulls across the guide, and the reaction is not determined while a
+    /// force acts on that coordinate. None where (E38) does not hold.
+    pub pushed_by: Vec<Option<Vec<usize>>>,
+    /// For each guide, those among `pushed_by` of which that is so.
+    unsaid: Vec<Vec<usize>>,
+}
+
+impl Carrying {
+    /// Of a machine in the plane; nothing if it has no guides, or has no values that could be looked
+    /// at.
+    pub fn of(model: &Model<'_>) -> Option<Carrying> {
+        let motion = Motion::<Residue>::of(model).map(|motion| motion.carrying(model));
+        motion.or_else(|| Some(Motion::<f64>::of(model)?.carrying(model)))
+    }
+
+    /// The coordinates on which a force would push what a guide carries through something of which the
+    /// spec does not say how it pulls across the guide.
+    pub fn unsaid(&self, guide: usize) -> &[usize] {
+        &self.unsaid[guide]
+    }
+}
+
+/// Says of every guide what leaves its reaction undetermined. True if anything does.
+pub(super) fn refuse_untied(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut looked_at = Vec::new();
+    let mut found = Motion::<Residue>::of(model)
+        .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+    // What the prime field has no values of: nothing, or things that act.
+    if found.is_empty() && (looked_at.is_empty() || looked_at.contains(&false)) {
+        found = Motion::<f64>::of(model)
+            .map_or_else(Vec::new, |motion| motion.refused(model, &mut looked_at));
+    }
+    let refused = !found.is_empty();
+    found.into_iter().for_each(|found| report.push(found));
+    refused
+}
+
+/// Numbers in which (E38) is looked at.
+trait Number: Scalar {
+    /// How many points are tried for what acts.
+    const TRIALS_OF_ACTIONS: u64;
+    /// A value for a symbol.
+    fn random(point: u64, symbol: Symbol) -> Self;
+    /// How large it is, 0 if it counts as zero beside numbers of this size.
+    fn size_beside(self, size: f64) -> f64;
+}
+
+impl Number for Residue {
+    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[0];
+
+    fn random(point: u64, symbol: Symbol) -> Residue {
+        identity::random(point, symbol)
+    }
+
+    fn size_beside(self, _: f64) -> f64 {
+        f64::from(self != Residue::ZERO)
+    }
+}
+
+impl Number for f64 {
+    const TRIALS_OF_ACTIONS: u64 = TRIALS_OF_ACTIONS[1];
+
+    fn random(point: u64, symbol: Symbol) -> f64 {
+        identity::number(point as u32 + 1, symbol)
+    }
+
+    fn size_beside(self, size: f64) -> f64 {
+        match self.abs() > CLEAR * size {
+            true => self.abs(),
+            false => 0.0,
+        }
+    }
+}
+
+/// What moves: a body, or the frame that a guide is on, with its place among the rows.
+struct Part {
+    what: What,
+    rows: std::ops::Range<usize>,
+}
+
+#[derive(Clone, Copy)]
+enum What {
+    Body(usize),
+    /// What the body of this guide slides on.
+    Base(usize),
+}
+
+/// How everything moves at a point: rows of velocities, columns of coordinates and, behind them, of
+/// two displacements for each guide.
+struct Motion<T> {
+    parts: Vec<Part>,
+    columns: Vec<Vec<T>>,
+    /// The directions of the guides, as long as the spec has them.
+    directions: Vec<[T; 2]>,
+    coordinates: usize,
+    /// How large entries are.
+    size: f64,
+    point: u64,
+}
+
+/// A displacement along a guide as a motion of the machine: what each column takes part with, less the
+/// displacement itself.
+struct Along<T>(Vec<T>);
+
+impl<T: Scalar> Along<T> {
+    /// By how much the displacement along the guide changes what these are the derivatives of,
+    /// other than the motion of the machine does.
+    fn amiss(&self, derivatives: impl Iterator<Item = T>) -> T {
+        let pairs = self.0.iter().zip(derivatives);
+        pairs.fold(T::ZERO, |sum, (&c, x)| sum + c * x)
+    }
+}
+
+/// Where the displacements of the guides are.
+#[derive(Clone, Copy, PartialEq)]
+enum Guides {
+    /// At zero.
+    Shut,
+    /// Anywhere. What moves off with a body moves off by the displacement itself, so (E38) holds with the
+    /// same `c` and `α`; and what acts between two points shows that it depends on both, though it may
+    /// do no work where the guides are shut, as a spring straight across one.
+    Ajar,
+}
+
+/// The machine in which guides are relaxed, with what its symbols are at a point.
+struct Relaxed<'m, 'd> {
+    model: &'m Model<'d>,
+    x: Variables<'d>,
+    coordinates: usize,
+}
+
+impl<'m, 'd> Relaxed<'m, 'd> {
+    fn of(model: &'m Model<'d>) -> Option<Relaxed<'m, 'd>> {
+        let relaxed = model.relaxed.as_deref()?;
+        Some(Relaxed {
+            model: relaxed,
+            x: Variables::of(relaxed),
+            coordinates: model.coordinates.len(),
+        })
+    }
+
+    /// The value of a symbol where all guides are shut, or where they are ajar.
+    fn value<T: Number>(&self, (point, guides): (u64, Guides), symbol: Symbol) -> T {
+        let open = |symbols: &[Symbol]| symbols[self.coordinates..].contains(&symbol);
+        match guides == Guides::Shut && (open(&self.x.q) || open(&self.x.v)) {
+            true => T::ZERO,
+            false => T::random(point, symbol),
+        }
+    }
+
+    /// The derivatives of some expressions by the coordinates, or by their rates: one list for each
+    /// column.
+    fn derivatives<T: Number>(
+        &self,
+        point: (u64, Guides),
+        expressions: &[Expr<'d>],
+        by: &[Symbol],
+    ) -> Vec<Vec<T>> {
+        let column = |&variable: &Symbol| {
+            let values = evaluate(self.model.dag, expressions, |symbol| {
+                let value = self.value(point, symbol);
+                match symbol == variable {
+                    true => Dual::variable(value),
+                    false => Dual::constant(value),
+                }
+            });
+            values.into_iter().map(|x: Dual<T>| x.derivative).collect()
+        };
+        by.iter().map(column).collect()
+    }
+}
+
+impl Relaxed<'_, '_> {
+    /// The guides along which (E38) holds where they are ajar too: what is built in other ways than by
+    /// frames and points may move off by more than the displacement.
+    fn hold_ajar<T: Number>(&self, motion: &Motion<T>, alongs: &[(usize, Along<T>)]) -> Vec<usize> {
+        let (_, places) = parts(self.model);
+        let columns = self.derivatives::<T>((motion.point, Guides::Ajar), &places, &self.x.q);
+        let is_met = |along: &Along<T>, row: usize| {
+            let amiss = along.amiss(columns.iter().map(|column| column[row]));
+            amiss.is_finite() && amiss.size_beside(motion.size) == 0.0
+        };
+        let hold = alongs
+            .iter()
+            .filter(|(_, along)| (0..places.len()).all(|row| is_met(along, row)));
+        hold.map(|(guide, _)| *guide).collect()
+    }
+}
+
+impl<T: Number> Motion<T> {
+    fn of(model: &Model<'_>) -> Option<Motion<T>> {
+        Motion::among(model, 0..TRIALS)
+    }
+
+    /// How everything moves at the first of some points where it has values.
+    fn among(model: &Model<'_>, mut points: std::ops::Range<u64>) -> Option<Motion<T>> {
+        if model.sliding.is_empty() {
+            return None;
+        }
+        let relaxed = Relaxed::of(model)?;
+        let (parts, expressions) = parts(relaxed.model);
+        let directions: Vec<Expr<'_>> = model
+            .sliding
+            .iter()
+            .flat_map(|s| s.direction.iter().copied())
+            .collect();
+        let all: Vec<Expr<'_>> = expressions.iter().chain(&directions).copied().collect();
+        let values = |point| {
+            evaluate(model.dag, &all, |s| {
+                relaxed.value::<T>((point, Guides::Shut), s)
+            })
+        };
+        let (point, values) = points
+            .by_ref()
+            .map(|point| (point, values(point)))
+            .find(|(_, values)| values.iter().all(|x| x.is_finite()))?;
+        let shut = (point, Guides::Shut);
+        let columns = relaxed.derivatives::<T>(shut, &expressions, &relaxed.x.q);
+        let entries = columns.iter().flatten();
+        let size = entries.map(|x| x.size_beside(0.0)).fold(0.0, f64::max);
+        Some(Motion {
+            parts,
+            columns,
+            directions: values[expressions.len()..]
+                .chunks_exact(2)
+                .map(|pair| [pair[0], pair[1]])
+                .collect(),
+            coordinates: relaxed.coordinates,
+            size,
+            point,
+        })
+    }
+
+    /// The columns of the displacements of a guide.
+    fn own(&self, guide: usize) -> [usize; 2] {
+        let first = self.coordinates + 2 * guide;
+        [first, first + 1]
+    }
+
+    /// A combination of the two displacements of a guide.
+    fn displaced(&self, guide: usize, by: [T; 2], row: usize) -> T {
+        let [x, y] = self.own(guide).map(|column| self.columns[column][row]);
+        by[0] * x + by[1] * y
+    }
+
+    /// The displacement along a guide as a motion of the machine in which guides may open, if it is
+    /// one, seen in some rows.
+    fn along(&self, guide: usize, rows: &[usize]) -> Option<Along<T>> {
+        let [e_x, e_y] = self.directions[guide];
+        let target: Vec<T> = rows
+            .iter()
+            .map(|&row| self.displaced(guide, [e_x, e_y], row))
+            .collect();
+        let mut columns: Vec<Vec<T>> = self.columns[..self.coordinates]
+            .iter()
+            .map(|column| rows.iter().map(|&row| column[row]).collect())
+            .collect();
+        let normals: Vec<[T; 2]> = self.directions.iter().map(|&[x, y]| [-y, x]).collect();
+        for (other, &normal) in normals.iter().enumerate() {
+            let opened = |&row: &usize| self.displaced(other, normal, row);
+            columns.push(rows.iter().map(opened).collect());
+        }
+        let solved = match self.by_one(&columns, &target) {
+            Some(solved) => solved,
+            None => combination(columns, target, self.size)?,
+        };
+        // From normals to displacements along the axes.
+        let mut all = solved[..self.coordinates].to_vec();
+        for (other, [x, y]) in normals.into_iter().enumerate() {
+            let alpha = solved[self.coordinates + other];
+            all.extend([alpha * x, alpha * y]);
+        }
+        for (column, e) in self.own(guide).into_iter().zip([e_x, e_y]) {
+            all[column] = all[column] - e;
+        }
+        Some(Along(all))
+    }
+
+    /// What most machines have: the displacement is that of one coordinate.
+    fn by_one(&self, columns: &[Vec<T>], target: &[T]) -> Option<Vec<T>> {
+        let is_zero = |x: T| x.size_beside(self.size) == 0.0;
+        let row = target.iter().position(|&x| !is_zero(x))?;
+        let fits = |column: &Vec<T>| {
+            if is_zero(column[row]) {
+                return false;
+            }
+            let factor = target[row] / column[row];
+            let mut pairs = target.iter().zip(column);
+            pairs.all(|(&x, &y)| is_zero(x - factor * y))
+        };
+        let found = columns[..self.coordinates].iter().position(fits)?;
+        let mut solved = vec![T::ZERO; columns.len()];
+        solved[found] = target[row] / columns[found][row];
+        Some(solved)
+    }
+
+    /// The rows of some parts.
+    fn rows(&self, of: impl Fn(usize) -> bool) -> Vec<usize> {
+        let parts = self.parts.iter().enumerate().filter(|(k, _)| of(*k));
+        parts.flat_map(|(_, part)| part.rows.clone()).collect()
+    }
+
+    /// Whether a part moves by one of these columns.
+    fn moves(&self, part: &Part, columns: &[usize]) -> bool {
+        columns.iter().any(|&column| {
+            let mut rows = self.columns[column][part.rows.clone()].iter();
+            rows.any(|x| x.size_beside(self.size) != 0.0)
+        })
+    }
+
+    fn bodies_moved_by(&self, columns: &[usize]) -> Vec<usize> {
+        let moving = self.parts.iter().filter(|part| self.moves(part, columns));
+        let bodies = moving.filter_map(|part| match part.what {
+            What::Body(body) => Some(body),
+            What::Base(_) => None,
+        });
+        bodies.collect()
+    }
+
+    fn work(&self) -> usize {
+        let rows = self.parts.last().map_or(0, |part| part.rows.end);
+        let columns = self.columns.len();
+        rows.saturating_mul(columns).saturating_mul(columns)
+    }
+
+    fn carrying(&self, model: &Model<'_>) -> Carrying {
+        let guides = 0..model.sliding.len();
+        let rows = self.rows(|_| true);
+        let is_in = |x: T| x.size_beside(self.size) != 0.0;
+        Carrying {
+            carried: guides
+                .clone()
+                .map(|k| self.bodies_moved_by(&self.own(k)))
+                .collect(),
+            moved: (0..self.coordinates)
+                .map(|i| self.bodies_moved_by(&[i]))
+                .collect(),
+            pushed_by: guides
+                .clone()
+                .map(|k| {
+                    let Along(along) = self.along(k, &rows)?;
+                    Some((0..self.coordinates).filter(|&i| is_in(along[i])).collect())
+                })
+                .collect(),
+            unsaid: guides
+                .map(|k| {
+                    let along = self.along(k, &rows);
+                    let unsaid = |i: &usize| {
+                        let mut forces = vec![T::ZERO; self.coordinates];
+                        forces[*i] = T::ONE;
+                        let unsaid = |along| self.is_unsaid(k, along, &forces);
+                        along.as_ref().is_some_and(unsaid)
+                    };
+                    (0..self.coordinates).filter(unsaid).collect()
+                })
+                .collect(),
+        }
+    }
+
+    /// Whether forces on the coordinates push what a guide carries along it (`along` says by which
+    /// coordinates that moves), and not said is how they pull across the guide: such a coordinate moves
+    /// nothing that is carried; or it moves other bodies too, and the forces are none that act on the
+    /// carried bodies alone, so that a part of them, nobody says which, acts on the others.
+    fn is_unsaid(&self, guide: usize, along: &Along<T>, forces: &[T]) -> bool {
+        let carried = self.bodies_moved_by(&self.own(guide));
+        let is_carried = |body: &usize| carried.contains(body);
+        let is_in = |x: T| x.size_beside(self.size) != 0.0;
+        // As large as the entries of the matrix.
+        let sizes = forces.iter().map(|x| x.size_beside(0.0));
+        let scale = T::from_f64(self.size / sizes.fold(f64::MIN_POSITIVE, f64::max));
+        let forces: Vec<T> = forces.iter().map(|&x| scale * x).collect();
+        let mut moves_others = false;
+        for i in (0..self.coordinates).filter(|&i| is_in(forces[i]) && is_in(along.0[i])) {
+            let moved = self.bodies_moved_by(&[i]);
+            if !moved.iter().any(is_carried) {
+                return true;
+            }
+            moves_others |= !moved.iter().all(is_carried);
+        }
+        if !moves_others {
+            return false;
+        }
+        // Forces on the carried bodies are combinations of the derivatives of their places.
+        let rows = self.rows(|k| match self.parts[k].what {
+            What::Body(body) => carried.contains(&body),
+            What::Base(_) => false,
+        });
+        let places = rows.iter().map(|&row| {
+            let columns = self.columns[..self.coordinates].iter();
+            columns.map(|column| column[row]).collect()
+        });
+        combination(places.collect(), forces, self.size).is_none()
+    }
+
+    /// A message for each thing that leaves a reaction undetermined. Of the things that act, it is noted
+    /// which have been looked at; those that have no value at any point have not.
+    fn refused(&self, model: &Model<'_>, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        let Some(relaxed) = Relaxed::of(model) else {
+            return found;
+        };
+        let rows = self.rows(|_| true);
+        let mut alongs = Vec::new();
+        for (guide, sliding) in model.sliding.iter().enumerate() {
+            match self.along(guide, &rows) {
+                Some(along) => alongs.push((guide, along)),
+                None if self.work() > WORK => {
+                    let message = format!(
+                        "what the guide `{}` carries cannot be found out: there are too many bodies",
+                        sliding.name
+                    );
+                    found.push(Diagnostic::new(Code::TooLarge, sliding.span, message).help(
+                        "it can where what moves with the guided body is built on its frame",
+                    ));
+                }
+                None => found.extend(self.blame(model, guide, sliding)),
+            }
+        }
+        // One thing at a time: with other bodies tied the rest may be right.
+        if found.is_empty() {
+            found = self.loose(model);
+        }
+        if !found.is_empty() {
+            return found;
+        }
+        let written = |motion: &Self, alongs: &[(usize, Along<T>)], looked_at: &mut Vec<bool>| {
+            let written = Written {
+                motion,
+                relaxed: &relaxed,
+                model,
+                alongs,
+                ajar: relaxed.hold_ajar(motion, alongs),
+            };
+            written.refused(looked_at)
+        };
+        found = written(self, &alongs, looked_at);
+        // A distance has a value at every second point.
+        let mut next = self.point + 1;
+        for _ in 0..T::TRIALS_OF_ACTIONS {
+            if !found.is_empty() || !looked_at.contains(&false) {
+                break;
+            }
+            let Some(motion) = Motion::<T>::among(model, next..next + TRIALS) else {
+                break;
+            };
+            next = motion.point + 1;
+            let alongs: Option<Vec<(usize, Along<T>)>> = alongs
+                .iter()
+                .map(|(guide, _)| Some((*guide, motion.along(*guide, &rows)?)))
+                .collect();
+            if let Some(alongs) = alongs {
+                found = written(&motion, &alongs, looked_at);
+            }
+        }
+        found
+    }
+
+    /// Bodies that are free along a guide, are written by its coordinate, and are held across it by
+    /// nothing that the spec names.
+    fn loose(&self, model: &Model<'_>) -> Vec<Diagnostic> {
+        let guides: Vec<usize> = (0..model.sliding.len()).collect();
+        let slides: Vec<Vec<bool>> = guides.iter().map(|&k| slides_by(model, k)).collect();
+        let is_carried = |part: &Part, guide: usize| self.moves(part, &self.own(guide));
+        let base_moves = |guide: usize, i: usize| {
+            let base = self.parts.iter().find(|part| match part.what {
+                What::Body(body) => model.sliding[guide].on == Place::Body(body),
+                What::Base(of) => of == guide,
+            });
+            base.is_some_and(|base| self.moves(base, &[i]))
+        };
+        let mut found = Vec::new();
+        for part in &self.parts {
+            let What::Body(body) = part.what else {
+                continue;
+            };
+            if is_a_base(model, body) {
+                continue;
+            }
+            let is_loose = |&guide: &usize, i: usize| {
+                let holds = |&other: &usize| {
+                    is_carried(part, other) && (slides[other][i] || base_moves(other, i))
+                };
+                slides[guide][i]
+                    && self.moves(part, &[i])
+                    && !is_carried(part, guide)
+                    && !guides.iter().any(holds)
+            };
+            let of_guide = |guide: &&usize| (0..self.coordinates).any(|i| is_loose(guide, i));
+            if let Some(&guide) = guides.iter().find(of_guide) {
+                found.push(untied(model, guide, part.what));
+            }
+        }
+        found
+    }
+
+    /// The bodies that are tied to what a guide carries by nothing that the spec names: without them
+    /// (E38) holds.
+    fn blame(&self, model: &Model<'_>, guide: usize, sliding: &Sliding<'_>) -> Vec<Diagnostic> {
+        let body = &model.bodies[sliding.body].name;
+        let name = &sliding.name;
+        let own = self.own(guide);
+        let is_own = |part: &Part| matches!(part.what, What::Body(b) if b == sliding.body);
+        let mut blamed: Vec<bool> = self.parts.iter().map(|part| !is_own(part)).collect();
+        let is_right = |blamed: &[bool]| {
+            let rows = self.rows(|k| !blamed[k]);
+            self.along(guide, &rows).is_some()
+        };
+        let affordable = self.work().saturating_mul(self.parts.len()) <= WORK_OF_BLAME;
+        if affordable && is_right(&blamed) {
+            // What it carries is the last to be blamed.
+            let mut order: Vec<usize> = (0..self.parts.len()).collect();
+            order.sort_by_key(|&k| !self.moves(&self.parts[k], &own));
+            for k in order {
+                let before = std::mem::replace(&mut blamed[k], false);
+                if before && !is_right(&blamed) {
+                    blamed[k] = true;
+                }
+            }
+        } else {
+            blamed.fill(false);
+        }
+        let pairs = self.parts.iter().zip(&blamed);
+        let found: Vec<Diagnostic> = pairs
+            .filter(|(_, blamed)| **blamed)
+            .map(|(part, _)| untied(model, guide, part.what))
+            .collect();
+        if !found.is_empty() {
+            return found;
+        }
+        let message = format!(
+            "something moves with `{body}`, and nothing says what ties them: what the guide `{name}` carries is not determined"
+        );
+        let help = "build what it carries on its frame; or give that coordinates of its own and tie it by `constraints`";
+        vec![Diagnostic::new(Code::Untied, sliding.span, message).help(help)]
+    }
+}
+
+/// The message for a part that moves with the body of a guide, and is tied to it by nothing.
+fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
+    let sliding = &model.sliding[guide];
+    let (body, name) = (&model.bodies[sliding.body].name, &sliding.name);
+    let message = |what: &str| {
+        format!(
+            "{what} moves with `{body}`, and nothing says what ties them: what the guide `{name}` carries is not determined"
+        )
+    };
+    let diagnostic = match what {
+        What::Body(other) => {
+            let other = &model.bodies[other];
+            let message = message(&format!("`{}`", other.name));
+            Diagnostic::new(Code::Untied, other.place, message).help(format!(
+                "build `{}` on the frame of `{body}`, so that the guide carries it; or give it coordinates of its own, and tie it by `constraints`",
+                other.name
+            ))
+        }
+        What::Base(other) => {
+            let other = &model.sliding[other];
+            let message = message(&format!("what `{}` is on", other.name));
+            Diagnostic::new(Code::Untied, other.span, message).help(format!(
+                "say `on: {body}`, or build that frame on the frame of `{body}`"
+            ))
+        }
+    };
+    diagnostic.note(sliding.span, "this guide")
+}
+
+/// What came of looking at something that acts: nothing where it has no value, or what is wrong with it.
+type Looked = Option<Option<Diagnostic>>;
+
+/// The terms of a sum, or all of what is none.
+fn addends(value: Expr<'_>) -> Vec<Expr<'_>> {
+    match value.node() {
+        Node::Sum(terms) => terms.iter().map(|(id, _)| value.dag().expr(*id)).collect(),
+        _ => vec![value],
+    }
+}
+
+/// What is written in coordinates, held against the motion along the guides.
+struct Written<'s, 'm, 'd, T> {
+    motion: &'s Motion<T>,
+    relaxed: &'s Relaxed<'m, 'd>,
+    model: &'m Model<'d>,
+    alongs: &'s [(usize, Along<T>)],
+    /// The guides along which (E38) holds where they are ajar too.
+    ajar: Vec<usize>,
+}
+
+impl<'d, T: Number> Written<'_, '_, 'd, T> {
+    /// What is refused of that which has values at this point and has not been looked at before.
+    fn refused(&self, looked_at: &mut Vec<bool>) -> Vec<Diagnostic> {
+        let mut found = Vec::new();
+        let mut number = 0;
+        let mut look = |refused: &dyn Fn() -> Looked| {
+            if looked_at.len() <= number {
+                looked_at.push(false);
+            }
+            if !looked_at[number]
+                && let Some(refused) = refused()
+            {
+                looked_at[number] = true;
+                found.extend(refused);
+            }
+            number += 1;
+        };
+        let (model, relaxed) = (self.model, self.relaxed.model);
+        let equations = constraints::constraints(relaxed);
+        let spans = model.constraints.iter().map(|c| c.span);
+        let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
+        for (equation, span) in equations.iter().zip(spans.chain(rolling)) {
+            look(&|| self.constraint(equation, span));
+        }
+        let kinds = [("spring", &relaxed.springs), ("damper", &relaxed.dampers)];
+        for (kind, elastics) in kinds {
+            for elastic in elastics.iter().filter(|elastic| !elastic.torsional) {
+                let what = format!("the stretch of the {kind} `{}`", elastic.name);
+                look(&|| self.stretch(elastic.stretch, &what, elastic.span));
+            }
+        }
+        let by_place = &self.relaxed.x.q;
+        for force in &relaxed.forces {
+            let name = &force.name;
+            match &force.action {
+                Action::Point { at, force: value } => {
+                    look(&|| self.force(name.to_string(), (at, value), force.span));
+                }
+                Action::Coordinate { coordinate, .. } => {
+                    let what = format!("the force `{name}`");
+                    let on = relaxed.coordinates[*coordinate].q;
+                    look(&|| self.acting((on, by_place), &what, force.span));
+                }
+            }
+        }
+        let twists = relaxed.springs.iter().chain(&relaxed.dampers);
+        for elastic in twists.filter(|elastic| elastic.torsional) {
+            let what = format!("the twist of `{}`", elastic.name);
+            look(&|| self.acting((elastic.stretch, by_place), &what, elastic.span));
+        }
+        let potentials = relaxed
+            .potentials
+            .iter()
+            .map(|v| ("potential", by_place, v));
+        let dissipations = relaxed.dissipations.iter();
+        let dissipations = dissipations.map(|d| ("dissipation", &self.relaxed.x.v, d));
+        for (kind, by, term) in potentials.chain(dissipations) {
+            let what = format!("the {kind} `{}`", term.name);
+            for part in addends(term.value) {
+                look(&|| self.acting((part, by), &what, term.span));
+            }
+        }
+        found
+    }
+
+    fn is_zero(&self, x: T) -> bool {
+        x.size_beside(1.0) == 0.0
+    }
+
+    /// The derivatives of an expression by all columns, where the guides are shut; nothing where it has
+    /// none.
+    fn slopes(&self, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+        self.slopes_where(Guides::Shut, expression, by)
+    }
+
+    fn slopes_where(&self, guides: Guides, expression: Expr<'d>, by: &[Symbol]) -> Option<Vec<T>> {
+        let of = |list: Vec<T>| list[0];
+        let point = (self.motion.point, guides);
+        let columns = self.relaxed.derivatives::<T>(point, &[expression], by);
+        let slopes: Vec<T> = columns.into_iter().map(of).collect();
+        slopes.iter().all(|x| x.is_finite()).then_some(slopes)
+    }
+
+    /// The guides along which an expression changes otherwise than the bodies do, and by how much.
+    fn amiss<'w>(&'w self, slopes: &'w [T]) -> impl Iterator<Item = (usize, T)> + 'w {
+        self.alongs.iter().filter_map(|(guide, along)| {
+            let amiss = along.amiss(slopes.iter().copied());
+            (!self.is_zero(amiss)).then_some((*guide, amiss))
+        })
+    }
+
+    /// The first guide along which what acts by an expression does not change as the bodies do, and
+    /// acts across it on what is carried; or is `unsaid` by how much it changes along it.
+    fn first_unsaid(
+        &self,
+        expression: Expr<'d>,
+        by: &[Symbol],
+        unsaid: impl Fn(&[T], usize, T) -> bool,
+    ) -> Option<Option<usize>> {
+        let slopes = self.slopes(expression, by)?;
+        let on_bodies = &slopes[self.motion.coordinates..];
+        let depends_on_bodies = on_bodies.iter().any(|&pull| !self.is_zero(pull));
+        let mut otherwise: Vec<usize> = Vec::new();
+        if depends_on_bodies {
+            let ajar = self.slopes_where(Guides::Ajar, expression, by)?;
+            otherwise.extend(self.amiss(&slopes).map(|(guide, _)| guide));
+            let amiss = self.amiss(&ajar).map(|(guide, _)| guide);
+            otherwise.extend(amiss.filter(|guide| self.ajar.contains(guide)));
+        }
+        let pulls_across = |&guide: &usize| {
+            let mut pulls = on_bodies.chunks_exact(2).enumerate();
+            pulls.any(|(other, pull)| {
+                let [x, y] = self.motion.directions[other];
+                match other == guide {
+                    true => !self.is_zero(pull[1] * x - pull[0] * y),
+                    false => pull.iter().any(|&pull| !self.is_zero(pull)),
+                }
+            })
+        };
+        let across = otherwise.into_iter().find(pulls_across);
+        Some(across.or_else(|| {
+            let mut amiss = self.amiss(&slopes);
+            let found = amiss.find(|&(guide, amiss)| unsaid(&slopes, guide, amiss));
+            found.map(|(guide, _)| guide)
+        }))
+    }
+
+    fn diagnostic(&self, guide: usize, span: Span, what: &str, help: &str) -> Diagnostic {
+        let sliding = &self.model.sliding[guide];
+        let body = &self.model.bodies[sliding.body].name;
+        let message = format!(
+            "{what} moves with `{body}` and is not said by where `{body}` is: how it pulls across the guide `{}` is not determined",
+            sliding.name
+        );
+        let diagnostic = Diagnostic::new(Code::Untied, span, message);
+        diagnostic.help(help).note(sliding.span, "this guide")
+    }
+
+    /// A constraint in coordinates: a rope or a gear, as long as its coefficients are constant. One
+    /// whose coefficients vary is the geometry of something that pulls in a direction.
+    fn constraint(&self, equation: &ConstraintEquation<'d>, span: Span) -> Looked {
+        let x = &self.relaxed.x;
+        let slopes = match equation.position {
+            Some(position) => self.slopes(position, &x.q),
+            None => self.slopes(equation.rate, &x.v),
+        }?;
+        let Some((guide, _)) = self.amiss(&slopes).next() else {
+            return Some(None);
+        };
+        let mut entries = equation.row.iter().filter(|entry| !entry.is_zero());
+        let Some(&first) = entries.next() else {
+            return Some(None);
+        };
+        let is_constant = |&entry: &Expr<'d>| identity::is_free_of_motion(entry / first);
+        if entries.all(is_constant) {
+            return Some(None);
+        }
+        let what = format!("the constraint `{}`", equation.name);
+        let help = "write it by positions of bodies, as `norm(a.at - b.at) = l`";
+        Some(Some(self.diagnostic(guide, span, &what, help)))
+    }
+
+    /// A stretch in coordinates: it grows by a metre for each metre along the guide if what stretches
+    /// lies along the guide.
+    fn stretch(&self, stretch: Expr<'d>, what: &str, span: Span) -> Looked {
+        let across = self.first_unsaid(stretch, &self.relaxed.x.q, |_, guide, amiss| {
+            let [x, y] = self.motion.directions[guide];
+            !self.is_zero(amiss * amiss - (x * x + y * y))
+        })?;
+        let help = "give it `from` and `to`, points of bodies; or, if it acts along the guide alone, say its energy under `potentials`";
+        Some(across.map(|guide| self.diagnostic(guide, span, what, help)))
+    }
+
+    /// What acts with the derivatives of an expression as forces: an energy or what makes one, a
+    /// dissipation by its rates, a coordinate on which a force acts. In coordinates it acts along the
+    /// guides, and must act on what the guide carries itself, not through something else. What acts
+    /// between a body and a place in coordinates pulls on that place too, and nobody says what holds it
+    /// across the guide.
+    fn acting(&self, (expression, by): (Expr<'d>, &[Symbol]), what: &str, span: Span) -> Looked {
+        let unsaid = self.first_unsaid(expression, by, |slopes, guide, _| {
+            let along = self.alongs.iter().find(|(k, _)| *k == guide);
+            let forces = &slopes[..self.motion.coordinates];
+            along.is_some_and(|(_, along)| self.motion.is_unsaid(guide, along, forces))
+        })?;
+        let help = "say it by positions of bodies; or build the one body on the frame of the other, so that what acts between them is carried by the guide";
+        Some(unsaid.map(|guide| self.diagnostic(guide, span, what, help)))
+    }
+
+    /// A force at a point in coordinates is right where it acts along the guide.
+    fn force(&self, name: String, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
+        let slopes: Vec<Vec<T>> = at
+            .iter()
+            .map(|&x| self.slopes(x, &self.relaxed.x.q))
+            .collect::<Option<_>>()?;
+        let value = evaluate(self.model.dag, value, |symbol| {
+            self.relaxed
+                .value::<T>((self.motion.point, Guides::Shut), symbol)
+        });
+        if !value.iter().all(|x: &T| x.is_finite()) {
+            return None;
+        }
+        let across = self.alongs.iter().find(|(guide, along)| {
+            let moves = slopes
+                .iter()
+                .any(|slopes| !self.is_zero(along.amiss(slopes.iter().copied())));
+            let [x, y] = self.motion.directions[*guide];
+            moves && !self.is_zero(value[1] * x - value[0] * y)
+        });
+        let what = format!("the point of the force `{name}`");
+        let help = "write it by where the body is, as `body.at`, or by a point of its frame";
+        Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &what, help)))
+    }
+}
+
+/// The coordinates whose rates are in the slip of a guide.
+fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
+    let x = Variables::of(model);
+    let sliding = &model.sliding[guide];
+    let directions = sliding::guide(model, sliding);
+    let [slip, _] = sliding::relative(model, sliding, &directions, &mut x.coasting(model));
+    let row = gradient(model.dag, slip, &x.v);
+    row.into_iter()
+        .map(|entry| identity::is_zero(entry) != Some(true))
+        .collect()
+}
+
+/// Whether a guide is on a body, or on a frame that is built on the frame of the body.
+fn is_a_base(model: &Model<'_>, body: usize) -> bool {
+    let own = match model.bodies[body].rotation {
+        Rotation::Frame(pose) if pose != PoseId::GROUND => Some(pose),
+        _ => None,
+    };
+    model.sliding.iter().any(|sliding| match sliding.on {
+        Place::Body(on) => on == body,
+        Place::Frame(mut pose) => loop {
+            if Some(pose) == own {
+                return true;
+            }
+            if pose == PoseId::GROUND {
+                return false;
+            }
+            pose = model.poses[pose.index()].parent;
+        },
+    })
+}
+
+/// Bodies and what guides are on, and where they are: two components, and the angle where a rotation
+/// has inertia, or turns a guide.
+fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
+    let (mut parts, mut places) = (Vec::new(), Vec::new());
+    let mut add = |what, place: &[Expr<'d>], angle: Option<Expr<'d>>| {
+        let first = places.len();
+        places.extend(place.iter().copied().chain(angle));
+        let rows = first..places.len();
+        parts.push(Part { what, rows });
+    };
+    for (index, body) in model.bodies.iter().enumerate() {
+        let angle = match body.inertia {
+            Inertia::Particle => None,
+            Inertia::Planar(_) | Inertia::Tensor(_) => planar_angle(model, body),
+        };
+        add(What::Body(index), &body.at, angle);
+    }
+    for (index, sliding) in model.sliding.iter().enumerate() {
+        if let Place::Frame(pose) = sliding.on {
+            let pose = &model.poses[pose.index()];
+            add(What::Base(index), &pose.origin, Some(pose.angle));
+        }
+    }
+    (parts, places)
+}
+
+/// A column as a combination of others, by Gauss's elimination; none if it is no combination. What is
+/// not determined is 0.
+fn combination<T: Number>(columns: Vec<Vec<T>>, target: Vec<T>, size: f64) -> Option<Vec<T>> {
+    let width = columns.len();
+    let height = target.len();
+    if height.saturating_mul(width).saturating_mul(width) > WORK {
+        return None;
+    }
+    let mut rows: Vec<Vec<T>> = (0..height)
+        .map(|row| {
+            let entries = columns.iter().map(|column| column[row]);
+            entries.chain([target[row]]).collect()
+        })
+        .collect();
+    let mut pivots = Vec::new();
+    for column in 0..width {
+        let done = pivots.len();
+        let candidates = (done..height).map(|row| (row, rows[row][column].size_beside(size)));
+        let most = candidates.fold((done, 0.0), |most, next| match next.1 > most.1 {
+            true => next,
+            false => most,
+        });
+        if most.1 == 0.0 {
+            continue;
+        }
+        rows.swap(done, most.0);
+        let own = rows[done].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(row, _)| *row != done) {
+            if row[column].size_beside(0.0) == 0.0 {
+                continue;
+            }
+            let factor = row[column] / own[column];
+            for (to, &from) in row[column..].iter_mut().zip(&own[column..]) {
+                *to = *to - factor * from;
+            }
+        }
+        pivots.push(column);
+    }
+    let is_met = |row: &Vec<T>| row[width].size_beside(size) == 0.0;
+    if !rows[pivots.len()..].iter().all(is_met) {
+        return None;
+    }
+    let mut solved = vec![T::ZERO; width];
+    for (row, column) in rows.iter().zip(pivots) {
+        solved[column] = row[width] / row[column];
+    }
+    Some(solved)
+}

@@ -1,0 +1,168 @@
+//! Bilateral constraints, as they meet the accelerations.
+//!
+//! ```text
+//! holonomic      g(q, t) = 0,   φ = Dg = G v + ∂g/∂t,   G = ∂g/∂q       (E29)
+//! nonholonomic   φ = G(q, t) v + b(q, t) = 0,           G = ∂φ/∂v
+//! both           G a = γ,   γ = −Dφ at a = 0                            (E30)
+//!                M a = f + Gᵀ λ                                         (E31)
+//! ```
+//!
+//! `D` is the total time derivative (E8), so explicit time is in `φ` and in `γ`. Circles that roll
+//! on each other give one constraint of each kind: they touch, and the points that touch have the
+//! same velocity.
+
+use lagrangian_symbolic::{Expr, normal, substitute};
+
+use super::kinematics::Variables;
+use super::lagrange::gradient;
+use lagrangian_spec::identity;
+use lagrangian_spec::model::circles::{self, Contact};
+use lagrangian_spec::model::{Model, Rolling, stage};
+use lagrangian_spec::unit::Unit;
+
+/// The most terms of a constraint that is multiplied out, to see what cancels: the distance of two
+/// circles in polar coordinates has a dozen.
+const TERMS: usize = 200;
+
+/// A bilateral constraint.
+#[derive(Clone, Debug)]
+pub struct ConstraintEquation<'d> {
+    /// Its name; the two of circles that roll are `wheel.gap` and `wheel.slip`.
+    pub name: String,
+    /// `g(q, t)`, of a holonomic one.
+    pub position: Option<Expr<'d>>,
+    /// `φ(q, v, t)`, which is `dg/dt` of a holonomic one; linear in `v`.
+    pub rate: Expr<'d>,
+    /// The row of `G(q, t)`.
+    pub row: Vec<Expr<'d>>,
+    /// `γ(q, v, t)`.
+    pub drift: Expr<'d>,
+    /// The symbol of its multiplier `λ`.
+    pub multiplier: Expr<'d>,
+    /// The unit of `g`, or of `φ` where there is no `g`.
+    pub unit: Unit,
+}
+
+impl<'d> ConstraintEquation<'d> {
+    /// The same constraint, said in the coordinates of another model.
+    pub(super) fn restated(
+        &self,
+        model: &Model<'d>,
+        position: Option<Expr<'d>>,
+        rate: Expr<'d>,
+    ) -> ConstraintEquation<'d> {
+        let statement = match position {
+            Some(position) => Statement::Position(position),
+            None => Statement::Rate(rate),
+        };
+        let x = Variables::of(model);
+        equation(model, &x, self.name.clone(), statement, self.unit)
+    }
+
+    /// The unit of its multiplier: that of a force along `g`.
+    pub fn multiplier_unit(&self) -> Unit {
+        let power = match self.position {
+            Some(_) => Unit::JOULE,
+            None => Unit::WATT,
+        };
+        power.over(self.unit)
+    }
+}
+
+/// The constraints of a machine, those of `constraints` first.
+pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
+    let x = Variables::of(model);
+    let said = model.constraints.iter().map(|constraint| {
+        let mut said = constraint.expression;
+        let standing = |said: Expr<'d>| {
+            let rates = x.v.iter().copied().filter(|&v| said.depends_on(v));
+            rates.collect::<Vec<_>>()
+        };
+        let rates = standing(said);
+        if !rates.is_empty() {
+            // A rate that cancels is none, however it is spelled.
+            let gone = identity::irrelevant(model.dag, &[said], rates);
+            said = identity::without(model.dag, vec![said], &gone)[0];
+        }
+        let statement = match standing(said).is_empty() {
+            true => Statement::Position(said),
+            false => Statement::Rate(said),
+        };
+        let name = constraint.name.to_string();
+        equation(model, &x, name, statement, constraint.unit)
+    });
+    let mut all: Vec<_> = said.collect();
+    for rolling in &model.rolling {
+        all.extend(of_rolling(model, &x, rolling));
+    }
+    all
+}
+
+/// The rates `φ` of constraints where nothing moves: 0 but for those that move by themselves.
+pub(super) fn rates_at_rest<'d>(
+    model: &Model<'d>,
+    constraints: &[ConstraintEquation<'d>],
+) -> Vec<Expr<'d>> {
+    let x = Variables::of(model);
+    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, model.dag.zero())).collect();
+    let rates: Vec<_> = constraints.iter().map(|c| c.rate).collect();
+    substitute(model.dag, &rates, &at_rest)
+}
+
+/// What is to be zero.
+enum Statement<'d> {
+    Position(Expr<'d>),
+    Rate(Expr<'d>),
+}
+
+fn equation<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    name: String,
+    statement: Statement<'d>,
+    unit: Unit,
+) -> ConstraintEquation<'d> {
+    let mut coasting = x.coasting(model);
+    let (position, rate) = match statement {
+        Statement::Position(g) => (Some(g), coasting.of(g)),
+        Statement::Rate(rate) => (None, rate),
+    };
+    let mut row = match position {
+        Some(g) => gradient(model.dag, g, &x.q),
+        None => gradient(model.dag, rate, &x.v),
+    };
+    identity::write_zeros(model.dag, &mut row);
+    ConstraintEquation {
+        position,
+        rate,
+        row,
+        drift: -coasting.of(rate),
+        multiplier: model
+            .dag
+            .symbol(&format!("lambda({name})"), stage::ACCELERATION),
+        name,
+        unit,
+    }
+}
+
+/// Circles that touch and do not slip. `gap` opens with a positive multiplier, the force that presses
+/// one on the other; the multiplier of `slip` is the friction on the first circle, along the
+/// tangent that is the direction to it from the other's centre, turned left.
+fn of_rolling<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    rolling: &Rolling<'d>,
+) -> [ConstraintEquation<'d>; 2] {
+    let Contact { gap, slip } = circles::contact(model, &rolling.circles, &mut x.coasting(model));
+    let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
+        Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
+        None => e,
+    };
+    let part = |part: &str| format!("{}.{part}", rolling.name);
+    let gap = Statement::Position(plain(gap));
+    let slip = Statement::Rate(plain(slip));
+    [
+        equation(model, x, part("gap"), gap, Unit::METRE),
+        equation(model, x, part("slip"), slip, Unit::METRE.rate()),
+    ]
+}

@@ -1,0 +1,164 @@
+//! What a machine conserves, and what its equations are free of: facts that are decided, not asserted.
+//!
+//! Each is decided in the prime field, see [`lagrangian_spec::identity`]: what is said here has been tried. What cannot be decided is
+//! not said.
+
+use lagrangian_symbolic::Expr;
+
+use super::kinematics::Variables;
+use super::{Equations, constraints, lagrange};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::{Model, stage};
+
+/// What holds of the equations of a machine.
+#[derive(Clone, Debug)]
+pub struct Facts<'d> {
+    /// Coordinates on which neither kinetic nor potential energy depends.
+    pub cyclic: Vec<Cyclic<'d>>,
+    /// What becomes of the energy.
+    pub energy: Energy<'d>,
+    /// Whether neither an energy, nor the dissipation, nor an applied force depends on explicit time.
+    pub autonomous: bool,
+    /// Whether the mass matrix depends on nothing but parameters.
+    pub constant_mass_matrix: bool,
+    /// Coordinates whose accelerations occur together, directly or by way of others: the diagonal blocks of the mass matrix.
+    pub blocks: Vec<Vec<usize>>,
+}
+
+/// A coordinate on which neither kinetic nor potential energy depends, also called ignorable.
+#[derive(Clone, Debug)]
+pub struct Cyclic<'d> {
+    /// The index of the coordinate.
+    pub coordinate: usize,
+    /// Its momentum `∂T/∂v`.
+    pub momentum: Expr<'d>,
+    /// The generalized force on it, reactions of constraints included, which is all that changes the
+    /// momentum: 0 where it is conserved.
+    pub force: Expr<'d>,
+}
+
+/// What becomes of the energy along every motion.
+#[derive(Clone, Debug)]
+pub enum Energy<'d> {
+    /// `T + V` is conserved.
+    Conserved,
+    /// `Σ vᵢ ∂T/∂vᵢ − T + V`, Jacobi's integral, is conserved, and `T + V` is not: something is driven, in a way that
+    /// explicit time does not show in the energies.
+    Jacobi(Expr<'d>),
+    /// `d(T + V)/dt = P − R`, eq. (E20).
+    Balance,
+}
+
+impl<'d> Facts<'d> {
+    /// The facts about a machine.
+    pub fn of(model: &Model<'d>, equations: &Equations<'d>) -> Facts<'d> {
+        Facts {
+            cyclic: cyclic(model, equations),
+            energy: energy(model, equations),
+            autonomous: is_autonomous(model, equations),
+            constant_mass_matrix: equations
+                .mass_matrix
+                .lower()
+                .iter()
+                .all(|entry| entry.stage() <= stage::PARAMETER),
+            blocks: blocks(equations),
+        }
+    }
+}
+
+/// By Lagrange's equations `dpᵢ/dt = ∂T/∂qᵢ + Qᵢ`: where `∂T/∂qᵢ = ∂V/∂qᵢ = 0` the momentum is changed by `Qᵢ` alone, and
+/// conserved if that is nothing. H. Goldstein, C. Poole, J. Safko, *Classical Mechanics*, 3rd ed. 2002, §2.6.
+fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
+    let dag = model.dag;
+    let x = Variables::of(model);
+    let slopes = |of| lagrange::gradient(dag, of, &x.q);
+    let kinetic = slopes(equations.kinetic_energy);
+    let potential = slopes(equations.potential_energy);
+    let momenta = lagrange::gradient(dag, equations.kinetic_energy, &x.v);
+    let ignorable = (0..x.q.len()).filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
+    let cyclic = |coordinate: usize| {
+        let reactions = equations.constraints.iter();
+        let reactions = reactions.map(|c| c.row[coordinate] * c.multiplier);
+        let force = dag.sum([equations.applied[coordinate]].into_iter().chain(reactions));
+        Cyclic {
+            coordinate,
+            momentum: momenta[coordinate],
+            force: if is_zero(force) { dag.zero() } else { force },
+        }
+    };
+    ignorable.map(cyclic).collect()
+}
+
+/// `d/dt (Σ vᵢ ∂T/∂vᵢ − T + V) = Σ vᵢ Fᵢ − ∂T/∂t + ∂V/∂t`, where F is what neither comes from V nor from inertia; by (E20)
+/// `d(T + V)/dt = P − R`. Goldstein, §2.7.
+fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
+    let dag = model.dag;
+    let x = Variables::of(model);
+    if is_zero(equations.work_rate) && is_zero(equations.dissipation_rate) {
+        return Energy::Conserved;
+    }
+    // A constraint that moves by itself does work, which no potential knows.
+    let still = constraints::rates_at_rest(model, &equations.constraints);
+    if !still.into_iter().all(is_zero) {
+        return Energy::Balance;
+    }
+    let (kinetic, potential) = (equations.kinetic_energy, equations.potential_energy);
+    let momenta = lagrange::gradient(dag, kinetic, &x.v);
+    let slopes = lagrange::gradient(dag, potential, &x.q);
+    let rates = model.coordinates.iter().map(|c| c.v);
+    let others = equations
+        .applied
+        .iter()
+        .zip(slopes)
+        .map(|(&q, slope)| q + slope);
+    let power = rates.clone().zip(others).map(|(v, force)| v * force);
+    let mut explicit = x.explicit(model);
+    let change = [-explicit.of(kinetic), explicit.of(potential)];
+    if !is_zero(dag.sum(power.chain(change))) {
+        return Energy::Balance;
+    }
+    let products = rates.zip(momenta).map(|(v, momentum)| v * momentum);
+    let integral = dag.sum(products.chain([-kinetic, potential]));
+    match identity::equal(integral, kinetic + potential) {
+        Some(true) => Energy::Conserved,
+        _ => Energy::Jacobi(integral),
+    }
+}
+
+fn is_autonomous(model: &Model<'_>, equations: &Equations<'_>) -> bool {
+    let mut explicit = Variables::of(model).explicit(model);
+    let energies = [
+        equations.kinetic_energy,
+        equations.potential_energy,
+        equations.dissipation,
+    ];
+    let mut sources = energies
+        .into_iter()
+        .chain(equations.applied.iter().copied());
+    sources.all(|source| is_zero(explicit.of(source)))
+}
+
+/// Coordinates that a chain of entries of the mass matrix joins, each list and the list of lists in ascending order.
+fn blocks(equations: &Equations<'_>) -> Vec<Vec<usize>> {
+    let n = equations.mass_matrix.dimension();
+    let mut block: Vec<usize> = (0..n).collect();
+    for (i, j, entry) in equations.mass_matrix.entries() {
+        if !entry.is_zero() && block[i] != block[j] {
+            let (from, to) = (block[i].max(block[j]), block[i].min(block[j]));
+            block
+                .iter_mut()
+                .filter(|b| **b == from)
+                .for_each(|b| *b = to);
+        }
+    }
+    let members = |b: usize| (0..n).filter(|&i| block[i] == b).collect::<Vec<_>>();
+    (0..n)
+        .map(members)
+        .filter(|members| !members.is_empty())
+        .collect()
+}
+
+/// Whether an expression is 0 for sure.
+fn is_zero(expression: Expr<'_>) -> bool {
+    identity::is_zero(expression) == Some(true)
+}

@@ -1,0 +1,281 @@
+//! Lagrange's equations of the second kind, term by term as a textbook writes them.
+//!
+//! ```text
+//! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ
+//! ```
+//!
+//! What is derived here is the measure of everything else: [`Oracle`] takes no short cut, and no
+//! code is emitted from it unless an approximation asks for these very equations
+//! ([`super::approximation`]). Explicit time is never dropped: the `d/dt` is that of eq. (E8).
+
+use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, substitute};
+
+use super::approximation::Approximations;
+use super::constraints::{self, ConstraintEquation};
+use super::energy;
+use super::kinematics::{self, Variables};
+use super::refusal;
+use super::sliding::{guide, relative};
+use super::symmetric::Symmetric;
+use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::{Action, Model, Rotation, Space};
+
+/// The literal Lagrange equations of a machine. Slow to derive and long; never shipped.
+pub struct Oracle<'d> {
+    /// `T`, eq. (E1).
+    pub kinetic_energy: Expr<'d>,
+    /// `V`, eq. (E2).
+    pub potential_energy: Expr<'d>,
+    /// `D`, eq. (E3).
+    pub dissipation: Expr<'d>,
+    /// `M`, eq. (E4).
+    pub mass_matrix: Symmetric<Expr<'d>>,
+    /// `h`, eq. (E5).
+    pub bias: Vec<Expr<'d>>,
+    /// `Q`, eq. (E6).
+    pub applied: Vec<Expr<'d>>,
+    /// The bilateral constraints.
+    pub constraints: Vec<OracleConstraint<'d>>,
+    /// The guided contacts with friction.
+    pub sliding: Vec<OracleSliding<'d>>,
+    /// `d/dt ∂T/∂v − ∂T/∂q − Q` with the accelerations in it, eq. (E7): zero along every motion.
+    pub residual: Vec<Expr<'d>>,
+}
+
+/// A constraint, every derivative by the rule of the chain and one variable at a time.
+pub struct OracleConstraint<'d> {
+    /// `g`; zero where velocities alone are constrained.
+    pub position: Expr<'d>,
+    /// `φ = Σ vᵢ ∂g/∂qᵢ + ∂g/∂t`, or as it is said.
+    pub rate: Expr<'d>,
+    /// `∂φ/∂vᵢ`.
+    pub row: Vec<Expr<'d>>,
+    /// `Σ vᵢ ∂φ/∂qᵢ + Σ aᵢ ∂φ/∂vᵢ + ∂φ/∂t`: zero along every motion.
+    pub residual: Expr<'d>,
+}
+
+/// A guided contact, every derivative by the rule of the chain and one variable at a time.
+pub struct OracleSliding<'d> {
+    /// `w`.
+    pub slip: Expr<'d>,
+    /// `∂w/∂vᵢ`.
+    pub row: Vec<Expr<'d>>,
+    /// `Σ vᵢ ∂w/∂qᵢ + ∂w/∂t`.
+    pub drift: Expr<'d>,
+    /// `dw/dt` with the accelerations in it.
+    pub slip_rate: Expr<'d>,
+    /// The equation of the displacement that opens the guide, along its normal: what inertia and
+    /// applied forces leave of it.
+    pub unbalanced: Expr<'d>,
+    /// What the multipliers of the constraints do along that displacement,
+    pub by_multipliers: Vec<Expr<'d>>,
+    /// what the friction forces of the contacts do,
+    pub by_friction_forces: Vec<Expr<'d>>,
+    /// and what the normal reactions do.
+    pub by_normals: Vec<Expr<'d>>,
+    /// `μ` and `μ₀`.
+    pub coefficients: [Expr<'d>; 2],
+}
+
+impl<'d> Oracle<'d> {
+    /// The equations, every derivative taken where the textbook takes it.
+    ///
+    /// The model must be one that [`super::Equations::derive`] accepts.
+    pub fn derive(model: &Model<'d>) -> Oracle<'d> {
+        let dag = model.dag;
+        let x = Variables::of(model);
+        let approximations = Approximations::of(model);
+        let total = &mut x.total(model);
+
+        let motions = kinematics::literal_motion(model, total);
+        let bodies = model.bodies.iter().zip(&motions);
+        let exact = bodies.map(|(b, u)| energy::kinetic_energy(b, &approximations.motion(u)));
+        let kinetic_energy = approximations.energy(dag.sum(exact));
+        let potential_energy = approximations.energy(energy::potential_energy(model));
+        let dissipation = approximations.energy(energy::dissipation(model, total));
+        let applied = applied(model, &x, potential_energy, dissipation);
+        let momenta: Vec<Expr<'d>> = x.v.iter().map(|&v_i| kinetic_energy.diff(v_i)).collect();
+        let inertia = |momentum_rate: &mut Tangent<'d>, i: usize| {
+            momentum_rate.of(momenta[i]) - kinetic_energy.diff(x.q[i])
+        };
+        let coasting = &mut x.coasting(model);
+        let along = |e: Expr<'d>| {
+            let explicit = std::iter::once(e.diff(x.t));
+            let moving = model.coordinates.iter().zip(&x.q);
+            model
+                .dag
+                .sum(explicit.chain(moving.map(|(c, &q)| e.diff(q) * c.v)))
+        };
+        let constraint = |equation: ConstraintEquation<'d>| {
+            let rate = equation.position.map_or(equation.rate, along);
+            let row: Vec<Expr<'d>> = x.v.iter().map(|&v| rate.diff(v)).collect();
+            let accelerating = model.coordinates.iter().zip(&row);
+            let accelerating = accelerating.map(|(c, &slope)| slope * c.a);
+            OracleConstraint {
+                position: equation.position.unwrap_or(dag.zero()),
+                residual: dag.sum(accelerating.chain([along(rate)])),
+                row,
+                rate,
+            }
+        };
+        let constraints = constraints::constraints(model);
+        Oracle {
+            sliding: sliding(model),
+            constraints: constraints.into_iter().map(constraint).collect(),
+            mass_matrix: mass_matrix(&momenta, &x.v),
+            bias: (0..x.q.len()).map(|i| inertia(coasting, i)).collect(),
+            residual: (0..x.q.len())
+                .map(|i| inertia(total, i) - applied[i])
+                .collect(),
+            kinetic_energy,
+            potential_energy,
+            dissipation,
+            applied,
+        }
+    }
+}
+
+/// The guided contacts of a machine, by Lagrange's equations of the relaxed one.
+fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
+    let Some(relaxed) = &model.relaxed else {
+        return Vec::new();
+    };
+    let dag = model.dag;
+    let (n, x) = (model.coordinates.len(), Variables::of(relaxed));
+    let shut: Vec<_> = (n..x.q.len())
+        .flat_map(|i| [x.q[i], x.v[i], x.a[i]])
+        .map(|symbol| (symbol, dag.zero()))
+        .collect();
+    let closed = |e: Expr<'d>| substitute(dag, &[e], &shut)[0];
+    let oracle = Oracle::derive(relaxed);
+    let guides: Vec<_> = model.sliding.iter().map(|s| guide(model, s)).collect();
+    let pairs = || relaxed.sliding.iter().zip(&guides);
+    let mut coasting = x.coasting(relaxed);
+    let rates: Vec<_> = pairs()
+        .map(|(sliding, guide)| relative(relaxed, sliding, guide, &mut coasting))
+        .collect();
+    let contact = |k: usize| {
+        let dimension = model.space.dimension();
+        let along = |column: &dyn Fn(usize) -> Expr<'d>| {
+            let pairs = (n + dimension * k..).zip(&guides[k].normal);
+            closed(dag.sum(pairs.map(|(i, &normal)| normal * column(i))))
+        };
+        let slip = closed(rates[k][0]);
+        let row: Vec<Expr<'d>> = (0..n).map(|i| slip.diff(x.v[i])).collect();
+        let moving = (0..n).map(|i| slip.diff(x.q[i]) * model.coordinates[i].v);
+        let drift = dag.sum(moving.chain([slip.diff(x.t)]));
+        let accelerating = row
+            .iter()
+            .zip(&model.coordinates)
+            .map(|(&tau, c)| tau * c.a);
+        let sliding = &model.sliding[k];
+        OracleSliding {
+            slip,
+            slip_rate: dag.sum(accelerating.chain([drift])),
+            drift,
+            unbalanced: along(&|i| oracle.residual[i]),
+            by_multipliers: oracle
+                .constraints
+                .iter()
+                .map(|c| along(&|i| c.row[i]))
+                .collect(),
+            by_friction_forces: rates
+                .iter()
+                .map(|[w, _]| along(&|i| w.diff(x.v[i])))
+                .collect(),
+            by_normals: rates
+                .iter()
+                .map(|[_, u]| along(&|i| u.diff(x.v[i])))
+                .collect(),
+            coefficients: [
+                sliding.friction,
+                sliding.static_friction.unwrap_or(sliding.friction),
+            ],
+            row,
+        }
+    };
+    (0..guides.len()).map(contact).collect()
+}
+
+/// Mass matrix, eq. (E4): `Mᵢⱼ = ∂²T/∂vᵢ∂vⱼ = ∂pᵢ/∂vⱼ`.
+///
+/// `T` is quadratic in `v`, so `M` is symmetric and free of `v`.
+fn mass_matrix<'d>(momenta: &[Expr<'d>], v: &[Symbol]) -> Symmetric<Expr<'d>> {
+    Symmetric::from_lower(v.len(), |i, j| momenta[i].diff(v[j]))
+}
+
+/// Applied generalized forces, eq. (E6): `Qᵢ = −∂V/∂qᵢ − ∂D/∂vᵢ + Fᵢ`, where `F` is the virtual
+/// work of forces and torques: `Fᵢ = Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ`.
+fn applied<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    potential_energy: Expr<'d>,
+    dissipation: Expr<'d>,
+) -> Vec<Expr<'d>> {
+    let force = |i: usize| {
+        let rate = &mut x.partial(model, i);
+        let mut terms = vec![-potential_energy.diff(x.q[i]), -dissipation.diff(x.v[i])];
+        for force in &model.forces {
+            match &force.action {
+                Action::Point { at, force } => {
+                    terms.extend(at.iter().zip(force).map(|(&x, &f)| f * rate.of(x)));
+                }
+                Action::Coordinate { coordinate, value } if *coordinate == i => terms.push(*value),
+                Action::Coordinate { .. } => {}
+            }
+        }
+        for torque in &model.torques {
+            let body = &model.bodies[torque.body];
+            match (model.space, &body.rotation) {
+                (Space::Plane, _) => {
+                    let angle = planar_angle(model, body);
+                    terms.extend(angle.map(|angle| torque.torque[0] * rate.of(angle)));
+                }
+                (Space::Space, &Rotation::Frame(pose)) => {
+                    // The torque along the body's axes, against the rate of turning about them.
+                    let turning = kinematics::angular_velocity_of_axes(model, pose, rate);
+                    let axes = &model.poses[pose.0 as usize].axes;
+                    for (axis, turning) in axes.iter().zip(turning) {
+                        let along = axis.iter().zip(&torque.torque).map(|(&e, &m)| e * m);
+                        terms.push(model.dag.sum(along) * turning);
+                    }
+                }
+                (Space::Space, _) => {}
+            }
+        }
+        model.dag.sum(terms)
+    };
+    (0..x.q.len()).map(force).collect()
+}
+
+/// `M`, `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as there are: `p = ∂T/∂v`
+/// and `∂T/∂q` are one reverse sweep each, `M` one for each of its rows, and `h = ṗ − ∂T/∂q` at `a
+/// = 0` one forward sweep. Nothing if they become too large.
+pub(super) fn inertia<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    kinetic_energy: Expr<'d>,
+) -> Option<(Symmetric<Expr<'d>>, Vec<Expr<'d>>)> {
+    let dag = model.dag;
+    let momenta = gradient(dag, kinetic_energy, &x.v);
+    let slopes = gradient(dag, kinetic_energy, &x.q);
+    let mut rows: Vec<Vec<Expr<'d>>> = Vec::with_capacity(momenta.len());
+    for (i, &momentum) in momenta.iter().enumerate() {
+        if refusal::is_too_large(model) {
+            return None;
+        }
+        rows.push(gradient(dag, momentum, &x.v[..=i]));
+    }
+    let rate = &mut x.coasting(model);
+    let bias = momenta
+        .iter()
+        .zip(slopes)
+        .map(|(&p, slope)| rate.of(p) - slope)
+        .collect();
+    Some((Symmetric::from_lower(x.q.len(), |i, j| rows[i][j]), bias))
+}
+
+/// All partial derivatives, by one reverse sweep.
+pub(super) fn gradient<'d>(dag: &'d Dag, of: Expr<'d>, wrt: &[Symbol]) -> Vec<Expr<'d>> {
+    lagrangian_symbolic::reverse(dag, &[(of, dag.one())], wrt)
+}

@@ -1,0 +1,854 @@
+//! Lagrange's equations of the second kind, evaluated and not expanded: what every program is held
+//! against before it leaves the compiler.
+//!
+//! ```text
+//! w·(d/dt ∂T/∂v − ∂T/∂q) = w·Q
+//! ```
+//!
+//! is wanted as a number, at a state `q, v, t` with accelerations `a` and for a direction `w`. No
+//! derivative is written down. The positions of the bodies are run over numbers with three
+//! infinitesimals δ, τ, ε, each of which has the square 0:
+//!
+//! * `δ` makes velocities of positions: `q + δ v`, `t + δ` gives `x + δ ẋ`;
+//! * `τ` makes rates along the motion: `q + τ v`, `v + τ a`, `t + τ`;
+//! * `ε` varies in the direction `w`: `v + ε w`, and `q − τε w`.
+//!
+//! `T`, put together from velocities as (E1) says, then is a number with `τ` and `ε` in it, and by
+//! the chain rule what stands before `τε` is
+//!
+//! ```text
+//! Σ wᵢ (d/dt ∂T/∂vᵢ) − Σ wᵢ ∂T/∂qᵢ
+//! ```
+//!
+//! Nothing is assumed about `T`; it need not even be that of a body, so the approximated energies
+//! of (E16) and (E17) take the same way. In the same run `τε` of `V` is `−w·∂V/∂q`, `ε` of `D` is
+//! `w·∂D/∂v`, `−τε` of a point is how `w` moves it, `δτ` of a constraint is its second derivative
+//! along the motion and `ε` of a velocity its slope along `w`.
+//!
+//! One direction drawn at random proves all equations: two different linear forms of `w` agree at a
+//! random `w` with probability 1/(2⁶¹ − 1) (J. T. Schwartz, *Fast probabilistic algorithms for
+//! verification of polynomial identities*, J. ACM 27 (1980) 701–717). So the equations cost as much as
+//! evaluating where the bodies are, eight numbers at a time.
+//!
+//! This module shares with the derivation the [`Model`] and the evaluation of expressions; no
+//! velocity, no derivative and no simplification of [`super::projected`] is in it.
+
+mod frozen;
+
+use lagrangian_scalar::{Dual, Scalar};
+use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
+use rustc_hash::FxHashMap;
+
+use frozen::Frozen;
+use lagrangian_spec::model::{
+    Action, ApproximationKind, Body, Circle, Inertia, Model, Place, PoseId, Rotation, Sliding,
+    Space, Surface,
+};
+
+/// Where a machine is, how it moves, and what acts on it.
+#[derive(Clone, Debug)]
+pub(crate) struct State<R> {
+    pub t: R,
+    pub q: Vec<R>,
+    pub v: Vec<R>,
+    pub a: Vec<R>,
+    pub u: Vec<R>,
+    pub parameters: Vec<R>,
+}
+
+/// What Lagrange's equations say at a state, for a direction `w`.
+#[derive(Clone, Debug)]
+pub(crate) struct Literal<R> {
+    /// `T`, eq. (E1).
+    pub kinetic_energy: R,
+    /// `V`, eq. (E2).
+    pub potential_energy: R,
+    /// `D`, eq. (E3).
+    pub dissipation: R,
+    /// `d(T + V)/dt` along the motion.
+    pub energy_rate: R,
+    /// `w·(d/dt ∂T/∂v − ∂T/∂q)`.
+    pub inertia: R,
+    /// `w·Q`, eq. (E6).
+    pub applied: R,
+    pub constraints: Vec<LiteralConstraint<R>>,
+    pub sliding: Vec<LiteralSliding<R>>,
+}
+
+/// A bilateral constraint at a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LiteralConstraint<R> {
+    /// `g`; 0 where velocities alone are constrained.
+    pub position: R,
+    /// `φ`.
+    pub rate: R,
+    /// `dφ/dt` with the accelerations in it.
+    pub acceleration: R,
+    /// `w·∂φ/∂v`.
+    pub along: R,
+    /// The slope of `g` along `w` as a rate, which is 0 if positions are constrained indeed.
+    pub by_rates: R,
+}
+
+/// A guided contact at a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LiteralSliding<R> {
+    /// `w`, how fast it slides.
+    pub slip: R,
+    /// `dw/dt` with the accelerations in it.
+    pub slip_rate: R,
+    /// The slope of the slip along the direction.
+    pub slip_along: R,
+    /// The slope of the velocity off the guide.
+    pub off_along: R,
+    /// The direction of the guide turned left, of length 1.
+    pub left: [R; 2],
+    /// The product of that with the normal which the spec gives; 1 where it gives none.
+    pub side: R,
+    /// `μ` and `μ₀`.
+    pub coefficients: [R; 2],
+}
+
+/// Numbers with τ outside and ε inside.
+type Varied<R> = Dual<Dual<R>>;
+
+/// Numbers with δ, τ and ε.
+type Moving<R> = Dual<Varied<R>>;
+
+/// Numbers of which two orders in small coordinates are known; see [`Lagrange::small`].
+type Small<R> = Dual<Dual<Varied<R>>>;
+
+/// What a symbol stands for.
+#[derive(Clone, Copy)]
+enum Meaning {
+    Time,
+    Parameter(usize),
+    Coordinate(usize),
+    Rate(usize),
+    Acceleration(usize),
+    Input(usize),
+}
+
+/// The equations of a model, ready to be evaluated.
+pub(crate) struct Lagrange<'m, 'd> {
+    pub model: &'m Model<'d>,
+    meanings: FxHashMap<Symbol, Meaning>,
+    /// Everything that is evaluated along the motion.
+    pub roots: Vec<Expr<'d>>,
+    /// What of it the kinetic energy needs.
+    kinetic: Vec<Expr<'d>>,
+    /// What the other energies need.
+    energies: Vec<Expr<'d>>,
+    /// For each of the model's constraints whether positions are constrained.
+    holonomic: Vec<bool>,
+    /// Whether each coordinate counts as small.
+    small: Vec<bool>,
+    /// Whether each coordinate is frozen.
+    frozen: Vec<bool>,
+}
+
+/// A number along a motion: where something is, and how fast it moves.
+trait Path: Scalar {
+    type Base: Scalar;
+    fn here(self) -> Self::Base;
+    fn rate(self) -> Self::Base;
+}
+
+impl<S: Scalar> Path for Dual<S> {
+    type Base = S;
+    fn here(self) -> S {
+        self.value
+    }
+    fn rate(self) -> S {
+        self.derivative
+    }
+}
+
+impl<S: Scalar> Path for Frozen<S> {
+    type Base = S;
+    fn here(self) -> S {
+        self.moving.value
+    }
+    fn rate(self) -> S {
+        self.moving.derivative
+    }
+}
+
+/// Expressions by their nodes.
+type Values<P> = FxHashMap<Id, P>;
+
+impl<'m, 'd> Lagrange<'m, 'd> {
+    /// The equations of a model. Of a constraint in which rates stand it has to be said whether it
+    /// constrains positions all the same, since they cancel: `holonomic`.
+    pub fn of(model: &'m Model<'d>, holonomic: impl Fn(usize) -> bool) -> Lagrange<'m, 'd> {
+        let n = model.coordinates.len();
+        let kinds = |kind: ApproximationKind| {
+            let mut is = vec![false; n];
+            let all = model.approximations.iter().filter(|a| a.kind == kind);
+            all.for_each(|a| is[a.coordinate] = true);
+            is
+        };
+        let (kinetic, energies) = (kinetic(model), energies(model));
+        let mut roots = kinetic.clone();
+        roots.extend(&energies);
+        roots.extend(geometry(model));
+        Lagrange {
+            model,
+            meanings: meanings(model),
+            roots,
+            kinetic,
+            energies,
+            holonomic: (0..model.constraints.len()).map(holonomic).collect(),
+            small: kinds(ApproximationKind::Small),
+            frozen: kinds(ApproximationKind::Frozen),
+        }
+    }
+
+    /// The values of expressions at a state.
+    pub fn values<R: Scalar>(&self, expressions: &[Expr<'d>], at: &State<R>) -> Vec<R> {
+        self.values_with(expressions, at, &[])
+    }
+
+    /// The same where some more symbols have values.
+    pub fn values_with<R: Scalar>(
+        &self,
+        expressions: &[Expr<'d>],
+        at: &State<R>,
+        more: &[(Expr<'d>, R)],
+    ) -> Vec<R> {
+        evaluate(self.model.dag, expressions, |symbol| {
+            let is = |(e, _): &&(Expr<'d>, R)| e.as_symbol() == Some(symbol);
+            if let Some((_, value)) = more.iter().find(is) {
+                return *value;
+            }
+            match self.meanings.get(&symbol) {
+                Some(Meaning::Time) => at.t,
+                Some(&Meaning::Parameter(i)) => at.parameters[i],
+                Some(&Meaning::Coordinate(i)) => at.q[i],
+                Some(&Meaning::Rate(i)) => at.v[i],
+                Some(&Meaning::Acceleration(i)) => at.a[i],
+                Some(&Meaning::Input(i)) => at.u[i],
+                None => unknown(),
+            }
+        })
+    }
+
+    /// What the equations say at a state, for the direction `w`.
+    pub fn at<R: Scalar>(&self, at: &State<R>, w: &[R]) -> Literal<R> {
+        let model = self.model;
+        let of_state = |symbol| self.moving(symbol, at, w);
+        let values = all(model, &self.roots, of_state);
+        let x = |e: Expr<'d>| values[&e.id()];
+        let [t, v, d] = match [&self.frozen, &self.small].map(|list| list.contains(&true)) {
+            [false, false] => [
+                kinetic_energy(model, &x),
+                potential_energy(model, &x),
+                dissipation(model, &x),
+            ],
+            [true, false] => [
+                self.frozen_energy(|symbol| self.moving(symbol, at, w)),
+                potential_energy(model, &x),
+                dissipation(model, &x),
+            ],
+            [is_frozen, true] => self.approximated(at, w, is_frozen),
+        };
+        let force = self.virtual_work(&x);
+        Literal {
+            kinetic_energy: t.value.value,
+            potential_energy: v.value.value,
+            dissipation: d.value.value,
+            energy_rate: t.derivative.value + v.derivative.value,
+            inertia: t.derivative.derivative,
+            applied: v.derivative.derivative - d.value.derivative + force,
+            constraints: self.constraints(&x),
+            sliding: model.sliding.iter().map(|s| self.sliding(s, &x)).collect(),
+        }
+    }
+
+    /// `w·∂D/∂v` alone.
+    pub fn damping<R: Scalar>(&self, at: &State<R>, w: &[R]) -> R {
+        let model = self.model;
+        let dissipation = match self.small.contains(&true) {
+            false => {
+                let values = all(model, &self.energies, |symbol| self.moving(symbol, at, w));
+                dissipation(model, &|e: Expr<'d>| values[&e.id()])
+            }
+            true => {
+                let values = all(model, &self.energies, |symbol| self.small(symbol, at, w));
+                expanded(dissipation(model, &|e: Expr<'d>| values[&e.id()]))
+            }
+        };
+        dissipation.value.derivative
+    }
+
+    /// A symbol in numbers with δ, τ and ε.
+    fn moving<R: Scalar>(&self, symbol: Symbol, at: &State<R>, w: &[R]) -> Moving<R> {
+        let fixed = |value| Dual::constant(Dual::constant(Dual::constant(value)));
+        match self.meanings.get(&symbol) {
+            Some(Meaning::Time) => {
+                let one = Dual::constant(Dual::constant(R::ONE));
+                Dual {
+                    value: time(at),
+                    derivative: one,
+                }
+            }
+            Some(&Meaning::Coordinate(i)) => Dual {
+                value: coordinate(at, w, i),
+                derivative: rate(at, w, i),
+            },
+            Some(&Meaning::Rate(i)) => Dual::constant(rate(at, w, i)),
+            Some(&Meaning::Parameter(i)) => fixed(at.parameters[i]),
+            Some(&Meaning::Input(i)) => fixed(at.u[i]),
+            Some(&Meaning::Acceleration(i)) => fixed(at.a[i]),
+            None => unknown(),
+        }
+    }
+
+    /// The kinetic energy of velocities that are frozen by (E16).
+    fn frozen_energy<S: Scalar>(&self, moving: impl Fn(Symbol) -> Dual<S>) -> S {
+        let values = all(self.model, &self.kinetic, |symbol| {
+            let moving = moving(symbol);
+            let still = match self.meanings.get(&symbol) {
+                Some(&Meaning::Coordinate(i)) if self.frozen[i] => S::ZERO,
+                _ => moving.value,
+            };
+            Frozen { moving, still }
+        });
+        kinetic_energy(self.model, &|e: Expr<'d>| values[&e.id()])
+    }
+
+    /// The energies and the dissipation to second order in what is small, (E17), of velocities that
+    /// may be frozen.
+    fn approximated<R: Scalar>(&self, at: &State<R>, w: &[R], is_frozen: bool) -> [Varied<R>; 3] {
+        let model = self.model;
+        let of_state = |symbol| self.small(symbol, at, w);
+        let mut roots = self.energies.clone();
+        if !is_frozen {
+            roots.extend(&self.kinetic);
+        }
+        let values = all(model, &roots, of_state);
+        let x = |e: Expr<'d>| values[&e.id()];
+        let kinetic_energy = match is_frozen {
+            false => kinetic_energy(model, &x),
+            true => self.frozen_energy(of_state),
+        };
+        [
+            expanded(kinetic_energy),
+            expanded(potential_energy(model, &x)),
+            expanded(dissipation(model, &x)),
+        ]
+    }
+
+    /// A symbol as [`Self::moving`] has it, but small coordinates and their rates multiplied by the
+    /// sum of two more infinitesimals.
+    fn small<R: Scalar>(&self, symbol: Symbol, at: &State<R>, w: &[R]) -> Dual<Small<R>> {
+        let Dual { value, derivative } = self.moving(symbol, at, w);
+        let is_small = match self.meanings.get(&symbol) {
+            Some(&Meaning::Coordinate(i) | &Meaning::Rate(i)) => self.small[i],
+            _ => false,
+        };
+        let scaled = |x: Varied<R>| match is_small {
+            false => Dual::constant(Dual::constant(x)),
+            true => Dual {
+                value: Dual {
+                    value: Varied::<R>::ZERO,
+                    derivative: x,
+                },
+                derivative: Dual {
+                    value: x,
+                    derivative: Varied::<R>::ZERO,
+                },
+            },
+        };
+        Dual {
+            value: scaled(value),
+            derivative: scaled(derivative),
+        }
+    }
+
+    /// The virtual work of forces and torques along `w`.
+    fn virtual_work<R: Scalar>(&self, x: &impl Fn(Expr<'d>) -> Moving<R>) -> R {
+        let model = self.model;
+        let here = |e: Expr<'d>| x(e).value.value.value;
+        // How w moves something: q has −w before τε.
+        let moved = |e: Expr<'d>| -x(e).value.derivative.derivative;
+        let mut work = R::ZERO;
+        for force in &model.forces {
+            match &force.action {
+                Action::Point { at, force } => {
+                    for (&at, &force) in at.iter().zip(force) {
+                        work = work + here(force) * moved(at);
+                    }
+                }
+                &Action::Coordinate { coordinate, value } => {
+                    let q = model.coordinates[coordinate].q;
+                    work = work + here(value) * moved(q);
+                }
+            }
+        }
+        for torque in &model.torques {
+            let body = &model.bodies[torque.body];
+            match (model.space, &body.rotation) {
+                (Space::Plane, _) => {
+                    if let Some(angle) = angle(model, body) {
+                        work = work + here(torque.torque[0]) * moved(angle);
+                    }
+                }
+                (Space::Space, &Rotation::Frame(pose)) => {
+                    // The turn is ½ Σ e × δe, along the ground's axes.
+                    for e in &model.poses[pose.index()].axes {
+                        for k in 0..3 {
+                            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                            let turn =
+                                here(e[next]) * moved(e[last]) - here(e[last]) * moved(e[next]);
+                            work = work + here(torque.torque[k]) * turn * R::from_ratio(1, 2);
+                        }
+                    }
+                }
+                (Space::Space, _) => {}
+            }
+        }
+        work
+    }
+
+    fn constraints<R: Scalar>(
+        &self,
+        x: &impl Fn(Expr<'d>) -> Moving<R>,
+    ) -> Vec<LiteralConstraint<R>> {
+        let model = self.model;
+        let mut all: Vec<LiteralConstraint<R>> = model
+            .constraints
+            .iter()
+            .zip(&self.holonomic)
+            .map(|(constraint, holonomic)| match holonomic {
+                true => of_position(x(constraint.expression)),
+                false => of_rate(x(constraint.expression).value),
+            })
+            .collect();
+        for rolling in &model.rolling {
+            let circle = &model.circles[rolling.circles.circle];
+            let [gap, slip] = match rolling.circles.surface {
+                Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
+                Surface::Outside(other) => {
+                    on_circle(model, circle, &model.circles[other], false, x)
+                }
+                Surface::Along(pose) => on_line(model, circle, pose, x),
+            };
+            all.extend([of_position(gap), of_rate(slip.value)]);
+        }
+        all
+    }
+
+    fn sliding<R: Scalar>(
+        &self,
+        sliding: &Sliding<'d>,
+        x: &impl Fn(Expr<'d>) -> Moving<R>,
+    ) -> LiteralSliding<R> {
+        let model = self.model;
+        let here = |e: Expr<'d>| x(e).value;
+        let body = &model.bodies[sliding.body];
+        let at = match body.rotation {
+            Rotation::Frame(pose) => &model.poses[pose.index()].origin,
+            Rotation::Angle(_) | Rotation::Unspecified => &body.at,
+        };
+        let (origin, turned) = match sliding.on {
+            Place::Frame(pose) => {
+                let pose = &model.poses[pose.index()];
+                (&pose.origin, Some(pose.angle))
+            }
+            Place::Body(on) => {
+                let on = &model.bodies[on];
+                (&on.at, angle(model, on))
+            }
+        };
+        let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
+        let arm = [0, 1].map(|k| here(at[k]) - here(origin[k]));
+        let velocity = [
+            x(at[0]).derivative - x(origin[0]).derivative + turning * arm[1],
+            x(at[1]).derivative - x(origin[1]).derivative - turning * arm[0],
+        ];
+        let direction = [0, 1].map(|k| here(sliding.direction[k]));
+        let length = (direction[0] * direction[0] + direction[1] * direction[1]).sqrt();
+        let along = direction.map(|d| d / length);
+        let left = [-along[1], along[0]];
+        let slip = along[0] * velocity[0] + along[1] * velocity[1];
+        let off = left[0] * velocity[0] + left[1] * velocity[1];
+        let side = match &sliding.normal {
+            None => R::ONE,
+            Some(normal) => {
+                let dot = here(normal[0]) * left[0] + here(normal[1]) * left[1];
+                dot.value.value
+            }
+        };
+        LiteralSliding {
+            slip: slip.value.value,
+            slip_rate: slip.derivative.value,
+            slip_along: slip.value.derivative,
+            off_along: off.value.derivative,
+            left: left.map(|x| x.value.value),
+            side,
+            coefficients: [
+                sliding.friction,
+                sliding.static_friction.unwrap_or(sliding.friction),
+            ]
+            .map(|e| here(e).value.value),
+        }
+    }
+}
+
+/// `f + f₁ + ½ f₂`, where `f₁` stands before either of the infinitesimals of [`Lagrange::small`] and
+/// `f₂` before their product.
+fn expanded<R: Scalar>(f: Small<R>) -> Varied<R> {
+    let half = Varied::<R>::from_ratio(1, 2);
+    f.value.value + f.value.derivative + half * f.derivative.derivative
+}
+
+/// What has no value.
+fn unknown<S: Scalar>() -> S {
+    S::ONE / S::ZERO
+}
+
+/// `t + τ`.
+fn time<R: Scalar>(at: &State<R>) -> Varied<R> {
+    Dual {
+        value: Dual::constant(at.t),
+        derivative: Dual::constant(R::ONE),
+    }
+}
+
+/// `q + τ v − τε w`.
+fn coordinate<R: Scalar>(at: &State<R>, w: &[R], i: usize) -> Varied<R> {
+    Dual {
+        value: Dual::constant(at.q[i]),
+        derivative: Dual {
+            value: at.v[i],
+            derivative: -w[i],
+        },
+    }
+}
+
+/// `v + τ a + ε w`.
+fn rate<R: Scalar>(at: &State<R>, w: &[R], i: usize) -> Varied<R> {
+    Dual {
+        value: Dual {
+            value: at.v[i],
+            derivative: w[i],
+        },
+        derivative: Dual::constant(at.a[i]),
+    }
+}
+
+/// A constraint of positions: `g` with its rates.
+fn of_position<R: Scalar>(g: Moving<R>) -> LiteralConstraint<R> {
+    LiteralConstraint {
+        position: g.value.value.value,
+        by_rates: g.value.value.derivative,
+        ..of_rate(g.derivative)
+    }
+}
+
+/// A constraint of velocities.
+fn of_rate<R: Scalar>(phi: Varied<R>) -> LiteralConstraint<R> {
+    LiteralConstraint {
+        position: R::ZERO,
+        rate: phi.value.value,
+        acceleration: phi.derivative.value,
+        along: phi.value.derivative,
+        by_rates: R::ZERO,
+    }
+}
+
+fn meanings(model: &Model<'_>) -> FxHashMap<Symbol, Meaning> {
+    let mut meanings = FxHashMap::default();
+    let mut set = |e: Expr<'_>, meaning| {
+        if let Some(symbol) = e.as_symbol() {
+            meanings.insert(symbol, meaning);
+        }
+    };
+    set(model.time, Meaning::Time);
+    for (i, parameter) in model.parameters.iter().enumerate() {
+        set(parameter.symbol, Meaning::Parameter(i));
+    }
+    for (i, input) in model.inputs.iter().enumerate() {
+        set(input.symbol, Meaning::Input(i));
+    }
+    for (i, coordinate) in model.coordinates.iter().enumerate() {
+        set(coordinate.q, Meaning::Coordinate(i));
+        set(coordinate.v, Meaning::Rate(i));
+        set(coordinate.a, Meaning::Acceleration(i));
+    }
+    meanings
+}
+
+/// The values of expressions by their nodes.
+fn all<'d, P: Scalar>(
+    model: &Model<'d>,
+    roots: &[Expr<'d>],
+    value: impl FnMut(Symbol) -> P,
+) -> Values<P> {
+    let values = evaluate(model.dag, roots, value);
+    roots.iter().map(|root| root.id()).zip(values).collect()
+}
+
+/// What the kinetic energy is made from.
+fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+    let mut roots = Vec::new();
+    for body in &model.bodies {
+        roots.push(body.mass);
+        roots.extend(&body.at);
+        match (&body.inertia, &body.rotation) {
+            (Inertia::Particle, _) => {}
+            (Inertia::Planar(inertia), _) => {
+                roots.push(*inertia);
+                roots.extend(angle(model, body));
+            }
+            (Inertia::Tensor(tensor), rotation) => {
+                roots.extend(tensor);
+                if let Rotation::Frame(pose) = rotation {
+                    roots.extend(model.poses[pose.index()].axes.iter().flatten());
+                }
+            }
+        }
+    }
+    roots
+}
+
+/// What potential energy and dissipation are made from.
+fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+    let elements = model.springs.iter().chain(&model.dampers);
+    let mut roots: Vec<Expr<'d>> = elements.flat_map(|e| [e.coefficient, e.stretch]).collect();
+    let terms = model.potentials.iter().chain(&model.dissipations);
+    roots.extend(terms.map(|term| term.value));
+    if let Some(gravity) = &model.gravity {
+        roots.extend(gravity);
+        for body in &model.bodies {
+            roots.push(body.mass);
+            roots.extend(&body.at);
+        }
+    }
+    roots
+}
+
+/// What forces, constraints and guides are made from.
+fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
+    let mut roots: Vec<Expr<'d>> = Vec::new();
+    let pose = |pose: PoseId, roots: &mut Vec<Expr<'d>>| {
+        let pose = &model.poses[pose.index()];
+        roots.extend(pose.origin.iter().chain(pose.axes.iter().flatten()));
+        roots.push(pose.angle);
+    };
+    let body = |index: usize, roots: &mut Vec<Expr<'d>>| {
+        let body = &model.bodies[index];
+        roots.extend(&body.at);
+        match body.rotation {
+            Rotation::Unspecified => {}
+            Rotation::Angle(angle) => roots.push(angle),
+            Rotation::Frame(frame) => pose(frame, roots),
+        }
+    };
+    let place = |place: Place, roots: &mut Vec<Expr<'d>>| match place {
+        Place::Frame(frame) => pose(frame, roots),
+        Place::Body(index) => body(index, roots),
+    };
+    for force in &model.forces {
+        match &force.action {
+            Action::Point { at, force } => roots.extend(at.iter().chain(force)),
+            Action::Coordinate { coordinate, value } => {
+                roots.extend([model.coordinates[*coordinate].q, *value]);
+            }
+        }
+    }
+    for torque in &model.torques {
+        roots.extend(&torque.torque);
+        body(torque.body, &mut roots);
+    }
+    roots.extend(model.constraints.iter().map(|c| c.expression));
+    if !model.rolling.is_empty() {
+        for circle in &model.circles {
+            roots.extend(&circle.center);
+            roots.push(circle.radius);
+            place(circle.on, &mut roots);
+        }
+    }
+    for rolling in &model.rolling {
+        if let Surface::Along(frame) = rolling.circles.surface {
+            pose(frame, &mut roots);
+        }
+    }
+    for sliding in &model.sliding {
+        body(sliding.body, &mut roots);
+        place(sliding.on, &mut roots);
+        roots.extend(
+            sliding
+                .direction
+                .iter()
+                .chain(sliding.normal.iter().flatten()),
+        );
+        roots.push(sliding.friction);
+        roots.extend(sliding.static_friction);
+    }
+    roots
+}
+
+/// The angle of a body in the plane.
+fn angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
+    match body.rotation {
+        Rotation::Unspecified => None,
+        Rotation::Angle(angle) => Some(angle),
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),
+    }
+}
+
+fn sum<S: Scalar>(terms: impl IntoIterator<Item = S>) -> S {
+    terms.into_iter().fold(S::ZERO, |sum, term| sum + term)
+}
+
+/// `½ Σ m ẋ·ẋ + ½ Σ ωᵀI ω`, with the angular velocity of (E9).
+fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
+    let of_body = |body: &Body<'d>| {
+        let speed = sum(body.at.iter().map(|&at| {
+            let rate = x(at).rate();
+            rate * rate
+        }));
+        let turning = match (&body.inertia, &body.rotation) {
+            (Inertia::Particle, _) => P::Base::ZERO,
+            (&Inertia::Planar(inertia), _) => match angle(model, body) {
+                Some(angle) => {
+                    let rate = x(angle).rate();
+                    x(inertia).here() * rate * rate
+                }
+                None => P::Base::ZERO,
+            },
+            (Inertia::Tensor(tensor), &Rotation::Frame(pose)) => {
+                let e = &model.poses[pose.index()].axes;
+                let dot = |k: usize, l: usize| {
+                    let pairs = e[k].iter().zip(&e[l]);
+                    sum(pairs.map(|(&a, &b)| x(a).here() * x(b).rate()))
+                };
+                let w = [dot(2, 1), dot(0, 2), dot(1, 0)];
+                let [xx, yy, zz, xy, xz, yz] = tensor.map(|entry| x(entry).here());
+                let twice = |e| e + e;
+                xx * w[0] * w[0]
+                    + yy * w[1] * w[1]
+                    + zz * w[2] * w[2]
+                    + twice(xy * w[0] * w[1])
+                    + twice(xz * w[0] * w[2])
+                    + twice(yz * w[1] * w[2])
+            }
+            (Inertia::Tensor(_), _) => P::Base::ZERO,
+        };
+        x(body.mass).here() * speed + turning
+    };
+    sum(model.bodies.iter().map(of_body)) * P::Base::from_ratio(1, 2)
+}
+
+/// `Σ ½ c s² + Σ U − Σ m g·x`.
+fn potential_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
+    let here = |e: Expr<'d>| x(e).here();
+    let half = P::Base::from_ratio(1, 2);
+    let springs = model.springs.iter().map(|spring| {
+        let stretch = here(spring.stretch);
+        half * here(spring.coefficient) * stretch * stretch
+    });
+    let potentials = model.potentials.iter().map(|term| here(term.value));
+    let weights = model.gravity.iter().flat_map(|gravity| {
+        model.bodies.iter().map(|body| {
+            let along = gravity.iter().zip(&body.at);
+            -(here(body.mass) * sum(along.map(|(&g, &at)| here(g) * here(at))))
+        })
+    });
+    sum(springs.chain(potentials).chain(weights))
+}
+
+/// `Σ ½ b ṡ² + Σ R`.
+fn dissipation<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
+    let half = P::Base::from_ratio(1, 2);
+    let dampers = model.dampers.iter().map(|damper| {
+        let rate = x(damper.stretch).rate();
+        half * x(damper.coefficient).here() * rate * rate
+    });
+    let given = model.dissipations.iter().map(|term| x(term.value).here());
+    sum(dampers.chain(given))
+}
+
+/// The centre of a circle, and how fast what it is fixed to turns.
+fn placed<'d, R: Scalar>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> ([Moving<R>; 2], Varied<R>) {
+    let of_pose = |pose: PoseId| {
+        let pose = &model.poses[pose.index()];
+        [0, 1].map(|k| [0, 1].map(|l| x(pose.axes[k][l])))
+    };
+    let ground = [
+        [Moving::<R>::ONE, Moving::<R>::ZERO],
+        [Moving::<R>::ZERO, Moving::<R>::ONE],
+    ];
+    let (origin, axes, turned) = match circle.on {
+        Place::Frame(pose) => {
+            let frame = &model.poses[pose.index()];
+            (&frame.origin, of_pose(pose), Some(frame.angle))
+        }
+        Place::Body(body) => {
+            let body = &model.bodies[body];
+            let axes = match body.rotation {
+                Rotation::Unspecified => ground,
+                Rotation::Angle(angle) => {
+                    let (sin, cos) = x(angle).sin_cos();
+                    [[cos, sin], [-sin, cos]]
+                }
+                Rotation::Frame(pose) => of_pose(pose),
+            };
+            (&body.at, axes, angle(model, body))
+        }
+    };
+    let [c, d] = [0, 1].map(|k| x(circle.center[k]));
+    let centre = [0, 1].map(|l| x(origin[l]) + c * axes[0][l] + d * axes[1][l]);
+    let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
+    (centre, turning)
+}
+
+/// How far a circle is from touching another, inside or outside of it, and how fast the points that
+/// touch slide past each other, along the direction from the other's centre turned left.
+fn on_circle<'d, R: Scalar>(
+    model: &Model<'d>,
+    first: &Circle<'d>,
+    other: &Circle<'d>,
+    is_inside: bool,
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> [Moving<R>; 2] {
+    let (centre, omega) = placed(model, first, x);
+    let (other_centre, other_omega) = placed(model, other, x);
+    let line = [0, 1].map(|k| centre[k] - other_centre[k]);
+    let distance = (line[0] * line[0] + line[1] * line[1]).sqrt();
+    let (small, large) = (x(first.radius), x(other.radius));
+    let gap = match is_inside {
+        true => large - small - distance,
+        false => distance - small - large,
+    };
+    // The point that touches: the first circle's at c ± r e, the other's at R e.
+    let e = line.map(|c| c.value / distance.value);
+    let tangent = [-e[1], e[0]];
+    let arm = if is_inside { small.value } else { -small.value };
+    let rate = tangent[0] * line[0].derivative + tangent[1] * line[1].derivative;
+    let slip = rate + arm * omega - large.value * other_omega;
+    [gap, Dual::constant(slip)]
+}
+
+/// The same of a circle on the first axis of a frame, on the side of the second.
+fn on_line<'d, R: Scalar>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    pose: PoseId,
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> [Moving<R>; 2] {
+    let frame = &model.poses[pose.index()];
+    let (centre, omega) = placed(model, circle, x);
+    let line = [0, 1].map(|k| centre[k] - x(frame.origin[k]));
+    let [along, across] = [0, 1].map(|k| [0, 1].map(|l| x(frame.axes[k][l])));
+    let radius = x(circle.radius);
+    let gap = across[0] * line[0] + across[1] * line[1] - radius;
+    let rate = along[0].value * line[0].derivative + along[1].value * line[1].derivative;
+    [gap, Dual::constant(rate + radius.value * omega)]
+}

@@ -1,0 +1,214 @@
+//! The inertia that a frame in space carries, eq. (E27): all that is fixed to it, as one.
+//!
+//! Three things make one lump of what a link consists of, and a small one. What is fixed to frames
+//! that are a constant shift apart is added up. Of that, what is symmetric about the axis of the
+//! link's hinge moves as if it were fixed to what carries the hinge, whatever the angle: the mass as
+//! if it were on the axis, the first moment along it, and as much inertia as both directions across
+//! it have, are handed on to there. So every link but the last loses its mass, and of its ten
+//! parameters of inertia at most seven are left (W. Khalil and J.-F. Bennis, *Symbolic calculation
+//! of the base inertial parameters of closed-loop robots*, Int. J. Robotics Res. 14 (1995)
+//! 112–128). What reaches the ground is gone.
+//!
+//! The kinetic energy is the same for every motion, and so is every equation; all of this is work of
+//! the parameter stage.
+
+use lagrangian_symbolic::{Dag, Expr, Stage};
+
+use super::kinematics::{Turning, Twist, Vector, add, apply_tensor, cross, others, vector};
+use lagrangian_spec::model::{Model, PoseId, Step};
+
+/// A part's inertia about the origin of a frame, along its axes:
+/// `T = ½ m u² + u·(ω×s) + ½ ω·J ω`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lump<'d> {
+    /// `m`.
+    pub mass: Expr<'d>,
+    /// First moment `s`: the mass times its centre.
+    pub moment: Vector<'d>,
+    /// `J` about the origin: `xx, yy, zz, xy, xz, yz`.
+    pub tensor: [Expr<'d>; 6],
+}
+
+impl<'d> Lump<'d> {
+    fn nothing(dag: &'d Dag) -> Lump<'d> {
+        let zero = dag.zero();
+        Lump {
+            mass: zero,
+            moment: [zero; 3],
+            tensor: [zero; 6],
+        }
+    }
+
+    /// A body: its mass, its centre, and its inertia about the centre.
+    pub fn of_body(mass: Expr<'d>, centre: &Vector<'d>, tensor: &[Expr<'d>; 6]) -> Lump<'d> {
+        let at_centre = Lump {
+            mass,
+            moment: Lump::nothing(mass.dag()).moment,
+            tensor: *tensor,
+        };
+        at_centre.shifted(centre)
+    }
+
+    /// Whether parameters alone decide it.
+    pub fn is_constant(&self) -> bool {
+        self.components().all(|x| x.stage() <= Stage::PARAMETER)
+    }
+
+    fn components(&self) -> impl Iterator<Item = Expr<'d>> {
+        [self.mass]
+            .into_iter()
+            .chain(self.moment)
+            .chain(self.tensor)
+    }
+
+    /// Whether its inertia depends on how the origin moves.
+    pub fn moves(&self) -> bool {
+        [self.mass]
+            .into_iter()
+            .chain(self.moment)
+            .any(|x| !x.is_zero())
+    }
+
+    pub fn is_nothing(&self) -> bool {
+        self.components().all(|x| x.is_zero())
+    }
+
+    fn plus(&self, other: &Lump<'d>) -> Lump<'d> {
+        Lump {
+            mass: self.mass + other.mass,
+            moment: add(&[&self.moment, &other.moment]),
+            tensor: std::array::from_fn(|k| self.tensor[k] + other.tensor[k]),
+        }
+    }
+
+    /// The same about the origin of a frame that sees this one's at `r`: `s + m r`, and `J` with
+    /// `(2 r·s + m r²) 1 − (r sᵀ + s rᵀ + m r rᵀ)` more.
+    fn shifted(&self, r: &Vector<'d>) -> Lump<'d> {
+        let Lump {
+            mass: m,
+            moment: s,
+            tensor,
+        } = *self;
+        let product = |i: usize, j: usize| r[i] * s[j] + s[i] * r[j] + m * r[i] * r[j];
+        let [xx, yy, zz] = [0, 1, 2].map(|k| product(k, k));
+        let more = [
+            yy + zz,
+            xx + zz,
+            xx + yy,
+            -product(0, 1),
+            -product(0, 2),
+            -product(1, 2),
+        ];
+        Lump {
+            mass: m,
+            moment: [0, 1, 2].map(|k| s[k] + m * r[k]),
+            tensor: std::array::from_fn(|k| tensor[k] + more[k]),
+        }
+    }
+
+    /// What is symmetric about an axis, and the rest.
+    fn split(&self, axis: usize) -> [Lump<'d>; 2] {
+        let (next, last) = others(axis);
+        let zero = self.mass.dag().zero();
+        let mut symmetric = Lump::nothing(zero.dag());
+        let mut rest = *self;
+        (symmetric.mass, rest.mass) = (self.mass, zero);
+        (symmetric.moment[axis], rest.moment[axis]) = (self.moment[axis], zero);
+        let across = self.tensor[last];
+        (symmetric.tensor[next], rest.tensor[next]) = (across, self.tensor[next] - across);
+        (symmetric.tensor[last], rest.tensor[last]) = (across, zero);
+        [symmetric, rest]
+    }
+
+    /// Momentum and its moment about the origin: `m u + ω×s`, `J ω + s×u`.
+    pub fn momentum(&self, motion: &Twist<'d>) -> [Vector<'d>; 2] {
+        let Twist { linear, angular } = motion;
+        [
+            add(&[
+                &linear.map(|u| self.mass * u),
+                &cross(angular, &self.moment),
+            ]),
+            add(&[
+                &apply_tensor(&self.tensor, angular),
+                &cross(&self.moment, linear),
+            ]),
+        ]
+    }
+
+    /// What inertia demands, about the origin: `m a + W s` with `W s = α×s + ω×(ω×s)`, and `J α +
+    /// ω×J ω + s×a`, eq. (E15).
+    pub fn demand(&self, turning: &Turning<'d>, a: &Vector<'d>) -> [Vector<'d>; 2] {
+        let carried = turning.apply(&self.moment);
+        let moment = cross(&self.moment, a);
+        let spun = turning.demand(&self.tensor);
+        [
+            [0, 1, 2].map(|k| self.mass * a[k] + carried[k]),
+            add(&[&spun, &moment]),
+        ]
+    }
+
+    /// Pairs of `u`, `ω` and their weights: `T = ½ Σ weight u w`.
+    pub fn pairs(&self, motion: &Twist<'d>) -> Vec<[Expr<'d>; 3]> {
+        let [x, y, z] = motion.angular;
+        let [xx, yy, zz, xy, xz, yz] = self.tensor;
+        let mut pairs = vec![[x, x, xx], [y, y, yy], [z, z, zz]];
+        pairs.extend([[x, y, 2 * xy], [x, z, 2 * xz], [y, z, 2 * yz]]);
+        for (k, &u) in motion.linear.iter().enumerate() {
+            pairs.push([u, u, self.mass]);
+            // u·(ω×s), along one axis.
+            let (next, last) = others(k);
+            pairs.push([u, motion.angular[next], 2 * self.moment[last]]);
+            pairs.push([u, motion.angular[last], -2 * self.moment[next]]);
+        }
+        pairs
+    }
+}
+
+/// Gathers lumps, by pose: adds up what is fixed together, and hands on what is symmetric about a
+/// hinge wherever something else is there to take it, or it is gone.
+pub(super) fn gathered<'d>(
+    model: &Model<'d>,
+    bodies: impl Iterator<Item = (PoseId, Lump<'d>)>,
+) -> Vec<Lump<'d>> {
+    let mut lumps = vec![Lump::nothing(model.dag); model.poses.len()];
+    for (pose, lump) in bodies {
+        lumps[pose.index()] = lumps[pose.index()].plus(&lump);
+    }
+    let fixed = |r: &[Expr<'d>]| r.iter().all(|x| x.stage() <= Stage::PARAMETER);
+    // Children come after their parents.
+    for index in (1..lumps.len()).rev() {
+        let pose = &model.poses[index];
+        if let Step::Shift(r) = &pose.step
+            && fixed(r)
+        {
+            let parent = pose.parent.index();
+            lumps[parent] = lumps[parent].plus(&lumps[index].shifted(&vector(r)));
+            lumps[index] = Lump::nothing(model.dag);
+        }
+    }
+    for index in (1..lumps.len()).rev() {
+        let Step::Turn { axis, .. } = &model.poses[index].step else {
+            continue;
+        };
+        // Up constant shifts to the next turn, or the ground.
+        let mut carrier = model.poses[index].parent;
+        let mut shifts: Vec<&[Expr<'d>]> = Vec::new();
+        while let Step::Shift(r) = &model.poses[carrier.index()].step
+            && fixed(r)
+        {
+            shifts.push(r);
+            carrier = model.poses[carrier.index()].parent;
+        }
+        let takes = carrier == PoseId::GROUND || !lumps[carrier.index()].is_nothing();
+        if takes && !lumps[index].is_nothing() {
+            let [symmetric, rest] = lumps[index].split(*axis);
+            let handed = shifts
+                .iter()
+                .fold(symmetric, |lump, r| lump.shifted(&vector(r)));
+            lumps[index] = rest;
+            lumps[carrier.index()] = lumps[carrier.index()].plus(&handed);
+        }
+    }
+    lumps[PoseId::GROUND.index()] = Lump::nothing(model.dag);
+    lumps
+}

@@ -1,0 +1,690 @@
+//! The cheap route to the same equations: accelerations projected on the directions in which
+//! coordinates move.
+//!
+//! A body's inertia resists along `∂x/∂qᵢ`, and so
+//!
+//! ```text
+//! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ m ẍ·∂x/∂qᵢ + Σ (I α + ω×I ω)·∂ω/∂vᵢ
+//! ```
+//!
+//! Why: let `u = Dp` be the rate of a scalar position `p(q, t)` of constant weight `w`, `T = ½ Σ w
+//! u²`. Then `∂u/∂vᵢ = ∂p/∂qᵢ` (cancelling the dots) and `d/dt ∂p/∂qᵢ = ∂u/∂qᵢ` (exchanging
+//! derivatives), hence
+//!
+//! ```text
+//! d/dt ∂T/∂vᵢ − ∂T/∂qᵢ = Σ w [D(u ∂p/∂qᵢ) − u ∂u/∂qᵢ] = Σ w (Du) ∂p/∂qᵢ
+//! ```
+//!
+//! It needs `w` constant. For a rigid body in space, cut into particles fixed in it, the same sum
+//! over particles is `m ẍ·∂x/∂qᵢ` for the mass centre and `(I α + ω×I ω)·∂ω/∂vᵢ` for the rest,
+//! along any axes: Kane's equations. T. R. Kane and D. A. Levinson, *Dynamics: Theory and
+//! Applications*, 1985, ch. 4 and 6.
+//!
+//! What makes it cheap is that a sum `Σ load·∂p/∂qᵢ` for *all* `i` is one reverse sweep over the
+//! graph of the positions. Where links hang on links the graph is a chain, and forward and reverse
+//! sweep together are the recursive Newton–Euler algorithm: linear in the number of links. Frames
+//! in space carry their velocities along their own axes (E10), where a turn is four
+//! multiplications; there the reverse sweep runs over `u(v)` instead of `p(q)`, since `∂u/∂vᵢ` is
+//! the same.
+
+use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
+
+use super::InertialPair;
+use super::energy;
+use super::kinematics::{
+    self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
+};
+use super::lumps::{self, Lump};
+use super::refusal;
+use super::symmetric::Symmetric;
+use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::{
+    Action, Body, Force, Inertia, Model, PoseId, Rotation, Space, Torque,
+};
+
+/// What carries a machine's inertia, in the form that is cheapest to differentiate.
+pub(super) struct Projection<'a, 'd> {
+    model: &'a Model<'d>,
+    x: &'a Variables<'d>,
+    chains: Chains,
+    bodies: Vec<Carrier<'d>>,
+    /// The inertia of the same bodies, by where it is: on points, or fixed to frames.
+    inertial: Vec<Carrier<'d>>,
+    lumps: Vec<(PoseId, Lump<'d>)>,
+}
+
+/// What carries the inertia of one body.
+struct Carrier<'d> {
+    /// Scalar positions with their weights: `T = ½ Σ w (Dp)²`.
+    points: Vec<Weighted<'d>>,
+    /// Mass, and the mass centre along the axes of a frame in space; such a centre is not among the
+    /// points.
+    centre: Option<(Expr<'d>, PoseId, Vector<'d>)>,
+    /// Inertia about the axes of a frame in space.
+    tensor: Option<([Expr<'d>; 6], PoseId)>,
+}
+
+/// A scalar position with its weight.
+#[derive(Clone, Copy)]
+struct Weighted<'d> {
+    position: Expr<'d>,
+    weight: Expr<'d>,
+    /// The component of gravity along it.
+    gravity: Option<Expr<'d>>,
+}
+
+/// How a body moves at some rate, or the loads on it, in the order of its [`Carrier`].
+struct Carried<'d> {
+    points: Vec<Expr<'d>>,
+    linear: Option<Vector<'d>>,
+    angular: Option<Vector<'d>>,
+}
+
+/// Loads and where they act: `Σ load·∂node/∂x`, as virtual work says.
+#[derive(Default)]
+pub(super) struct Loads<'d> {
+    /// On functions of `q`: `load·∂node/∂qᵢ`.
+    on_positions: Vec<(Expr<'d>, Expr<'d>)>,
+    /// On functions of `v`: `load·∂node/∂vᵢ`.
+    on_rates: Vec<(Expr<'d>, Expr<'d>)>,
+    /// On coordinates themselves.
+    on_coordinates: Vec<(usize, Expr<'d>)>,
+}
+
+impl<'a, 'd> Projection<'a, 'd> {
+    pub fn of(model: &'a Model<'d>, x: &'a Variables<'d>) -> Projection<'a, 'd> {
+        let bodies: Vec<Carrier<'d>> = model.bodies.iter().map(|b| carrier(model, b)).collect();
+        let turning = bodies
+            .iter()
+            .filter_map(|body| body.tensor.map(|(_, pose)| pose));
+        let twisted = model
+            .torques
+            .iter()
+            .filter_map(|t| frame_of(&model.bodies[t.body]));
+        let moving = bodies
+            .iter()
+            .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
+        let (inertial, lumps) = gather(model, &bodies);
+        let lumped = lumps.iter().map(|(pose, _)| *pose);
+        let carried = lumps.iter().filter(|(_, lump)| lump.moves());
+        let moving = moving.chain(carried.map(|(pose, _)| *pose));
+        let chains = Chains::to(model, turning.chain(twisted).chain(lumped), moving);
+        Projection {
+            model,
+            x,
+            chains,
+            bodies,
+            inertial,
+            lumps,
+        }
+    }
+
+    /// Mass matrix, eq. (E12): `Mᵢⱼ = Σ w ∂p/∂qᵢ ∂p/∂qⱼ`, which is (E4).
+    ///
+    /// Column `j` is the momentum of a machine that moves with `vⱼ = 1`, projected: one reverse
+    /// sweep. Nothing if they become too large.
+    pub fn mass_matrix(&self) -> Option<Symmetric<Expr<'d>>> {
+        let coasting = &mut self.x.coasting(self.model);
+        let (actual, twists) = (
+            self.velocities_of(&self.inertial, coasting),
+            self.twists(coasting),
+        );
+        let n = self.x.q.len();
+        let mut columns: Vec<Vec<Expr<'d>>> = Vec::with_capacity(n);
+        for j in 0..n {
+            if refusal::is_too_large(self.model) {
+                return None;
+            }
+            let rate = &mut self.x.partial(self.model, j);
+            let motion = self.velocities_of(&self.inertial, rate);
+            let mut momenta = Loads::default();
+            for ((body, actual), motion) in self.inertial.iter().zip(&actual).zip(&motion) {
+                momenta.on_body(body, actual, body.momentum(motion));
+            }
+            let moving = self.twists(rate);
+            for (pose, lump) in &self.lumps {
+                momenta.on_frame(&twists[pose.index()], lump.momentum(&moving[pose.index()]));
+            }
+            columns.push(self.project(&momenta, j..n));
+        }
+        Some(Symmetric::from_lower(n, |i, j| columns[j][i - j]))
+    }
+
+    /// The loads of inertia at `a = 0`, times `sign`; their projection is the bias, eq. (E13):
+    /// `hᵢ = Σ w (D²p) ∂p/∂qᵢ`, which is (E5).
+    ///
+    /// With `gravity` it acts too, as an acceleration of the ground.
+    pub fn bias_loads(&self, sign: i64, gravity: bool) -> Loads<'d> {
+        self.inertia_loads(&mut self.x.coasting(self.model), sign, gravity)
+    }
+
+    /// What is left of the forces where the accelerations are given, `f − M a`, eq. (E25): inertia
+    /// and gravity reversed, and what is applied, by one sweep. This is recursive Newton–Euler,
+    /// linear in the number of links.
+    pub fn unbalanced(&self) -> Vec<Expr<'d>> {
+        let mut loads = self.inertia_loads(&mut self.x.total(self.model), -1, true);
+        self.add_applied(&mut loads);
+        self.project(&loads, 0..self.x.q.len())
+    }
+
+    fn inertia_loads(&self, rate: &mut Tangent<'d>, sign: i64, gravity: bool) -> Loads<'d> {
+        let velocities = self.velocities_of(&self.inertial, rate);
+        let mut loads = Loads::default();
+        let demands = self.inertia(&self.inertial, rate, gravity);
+        for ((body, velocity), load) in self.inertial.iter().zip(&velocities).zip(demands) {
+            loads.on_body(body, velocity, load.scaled(sign));
+        }
+        let (twists, accelerations) = self.motion(rate, gravity);
+        for (pose, lump) in &self.lumps {
+            let (twist, here) = (&twists[pose.index()], &accelerations[pose.index()]);
+            let turning = Turning::of(&twist.angular, &here.angular);
+            let demand = lump.demand(&turning, &here.linear);
+            loads.on_frame(twist, demand.map(|vector| vector.map(|x| sign * x)));
+        }
+        loads
+    }
+
+    /// Adds what is applied, gravity apart, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
+    ///
+    /// Springs pull with `−k s` along their stretch, dampers with `−b ṡ`; forces and torques act
+    /// where they act. A coefficient that depends on coordinates or rates gives its own term.
+    pub fn add_applied(&self, loads: &mut Loads<'d>) {
+        let (model, rate) = (self.model, &mut self.x.coasting(self.model));
+        for spring in &model.springs {
+            let (k, s) = (spring.coefficient, spring.stretch);
+            loads.on_positions.push((s, -k * s));
+            loads.on_positions.push((k, -s.square() / 2));
+        }
+        for potential in &model.potentials {
+            loads
+                .on_positions
+                .push((potential.value, model.dag.int(-1)));
+        }
+        for damper in &model.dampers {
+            let (b, s_rate) = (damper.coefficient, rate.of(damper.stretch));
+            loads.on_positions.push((damper.stretch, -b * s_rate));
+            loads.on_rates.push((b, -s_rate.square() / 2));
+        }
+        for dissipation in &model.dissipations {
+            loads.on_rates.push((dissipation.value, model.dag.int(-1)));
+        }
+        self.add_forces(loads);
+    }
+
+    /// Adds `Σ m g·∂x/∂qᵢ`, on the nodes that inertia acts on.
+    pub fn add_gravity(&self, loads: &mut Loads<'d>) {
+        let Some(g) = &self.model.gravity else { return };
+        let coasting = &mut self.x.coasting(self.model);
+        let velocities = self.velocities_of(&self.inertial, coasting);
+        let along = match self.model.space {
+            Space::Plane => Vec::new(),
+            Space::Space => self.chains.carried(self.model, vector(g)),
+        };
+        let twists = self.twists(coasting);
+        for (pose, lump) in &self.lumps {
+            let g = &along[pose.index()];
+            let loads_here = [g.map(|g_k| lump.mass * g_k), cross(&lump.moment, g)];
+            loads.on_frame(&twists[pose.index()], loads_here);
+        }
+        for (body, velocity) in self.inertial.iter().zip(velocities) {
+            for point in &body.points {
+                loads
+                    .on_positions
+                    .extend(point.gravity.map(|g| (point.position, point.weight * g)));
+            }
+            if let (Some((mass, pose, _)), Some(linear)) = (body.centre, velocity.linear) {
+                let g = &along[pose.index()];
+                loads
+                    .on_rates
+                    .extend((0..3).map(|k| (linear[k], mass * g[k])));
+            }
+        }
+    }
+
+    /// Adds `Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ + Fᵢ`: the virtual work of applied forces and torques.
+    pub fn add_forces(&self, loads: &mut Loads<'d>) {
+        let forces = self.model.forces.iter();
+        forces.for_each(|force| loads.on_force(force));
+        self.add_torques(&self.model.torques, loads);
+    }
+
+    /// Adds `Σ M·∂ω/∂vᵢ` of some torques.
+    pub fn add_torques(&self, torques: &[Torque<'d>], loads: &mut Loads<'d>) {
+        if torques.is_empty() {
+            return;
+        }
+        let twists = match self.model.space {
+            Space::Plane => Vec::new(),
+            Space::Space => self
+                .chains
+                .velocities(self.model, &mut self.x.coasting(self.model)),
+        };
+        for torque in torques {
+            let body = &self.model.bodies[torque.body];
+            match self.model.space {
+                Space::Plane => {
+                    let angle = planar_angle(self.model, body);
+                    loads
+                        .on_positions
+                        .extend(angle.map(|angle| (angle, torque.torque[0])));
+                }
+                Space::Space => {
+                    if let Some(pose) = frame_of(body) {
+                        let turning = twists[pose.index()].angular;
+                        let along = kinematics::along_axes(self.model, pose, &torque.torque);
+                        loads.on_rates.extend(turning.into_iter().zip(along));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The reverse sweep: `Σ load·∂node/∂qᵢ` over all loads, for the coordinates in `range`.
+    pub fn project(&self, loads: &Loads<'d>, range: std::ops::Range<usize>) -> Vec<Expr<'d>> {
+        let dag = self.model.dag;
+        let sweep = |loads: &[(Expr<'d>, Expr<'d>)], wrt: &[Symbol]| {
+            let acting: Vec<_> = loads
+                .iter()
+                .copied()
+                .filter(|(_, load)| !load.is_zero())
+                .collect();
+            reverse(dag, &acting, wrt)
+        };
+        let over_q = sweep(&loads.on_positions, &self.x.q[range.clone()]);
+        let over_v = sweep(&loads.on_rates, &self.x.v[range.clone()]);
+        let mut direct: Vec<Vec<Expr<'d>>> = vec![Vec::new(); range.len()];
+        for &(coordinate, value) in &loads.on_coordinates {
+            if let Some(terms) = coordinate
+                .checked_sub(range.start)
+                .and_then(|i| direct.get_mut(i))
+            {
+                terms.push(value);
+            }
+        }
+        let all = over_q.into_iter().zip(over_v).zip(direct);
+        all.map(|((q, v), direct)| dag.sum([q, v].into_iter().chain(direct)))
+            .collect()
+    }
+
+    /// Inertia, and loads, on velocities: `applied`, gravity apart, with inertia itself from the rates
+    /// on; in space `forces`, with the bias and gravity among them.
+    ///
+    /// A load on a position acts on its velocity: `∂(Dp)/∂vᵢ = ∂p/∂qᵢ`. In space all that a motion
+    /// without accelerations demands is a load, computed from the ground to the tips along axes that
+    /// turn, and only what accelerations add is left to solve for.
+    pub fn unprojected(&self, applied: &Loads<'d>, forces: &Loads<'d>) -> super::Unprojected<'d> {
+        let rate = &mut self.x.coasting(self.model);
+        let drifts = self.model.space == Space::Plane;
+        let loads = if drifts { applied } else { forces };
+        let velocities = self.velocities_of(&self.inertial, rate);
+        let mut inertia = Vec::new();
+        for (body, velocity) in self.inertial.iter().zip(&velocities) {
+            let points = body.points.iter().zip(&velocity.points);
+            inertia.extend(points.map(|(point, &u)| InertialPair {
+                fall: point.gravity.filter(|g| drifts && !g.is_zero()),
+                ..InertialPair::weightless(u, u, point.weight)
+            }));
+            let mut add = |[u, w, weight]: [Expr<'d>; 3]| {
+                inertia.push(InertialPair::weightless(u, w, weight));
+            };
+            if let (Some((mass, ..)), Some(linear)) = (body.centre, velocity.linear) {
+                linear.into_iter().for_each(|u| add([u, u, mass]));
+            }
+            if let (Some((tensor, _)), Some([x, y, z])) = (body.tensor, velocity.angular) {
+                let [xx, yy, zz, xy, xz, yz] = tensor;
+                let moments = [[x, x, xx], [y, y, yy], [z, z, zz]];
+                let products = [[x, y, 2 * xy], [x, z, 2 * xz], [y, z, 2 * yz]];
+                moments.into_iter().chain(products).for_each(add);
+            }
+        }
+        let twists = self.twists(rate);
+        for (pose, lump) in &self.lumps {
+            let pairs = lump.pairs(&twists[pose.index()]).into_iter();
+            inertia.extend(pairs.map(|[u, w, weight]| InertialPair::weightless(u, w, weight)));
+        }
+        let mut acting = Vec::new();
+        acting.extend(
+            loads
+                .on_positions
+                .iter()
+                .map(|&(p, load)| (rate.of(p), load)),
+        );
+        acting.extend(&loads.on_rates);
+        let velocity = |i: usize| self.model.coordinates[i].v;
+        acting.extend(
+            loads
+                .on_coordinates
+                .iter()
+                .map(|&(i, load)| (velocity(i), load)),
+        );
+        inertia.retain(|pair| !pair.weight.is_zero());
+        acting.retain(|(_, load)| !load.is_zero());
+        super::Unprojected {
+            inertia,
+            loads: acting,
+            drifts,
+        }
+    }
+
+    /// The power of loads along the actual motion but with time held: `Σ load·Σ vᵢ ∂node/∂qᵢ`.
+    pub fn power(&self, loads: &Loads<'d>) -> Expr<'d> {
+        let coordinates = &self.model.coordinates;
+        let along_q = &mut self.x.virtual_motion(self.model);
+        let along_v = &mut self.x.virtual_rates(self.model);
+        let mut powers = Vec::new();
+        powers.extend(
+            loads
+                .on_positions
+                .iter()
+                .map(|&(node, load)| load * along_q.of(node)),
+        );
+        powers.extend(
+            loads
+                .on_rates
+                .iter()
+                .map(|&(node, load)| load * along_v.of(node)),
+        );
+        powers.extend(
+            loads
+                .on_coordinates
+                .iter()
+                .map(|&(i, load)| load * coordinates[i].v),
+        );
+        self.model.dag.sum(powers)
+    }
+
+    /// Kinetic energy of every body, eq. (E1), along the axes that are cheapest.
+    pub fn kinetic_energies(&self) -> Vec<Expr<'d>> {
+        let velocities = self.velocities(&mut self.x.coasting(self.model));
+        let energy = |((body, carrier), velocity): ((&Body<'d>, &Carrier<'d>), &Carried<'d>)| {
+            energy::kinetic_energy(body, &carrier.motion(self.model, velocity))
+        };
+        self.model
+            .bodies
+            .iter()
+            .zip(&self.bodies)
+            .zip(&velocities)
+            .map(energy)
+            .collect()
+    }
+
+    /// Power of whatever moves the machine by explicit time, eq. (E19): `Σ w (D²p) ∂p/∂t`, the
+    /// inertia of what is driven times the velocity at which it is driven. Accelerations occur in
+    /// it.
+    pub fn drive_power(&self) -> Expr<'d> {
+        let driven = self.velocities(&mut self.x.explicit(self.model));
+        if driven.iter().all(Carried::is_at_rest) {
+            return self.model.dag.zero();
+        }
+        let rate = &mut self.x.total(self.model);
+        let inertia = self.inertia(&self.bodies, rate, false);
+        let velocities = driven.iter().flat_map(|driven| driven.components());
+        let loads = inertia.iter().flat_map(|load| load.components());
+        self.model.dag.sum(
+            velocities
+                .zip(loads)
+                .map(|(velocity, load)| load * velocity),
+        )
+    }
+
+    /// How every body moves at a rate.
+    fn velocities(&self, rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
+        self.velocities_of(&self.bodies, rate)
+    }
+
+    fn velocities_of(&self, list: &[Carrier<'d>], rate: &mut Tangent<'d>) -> Vec<Carried<'d>> {
+        let twists = self.twists(rate);
+        let velocity = |body: &Carrier<'d>| Carried {
+            points: body
+                .points
+                .iter()
+                .map(|point| rate.of(point.position))
+                .collect(),
+            linear: body
+                .centre
+                .map(|(_, pose, r)| kinematics::velocity_at(&twists[pose.index()], &r, rate)),
+            angular: body.tensor.map(|(_, pose)| twists[pose.index()].angular),
+        };
+        list.iter().map(velocity).collect()
+    }
+
+    /// How frames in space move at a rate.
+    fn twists(&self, rate: &mut Tangent<'d>) -> Vec<Twist<'d>> {
+        match self.model.space {
+            Space::Plane => Vec::new(),
+            Space::Space => self.chains.velocities(self.model, rate),
+        }
+    }
+
+    /// The same, and how they accelerate; with `gravity` the ground accelerates by `−g`.
+    fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
+        let model = self.model;
+        let gravity = model.gravity.as_ref().filter(|_| gravity);
+        match model.space {
+            Space::Plane => (Vec::new(), Vec::new()),
+            Space::Space => {
+                let ground = gravity.map_or([model.dag.zero(); 3], |g| vector(g).map(|g_k| -g_k));
+                let twists = self.chains.velocities(model, rate);
+                let accelerations = self.chains.accelerations(model, ground, &twists, rate);
+                (twists, accelerations)
+            }
+        }
+    }
+
+    /// What inertia demands: `m ẍ`, and by (E15) `τ = I α + ω×I ω`. The rate says whether with
+    /// accelerations; with `gravity` the ground accelerates by `−g`.
+    fn inertia(
+        &self,
+        list: &[Carrier<'d>],
+        rate: &mut Tangent<'d>,
+        gravity: bool,
+    ) -> Vec<Carried<'d>> {
+        let (twists, accelerations) = self.motion(rate, gravity);
+        let gravity = self.model.gravity.as_ref().filter(|_| gravity);
+        let mut load = |body: &Carrier<'d>| {
+            let points = body.points.iter().map(|point| {
+                let (acceleration, weight) =
+                    (rate.twice(point.position), gravity.and(point.gravity));
+                point.weight * weight.map_or(acceleration, |g| acceleration - g)
+            });
+            Carried {
+                points: points.collect(),
+                linear: body.centre.map(|(mass, pose, r)| {
+                    let (here, omega) =
+                        (&accelerations[pose.index()], &twists[pose.index()].angular);
+                    kinematics::acceleration_at(here, omega, &r, rate).map(|a_k| mass * a_k)
+                }),
+                angular: body.tensor.map(|(tensor, pose)| {
+                    let omega = &twists[pose.index()].angular;
+                    let spin = cross(omega, &apply_tensor(&tensor, omega));
+                    add(&[
+                        &apply_tensor(&tensor, &accelerations[pose.index()].angular),
+                        &spin,
+                    ])
+                }),
+            }
+        };
+        list.iter().map(&mut load).collect()
+    }
+}
+
+impl<'d> Carrier<'d> {
+    /// `w u`, `m u` and `I ω`.
+    fn momentum(&self, motion: &Carried<'d>) -> Carried<'d> {
+        let points = self.points.iter().zip(&motion.points);
+        Carried {
+            points: points.map(|(point, &rate)| point.weight * rate).collect(),
+            linear: self
+                .centre
+                .zip(motion.linear)
+                .map(|((m, ..), u)| u.map(|u_k| m * u_k)),
+            angular: self
+                .tensor
+                .zip(motion.angular)
+                .map(|((i, _), w)| apply_tensor(&i, &w)),
+        }
+    }
+
+    /// The motion as [`energy`] wants it: linear, then angular.
+    fn motion(&self, model: &Model<'d>, carried: &Carried<'d>) -> Motion<'d> {
+        let dimension = model.space.dimension();
+        let in_points = if carried.linear.is_some() {
+            0
+        } else {
+            dimension
+        };
+        let (linear, angular) = carried.points.split_at(in_points);
+        Motion {
+            linear: carried.linear.map_or(linear.to_vec(), |u| u.to_vec()),
+            angular: carried.angular.map_or(angular.to_vec(), |w| w.to_vec()),
+        }
+    }
+}
+
+impl<'d> Carried<'d> {
+    fn scaled(self, factor: i64) -> Carried<'d> {
+        Carried {
+            points: self.points.into_iter().map(|x| factor * x).collect(),
+            linear: self.linear.map(|vector| vector.map(|x| factor * x)),
+            angular: self.angular.map(|vector| vector.map(|x| factor * x)),
+        }
+    }
+
+    fn components(&self) -> impl Iterator<Item = Expr<'d>> {
+        let vectors = self.linear.into_iter().chain(self.angular).flatten();
+        self.points.iter().copied().chain(vectors)
+    }
+
+    fn is_at_rest(&self) -> bool {
+        self.components().all(|component| component.is_zero())
+    }
+}
+
+impl<'d> Loads<'d> {
+    /// Loads on what carries the inertia of a body that moves with the given velocity.
+    fn on_body(&mut self, body: &Carrier<'d>, velocity: &Carried<'d>, load: Carried<'d>) {
+        let positions = body.points.iter().map(|point| point.position);
+        self.on_positions.extend(positions.zip(load.points));
+        let vectors = [
+            (velocity.linear, load.linear),
+            (velocity.angular, load.angular),
+        ];
+        for (velocity, load) in vectors {
+            self.on_rates.extend(
+                velocity
+                    .into_iter()
+                    .flatten()
+                    .zip(load.into_iter().flatten()),
+            );
+        }
+    }
+
+    /// Loads on how a frame moves: a force, and a moment about its origin.
+    fn on_frame(&mut self, twist: &Twist<'d>, [force, moment]: [Vector<'d>; 2]) {
+        self.on_rates.extend(twist.linear.into_iter().zip(force));
+        self.on_rates.extend(twist.angular.into_iter().zip(moment));
+    }
+
+    /// An applied force.
+    pub fn on_force(&mut self, force: &Force<'d>) {
+        match &force.action {
+            Action::Point { at, force } => {
+                let components = at.iter().copied().zip(force.iter().copied());
+                self.on_positions.extend(components);
+            }
+            Action::Coordinate { coordinate, value } => {
+                self.on_coordinates.push((*coordinate, *value));
+            }
+        }
+    }
+
+    /// Loads that derive from a potential and a dissipation function.
+    pub fn of_energies(dag: &'d Dag, potential: Expr<'d>, dissipation: Expr<'d>) -> Loads<'d> {
+        Loads {
+            on_positions: vec![(potential, dag.int(-1))],
+            on_rates: vec![(dissipation, dag.int(-1))],
+            on_coordinates: Vec::new(),
+        }
+    }
+}
+
+/// In the plane everything is a scalar position; in space what moves with frames is described along
+/// their axes.
+fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
+    let centre = match model.space {
+        Space::Plane => None,
+        Space::Space => body.local.as_ref(),
+    };
+    let coordinates = body.at.iter().enumerate().filter(|_| centre.is_none());
+    let mut points: Vec<Weighted<'d>> = coordinates
+        .map(|(k, &position)| Weighted {
+            position,
+            weight: body.mass,
+            gravity: model.gravity.as_ref().map(|g| g[k]),
+        })
+        .collect();
+    let tensor = match body.inertia {
+        Inertia::Particle => None,
+        Inertia::Planar(weight) => {
+            let angle = planar_angle(model, body);
+            points.extend(angle.map(|position| Weighted {
+                position,
+                weight,
+                gravity: None,
+            }));
+            None
+        }
+        Inertia::Tensor(tensor) => frame_of(body).map(|pose| (tensor, pose)),
+    };
+    let centre = centre.map(|local| (body.mass, local.pose, vector(&local.point)));
+    Carrier {
+        points,
+        centre,
+        tensor,
+    }
+}
+
+/// What is fixed to frames, gathered, and what is not.
+fn gather<'d>(
+    model: &Model<'d>,
+    bodies: &[Carrier<'d>],
+) -> (Vec<Carrier<'d>>, Vec<(PoseId, Lump<'d>)>) {
+    let zero = model.dag.zero();
+    let mut others = Vec::new();
+    let mut fixed = Vec::new();
+    for body in bodies {
+        let centre = body
+            .centre
+            .map(|(mass, pose, r)| (pose, Lump::of_body(mass, &r, &[zero; 6])));
+        let tensor = body
+            .tensor
+            .map(|(tensor, pose)| (pose, Lump::of_body(zero, &[zero; 3], &tensor)));
+        let constant = |part: &Option<(PoseId, Lump<'d>)>| {
+            part.as_ref().is_some_and(|(_, lump)| lump.is_constant())
+        };
+        let is_constant = [constant(&centre), constant(&tensor)];
+        others.push(Carrier {
+            points: body.points.to_vec(),
+            centre: body.centre.filter(|_| !is_constant[0]),
+            tensor: body.tensor.filter(|_| !is_constant[1]),
+        });
+        fixed.extend(centre.filter(|_| is_constant[0]));
+        fixed.extend(tensor.filter(|_| is_constant[1]));
+    }
+    if fixed.is_empty() {
+        return (others, Vec::new());
+    }
+    let lumps = lumps::gathered(model, fixed.into_iter());
+    let lumps = (0..).map(PoseId).zip(lumps);
+    (
+        others,
+        lumps.filter(|(_, lump)| !lump.is_nothing()).collect(),
+    )
+}
+
+fn frame_of(body: &Body<'_>) -> Option<PoseId> {
+    match body.rotation {
+        Rotation::Frame(pose) => Some(pose),
+        Rotation::Angle(_) | Rotation::Unspecified => None,
+    }
+}

@@ -1,0 +1,342 @@
+//! Coordinates that constraints settle, put into the machine.
+//!
+//! A constraint of positions that one coordinate enters linearly, with a coefficient that only
+//! parameters decide, gives that coordinate as an expression in the others: `s = R − r`, `y = x²/l`,
+//! `phi = omega t`. Put in wherever it stands, neither it nor the constraint is left, and what is
+//! derived is Lagrange's equations in fewer coordinates, by every route that there is. So too a
+//! constraint of rates whose coefficients are all parameters', as of wheels that roll: it says `q_d =
+//! Σ cᵢ qᵢ + C`, and `C`, which the start decides and nothing changes, is read off the state where
+//! it matters at all.
+//!
+//! The state keeps all coordinates. Those that depend on others have accelerations that follow from
+//! theirs, `a_d = D²(q_d)`, and are kept on the constraints as every state is.
+
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::{Expr, Symbol, evaluate, nearest, substitute};
+
+use super::Equations;
+use super::constraints::ConstraintEquation;
+use super::kinematics::Variables;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::identity;
+use lagrangian_spec::model::{Action, Force, Inertia, Model, Rotation, Step, stage};
+
+/// A machine without the coordinates that constraints settle.
+#[derive(Clone, Debug)]
+pub struct Reduction<'d> {
+    /// The machine, with the coordinates and constraints that are left.
+    pub machine: ReducedModel<'d>,
+    /// Its equations.
+    pub equations: Equations<'d>,
+    /// The indices of the coordinates that are left.
+    pub coordinates: Vec<usize>,
+    /// The indices of the constraints that are left.
+    pub constraints: Vec<usize>,
+    /// The coordinates that are not.
+    pub dependents: Vec<Dependent<'d>>,
+}
+
+/// A model that is not shown.
+#[derive(Clone)]
+pub struct ReducedModel<'d>(pub Model<'d>);
+
+impl std::fmt::Debug for ReducedModel<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0.name)
+    }
+}
+
+/// A coordinate that a constraint settles.
+#[derive(Clone, Debug)]
+pub struct Dependent<'d> {
+    /// Its index.
+    pub coordinate: usize,
+    /// The index of the constraint.
+    pub constraint: usize,
+    /// How it enters the constraint: ∂g/∂q of it or ∂φ/∂v, of parameters alone.
+    pub coefficient: Expr<'d>,
+    /// Where it is, of the other coordinates and perhaps the symbol of its `offset`.
+    pub position: Expr<'d>,
+    /// How fast it moves, of the others and their rates.
+    pub rate: Expr<'d>,
+    /// How it accelerates.
+    pub acceleration: Expr<'d>,
+    /// Where rates are constrained: a symbol that stands for what the start has decided, and its
+    /// meaning.
+    pub offset: Option<[Expr<'d>; 2]>,
+}
+
+/// The coordinates that constraints settle, each in terms of those that are left.
+pub fn dependents<'d>(
+    model: &Model<'d>,
+    constraints: &[ConstraintEquation<'d>],
+) -> Vec<Dependent<'d>> {
+    let mut found: Vec<Dependent<'d>> = Vec::new();
+    if constraints.is_empty() || !model.approximations.is_empty() {
+        return found;
+    }
+    let x = Variables::of(model);
+    let uses = uses(model, &x);
+    loop {
+        let settled: BTreeSet<usize> = found.iter().map(|d| d.constraint).collect();
+        let mut open = (0..constraints.len()).filter(|k| !settled.contains(k));
+        let next = open.find_map(|k| dependent(model, &x, &uses, &found, k, &constraints[k]));
+        let Some(next) = next else {
+            return found;
+        };
+        let map = replacements(&x, std::slice::from_ref(&next));
+        for before in &mut found {
+            let parts = [before.position, before.rate, before.acceleration];
+            let put = substitute(model.dag, &parts, &map);
+            [before.position, before.rate, before.acceleration] = [put[0], put[1], put[2]];
+        }
+        found.push(next);
+    }
+}
+
+/// What stands for the coordinates that depend on others, their rates and accelerations.
+fn replacements<'d>(x: &Variables<'d>, dependents: &[Dependent<'d>]) -> Vec<(Symbol, Expr<'d>)> {
+    let of = |d: &Dependent<'d>| {
+        let i = d.coordinate;
+        [
+            (x.q[i], d.position),
+            (x.v[i], d.rate),
+            (x.a[i], d.acceleration),
+        ]
+    };
+    dependents.iter().flat_map(of).collect()
+}
+
+/// The coordinate that a constraint settles best, if it settles any.
+fn dependent<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    uses: &[usize],
+    found: &[Dependent<'d>],
+    index: usize,
+    constraint: &ConstraintEquation<'d>,
+) -> Option<Dependent<'d>> {
+    let dag = model.dag;
+    let said = constraint.position.unwrap_or(constraint.rate);
+    let said = substitute(dag, &[said], &replacements(x, found))[0];
+    let variables = match constraint.position {
+        Some(_) => &x.q,
+        None => &x.v,
+    };
+    let is_left = |i: &usize| !found.iter().any(|d| d.coordinate == *i);
+    let left: Vec<usize> = (0..variables.len()).filter(is_left).collect();
+    let slope = |&i: &usize| {
+        let slope = said.diff(variables[i]);
+        identity::as_function_of_parameters(slope).map(|slope| (i, slope))
+    };
+    let slopes: Vec<(usize, Expr<'d>)> = left.iter().filter_map(slope).collect();
+    if constraint.position.is_none() && slopes.len() < left.len() {
+        return None;
+    }
+    let usable = slopes.iter().filter(|(_, slope)| is_usable(model, *slope));
+    let by_use = |&&(i, slope): &&(usize, Expr<'d>)| {
+        let is_number = slope.stage() == stage::CONSTANT;
+        (uses[i], !is_number, slope.size(), std::cmp::Reverse(i))
+    };
+    let &(coordinate, coefficient) = usable.min_by_key(by_use)?;
+    let at_zero = [(variables[coordinate], dag.zero())];
+    let rest = substitute(dag, &[said], &at_zero)[0];
+    let (position, offset) = match constraint.position {
+        Some(_) => (-(rest / coefficient), None),
+        None => {
+            // All coefficients are parameters', so q_d = C + Σ cᵢ qᵢ + b t.
+            let others = slopes.iter().filter(|(i, _)| *i != coordinate);
+            let along = others.map(|&(i, slope)| -(slope / coefficient) * dag.expr_of(x.q[i]));
+            let at_rest: Vec<_> = left.iter().map(|&i| (x.v[i], dag.zero())).collect();
+            let alone = substitute(dag, &[said], &at_rest)[0];
+            let alone = identity::as_function_of_parameters(alone)?;
+            let driven = -(alone / coefficient) * model.time;
+            let shared = dag.sum(along.chain([driven]));
+            let name = format!("offset({})", model.coordinates[coordinate].name);
+            let offset = dag.symbol(&name, stage::POSITION);
+            let meaning = model.coordinates[coordinate].q - shared;
+            (dag.sum([offset, shared]), Some([offset, meaning]))
+        }
+    };
+    let rate = x.coasting(model).of(position);
+    let acceleration = x.total(model).of(rate);
+    let parts = [position, rate, acceleration];
+    let has_value = !parts.iter().any(|part| part.is_undefined());
+    has_value.then_some(Dependent {
+        coordinate,
+        constraint: index,
+        coefficient,
+        position,
+        rate,
+        acceleration,
+        offset,
+    })
+}
+
+/// Whether one may divide by a coefficient: it is not 0. Where it happens to be 0 for the parameters
+/// that the spec gives, another coordinate or none is the better choice, though this one would do for
+/// others.
+fn is_usable(model: &Model<'_>, coefficient: Expr<'_>) -> bool {
+    if identity::is_zero(coefficient) != Some(false) {
+        return false;
+    }
+    let default = |symbol: Symbol| {
+        let mut parameters = model.parameters.iter();
+        let parameter = parameters.find(|p| p.symbol.as_symbol() == Some(symbol));
+        parameter.and_then(|p| p.default).map_or(1.0, nearest)
+    };
+    let value = evaluate(model.dag, &[coefficient], default)[0];
+    value.is_finite() && value != 0.0
+}
+
+/// In how many expressions of the machine each coordinate stands.
+fn uses(model: &Model<'_>, x: &Variables<'_>) -> Vec<usize> {
+    let mut model = model.clone();
+    let all: Vec<_> = expressions(&mut model)
+        .into_iter()
+        .map(|e| e.symbols())
+        .collect();
+    let of = |q: &Symbol| all.iter().filter(|symbols| symbols.contains(q)).count();
+    x.q.iter().map(of).collect()
+}
+
+/// Every expression that the equations of motion come from.
+fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
+    let mut all: Vec<&'m mut Expr<'d>> = Vec::new();
+    for pose in &mut model.poses {
+        all.extend(&mut pose.origin);
+        all.extend(pose.axes.iter_mut().flatten());
+        all.push(&mut pose.angle);
+        match &mut pose.step {
+            Step::Ground => {}
+            Step::Shift(along) => all.extend(along),
+            Step::Turn { angle, .. } => all.push(angle),
+        }
+    }
+    for body in &mut model.bodies {
+        all.push(&mut body.mass);
+        all.extend(&mut body.at);
+        all.extend(body.local.iter_mut().flat_map(|local| &mut local.point));
+        match &mut body.inertia {
+            Inertia::Particle => {}
+            Inertia::Planar(inertia) => all.push(inertia),
+            Inertia::Tensor(inertia) => all.extend(inertia),
+        }
+        if let Rotation::Angle(angle) = &mut body.rotation {
+            all.push(angle);
+        }
+    }
+    all.extend(model.gravity.iter_mut().flatten());
+    for element in model.springs.iter_mut().chain(&mut model.dampers) {
+        all.push(&mut element.coefficient);
+        all.push(&mut element.stretch);
+        all.extend(element.ends.iter_mut().flatten().flatten());
+    }
+    let terms = model.potentials.iter_mut().chain(&mut model.dissipations);
+    all.extend(terms.map(|term| &mut term.value));
+    for force in &mut model.forces {
+        match &mut force.action {
+            Action::Point { at, force } => all.extend(at.iter_mut().chain(force)),
+            Action::Coordinate { value, .. } => all.push(value),
+        }
+    }
+    all.extend(model.torques.iter_mut().flat_map(|t| &mut t.torque));
+    all.extend(model.assumptions.iter_mut().map(|fact| &mut fact.excess));
+    all.extend(model.constraints.iter_mut().map(|c| &mut c.expression));
+    for circle in &mut model.circles {
+        all.extend(&mut circle.center);
+        all.push(&mut circle.radius);
+    }
+    all
+}
+
+/// The machine without the coordinates that constraints settle; nothing if they settle none, or if
+/// it has no equations without them.
+pub(super) fn reduction<'d>(
+    model: &Model<'d>,
+    constraints: &[ConstraintEquation<'d>],
+) -> Option<Box<Reduction<'d>>> {
+    let dependents = dependents(model, constraints);
+    // Derivatives, and what stages leave, are about all of the state.
+    // So is friction.
+    let is_whole = !model.derivatives.is_empty() || !model.stages.is_empty();
+    if dependents.is_empty() || is_whole || !model.sliding.is_empty() {
+        return None;
+    }
+    let x = Variables::of(model);
+    let map = replacements(&x, &dependents);
+    let is_dependent = |i: &usize| dependents.iter().any(|d| d.coordinate == *i);
+    let coordinates: Vec<usize> = (0..x.q.len()).filter(|i| !is_dependent(i)).collect();
+    let is_settled = |k: &usize| dependents.iter().any(|d| d.constraint == *k);
+    let left: Vec<usize> = (0..constraints.len()).filter(|k| !is_settled(k)).collect();
+
+    let mut reduced = model.clone();
+    reduced.forces = forces(model, &x, &coordinates, &dependents);
+    reduced.coordinates = coordinates
+        .iter()
+        .map(|&i| model.coordinates[i].clone())
+        .collect();
+    reduced.outputs.clear();
+    reduced.published.clear();
+    reduced.constraints.clear();
+    reduced.rolling.clear();
+    let mut places = expressions(&mut reduced);
+    let before: Vec<Expr<'d>> = places.iter().map(|place| **place).collect();
+    let after = substitute(model.dag, &before, &map);
+    places
+        .iter_mut()
+        .zip(after)
+        .for_each(|(place, value)| **place = value);
+
+    let mut equations = Equations::derive(&reduced, &mut Report::new())?;
+    let kept = left.iter().map(|&k| {
+        let constraint = &constraints[k];
+        let position = constraint.position.unwrap_or(model.dag.zero());
+        let parts = [position, constraint.rate];
+        let parts = substitute(model.dag, &parts, &map);
+        let position = constraint.position.map(|_| parts[0]);
+        constraint.restated(&reduced, position, parts[1])
+    });
+    equations.constraints = kept.collect();
+    Some(Box::new(Reduction {
+        machine: ReducedModel(reduced),
+        equations,
+        coordinates,
+        constraints: left,
+        dependents,
+    }))
+}
+
+/// The forces on what is left: one on a coordinate that depends on others acts on these.
+fn forces<'d>(
+    model: &Model<'d>,
+    x: &Variables<'d>,
+    coordinates: &[usize],
+    dependents: &[Dependent<'d>],
+) -> Vec<Force<'d>> {
+    let mut forces = Vec::new();
+    for force in &model.forces {
+        let Action::Coordinate { coordinate, value } = force.action else {
+            forces.push(force.clone());
+            continue;
+        };
+        let on = |place: usize, value: Expr<'d>| Force {
+            action: Action::Coordinate {
+                coordinate: place,
+                value,
+            },
+            ..force.clone()
+        };
+        if let Some(place) = coordinates.iter().position(|i| *i == coordinate) {
+            forces.push(on(place, value));
+        }
+        let dependent = dependents.iter().find(|d| d.coordinate == coordinate);
+        for (place, &i) in coordinates.iter().enumerate() {
+            let share = dependent.map(|d| d.rate.diff(x.v[i]));
+            let share = share.filter(|share| !share.is_zero());
+            forces.extend(share.map(|share| on(place, value * share)));
+        }
+    }
+    forces
+}

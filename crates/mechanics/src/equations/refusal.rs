@@ -1,0 +1,235 @@
+//! Machines that cannot be derived, and why.
+
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_symbolic::Expr;
+
+use super::Equations;
+use super::constraints::ConstraintEquation;
+use super::sliding::MOST_CONTACTS;
+use super::symmetric::Symmetric;
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::{Model, Place, Rotation, Space, Surface, Touching};
+use lagrangian_spec::syntax::SectionKind;
+
+/// Refuses what is understood but not derived yet: one message for each section. True if anything
+/// is refused. Circles are geometry: on their own they add nothing to the equations, and reports
+/// draw them.
+pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut refused = false;
+    if !model.contacts.is_empty() {
+        let section = SectionKind::Contacts;
+        let span = model.section(section).unwrap_or(model.span);
+        let message = format!("the equations of a machine with `{section}` cannot be derived yet");
+        let help =
+            format!("it is checked all the same; without `{section}` the machine can be derived");
+        report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
+        refused = true;
+    }
+    refuse_sliding(model, report) || refused
+}
+
+/// Refuses what goes with friction not yet. True if anything is refused.
+fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
+    let Some(first) = model.sliding.first() else {
+        return false;
+    };
+    let mut refused = false;
+    let mut refuse = |code, span, message: String, help: String| {
+        report.push(Diagnostic::new(code, span, message).help(help));
+        refused = true;
+    };
+    if model.space == Space::Space {
+        let message = "sliding with friction can be derived in the plane only".to_owned();
+        let help = "without `sliding` the machine can be derived".to_owned();
+        refuse(Code::NotSupported, first.span, message, help);
+    }
+    let beside = [
+        (SectionKind::Approximations, model.approximations.is_empty()),
+        (SectionKind::Derivatives, model.derivatives.is_empty()),
+        (SectionKind::Stages, model.stages.is_empty()),
+    ];
+    for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
+        let span = model.section(section).unwrap_or(model.span);
+        let message = format!("`{section}` of a machine with `sliding` cannot be derived yet");
+        let help = format!("without `{section}`, or without `sliding`, it can be derived");
+        refuse(Code::NotSupported, span, message, help);
+    }
+    if let Some(contact) = model.sliding.get(MOST_CONTACTS) {
+        let count = model.sliding.len();
+        let message = format!("{count} contacts that stick or slide are too many");
+        let help = format!("a machine may have {MOST_CONTACTS} of them");
+        refuse(Code::TooLarge, contact.span, message, help);
+    }
+    if model.relaxed.is_none() {
+        let message = "the equations of this machine with its guides relaxed are too large";
+        let help = "it is read a second time, with two coordinates more for each contact";
+        refuse(
+            Code::TooLarge,
+            first.span,
+            message.to_owned(),
+            help.to_owned(),
+        );
+    }
+    refused
+}
+
+/// Refuses what rolls without a word on how it turns. True if anything is refused.
+pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
+    let mut refused = false;
+    for rolling in &model.rolling {
+        let Touching { circle, surface } = rolling.circles;
+        let other = match surface {
+            Surface::Inside(other) | Surface::Outside(other) => Some(other),
+            Surface::Along(_) => None,
+        };
+        for circle in [Some(circle), other].into_iter().flatten() {
+            let circle = &model.circles[circle];
+            let Place::Body(body) = circle.on else {
+                continue;
+            };
+            let body = &model.bodies[body];
+            if matches!(body.rotation, Rotation::Unspecified) {
+                let message = format!("nothing says how the body `{}` turns", body.name);
+                let help = format!(
+                    "the circle `{}` is on it: give it an `angle` or a `frame`",
+                    circle.name
+                );
+                report
+                    .push(Diagnostic::new(Code::MissingRotation, rolling.span, message).help(help));
+                refused = true;
+            }
+        }
+    }
+    refused
+}
+
+/// The most coordinates of a machine: with 256 the mass matrix has 32 896 different entries, and
+/// eliminating it takes three million operations.
+pub const MOST_COORDINATES: usize = 256;
+
+/// The most nodes and operands that the expressions of a machine may have: an operand takes 8 to 24
+/// bytes, a node 64, so that they stay below half a gigabyte.
+pub(super) const MOST_SIZE: usize = 8_000_000;
+
+/// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
+/// if refused.
+pub(super) fn refuse_many_coordinates(model: &Model<'_>, report: &mut Report) -> bool {
+    let Some(coordinate) = model.coordinates.get(MOST_COORDINATES) else {
+        return false;
+    };
+    let count = model.coordinates.len();
+    let message = format!("equations of {count} coordinates are too large to be derived");
+    let help = format!("a machine may have {MOST_COORDINATES} coordinates");
+    report.push(Diagnostic::new(Code::TooLarge, coordinate.span, message).help(help));
+    true
+}
+
+/// The most equations of constraints, of which those of circles that roll are two each.
+const MOST_CONSTRAINTS: usize = 256;
+
+/// Refuses machines of more than [`MOST_CONSTRAINTS`] constraints, at the first one too many. True
+/// if refused.
+pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) -> bool {
+    let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
+    let spans = model.constraints.iter().map(|c| c.span).chain(rolling);
+    let Some(span) = spans.clone().nth(MOST_CONSTRAINTS) else {
+        return false;
+    };
+    let message = format!("{} equations of constraints are too many", spans.count());
+    let help = format!("a machine may have {MOST_CONSTRAINTS} of them");
+    report.push(Diagnostic::new(Code::TooLarge, span, message).help(help));
+    true
+}
+
+/// Whether the expressions have outgrown every machine that could be run.
+pub(super) fn is_too_large(model: &Model<'_>) -> bool {
+    model.dag.is_exhausted()
+}
+
+/// Says that the equations are too large.
+pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
+    let message = "the equations of this machine are too large to be derived";
+    let help = format!("written out they may have {MOST_SIZE} terms and factors");
+    report.push(Diagnostic::new(Code::TooLarge, model.span, message).help(help));
+}
+
+/// Refuses equations in which something has no value at all. True if refused.
+pub(super) fn refuse_undefined(
+    model: &Model<'_>,
+    equations: &Equations<'_>,
+    report: &mut Report,
+) -> bool {
+    let energies = [
+        ("kinetic energy", equations.kinetic_energy),
+        ("potential energy", equations.potential_energy),
+        ("dissipation", equations.dissipation),
+    ];
+    let slopes = equations.slopes.iter().flatten();
+    let undefined = energies.iter().find(|(_, energy)| energy.is_undefined());
+    let all = equations.forces.iter().chain(equations.mass_matrix.lower());
+    let what = match undefined {
+        Some((name, _)) => format!("the {name}"),
+        None if all.clone().any(|entry| entry.is_undefined()) => "an equation of motion".to_owned(),
+        None if slopes.clone().any(|entry| entry.is_undefined()) => {
+            "a derivative of an acceleration".to_owned()
+        }
+        None => return false,
+    };
+    let diagnostic = match model.approximations.first() {
+        Some(approximation) => {
+            let name = &model.coordinates[approximation.coordinate].name;
+            let message = format!("{what} has no expansion about `{name} = 0`");
+            Diagnostic::new(Code::NoExpansion, approximation.span, message)
+                .help("a distance that vanishes there has a kink: treat the coordinate exactly")
+        }
+        None => Diagnostic::new(Code::Undefined, model.span, format!("{what} has no value"))
+            .help("something divides by zero, or takes a root or a logarithm that does not exist"),
+    };
+    report.push(diagnostic);
+    true
+}
+
+/// Refuses coordinates that may move without moving any inertia, where no constraint stops them: they
+/// have no accelerations. True if refused.
+pub(super) fn refuse_massless<'d>(
+    model: &Model<'d>,
+    mass_matrix: &Symmetric<Expr<'d>>,
+    constraints: &[ConstraintEquation<'d>],
+    report: &mut Report,
+) -> bool {
+    let n = model.coordinates.len();
+    let row = |i: usize| (0..n).map(move |j| *mass_matrix.get(i, j)).collect();
+    let rows = constraints.iter().map(|constraint| constraint.row.clone());
+    let rows: Vec<Vec<Expr<'d>>> = (0..n).map(row).chain(rows).collect();
+    let free = identity::null_space(model.dag, &rows).unwrap_or_default();
+    for direction in &free {
+        let moving = (0..n).filter(|&i| direction[i] != Residue::ZERO);
+        let moving: Vec<usize> = moving.collect();
+        let names: Vec<String> = moving
+            .iter()
+            .map(|&i| format!("`{}`", model.coordinates[i].name))
+            .collect();
+        let Some((&last, name)) = moving.last().zip(names.last()) else {
+            continue;
+        };
+        let (message, help) = match &names[..] {
+            [_] => (
+                format!("no body's motion depends on {name}: its equation has no acceleration"),
+                format!("give a body that {name} moves a mass, or an inertia if it turns one"),
+            ),
+            all => (
+                format!(
+                    "no body's motion depends on how {} change together: their equations have no accelerations of their own",
+                    all.join(", ")
+                ),
+                format!(
+                    "leave {name} out, or give a body a mass that it moves otherwise than these do"
+                ),
+            ),
+        };
+        let span = model.coordinates[last].span;
+        report.push(Diagnostic::new(Code::NoInertia, span, message).help(help));
+    }
+    !free.is_empty()
+}

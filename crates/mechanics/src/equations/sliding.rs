@@ -1,0 +1,435 @@
+//! Guided contacts with Coulomb friction: how fast they slide, and what presses.
+//!
+//! ```text
+//! slip             w = e·(ẋ_body − ẋ_on − ω_on×r) = τ v + b(q, t),   τ = ∂w/∂v         (E32)
+//! normal reaction  N = n·(M a − f − Gᵀλ − Σ τᵀF)_δ                                      (E33)
+//!                    = ν + ρ·a + χ·λ + Σ κ F
+//! friction         F = −μ |N| sgn w while it slides, |F| ≤ μ₀ |N| while it sticks       (E34)
+//!                  M a = f + Gᵀλ + Σ τᵀ F
+//! ```
+//!
+//! The reaction is that of a guide that is let go: δ displaces the body, with all that is built on
+//! its frame, and the row of δ in Lagrange's equations says which force along it keeps δ at zero. It
+//! depends on the accelerations, so friction changes the matrix in front of them. Displacements δ are
+//! in ground axes; what counts is the row along the normal `n`, which is `e` turned left.
+//!
+//! Where several guides hold one body, each displacement meets the reactions of all of them: the rows
+//! are solved for the reactions, here and symbolically. Guides that hold the same cannot be told
+//! apart, and are refused.
+
+use lagrangian_symbolic::{Expr, Tangent, substitute};
+
+use super::carrying;
+use super::constraints;
+use super::kinematics::Variables;
+use super::lagrange::gradient;
+use super::projected::Projection;
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::circles::planar_angle;
+use lagrangian_spec::model::{Model, Place, Rotation, Sliding, stage};
+
+/// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
+/// and of six contacts there are 46 656.
+pub const MOST_CONTACTS: usize = 6;
+
+/// A guided contact with Coulomb friction.
+#[derive(Clone, Debug)]
+pub struct SlidingEquation<'d> {
+    /// Its name.
+    pub name: String,
+    /// `w(q, v, t)`, in m/s: the velocity of the body along the direction, less that of what it
+    /// slides on.
+    pub slip: Expr<'d>,
+    /// `τ(q, t) = ∂w/∂v`.
+    pub row: Vec<Expr<'d>>,
+    /// `dw/dt` at `a = 0`.
+    pub drift: Expr<'d>,
+    /// `ν(q, v, t, u)`, in N: the normal reaction where nothing accelerates.
+    pub load: Expr<'d>,
+    /// `ρ(q, t)`, by acceleration.
+    pub by_accelerations: Vec<Expr<'d>>,
+    /// `χ(q, t)`, by the multipliers of the constraints.
+    pub by_multipliers: Vec<Expr<'d>>,
+    /// `κ(q, t)`, by the friction of each contact.
+    pub by_friction_forces: Vec<Expr<'d>>,
+    /// `μ`.
+    pub friction: Expr<'d>,
+    /// `μ₀`, of what sticks.
+    pub static_friction: Expr<'d>,
+}
+
+impl<'d> SlidingEquation<'d> {
+    /// `ν + ρ·a`: the normal reaction of a machine that has no constraints and no friction on the
+    /// way, over the symbols of the accelerations.
+    pub fn normal(&self, model: &Model<'d>) -> Expr<'d> {
+        let inertia = model.coordinates.iter().zip(&self.by_accelerations);
+        let inertia = inertia.map(|(c, &weight)| weight * c.a);
+        model.dag.sum([self.load].into_iter().chain(inertia))
+    }
+}
+
+/// The directions of a guide, unit vectors in ground axes.
+pub(super) struct Guide<'d> {
+    along: Vec<Expr<'d>>,
+    pub normal: Vec<Expr<'d>>,
+}
+
+/// How a guided body moves on what it slides on, at some rate: along the guide, and off it.
+pub(super) fn relative<'d>(
+    model: &Model<'d>,
+    sliding: &Sliding<'d>,
+    guide: &Guide<'d>,
+    rate: &mut Tangent<'d>,
+) -> [Expr<'d>; 2] {
+    let dag = model.dag;
+    let body = &model.bodies[sliding.body];
+    let at = match body.rotation {
+        Rotation::Frame(pose) => &model.poses[pose.index()].origin,
+        Rotation::Angle(_) | Rotation::Unspecified => &body.at,
+    };
+    let (origin, angle) = base(model, sliding);
+    let turning = angle.map_or(dag.zero(), |angle| rate.of(angle));
+    let arm: Vec<Expr<'d>> = at.iter().zip(origin).map(|(&x, &o)| x - o).collect();
+    // ω × r in the plane.
+    let carried = [-(turning * arm[1]), turning * arm[0]];
+    let velocity: Vec<Expr<'d>> = (0..2)
+        .map(|k| rate.of(at[k]) - rate.of(origin[k]) - carried[k])
+        .collect();
+    [&guide.along, &guide.normal].map(|axis| dot(axis, &velocity))
+}
+
+/// A point of what a body slides on, and how far that is turned.
+fn base<'m, 'd>(model: &'m Model<'d>, sliding: &Sliding<'d>) -> (&'m [Expr<'d>], Option<Expr<'d>>) {
+    match sliding.on {
+        Place::Frame(pose) => {
+            let pose = &model.poses[pose.index()];
+            (&pose.origin, Some(pose.angle))
+        }
+        Place::Body(on) => {
+            let on = &model.bodies[on];
+            (&on.at, planar_angle(model, on))
+        }
+    }
+}
+
+/// The directions of a contact.
+pub(super) fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
+    let along = unit(&sliding.direction);
+    let left = vec![-along[1], along[0]];
+    let normal = match &sliding.normal {
+        None => left,
+        Some(given) => {
+            let [x, y] = [sliding.direction[0], sliding.direction[1]];
+            // The given one is so many times the direction turned left, and the roots of their lengths
+            // need not be compared.
+            let times = dot(given, &[-y, x]) / model.dag.sum([x.square(), y.square()]);
+            // Said by its components the direction turned is as good as the given one, and shorter.
+            match identity::steady_sign(times) {
+                Some(true) => left,
+                Some(false) => left.into_iter().map(|x| -x).collect(),
+                // The sides change with parameters or coordinates.
+                None => unit(given),
+            }
+        }
+    };
+    Guide { along, normal }
+}
+
+/// The contacts of a machine in the plane; nothing, and a message for each reason, where a guide is
+/// none, or its reaction is not determined.
+pub(super) fn sliding<'d>(
+    model: &Model<'d>,
+    report: &mut Report,
+) -> Option<Vec<SlidingEquation<'d>>> {
+    if model.sliding.is_empty() {
+        return Some(Vec::new());
+    }
+    let guides: Vec<Guide<'d>> = model.sliding.iter().map(|s| guide(model, s)).collect();
+    let mut refused = false;
+    for (sliding, guide) in model.sliding.iter().zip(&guides) {
+        if let Some(diagnostic) = what_is_wrong(model, sliding, guide) {
+            report.push(diagnostic);
+            refused = true;
+        }
+    }
+    if refused {
+        return None;
+    }
+    let x = Variables::of(model);
+    let relaxed = model.relaxed.as_deref()?;
+    let reactions = Reactions::of(model, relaxed, &guides);
+    let Some(solved) = reactions.solved() else {
+        let names = model.sliding.iter().map(|s| format!("`{}`", s.name));
+        let names = names.collect::<Vec<_>>().join(", ");
+        let message = format!("what each of {names} carries is not determined");
+        let diagnostic = Diagnostic::new(Code::NoGuide, model.sliding[0].span, message);
+        report.push(diagnostic.help("guides that hold a body in the same direction share its load in unknown parts: say it of one of them"));
+        return None;
+    };
+    if carrying::refuse_untied(model, report) {
+        return None;
+    }
+    let mut coasting = x.coasting(model);
+    let mut equations = Vec::with_capacity(guides.len());
+    for ((sliding, guide), normal) in model.sliding.iter().zip(&guides).zip(solved) {
+        let [slip, _] = relative(model, sliding, guide, &mut coasting);
+        let (slip, row) = settled(model, &x, slip);
+        equations.push(SlidingEquation {
+            name: sliding.name.to_string(),
+            slip,
+            row,
+            drift: coasting.of(slip),
+            load: normal.load,
+            by_accelerations: normal.by_accelerations,
+            by_multipliers: normal.by_multipliers,
+            by_friction_forces: normal.by_friction_forces,
+            friction: sliding.friction,
+            static_friction: sliding.static_friction.unwrap_or(sliding.friction),
+        });
+    }
+    Some(equations)
+}
+
+/// A slip and its derivatives by the rates. What of it is constant, or zero, is written as such: a body
+/// at rest on a rail that moves has the slip 0, and not what rounding makes of differences.
+fn settled<'d>(model: &Model<'d>, x: &Variables<'d>, slip: Expr<'d>) -> (Expr<'d>, Vec<Expr<'d>>) {
+    let dag = model.dag;
+    let derived = gradient(dag, slip, &x.v);
+    let at_rest: Vec<_> = x.v.iter().map(|&v| (v, dag.zero())).collect();
+    let of_base = substitute(dag, &[slip], &at_rest)[0];
+    let mut parts: Vec<Expr<'d>> = derived.iter().copied().chain([of_base]).collect();
+    identity::settle(dag, &mut parts);
+    let rows = &parts[..x.v.len()];
+    let is_constant = rows.iter().all(|entry| entry.stage() <= stage::PARAMETER);
+    if !is_constant && rows == &derived[..] && parts[x.v.len()] == of_base {
+        return (slip, derived);
+    }
+    let of_base = parts.pop().unwrap_or(dag.zero());
+    let rates = model.coordinates.iter().zip(&parts);
+    let rates = rates.map(|(coordinate, &entry)| entry * coordinate.v);
+    (dag.sum(rates.chain([of_base])), parts)
+}
+
+/// Why a contact is no guide.
+fn what_is_wrong<'d>(
+    model: &Model<'d>,
+    sliding: &Sliding<'d>,
+    guide: &Guide<'d>,
+) -> Option<Diagnostic> {
+    let name = &sliding.name;
+    let error = |message: String, help: &str| {
+        Some(Diagnostic::new(Code::NoGuide, sliding.span, message).help(help))
+    };
+    if is_zero(model.dag.sum(sliding.direction.iter().map(|x| x.square()))) {
+        return error(
+            format!("the direction of `{name}` has no length"),
+            "it is the direction in which the body slides",
+        );
+    }
+    if let Some(normal) = &sliding.normal
+        && !is_zero(dot(normal, &guide.along))
+    {
+        return error(
+            format!("the normal of `{name}` is not at a right angle to its direction"),
+            "it only says on which side of the guide the body is",
+        );
+    }
+    let mut coasting = Variables::of(model).coasting(model);
+    let [slip, off] = relative(model, sliding, guide, &mut coasting);
+    if !is_zero(off) {
+        return error(
+            format!("the coordinates let the body of `{name}` leave its guide"),
+            "the origin of its frame, or the mass centre of a body without one, may move only along the direction, seen from what it slides on",
+        );
+    }
+    if is_zero(slip) {
+        return error(
+            format!(
+                "the body of `{name}` does not slide: no coordinate moves it along the direction"
+            ),
+            "friction acts where something moves, or could",
+        );
+    }
+    let alone = model
+        .sliding
+        .iter()
+        .filter(|s| s.body == sliding.body)
+        .count()
+        == 1;
+    if alone && follows(model, sliding, slip, &mut coasting) {
+        return error(
+            format!("the body of `{name}` is held by more than this guide"),
+            "where it is on the guide follows from how the guide moves: say under `sliding` what else it slides in, with `friction: 0` where that is smooth",
+        );
+    }
+    None
+}
+
+/// Whether a slip is decided by the motion of what the body slides on: then something else holds the
+/// body, of which nothing is known.
+fn follows<'d>(
+    model: &Model<'d>,
+    sliding: &Sliding<'d>,
+    slip: Expr<'d>,
+    rate: &mut Tangent<'d>,
+) -> bool {
+    let dag = model.dag;
+    let x = Variables::of(model);
+    let (origin, angle) = base(model, sliding);
+    let turning = angle.map_or(dag.zero(), |angle| rate.of(angle));
+    let motion = [rate.of(origin[0]), rate.of(origin[1]), turning];
+    let mut rows: Vec<Vec<Expr<'d>>> = motion.iter().map(|&u| gradient(dag, u, &x.v)).collect();
+    rows.push(gradient(dag, slip, &x.v));
+    identity::is_combination(dag, &rows)
+}
+
+/// The rows of all displacements along the normals, before they are solved for the reactions.
+struct Reactions<'d> {
+    /// What the reactions along each displacement add up to.
+    rows: Vec<Normal<'d>>,
+    /// By each normal reaction.
+    shares: Vec<Vec<Expr<'d>>>,
+}
+
+/// A normal reaction, as a linear form.
+#[derive(Clone)]
+struct Normal<'d> {
+    load: Expr<'d>,
+    by_accelerations: Vec<Expr<'d>>,
+    by_multipliers: Vec<Expr<'d>>,
+    by_friction_forces: Vec<Expr<'d>>,
+}
+
+impl<'d> Normal<'d> {
+    fn parts(&mut self) -> impl Iterator<Item = &mut Expr<'d>> {
+        let lists = self
+            .by_accelerations
+            .iter_mut()
+            .chain(&mut self.by_multipliers)
+            .chain(&mut self.by_friction_forces);
+        std::iter::once(&mut self.load).chain(lists)
+    }
+}
+
+impl<'d> Reactions<'d> {
+    fn of(model: &Model<'d>, relaxed: &Model<'d>, guides: &[Guide<'d>]) -> Reactions<'d> {
+        let dag = model.dag;
+        let x = Variables::of(relaxed);
+        let n = model.coordinates.len();
+        let dimension = model.space.dimension();
+        let own = |k: usize| n + dimension * k..n + dimension * (k + 1);
+
+        let unbalanced = Projection::of(relaxed, &x).unbalanced();
+        let constraints = constraints::constraints(relaxed);
+        let mut coasting = x.coasting(relaxed);
+        let moved: Vec<[Vec<Expr<'d>>; 2]> = relaxed
+            .sliding
+            .iter()
+            .zip(guides)
+            .map(|(sliding, guide)| {
+                relative(relaxed, sliding, guide, &mut coasting)
+                    .map(|rate| gradient(dag, rate, &x.v))
+            })
+            .collect();
+
+        let shut: Vec<_> = (n..x.q.len())
+            .flat_map(|i| [x.q[i], x.v[i], x.a[i]])
+            .map(|symbol| (symbol, dag.zero()))
+            .collect();
+        let closed = |values: &[Expr<'d>]| substitute(dag, values, &shut);
+        let along = |k: usize, column: &dyn Fn(usize) -> Expr<'d>| {
+            let pairs = own(k).zip(&guides[k].normal);
+            let row = dag.sum(pairs.map(|(i, &normal)| normal * column(i)));
+            closed(&[row])[0]
+        };
+        let mut rows = Vec::with_capacity(guides.len());
+        let mut shares = Vec::with_capacity(guides.len());
+        for k in 0..guides.len() {
+            let whole = along(k, &|i| -unbalanced[i]);
+            let at_rest: Vec<_> = x.a[..n].iter().map(|&a| (a, dag.zero())).collect();
+            rows.push(Normal {
+                load: substitute(dag, &[whole], &at_rest)[0],
+                by_accelerations: gradient(dag, whole, &x.a[..n]),
+                by_multipliers: constraints
+                    .iter()
+                    .map(|c| along(k, &|i| -c.row[i]))
+                    .collect(),
+                by_friction_forces: moved
+                    .iter()
+                    .map(|[slip, _]| along(k, &|i| -slip[i]))
+                    .collect(),
+            });
+            let share = moved.iter().map(|[_, off]| along(k, &|i| off[i]));
+            shares.push(share.collect());
+        }
+        let mut reactions = Reactions { rows, shares };
+        reactions.settle();
+        reactions
+    }
+
+    /// Writes 0 and 1 for what is 0 and 1.
+    fn settle(&mut self) {
+        let known = |e: &mut Expr<'d>| {
+            let dag = e.dag();
+            for value in [dag.zero(), dag.one()] {
+                if identity::equal(*e, value) == Some(true) {
+                    *e = value;
+                }
+            }
+        };
+        self.rows.iter_mut().flat_map(Normal::parts).for_each(known);
+        self.shares.iter_mut().flatten().for_each(known);
+    }
+
+    /// The reactions, by elimination; none where a row is a combination of others.
+    ///
+    /// No rows are exchanged: every diagonal entry is 1, and what is left of it is 0 only where two
+    /// guides hold the same.
+    fn solved(mut self) -> Option<Vec<Normal<'d>>> {
+        let count = self.rows.len();
+        for k in 0..count {
+            let pivot = self.shares[k][k];
+            if is_zero(pivot) {
+                return None;
+            }
+            for i in (0..count).filter(|i| *i != k) {
+                let factor = self.shares[i][k] / pivot;
+                if factor.is_zero() {
+                    continue;
+                }
+                let (row, share) = (self.rows[k].clone(), self.shares[k].clone());
+                for (to, &mut from) in self.rows[i].parts().zip(row.clone().parts()) {
+                    *to = *to - factor * from;
+                }
+                for (to, from) in self.shares[i].iter_mut().zip(share) {
+                    *to = *to - factor * from;
+                }
+            }
+        }
+        for k in 0..count {
+            let pivot = self.shares[k][k];
+            self.rows[k].parts().for_each(|part| *part = *part / pivot);
+        }
+        self.settle();
+        Some(self.rows)
+    }
+}
+
+/// A vector as long as 1.
+fn unit<'d>(vector: &[Expr<'d>]) -> Vec<Expr<'d>> {
+    let dag = vector[0].dag();
+    let square = dag.sum(vector.iter().map(|x| x.square()));
+    match identity::equal(square, dag.one()) {
+        Some(true) => vector.to_vec(),
+        _ => vector.iter().map(|&x| x / square.sqrt()).collect(),
+    }
+}
+
+fn dot<'d>(u: &[Expr<'d>], v: &[Expr<'d>]) -> Expr<'d> {
+    u[0].dag().sum(u.iter().zip(v).map(|(&a, &b)| a * b))
+}
+
+fn is_zero(e: Expr<'_>) -> bool {
+    identity::is_zero(e) == Some(true)
+}

@@ -1,0 +1,76 @@
+//! The equations of a machine as lines of text, for the comments of code.
+
+use std::collections::BTreeMap;
+
+use lagrangian_symbolic::normal::{READABLE_BUDGET, readable};
+use lagrangian_symbolic::{Expr, text};
+
+use crate::Equations;
+use crate::{Quantity, quantities};
+use lagrangian_program::quantity::Entry;
+use lagrangian_program::{Program, Role};
+use lagrangian_spec::model::Model;
+
+/// The most numbers, symbols and operations of a formula that is shown. Whoever wants to read more derives it as a page.
+const LONGEST_LINE: u64 = 250;
+
+/// The most that the comment of one function shows.
+const LONGEST_COMMENT: u64 = 2500;
+
+/// For each function the lines that say what it computes, `M[theta, x] = m*l*cos(theta)`, in the spec language; zeros are
+/// left out, and what is long is `…`.
+pub fn formulas<'d>(
+    program: &Program,
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+) -> BTreeMap<Role, Vec<String>> {
+    let shown = quantities(model, equations)
+        .into_iter()
+        // `f = Q - h`, and by how much a fact holds, is said in words.
+        .filter(|quantity| !matches!(quantity.role, Role::Forces | Role::Assumption(_)));
+    shown
+        .map(|Quantity { role, values, .. }| {
+            let symbol = match role {
+                Role::Output(i) => model.outputs[i].name.to_string(),
+                role => role.row().symbol.to_owned(),
+            };
+            let name = |index: usize| match program.entry(role, index) {
+                Entry::Of(kind, i) => format!("{symbol}[{}]", program.member((kind, i))),
+                Entry::At(row, column) => {
+                    format!(
+                        "{symbol}[{}, {}]",
+                        program.member(row),
+                        program.member(column)
+                    )
+                }
+                _ => symbol.clone(),
+            };
+            let named = values.into_iter().enumerate();
+            (
+                role,
+                lines(named.map(|(index, value)| (name(index), value))),
+            )
+        })
+        .collect()
+}
+
+fn lines<'d>(values: impl Iterator<Item = (String, Expr<'d>)>) -> Vec<String> {
+    let mut shown = 0;
+    let mut lines = Vec::new();
+    for (name, value) in values.filter(|(_, value)| !value.is_zero()) {
+        let size = value.size();
+        shown += size.min(LONGEST_LINE);
+        if shown > LONGEST_COMMENT {
+            lines.push("…".to_owned());
+            break;
+        }
+        lines.push(match size > LONGEST_LINE {
+            true => format!("{name} = …"),
+            false => {
+                let value = readable(value, READABLE_BUDGET);
+                format!("{name} = {}", text(value, value.dag()))
+            }
+        });
+    }
+    lines
+}

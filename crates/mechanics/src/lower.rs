@@ -1,0 +1,1219 @@
+//! From expressions to programs.
+
+mod articulated;
+mod bars;
+mod closed;
+mod derivatives;
+mod friction;
+mod stages;
+mod states;
+
+use lagrangian_symbolic::{self as symbolic, Dag, Expr, Stage, Symbol, nearest, reachable};
+use rustc_hash::FxHashMap;
+
+use crate::{ConstraintEquation, Equations, Reduction, SlidingEquation, Unprojected};
+use articulated::Order;
+use lagrangian_program::Rounding;
+use lagrangian_program::choose::{Basis, Candidate, Choice, Form, best};
+use lagrangian_program::formula::formula;
+use lagrangian_program::graph::{Graph, Id, Scaled};
+use lagrangian_program::net::Net;
+use lagrangian_program::quantity::Sizes;
+use lagrangian_program::rounding::States;
+use lagrangian_program::schedule::{Code, schedule};
+use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
+use lagrangian_program::{
+    Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source,
+};
+use lagrangian_spec::model::{Model, Name, Stages, Variable, stage};
+use lagrangian_spec::unit::Unit;
+use lagrangian_units::rate_name;
+
+/// A named result: what a function is to compute.
+#[derive(Clone, Debug)]
+pub struct Quantity<'d> {
+    /// What it is.
+    pub role: Role,
+    /// How the values are arranged.
+    pub shape: Shape,
+    /// The values, [`Shape::len`] many, over the symbols of the model.
+    pub values: Vec<Expr<'d>>,
+}
+
+/// The program of a machine: every function that [`Role`] names, each in the cheapest way that
+/// is known.
+pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
+    let expanded = equations.expanded();
+    lower_by(model, equations, expanded.as_ref(), &best)
+}
+
+/// The same with a choice of one's own: `choose` is given the programs for one function, two or
+/// more, and says which it is to be.
+///
+/// `expanded` are the same equations, [multiplied out](Equations::expanded).
+pub fn lower_by<'d>(
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+    expanded: Option<&Equations<'d>>,
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> Program {
+    let slopes = |basis| match (basis, expanded) {
+        (Basis::Expanded, Some(expanded)) => expanded.slopes_in_forms(model),
+        _ => equations.slopes_in_forms(model),
+    };
+    let reduced = equations.reduction.as_ref().map(|reduction| {
+        let (model, equations) = (&reduction.machine.0, &reduction.equations);
+        let expanded = equations.expanded();
+        let expanded = expanded.map(|expanded| matrix_and_forces(model, &expanded));
+        (
+            &**reduction,
+            quantities(model, equations),
+            expanded.unwrap_or_default(),
+        )
+    });
+    let multipliers = equations.constraints.iter().map(|c| c.multiplier);
+    let multipliers: Vec<Expr<'d>> = multipliers.collect();
+    let source = Origin {
+        quantities: &quantities(model, equations),
+        expanded: &expanded.map_or_else(Vec::new, |expanded| matrix_and_forces(model, expanded)),
+        // What runs along a machine that closes would not close.
+        unprojected: equations
+            .unprojected
+            .as_ref()
+            .filter(|_| is_open(equations)),
+        cut_open: equations
+            .unprojected
+            .as_ref()
+            .filter(|_| !is_open(equations)),
+        slopes: &slopes,
+        sliding: &equations.sliding,
+        multipliers: &multipliers,
+        reduced: reduced
+            .as_ref()
+            .map(|(reduction, quantities, expanded)| Set {
+                model: &reduction.machine.0,
+                quantities,
+                expanded,
+                unprojected: reduction
+                    .equations
+                    .unprojected
+                    .as_ref()
+                    .filter(|_| reduction.constraints.is_empty()),
+                cut_open: reduction
+                    .equations
+                    .unprojected
+                    .as_ref()
+                    .filter(|_| !reduction.constraints.is_empty()),
+                reduction: Some(reduction),
+            }),
+    };
+    let mut program = build(
+        model,
+        source,
+        equations.constraints.iter().map(constraint).collect(),
+        choose,
+    );
+    program.contacts = equations.sliding.iter().map(|s| s.name.clone()).collect();
+    debug_assert_eq!(program.verify(), Ok(()));
+    program
+}
+
+/// The program that computes the quantities.
+///
+/// If a mass matrix and forces are among them, there are accelerations too.
+pub fn of_quantities<'d>(model: &Model<'d>, quantities: &[Quantity<'d>]) -> Program {
+    let source = Origin {
+        quantities,
+        expanded: &[],
+        unprojected: None,
+        cut_open: None,
+        slopes: &|_| Vec::new(),
+        sliding: &[],
+        multipliers: &[],
+        reduced: None,
+    };
+    build(model, source, Vec::new(), &best)
+}
+
+fn build<'d>(
+    model: &Model<'d>,
+    source: Origin<'_, 'd>,
+    constraints: Vec<Constraint>,
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> Program {
+    let mut quantities = source.quantities.to_vec();
+    if let Some(machine) = source.unprojected {
+        shorten_mass_matrix(model, machine, &mut quantities);
+    }
+    let source = Origin {
+        quantities: &quantities,
+        ..source
+    };
+    let mut starts: Vec<Expr<'d>> = model.coordinates.iter().map(|c| c.start).collect();
+    if model.coordinates.iter().any(|c| !c.start_rate.is_zero()) {
+        starts.extend(model.coordinates.iter().map(|c| c.start_rate));
+    }
+    let mut lowering = Lowering::new(model, constraints.len());
+    lowering.lower(&all_values(source.quantities));
+    lowering.lower(&starts);
+    lowering.lower(&all_values(source.expanded));
+    let mut default = |constant| default(&mut lowering, constant);
+    let parameters = model
+        .parameters
+        .iter()
+        .map(|p| {
+            slot(
+                &p.name,
+                &p.docs,
+                p.unit,
+                &p.unit_text,
+                p.default.map(&mut default),
+            )
+        })
+        .collect();
+    let inputs = model
+        .inputs
+        .iter()
+        .map(|i| {
+            slot(
+                &i.name,
+                &i.docs,
+                i.unit,
+                &i.unit_text,
+                Some(default(i.default)),
+            )
+        })
+        .collect();
+    let coordinates = model
+        .coordinates
+        .iter()
+        .map(|c| slot(&c.name, &c.docs, c.unit, &c.unit_text, None))
+        .collect();
+    let outputs = model
+        .outputs
+        .iter()
+        .map(|o| slot(&o.name, &o.docs, o.unit, &o.unit_text, None))
+        .collect();
+
+    let start = Planned {
+        role: Role::Start,
+        shape: Shape::Vector(starts.len()),
+        results: lowering.values(&starts),
+        pivots: Vec::new(),
+        rows: 0,
+    };
+    let start = start.only(&mut lowering.graph).function;
+    let mut choices = Vec::new();
+    let mut drafts: Vec<Draft> = Vec::new();
+    let states = states::around_start(model);
+    let mut take = |candidates: Vec<Draft>, graph: &Graph| {
+        let (draft, choice) = taken(candidates, graph, &states, choose);
+        choices.extend(choice);
+        drafts.extend(draft);
+    };
+    for quantity in source.quantities {
+        let drafts = of_quantity(&mut lowering, quantity, source.expanded);
+        take(drafts, &lowering.graph);
+    }
+    let mut ways = match source.sliding.is_empty() {
+        true => accelerations(&mut lowering, source.whole(model)),
+        false => friction::friction(&mut lowering, source),
+    };
+    if let Some(reduced) = source.reduced {
+        let offsets = reduced.reduction.into_iter().flat_map(|r| &r.dependents);
+        let offsets = offsets.filter_map(|d| d.offset.map(|[name, meaning]| (name, meaning)));
+        lowering.name(&offsets.collect::<Vec<_>>());
+        lowering.lower(&all_values(reduced.quantities));
+        lowering.lower(&all_values(reduced.expanded));
+        ways.extend(accelerations(&mut lowering, reduced));
+    }
+    take(ways, &lowering.graph);
+    let (staged, staged_choice) = match drafts.last() {
+        Some(last) if last.form.role == Role::Accelerations && !model.stages.is_empty() => {
+            stages::staged(&mut lowering, source, last, &states, choose)
+        }
+        _ => (Vec::new(), None),
+    };
+    let stages = match staged.is_empty() {
+        true => Stages::default(),
+        false => model.stages,
+    };
+    let derivatives = match drafts.last() {
+        Some(last) if last.form.role == Role::Accelerations => {
+            derivatives(&mut lowering, source, last)
+        }
+        _ => None,
+    };
+    let multipliers = match drafts.last() {
+        Some(last) if last.form.role == Role::Accelerations && !constraints.is_empty() => {
+            multipliers(&mut lowering, source, last)
+        }
+        _ => Vec::new(),
+    };
+    let (multipliers, multipliers_choice) = taken(multipliers, &lowering.graph, &states, choose);
+    drafts.extend(multipliers);
+    choices.extend(multipliers_choice);
+    let has_derivatives = derivatives.is_some();
+    drafts.extend(derivatives);
+    drafts.extend(staged);
+    choices.extend(staged_choice);
+    drafts.sort_by_key(|draft| draft.function.role);
+    choices.sort_by_key(Choice::role);
+    let (prepare, prepared, functions) =
+        prepare(&mut lowering.graph, drafts, model, constraints.len());
+    let program = Program {
+        name: model.name.clone(),
+        docs: model.docs.clone(),
+        parameters,
+        coordinates,
+        inputs,
+        outputs,
+        assumptions: facts(model),
+        constraints,
+        contacts: Vec::new(),
+        kept: model
+            .kept
+            .iter()
+            .map(|kept| start_name(model, *kept))
+            .collect(),
+        derivatives: match has_derivatives {
+            true => model.derivatives.clone(),
+            false => Vec::new(),
+        },
+        stages,
+        prepare,
+        prepared,
+        start,
+        functions,
+        choices,
+    };
+    // Contacts are named by the caller, who verifies then.
+    if source.sliding.is_empty() {
+        debug_assert_eq!(program.verify(), Ok(()));
+    }
+    program
+}
+
+/// What a start value is called: as its coordinate is, or `der(phi)`.
+fn start_name(model: &Model<'_>, of: Variable) -> String {
+    match of {
+        Variable::Rate(i) => rate_name(&model.coordinates[i].name.to_string(), ""),
+        Variable::Coordinate(i) => model.coordinates[i].name.to_string(),
+        Variable::Parameter(i) => model.parameters[i].name.to_string(),
+        Variable::Input(i) => model.inputs[i].name.to_string(),
+    }
+}
+
+fn is_open(equations: &Equations<'_>) -> bool {
+    equations.constraints.is_empty()
+}
+
+fn all_values<'d>(quantities: &[Quantity<'d>]) -> Vec<Expr<'d>> {
+    let values = quantities.iter().flat_map(|quantity| &quantity.values);
+    values.copied().collect()
+}
+
+/// What a program is made from.
+#[derive(Clone, Copy)]
+struct Origin<'a, 'd> {
+    quantities: &'a [Quantity<'d>],
+    /// Some of the same quantities, multiplied out.
+    expanded: &'a [Quantity<'d>],
+    unprojected: Option<&'a Unprojected<'d>>,
+    /// The same of a machine that constraints close.
+    cut_open: Option<&'a Unprojected<'d>>,
+    /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
+    /// they were derived or multiplied out.
+    slopes: &'a dyn Fn(Basis) -> Vec<Vec<Vec<Expr<'d>>>>,
+    /// The contacts with friction.
+    sliding: &'a [SlidingEquation<'d>],
+    /// The symbols of the multipliers in them.
+    multipliers: &'a [Expr<'d>],
+    /// The same machine without the coordinates that constraints settle.
+    reduced: Option<Set<'a, 'd>>,
+}
+
+/// A set of equations that accelerations can be taken from.
+#[derive(Clone, Copy)]
+struct Set<'a, 'd> {
+    model: &'a Model<'d>,
+    quantities: &'a [Quantity<'d>],
+    expanded: &'a [Quantity<'d>],
+    unprojected: Option<&'a Unprojected<'d>>,
+    cut_open: Option<&'a Unprojected<'d>>,
+    /// How its coordinates are among those of the machine, where these are more.
+    reduction: Option<&'a Reduction<'d>>,
+}
+
+impl<'a, 'd> Origin<'a, 'd> {
+    /// All coordinates.
+    fn whole(self, model: &'a Model<'d>) -> Set<'a, 'd> {
+        Set {
+            model,
+            quantities: self.quantities,
+            expanded: self.expanded,
+            unprojected: self.unprojected,
+            cut_open: self.cut_open,
+            reduction: None,
+        }
+    }
+}
+
+/// What there is to compute of a machine, in the order of [`Role`]; accelerations follow from it.
+pub fn quantities<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
+    let outputs = (0..equations.outputs.len()).map(Role::Output);
+    let facts = (0..model.assumptions.len()).map(Role::Assumption);
+    let own = Role::all().filter(|role| !matches!(role, Role::Output(_) | Role::Assumption(_)));
+    let roles = own.chain(outputs).chain(facts);
+    roles
+        .filter_map(|role| quantity(model, equations, role))
+        .collect()
+}
+
+/// A quantity in expressions; `None` if the machine has it not, or it follows from others.
+fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Option<Quantity<'d>> {
+    let sizes = Sizes {
+        coordinates: model.coordinates.len(),
+        constraints: equations.constraints.len(),
+        contacts: equations.sliding.len(),
+        derivatives: model.derivatives.len(),
+    };
+    if !role.row().needs.are_met(sizes) {
+        return None;
+    }
+    let (constraints, sliding) = (equations.constraints.iter(), equations.sliding.iter());
+    let zero = model.dag.zero();
+    let values = match role {
+        Role::MassMatrix => equations.mass_matrix.lower().to_vec(),
+        Role::Bias => equations.bias.clone(),
+        Role::Applied => equations.applied.clone(),
+        Role::Forces => equations.forces.clone(),
+        Role::KineticEnergy => vec![equations.kinetic_energy],
+        Role::PotentialEnergy => vec![equations.potential_energy],
+        Role::Dissipation => vec![equations.dissipation],
+        Role::WorkRate => vec![equations.work_rate],
+        Role::DissipationRate => vec![equations.dissipation_rate],
+        Role::ConstraintPositions => constraints.map(|c| c.position.unwrap_or(zero)).collect(),
+        Role::ConstraintRates => constraints.map(|c| c.rate).collect(),
+        Role::ConstraintMatrix => constraints.flat_map(|c| c.row.iter().copied()).collect(),
+        Role::ConstraintDrift => constraints.map(|c| c.drift).collect(),
+        Role::Slips => sliding.map(|s| s.slip).collect(),
+        Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
+        Role::SlipDrift => sliding.map(|s| s.drift).collect(),
+        Role::Output(index) => vec![equations.outputs[index]],
+        Role::Assumption(index) => vec![model.assumptions[index].excess],
+        // These are found by elimination, or are no expressions of the equations.
+        Role::Prepare
+        | Role::Start
+        | Role::Accelerations
+        | Role::Multipliers
+        | Role::Friction
+        | Role::Derivatives
+        | Role::AtTime
+        | Role::AtPosition
+        | Role::AccelerationsAt => return None,
+    };
+    Some(Quantity {
+        role,
+        shape: role.row().extent.shape(sizes)?,
+        values,
+    })
+}
+
+/// What a program says of a constraint.
+fn constraint(equation: &ConstraintEquation<'_>) -> Constraint {
+    Constraint {
+        name: equation.name.clone(),
+        unit: equation.unit.to_string(),
+        multiplier_unit: equation.multiplier_unit().to_string(),
+        holonomic: equation.position.is_some(),
+    }
+}
+
+/// Takes the mass matrix by [`articulated::mass_matrix`] where that is shorter.
+fn shorten_mass_matrix<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    quantities: &mut [Quantity<'d>],
+) {
+    let matrix = quantities
+        .iter_mut()
+        .find(|quantity| quantity.role == Role::MassMatrix);
+    if let Some(matrix) = matrix
+        && let Some(composite) = articulated::mass_matrix(model, machine)
+        && operations(model.dag, &composite) < operations(model.dag, &matrix.values)
+    {
+        matrix.values = composite;
+    }
+}
+
+/// How many numbers are multiplied and added at run time, before anything is shared but nodes.
+fn operations(dag: &Dag, roots: &[Expr<'_>]) -> usize {
+    let varies = |id: &symbolic::Id| dag.expr(*id).stage() > Stage::PARAMETER;
+    let each = |id: symbolic::Id| match dag.node(id) {
+        symbolic::Node::Sum(terms) if varies(&id) => terms.len() - 1,
+        symbolic::Node::Product(factors) => {
+            let varying = factors.iter().filter(|(factor, _)| varies(factor)).count();
+            varying.saturating_sub(usize::from(varying == factors.len()))
+        }
+        _ => 0,
+    };
+    reachable(dag, roots).into_iter().map(each).sum()
+}
+
+/// `M`, `h` and `f`: what is different in equations that are multiplied out.
+fn matrix_and_forces<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Quantity<'d>> {
+    [Role::MassMatrix, Role::Bias, Role::Forces]
+        .into_iter()
+        .filter_map(|role| quantity(model, equations, role))
+        .collect()
+}
+
+/// Expressions on their way into the graph.
+struct Lowering<'m, 'd> {
+    model: &'m Model<'d>,
+    /// How many constraints there are.
+    constraints: usize,
+    graph: Graph,
+    sources: FxHashMap<Symbol, Source>,
+    values: FxHashMap<symbolic::Id, Scaled>,
+}
+
+impl<'m, 'd> Lowering<'m, 'd> {
+    fn new(model: &'m Model<'d>, constraints: usize) -> Self {
+        Lowering {
+            model,
+            constraints,
+            graph: Graph::default(),
+            sources: sources(model),
+            values: FxHashMap::default(),
+        }
+    }
+
+    /// Brings the expressions and all their parts into the graph.
+    fn lower(&mut self, roots: &[Expr<'d>]) {
+        for id in reachable(self.model.dag, roots) {
+            if !self.values.contains_key(&id) {
+                let value = self.node(&self.model.dag.node(id));
+                self.values.insert(id, value);
+            }
+        }
+    }
+
+    /// Lets symbols stand for values that are computed once.
+    fn name(&mut self, names: &[(Expr<'d>, Expr<'d>)]) {
+        for (name, meaning) in names {
+            self.lower(&[*meaning]);
+            let whole = self.graph.whole(self.values[&meaning.id()]);
+            self.values.insert(name.id(), whole);
+        }
+    }
+
+    fn node(&mut self, node: &symbolic::Node) -> Scaled {
+        match node {
+            symbolic::Node::Constant(value) => self.graph.constant(value),
+            symbolic::Node::Pi => self.graph.pi(),
+            symbolic::Node::Symbol(symbol) => {
+                let source = self
+                    .sources
+                    .get(symbol)
+                    .expect("expressions are over symbols of their model");
+                self.graph.read(*source)
+            }
+            symbolic::Node::Sum(terms) => {
+                let terms: Vec<Scaled> = terms
+                    .iter()
+                    .map(|(id, coefficient)| {
+                        let coefficient = self.graph.constant(coefficient);
+                        self.graph
+                            .product(&[(coefficient, 1), (self.values[id], 1)])
+                    })
+                    .collect();
+                self.graph.sum(&terms)
+            }
+            symbolic::Node::Product(factors) => {
+                let factors: Vec<(Scaled, i32)> = factors
+                    .iter()
+                    .map(|(id, power)| (self.values[id], *power))
+                    .collect();
+                self.graph.product(&factors)
+            }
+            symbolic::Node::Function(function, arguments) => {
+                let arguments: Vec<Scaled> = arguments.iter().map(|id| self.values[id]).collect();
+                self.graph.function(*function, &arguments)
+            }
+        }
+    }
+
+    /// M and f, if both are there; of the constraints behind them those that they come with.
+    fn system(
+        &mut self,
+        quantities: &[Quantity<'d>],
+        constraints: &[Quantity<'d>],
+    ) -> Option<System> {
+        let values = |quantities: &[Quantity<'d>], role| {
+            let quantity = quantities.iter().find(|quantity| quantity.role == role)?;
+            Some(self.values(&quantity.values))
+        };
+        let mut matrix = values(quantities, Role::MassMatrix)?;
+        let mut forces = values(quantities, Role::Forces)?;
+        let coordinates = forces.len();
+        let rows = values(constraints, Role::ConstraintMatrix).unwrap_or_default();
+        let drifts = values(constraints, Role::ConstraintDrift).unwrap_or_default();
+        // A machine whose coordinates are all settled has rows without entries.
+        for k in 0..drifts.len() {
+            matrix.extend(&rows[k * coordinates..][..coordinates]);
+            matrix.extend(vec![Scaled::ZERO; k + 1]);
+        }
+        forces.extend(drifts);
+        let system = System {
+            matrix,
+            forces,
+            coordinates,
+            held: Vec::new(),
+        };
+        Some(system.held_by_constraints(&mut self.graph))
+    }
+
+    fn values(&self, expressions: &[Expr<'d>]) -> Vec<Scaled> {
+        expressions
+            .iter()
+            .map(|expression| self.values[&expression.id()])
+            .collect()
+    }
+}
+
+/// A function before its code is written.
+struct Planned {
+    role: Role,
+    shape: Shape,
+    results: Vec<Scaled>,
+    pivots: Vec<Pivot>,
+    /// How many rows the system has that the pivots are of.
+    rows: usize,
+}
+
+/// A function of which it is not yet decided whether it is taken.
+struct Draft {
+    form: Form,
+    function: Function,
+    /// The nodes that its `Read(Prepared(k))` stand for.
+    prepared: Vec<Id>,
+    /// Pivots that parameters alone decide.
+    known_pivots: Vec<Pivot>,
+}
+
+impl Draft {
+    fn is_same(&self, other: &Draft) -> bool {
+        self.function == other.function && self.prepared == other.prepared
+    }
+}
+
+impl Planned {
+    /// The function in the ways that there are: common pairs shared, and before that, factors taken
+    /// out of sums.
+    fn drafts(self, graph: &mut Graph, basis: Basis) -> Vec<Draft> {
+        let net = self.net(graph, true);
+        let mut factored = net.clone();
+        let has_factors = net.size() <= LARGEST_FACTORED && factored.factor();
+        let mut drafts = vec![self.draft(Some(graph), net, basis, false)];
+        if has_factors {
+            drafts.push(self.draft(Some(graph), factored, basis, true));
+        }
+        drafts
+    }
+
+    /// The function without a choice, of parameters.
+    fn only(self, graph: &mut Graph) -> Draft {
+        let net = self.net(graph, false);
+        self.draft(None, net, Basis::Derived, false)
+    }
+
+    fn net(&self, graph: &mut Graph, cut: bool) -> Net {
+        let guarded = self.pivots.iter().flat_map(|p| [p.pivot, p.scale]);
+        let roots: Vec<(Id, bool)> = self
+            .results
+            .iter()
+            .copied()
+            .chain(guarded)
+            .map(|x| match cut && x.negative && x.factor != Id::ONE {
+                // A sign is prepared with the value that it belongs to.
+                true => {
+                    let x = graph.with_signed_factor(x);
+                    (graph.unsigned(x), false)
+                }
+                false => (graph.unsigned(x), x.negative),
+            })
+            .collect();
+        Net::new(graph, &roots, cut)
+    }
+
+    /// The function of a net; with the graph, what is known once the parameters are is prepared.
+    fn draft(
+        &self,
+        graph: Option<&mut Graph>,
+        mut net: Net,
+        basis: Basis,
+        factored: bool,
+    ) -> Draft {
+        net.share_pairs();
+        let Code {
+            code,
+            roots,
+            prepared,
+        } = schedule(&net, graph);
+        let (results, guarded) = roots.split_at(self.results.len());
+        let guards = self
+            .pivots
+            .iter()
+            .zip(guarded.chunks_exact(2))
+            .map(|(p, values)| Guard {
+                pivot: values[0],
+                scale: values[1],
+                tolerance: solve::pivot_tolerance(self.rows),
+                coordinate: p.coordinate,
+            })
+            .collect();
+        Draft {
+            form: Form {
+                role: self.role,
+                basis,
+                reduced: false,
+                factored,
+            },
+            function: Function {
+                role: self.role,
+                code,
+                shape: self.shape,
+                results: results.to_vec(),
+                guards,
+            },
+            prepared,
+            known_pivots: Vec::new(),
+        }
+    }
+}
+
+/// The one that is chosen, and the record of the choice if there was one.
+fn taken(
+    mut drafts: Vec<Draft>,
+    graph: &Graph,
+    states: &States,
+    choose: &dyn Fn(&[Candidate]) -> usize,
+) -> (Option<Draft>, Option<Choice>) {
+    let mut different: Vec<Draft> = Vec::with_capacity(drafts.len());
+    for draft in drafts.drain(..) {
+        if !different.iter().any(|other| draft.is_same(other)) {
+            different.push(draft);
+        }
+    }
+    if different.len() < 2 {
+        return (different.pop(), None);
+    }
+    let roundings = roundings(&different.iter().collect::<Vec<_>>(), graph, states);
+    let candidate = |(index, draft): (usize, &Draft)| Candidate {
+        form: draft.form,
+        counts: draft.function.counts(),
+        cost: draft.function.cost(),
+        rounding: roundings.as_ref().map(|roundings| roundings[index]),
+    };
+    let candidates: Vec<Candidate> = different.iter().enumerate().map(candidate).collect();
+    let chosen = choose(&candidates).min(candidates.len() - 1);
+    let draft = different.swap_remove(chosen);
+    (Some(draft), Some(Choice { candidates, chosen }))
+}
+
+/// What rounding does to the results of each draft, what is prepared for it included.
+fn roundings(drafts: &[&Draft], graph: &Graph, states: &States) -> Option<Vec<Rounding>> {
+    let all = drafts.iter().flat_map(|draft| draft.prepared.iter());
+    let mut ids: Vec<Id> = all.copied().collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let roots: Vec<(Id, bool)> = ids.iter().map(|&id| (id, false)).collect();
+    let Code { code, roots, .. } = schedule(&Net::new(graph, &roots, false), None);
+    let prepare = Function {
+        role: Role::Prepare,
+        code,
+        shape: Shape::Vector(roots.len()),
+        results: roots,
+        guards: Vec::new(),
+    };
+    let reading = drafts.iter().map(|draft| {
+        let place = |id: &Id| ids.binary_search(id).unwrap_or(0);
+        let prepared = draft.prepared.iter().map(place).collect();
+        (&draft.function, prepared)
+    });
+    let functions: Vec<(&Function, Vec<usize>)> = reading.collect();
+    states.roundings(&prepare, &functions)
+}
+
+/// A quantity as it was derived and multiplied out.
+fn of_quantity<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    quantity: &Quantity<'d>,
+    expanded: &[Quantity<'d>],
+) -> Vec<Draft> {
+    let planned = |values: &[Expr<'d>], lowering: &Lowering<'_, 'd>| Planned {
+        role: quantity.role,
+        shape: quantity.shape,
+        results: lowering.values(values),
+        pivots: Vec::new(),
+        rows: 0,
+    };
+    let derived = planned(&quantity.values, lowering);
+    let other = expanded
+        .iter()
+        .find(|other| other.role == quantity.role)
+        .map(|other| planned(&other.values, lowering))
+        .filter(|other| other.results != derived.results);
+    let mut drafts = derived.drafts(&mut lowering.graph, Basis::Derived);
+    if let Some(other) = other {
+        drafts.extend(other.drafts(&mut lowering.graph, Basis::Expanded));
+    }
+    drafts
+}
+
+/// The accelerations from the mass matrix, and along the machine.
+fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Vec<Draft> {
+    let Some(derived) = lowering.system(source.quantities, source.quantities) else {
+        return Vec::new();
+    };
+    let mut systems = vec![(Basis::Derived, derived)];
+    let expanded = lowering
+        .system(source.expanded, source.quantities)
+        .filter(|expanded| *expanded != systems[0].1);
+    systems.extend(expanded.map(|system| (Basis::Expanded, system)));
+    let mut drafts = Vec::new();
+    for basis in [Basis::Along, Basis::Ahead] {
+        if let Some(machine) = source.unprojected {
+            let matrix = &systems[0].1.matrix;
+            drafts.extend(along_the_machine(lowering, source, matrix, machine, basis));
+        }
+    }
+    if let Some(machine) = source.cut_open
+        && let Some(solution) = closed::solve(lowering, source.model, &systems[0].1, machine)
+    {
+        drafts.extend(solved(lowering, source, solution, Basis::Along));
+    }
+    let shortest = drafts
+        .iter()
+        .map(|draft| draft.function.counts().ops())
+        .min();
+    for (basis, system) in systems {
+        let elimination = Elimination::of(&lowering.graph, &system);
+        // What is certainly longer is not even written down: it grows with the cube of the number
+        // of coordinates.
+        let most = shortest.map_or(MOST_MULTIPLICATIONS, |ops| ops.min(MOST_MULTIPLICATIONS));
+        if elimination.multiplications > most {
+            continue;
+        }
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
+        drafts.extend(solved(lowering, source, solution, basis));
+    }
+    drafts
+}
+
+/// What the square of a coefficient that parameters decide has to exceed by the tolerance of guards, for
+/// its value not to be rounding of its terms alone: `n Σ t²` times that tolerance. `None` where it has
+/// no rounding to speak of: a product, or a sum or difference of two numbers that are given.
+fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
+    let dag = coefficient.dag();
+    let symbolic::Node::Sum(terms) = coefficient.node() else {
+        return None;
+    };
+    let is_given = |(id, c): &(symbolic::Id, lagrangian_symbolic::Rational)| {
+        let is_symbol = dag.expr(*id).as_symbol().is_some();
+        is_symbol && c.abs().is_one()
+    };
+    if terms.len() < 2 || (terms.len() == 2 && terms.iter().all(is_given)) {
+        return None;
+    }
+    let squares = terms
+        .iter()
+        .map(|(id, c)| (dag.expr(*id) * c.clone()).square());
+    let tolerance = solve::pivot_tolerance(rows) * terms.len() as f64;
+    // A power of 2 at least as large: the tolerance is no number of the equations.
+    let halvings = -tolerance.log2().ceil() as i32;
+    Some(dag.sum(squares) / dag.int(2).powi(halvings))
+}
+
+/// The most operands in a function for which a second way is tried: beyond it, each takes a second.
+const LARGEST_FACTORED: usize = 200_000;
+
+/// The most multiplications of an elimination that is written down: every one is an instruction, and
+/// takes 2 kB until it is one. 115 coordinates that all depend on each other take as many.
+const MOST_MULTIPLICATIONS: usize = 250_000;
+
+/// A solution for the coordinates that are left, as one for all coordinates.
+fn embedded<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    reduction: &Reduction<'d>,
+    solution: Solution,
+) -> Solution {
+    let all = lowering.model.coordinates.len();
+    let left = &reduction.coordinates;
+    let mut accelerations = vec![Scaled::ZERO; all];
+    for (&i, &value) in left.iter().zip(&solution.accelerations) {
+        accelerations[i] = value;
+    }
+    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    let before = lowering.values.clone();
+    for (i, value) in accelerations.iter().enumerate() {
+        let symbol = lowering.model.coordinates[i].a;
+        lowering.values.insert(symbol.id(), *value);
+    }
+    let dag = lowering.model.dag;
+    let is_later = |id: &symbolic::Id| dag.expr(*id).stage() >= stage::ACCELERATION;
+    let is_symbol = |id: &symbolic::Id| dag.expr(*id).as_symbol().is_some();
+    lowering
+        .values
+        .retain(|id, _| !is_later(id) || is_symbol(id));
+    let following: Vec<Expr<'d>> = reduction
+        .dependents
+        .iter()
+        .map(|d| d.acceleration)
+        .collect();
+    lowering.lower(&following);
+    for (dependent, value) in reduction.dependents.iter().zip(lowering.values(&following)) {
+        accelerations[dependent.coordinate] = value;
+    }
+    lowering.values = before;
+
+    let row = |row: usize| match row.checked_sub(left.len()) {
+        None => left[row],
+        Some(constraint) => all + reduction.constraints[constraint],
+    };
+    let pivots = solution.pivots.into_iter().map(|pivot| Pivot {
+        coordinate: row(pivot.coordinate),
+        ..pivot
+    });
+    let mut pivots: Vec<Pivot> = pivots.collect();
+    // What was divided by; the determinant has its square.
+    let rows = all + lowering.constraints;
+    for dependent in &reduction.dependents {
+        lowering.lower(&[dependent.coefficient]);
+        let coefficient = lowering.values(&[dependent.coefficient])[0];
+        let pivot = lowering.graph.product(&[(coefficient, 2)]);
+        let pivot = lowering.graph.whole(pivot);
+        pivots.push(Pivot {
+            coordinate: all + dependent.constraint,
+            pivot,
+            scale: match rounding_of(dependent.coefficient, rows) {
+                None => pivot,
+                Some(rounding) => {
+                    lowering.lower(&[rounding]);
+                    lowering.values(&[rounding])[0]
+                }
+            },
+        });
+    }
+    Solution {
+        accelerations,
+        multipliers: Vec::new(),
+        pivots,
+        columns: Vec::new(),
+    }
+}
+
+/// The multipliers of the constraints, from the equations in all coordinates.
+fn multipliers<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+    accelerations: &Draft,
+) -> Vec<Draft> {
+    let (basis, quantities) = match accelerations.form {
+        Form {
+            basis: Basis::Expanded,
+            reduced: false,
+            ..
+        } => (Basis::Expanded, source.expanded),
+        _ => (Basis::Derived, source.quantities),
+    };
+    let Some(system) = lowering.system(quantities, source.quantities) else {
+        return Vec::new();
+    };
+    let elimination = Elimination::of(&lowering.graph, &system);
+    let work = elimination.multiplications;
+    let along = source.cut_open.and_then(|machine| {
+        let solution = closed::solve(lowering, lowering.model, &system, machine)?;
+        Some((Basis::Along, solution))
+    });
+    let mut drafts = Vec::new();
+    let mut draft = |lowering: &mut Lowering<'_, 'd>, basis, solution: Solution| {
+        let known = &accelerations.known_pivots;
+        let pivots = solution.pivots.into_iter();
+        let planned = Planned {
+            role: Role::Multipliers,
+            shape: Shape::Vector(solution.multipliers.len()),
+            results: solution.multipliers,
+            pivots: pivots.filter(|pivot| !known.contains(pivot)).collect(),
+            rows: system.forces.len(),
+        };
+        let ways = planned.drafts(&mut lowering.graph, basis);
+        let shortest = ways.iter().map(|draft| draft.function.counts().ops()).min();
+        drafts.extend(ways);
+        shortest
+    };
+    let shortest = along.and_then(|(basis, solution)| draft(lowering, basis, solution));
+    if work <= shortest.unwrap_or(MOST_MULTIPLICATIONS) {
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
+        draft(lowering, basis, solution);
+    }
+    drafts
+}
+
+/// The accelerations with their derivatives, if any are asked for: from the equations that the
+/// accelerations were taken from.
+fn derivatives<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Origin<'_, 'd>,
+    accelerations: &Draft,
+) -> Option<Draft> {
+    let (quantities, unprojected) = match accelerations.form.basis {
+        Basis::Expanded => (source.expanded, None),
+        Basis::Derived | Basis::Along | Basis::Ahead => (source.quantities, source.unprojected),
+    };
+    let slopes = (source.slopes)(accelerations.form.basis);
+    let system = lowering.system(quantities, source.quantities)?;
+    let asked = derivatives::Asked {
+        system: &system,
+        multipliers: source.multipliers,
+        unprojected,
+        slopes: &slopes,
+        known_pivots: &accelerations.known_pivots,
+    };
+    (!slopes.is_empty()).then(|| derivatives::derivatives(lowering, &asked))
+}
+
+/// The programs of a solution; pivots that parameters alone decide are kept apart.
+fn solved<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Set<'_, 'd>,
+    solution: Solution,
+    basis: Basis,
+) -> Vec<Draft> {
+    let solution = match source.reduction {
+        Some(reduction) => embedded(lowering, reduction, solution),
+        None => solution,
+    };
+    let known = |p: &Pivot| p.pivot.is_known() && p.scale.is_known();
+    let (known_pivots, pivots): (Vec<Pivot>, Vec<Pivot>) =
+        solution.pivots.into_iter().partition(known);
+    let planned = Planned {
+        role: Role::Accelerations,
+        rows: solution.accelerations.len() + solution.multipliers.len(),
+        shape: Shape::Vector(solution.accelerations.len()),
+        results: solution.accelerations,
+        pivots,
+    };
+    let mut drafts = planned.drafts(&mut lowering.graph, basis);
+    for draft in &mut drafts {
+        draft.form.reduced = source.reduction.is_some();
+        draft.known_pivots.clone_from(&known_pivots);
+    }
+    drafts
+}
+
+/// The accelerations by [`articulated::solve`].
+fn along_the_machine<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    source: Set<'_, 'd>,
+    matrix: &[Scaled],
+    machine: &Unprojected<'d>,
+    basis: Basis,
+) -> Vec<Draft> {
+    let order = match basis {
+        Basis::Ahead => Order::Ahead,
+        _ => Order::Short,
+    };
+    let Some(articulated::Solution {
+        accelerations,
+        pivots,
+        names,
+        ..
+    }) = articulated::solve(source.model, machine, order)
+    else {
+        return Vec::new();
+    };
+    lowering.name(&names);
+    let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
+    lowering.lower(&accelerations);
+    lowering.lower(&values);
+    let results = lowering.values(&accelerations);
+    let pivots: Vec<(usize, Scaled)> = pivots
+        .iter()
+        .map(|(coordinate, _)| *coordinate)
+        .zip(lowering.values(&values))
+        .collect();
+    let mut with_scales = |scale: &dyn Fn(usize, Scaled) -> Scaled| {
+        let pivots = pivots.iter().map(|&(coordinate, pivot)| Pivot {
+            coordinate,
+            pivot,
+            scale: scale(coordinate, pivot),
+        });
+        let solution = Solution {
+            pivots: pivots.collect(),
+            accelerations: results.clone(),
+            multipliers: Vec::new(),
+            columns: Vec::new(),
+        };
+        solved(lowering, source, solution, basis)
+    };
+    let diagonal = |i: usize| matrix[Shape::index(i, i)];
+    let full = with_scales(&|i, _| diagonal(i));
+    let lean = with_scales(&|i, pivot| {
+        if diagonal(i).is_known() {
+            diagonal(i)
+        } else {
+            pivot
+        }
+    });
+    let ops = |drafts: &[Draft]| {
+        let counts = drafts.iter().map(|draft| draft.function.counts().ops());
+        counts.min().unwrap_or(0)
+    };
+    let is_cheap = 100 * ops(&full) <= (100 + DEAREST_GUARDS) * ops(&lean);
+    if is_cheap { full } else { lean }
+}
+
+/// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may
+/// cost, in percent of the rest. Where they are not at hand, as in a chain in relative angles, a
+/// pivot need only be positive.
+const DEAREST_GUARDS: usize = 10;
+
+/// The function that computes what the others read, the formulas of its results, and the others
+/// with their final indices.
+fn prepare(
+    graph: &mut Graph,
+    drafts: Vec<Draft>,
+    model: &Model<'_>,
+    constraints: usize,
+) -> (Function, Vec<String>, Vec<Function>) {
+    let mut ids: Vec<Id> = drafts
+        .iter()
+        .flat_map(|draft| draft.prepared.iter().copied())
+        .collect();
+    ids.sort_unstable();
+    ids.dedup();
+    let index_of: FxHashMap<Id, u32> = ids
+        .iter()
+        .zip(0..)
+        .map(|(&id, index)| (id, index))
+        .collect();
+    let mut pivots = Vec::new();
+    let rows = model.coordinates.len() + constraints;
+    let functions = drafts
+        .into_iter()
+        .map(|draft| {
+            pivots.extend(draft.known_pivots);
+            let (mut function, prepared) = (draft.function, draft.prepared);
+            for op in &mut function.code {
+                if let Op::Read(Source::Prepared(index)) = op {
+                    *index = index_of[&prepared[*index as usize]];
+                }
+            }
+            function
+        })
+        .collect();
+    let formulas = ids
+        .iter()
+        .map(|&factor| {
+            formula(
+                graph,
+                Scaled {
+                    negative: false,
+                    factor,
+                    core: Id::ONE,
+                },
+                &|source| name_of(model, source),
+            )
+        })
+        .collect();
+    let planned = Planned {
+        role: Role::Prepare,
+        shape: Shape::Vector(ids.len()),
+        results: ids
+            .iter()
+            .map(|&factor| Scaled {
+                negative: false,
+                factor,
+                core: Id::ONE,
+            })
+            .collect(),
+        pivots,
+        rows,
+    };
+    let prepare = planned.only(graph).function;
+    (prepare, formulas, functions)
+}
+
+/// Where the symbols of a model come from.
+pub(super) fn sources(model: &Model<'_>) -> FxHashMap<Symbol, Source> {
+    let mut sources = FxHashMap::default();
+    let mut add = |symbol: Expr<'_>, source: Source| {
+        if let Some(symbol) = symbol.as_symbol() {
+            sources.insert(symbol, source);
+        }
+    };
+    add(model.time, Source::Time);
+    for (parameter, index) in model.parameters.iter().zip(0..) {
+        add(parameter.symbol, Source::Parameter(index));
+    }
+    for (coordinate, index) in model.coordinates.iter().zip(0..) {
+        add(coordinate.q, Source::Coordinate(index));
+        add(coordinate.v, Source::Velocity(index));
+        add(coordinate.a, Source::Acceleration(index));
+    }
+    for (input, index) in model.inputs.iter().zip(0..) {
+        add(input.symbol, Source::Input(index));
+    }
+    sources
+}
+
+fn facts(model: &Model<'_>) -> Vec<Fact> {
+    let assumptions = model.assumptions.iter();
+    assumptions
+        .map(|a| Fact {
+            text: a.text.clone(),
+            strict: a.strict,
+        })
+        .collect()
+}
+
+fn slot(name: &Name, docs: &str, unit: Unit, unit_text: &str, default: Option<Default>) -> Slot {
+    Slot {
+        name: name.clone(),
+        docs: docs.to_owned(),
+        unit,
+        unit_text: unit_text.to_owned(),
+        default,
+    }
+}
+
+/// A constant, as a number and as text.
+fn default<'d>(lowering: &mut Lowering<'_, 'd>, constant: Expr<'d>) -> Default {
+    let value = nearest(constant);
+    lowering.lower(&[constant]);
+    let text = formula(
+        &mut lowering.graph,
+        lowering.values[&constant.id()],
+        &|source| name_of(lowering.model, source),
+    );
+    Default { value, text }
+}
+
+/// The name of an argument.
+fn name_of(model: &Model<'_>, source: Source) -> String {
+    let coordinate = |index: u32| model.coordinates[index as usize].name.to_string();
+    match source {
+        Source::Parameter(index) => model.parameters[index as usize].name.to_string(),
+        Source::Prepared(index) => format!("prepared {index}"),
+        Source::Time => "t".into(),
+        Source::Coordinate(index) => coordinate(index),
+        Source::Velocity(index) => rate_name(&coordinate(index), ""),
+        Source::Acceleration(index) => rate_name(&rate_name(&coordinate(index), ""), ""),
+        Source::Input(index) => model.inputs[index as usize].name.to_string(),
+        Source::AtTime(index) => format!("at time {index}"),
+        Source::AtPosition(index) => format!("at position {index}"),
+    }
+}

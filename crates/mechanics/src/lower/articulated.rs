@@ -1,0 +1,1411 @@
+//! The accelerations without a mass matrix: eliminated where the inertia is, from the tips of the
+//! machine to the ground.
+//!
+//! Inertia sits on velocities `u` of bodies, `T = ½ Σ w u²`, and the velocity of a body is built
+//! from that of what it hangs on: `u = u' + l cos φ·φ̇`. Written for all accelerations at once the
+//! equations of motion are sparse, and this elimination keeps them so. By Gauss's principle the
+//! accelerations make `½ Σ G_xy ẋ ẏ − Σ g_x ẋ` least. This form is held over a *front* of
+//! velocities, at first those that carry inertia or loads. Until the front is empty:
+//!
+//! ```text
+//! a velocity v of a coordinate on which nothing else in the front depends is eliminated:
+//!     G_xy −= G_xv G_yv / G_vv     g_x −= G_xv g_v / G_vv
+//! if there is none, a velocity u = Σ cₖ wₖ + e that no other is built from gives way to its parts; with β = Σ ċₖ wₖ + ė
+//!     G_kl += cₖ cₗ G_uu           G_kx += cₖ G_ux
+//!     g_k += cₖ (g_u − G_uu β)     g_x −= G_ux β
+//! ```
+//!
+//! Velocities that are coupled and have parts in common give way together, `u = C w + e`: with `B = G C`
+//! the form becomes `Cᵀ B`, and what its columns share is computed once. Where a velocity is the only
+//! one that a coordinate's goes into, `u = ±v + …`, it stands for that: a chain's bars have angular
+//! velocities of their own, whatever their angles are measured from.
+//!
+//! In space the accelerations that velocities have where no coordinate accelerates are computed from
+//! the ground on and are among the loads; then `β = 0`.
+//!
+//! The accelerations follow in reverse order. On a chain of links this is the articulated-body
+//! algorithm, linear in the number of links (R. Featherstone, *The calculation of robot dynamics
+//! using articulated-body inertias*, Int. J. Robotics Res. 2 (1983) 13–30); a machine of free
+//! bodies falls apart, since the inertia that a body in polar coordinates leaves behind is `m − m
+//! cos² − m sin² = 0` to the algebra. Every `G` is positive semidefinite and every elimination
+//! symmetric, so rounding errors stay as small as in Cholesky's method.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lagrangian_symbolic::{
+    Dag, Expr, Function, Id, Node, Rational, Stage, Symbol, Tangent, reachable, reverse,
+};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::lower::bars::{self, Arm};
+use crate::{InertialPair, Unprojected};
+use lagrangian_spec::identity;
+use lagrangian_spec::model::Model;
+
+/// The most terms that may go into the form. Where it takes more, the mass matrix is the better
+/// way.
+const BUDGET: usize = 40_000;
+
+/// How many nodes and operands may be made on the way. What grows more is coupled too densely to be
+/// eliminated along itself.
+const MOST_GROWTH: usize = 4_000_000;
+
+/// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
+/// their coordinates.
+pub(super) struct Solution<'d> {
+    pub(super) accelerations: Vec<Expr<'d>>,
+    pub(super) pivots: Vec<(usize, Expr<'d>)>,
+    /// Symbols in all of these, and what they stand for: a value that is computed once.
+    pub(super) names: Vec<(Expr<'d>, Expr<'d>)>,
+    /// What was done, in order.
+    pub(super) steps: Vec<Step<'d>>,
+    /// The coordinates by the nodes of their velocities.
+    pub(super) coordinates: BTreeMap<Id, usize>,
+}
+
+/// Solves for the accelerations; `None` where it takes too much, or a coordinate has no inertia.
+pub(super) fn solve<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    order: Order,
+) -> Option<Solution<'d>> {
+    within_bounds(model.dag, || eliminated(model, machine, order))
+}
+
+/// What `derive` makes of a machine; `None` where the graph grows too much on the way.
+fn within_bounds<T>(dag: &Dag, derive: impl FnOnce() -> Option<T>) -> Option<T> {
+    dag.set_limit(dag.size() + MOST_GROWTH);
+    let derived = derive();
+    let is_whole = !dag.is_exhausted();
+    dag.set_limit(usize::MAX);
+    derived.filter(|_| is_whole)
+}
+
+fn eliminated<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+    order: Order,
+) -> Option<Solution<'d>> {
+    let mut front = Front::of(model, machine, true);
+    front.order = order;
+    let mut steps = front.places();
+    while let Some(mut left) = front.next()? {
+        steps.append(&mut left);
+    }
+    let mut known: FxHashMap<Id, Expr<'d>> = FxHashMap::default();
+    for Step {
+        of, alone, parts, ..
+    } in steps.iter().rev()
+    {
+        let terms = parts.iter().map(|(part, c)| *c * known[part]);
+        let terms = std::iter::once(*alone).chain(terms);
+        let total = match order {
+            Order::Short => front.totals.total(terms.collect()),
+            // A common factor would have to wait for the parts.
+            Order::Ahead => model.dag.sum(terms),
+        };
+        known.insert(*of, total);
+    }
+    let pivots: Vec<_> = steps
+        .iter()
+        .filter_map(|step| Some((*front.coordinates.get(&step.of)?, step.pivot?)))
+        .collect();
+    // A coordinate without inertia need not look like one.
+    let divisors: Vec<Expr<'d>> = steps.iter().filter_map(|step| step.pivot).collect();
+    if !identity::are_divisors(model.dag, &divisors, &front.names) {
+        return None;
+    }
+    let velocities: BTreeMap<Id, usize> = model
+        .coordinates
+        .iter()
+        .enumerate()
+        .map(|(index, c)| (c.v.id(), index))
+        .collect();
+    let mut accelerations = vec![model.dag.zero(); velocities.len()];
+    for (id, coordinate) in &velocities {
+        accelerations[*coordinate] = *known.get(id)?;
+    }
+    Some(Solution {
+        names: front.names,
+        accelerations,
+        pivots,
+        coordinates: velocities,
+        steps,
+    })
+}
+
+/// The mass matrix by the same way, nothing eliminated: the lower triangle, row by row.
+///
+/// What is left of the form once every velocity has given way to those of coordinates is `M`. A body
+/// adds its inertia to that of what it hangs on before it is handed on, so that each entry takes one
+/// link's work: the composite rigid body algorithm (M. W. Walker and D. E. Orin, *Efficient dynamic
+/// computer simulation of robotic mechanisms*, J. Dyn. Syst. Meas. Control 104 (1982) 205–211).
+pub(super) fn mass_matrix<'d>(
+    model: &Model<'d>,
+    machine: &Unprojected<'d>,
+) -> Option<Vec<Expr<'d>>> {
+    within_bounds(model.dag, || composite_inertia(model, machine))
+}
+
+fn composite_inertia<'d>(model: &Model<'d>, machine: &Unprojected<'d>) -> Option<Vec<Expr<'d>>> {
+    let unloaded = Unprojected {
+        inertia: machine.inertia.clone(),
+        loads: Vec::new(),
+        drifts: false,
+    };
+    let mut front = Front::of(model, &unloaded, false);
+    front.totals.expands = false;
+    while let Some(id) = front.next_to_replace() {
+        if front.is_too_long() {
+            return None;
+        }
+        let group = front.group(id)?;
+        front.replace(group);
+    }
+    let mut entries = Vec::new();
+    for (i, row) in model.coordinates.iter().enumerate() {
+        for column in &model.coordinates[..=i] {
+            let row = front.form.get_mut(&row.v.id());
+            let terms = row.and_then(|row| row.remove(&column.v.id()));
+            entries.push(front.totals.total(terms.unwrap_or_default()));
+        }
+    }
+    Some(entries)
+}
+
+/// A velocity that has left the front: its acceleration is `alone + Σ c·part`.
+///
+/// For other forces at rest, `Σ G ẍ = r`, it is `r/pivot + Σ c·part`, 0 + … without a pivot; and
+/// `c r` comes to the load on each part.
+pub(super) struct Step<'d> {
+    pub(super) of: Id,
+    alone: Expr<'d>,
+    pub(super) parts: Vec<(Id, Expr<'d>)>,
+    /// What it was divided by, if it was eliminated.
+    pub(super) pivot: Option<Expr<'d>>,
+}
+
+/// `u = Σ c·part + rest`, where `c` and the rest are free of velocities.
+struct Composition<'d> {
+    parts: Vec<(Id, Expr<'d>)>,
+    rest: Expr<'d>,
+}
+
+/// A velocity that stands for that of a coordinate: `u = ±v + Σ c·part + rest`, and nothing else is
+/// built from `v`.
+struct Place<'d> {
+    id: Id,
+    /// `v`.
+    velocity: Id,
+    sign: Rational,
+    parts: Vec<(Id, Expr<'d>)>,
+    rest: Expr<'d>,
+}
+
+/// What is computed first.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Order {
+    /// One elimination after the other, in the fewest operations.
+    Short,
+    /// What does not wait for the last division before what does: with an update `− w wᵀ/d` on its
+    /// way, `Cᵀ G C` is made of G as it was, and `w` becomes `Cᵀ w`, so that the next pivot waits for
+    /// one multiplication and one subtraction only. This is the same elimination, with more operations.
+    Ahead,
+}
+
+/// An update `− w wᵀ/d` of the form that is not made yet.
+struct Update<'d> {
+    /// `w`, by row.
+    column: BTreeMap<Id, Expr<'d>>,
+    /// `d`.
+    pivot: Expr<'d>,
+}
+
+struct Front<'d> {
+    dag: &'d Dag,
+    order: Order,
+    /// Updates that are not made yet.
+    late: Vec<Update<'d>>,
+    /// The coordinates by the nodes of their velocities, or of those in their places.
+    coordinates: BTreeMap<Id, usize>,
+    /// What stands in the places of the coordinates' velocities.
+    places: Vec<Option<Place<'d>>>,
+    /// Which coordinates' velocities a node depends on, where it is linear in them.
+    touches: FxHashMap<Id, BTreeSet<usize>>,
+    /// How many nodes a node is a part of.
+    parents: FxHashMap<Id, usize>,
+    /// `d/dt` of what depends on coordinates and time.
+    rate: Tangent<'d>,
+    /// Terms of G, row by row, both triangles.
+    form: BTreeMap<Id, BTreeMap<Id, Vec<Expr<'d>>>>,
+    /// Terms of g.
+    loads: BTreeMap<Id, Vec<Expr<'d>>>,
+    /// How many velocities of the front that are no coordinates' depend on each coordinate's.
+    uses: Vec<usize>,
+    /// Whether velocities accelerate where no coordinate does.
+    drifts: bool,
+    /// What falls freely where the machine is seen from, with its acceleration there.
+    falls: FxHashMap<Id, Expr<'d>>,
+    /// Whether coefficients may be given names.
+    may_name: bool,
+    /// Coefficients by names, and what these stand for.
+    names: Vec<(Expr<'d>, Expr<'d>)>,
+    totals: Totals<'d>,
+    /// How many terms have come into G and g.
+    terms: usize,
+}
+
+impl<'d> Front<'d> {
+    /// The front at first. With `places`, velocities may stand for those of coordinates.
+    fn of(model: &Model<'d>, machine: &Unprojected<'d>, places: bool) -> Front<'d> {
+        let dag = model.dag;
+        let coordinates = model.coordinates.iter().enumerate();
+        let rates = model
+            .coordinates
+            .iter()
+            .filter_map(|c| Some((c.q.as_symbol()?, c.v)));
+        let time = model.time.as_symbol().map(|t| (t, dag.one()));
+        let mut front = Front {
+            dag,
+            order: Order::Short,
+            late: Vec::new(),
+            coordinates: coordinates.map(|(index, c)| (c.v.id(), index)).collect(),
+            places: model.coordinates.iter().map(|_| None).collect(),
+            touches: FxHashMap::default(),
+            parents: FxHashMap::default(),
+            rate: Tangent::new(dag, &rates.chain(time).collect::<Vec<_>>()),
+            form: BTreeMap::new(),
+            loads: BTreeMap::new(),
+            uses: vec![0; model.coordinates.len()],
+            drifts: machine.drifts,
+            falls: FxHashMap::default(),
+            may_name: machine.drifts && places,
+            names: Vec::new(),
+            totals: Totals {
+                dag,
+                made: FxHashSet::default(),
+                expands: true,
+            },
+            terms: 0,
+        };
+        front.find_linear(&front.roots(model, machine));
+        let replaced = bars::replaced(machine, &front.arms(), &model.assumptions);
+        let machine = replaced.as_ref().unwrap_or(machine);
+        let roots = front.roots(model, machine);
+        if replaced.is_some() {
+            front.forget();
+            front.find_linear(&roots);
+        }
+        if places {
+            front.find_places(&roots, machine);
+        }
+        for id in front.coordinates.keys().copied().collect::<Vec<_>>() {
+            front.enter(id);
+        }
+        for &InertialPair { u, w, weight, .. } in &machine.inertia {
+            front.add_inertia(u, w, weight);
+        }
+        let weights = front.gravity(machine);
+        let loads = machine.loads.iter().copied().chain(weights);
+        front.add_loads(&loads.collect::<Vec<_>>(), model);
+        front
+    }
+
+    /// Finds velocities that may stand for those of coordinates: a sum with `±v` among its terms,
+    /// where nothing else is built from `v` and `v` itself has no inertia.
+    ///
+    /// So each bar of a chain gets an angular velocity of its own, whatever its angle is measured
+    /// from, and of a joint in space the angular velocity about its axis.
+    fn find_places(&mut self, roots: &[Expr<'d>], machine: &Unprojected<'d>) {
+        let inert: FxHashSet<Id> = machine
+            .inertia
+            .iter()
+            .flat_map(|pair| [pair.u.id(), pair.w.id()])
+            .collect();
+        let mut candidates: BTreeMap<Id, Vec<usize>> = BTreeMap::new();
+        for (&id, touched) in &self.touches {
+            let Node::Sum(terms) = self.dag.node(id) else {
+                continue;
+            };
+            for (term, c) in terms.iter() {
+                let Some(&index) = self.coordinates.get(term) else {
+                    continue;
+                };
+                let is_unit = c.is_one() || *c == Rational::MINUS_ONE;
+                if is_unit && self.parents[term] == 1 && !inert.contains(term) && touched.len() > 1
+                {
+                    candidates.entry(id).or_default().push(index);
+                }
+            }
+        }
+        for (id, indices) in candidates {
+            if !self.is_linear(id) {
+                continue;
+            }
+            let Some(parts) = self.direct_parts(id) else {
+                continue;
+            };
+            // Of several, one.
+            let index = *indices.iter().min().unwrap_or(&0);
+            let of = |part: &Id| self.coordinates.get(part) == Some(&index);
+            let Some((own, c)) = parts.iter().find(|(part, _)| of(part)) else {
+                continue;
+            };
+            let sign = if *c == self.dag.one() {
+                Rational::ONE
+            } else {
+                Rational::MINUS_ONE
+            };
+            let own = *own;
+            let (moving, resting): (Vec<_>, Vec<_>) = parts
+                .into_iter()
+                .filter(|(part, _)| *part != own)
+                .partition(|(part, _)| self.touches.contains_key(part));
+            let resting = resting.into_iter().map(|(part, c)| c * self.dag.expr(part));
+            self.places[index] = Some(Place {
+                id,
+                velocity: own,
+                sign,
+                parts: moving,
+                rest: self.dag.sum(resting),
+            });
+        }
+        for (index, place) in self.places.iter().enumerate() {
+            if let Some(place) = place {
+                self.coordinates.retain(|_, other| *other != index);
+                self.coordinates.insert(place.id, index);
+            }
+        }
+        self.forget();
+        self.find_linear(roots);
+    }
+
+    /// The velocities that inertia and loads are on, and the coordinates'.
+    fn roots(&self, model: &Model<'d>, machine: &Unprojected<'d>) -> Vec<Expr<'d>> {
+        let inertial = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
+        let loaded = machine.loads.iter().map(|(u, _)| *u);
+        let velocities = model.coordinates.iter().map(|c| c.v);
+        inertial.chain(loaded).chain(velocities).collect()
+    }
+
+    /// The components of points on bars: of a velocity and one turn, at a distance across the bar.
+    fn arms(&self) -> BTreeMap<Id, Arm<'d>> {
+        let mut arms: BTreeMap<Id, Arm<'d>> = BTreeMap::new();
+        let mut nodes: Vec<Id> = self.touches.keys().copied().collect();
+        nodes.sort_unstable();
+        for id in nodes {
+            if self.coordinates.contains_key(&id) || !self.is_linear(id) {
+                continue;
+            }
+            let Some(Composition { parts, rest }) = self.composition(id) else {
+                continue;
+            };
+            let mut parts = parts;
+            parts.sort_by_key(|(_, c)| c.stage() > Stage::PARAMETER);
+            let &[(joint, one), (turning, across)] = parts.as_slice() else {
+                continue;
+            };
+            if one != self.dag.one() || across.stage() <= Stage::PARAMETER || !rest.is_zero() {
+                continue;
+            }
+            // Measured from the joint, where it is from another point of the bar.
+            let arm = match arms.get(&joint) {
+                Some(inner) if inner.turning == turning => Arm {
+                    joint: inner.joint,
+                    across: inner.across + across,
+                    ..*inner
+                },
+                _ => Arm {
+                    joint,
+                    turning,
+                    across,
+                    carries: false,
+                },
+            };
+            let carries = self.parents.contains_key(&id);
+            arms.insert(id, Arm { carries, ..arm });
+        }
+        arms
+    }
+
+    /// Forgets what [`find_linear`](Self::find_linear) found.
+    fn forget(&mut self) {
+        self.touches.clear();
+        self.parents.clear();
+    }
+
+    /// What velocities with another in their place follow from: `v = ±(u − Σ c·part − rest)`.
+    fn places(&mut self) -> Vec<Step<'d>> {
+        let places = std::mem::take(&mut self.places);
+        let steps = places.iter().flatten().map(|place| {
+            let sign = self.dag.constant(place.sign.clone());
+            let parts = place.parts.iter().map(|(part, c)| (*part, -(sign * *c)));
+            Step {
+                of: place.velocity,
+                alone: -(sign * (self.drift(&[], place.rest) + self.fall(place.id, &place.parts))),
+                parts: std::iter::once((place.id, sign)).chain(parts).collect(),
+                pivot: None,
+            }
+        });
+        steps.collect()
+    }
+
+    /// Finds which nodes are linear in velocities, and in which.
+    fn find_linear(&mut self, roots: &[Expr<'d>]) {
+        for id in reachable(self.dag, roots) {
+            let node = self.dag.node(id);
+            let mut touched: BTreeSet<usize> =
+                self.coordinates.get(&id).copied().into_iter().collect();
+            if !touched.is_empty() {
+                self.touches.insert(id, touched);
+                continue;
+            }
+            node.for_each_child(|child| {
+                touched.extend(self.touches.get(&child).into_iter().flatten())
+            });
+            if !touched.is_empty() {
+                self.touches.insert(id, touched);
+                node.for_each_child(|child| *self.parents.entry(child).or_default() += 1);
+            }
+        }
+    }
+
+    /// Adds `½ weight u w` to the energy.
+    fn add_inertia(&mut self, u: Expr<'d>, w: Expr<'d>, weight: Expr<'d>) {
+        let moves = |x: Expr<'d>| self.touches.contains_key(&x.id());
+        match (moves(u), moves(w)) {
+            (true, true) => {
+                self.enter(u.id());
+                self.enter(w.id());
+                self.add(u.id(), w.id(), if u == w { weight } else { weight / 2 });
+            }
+            // The other one moves as time says.
+            (true, false) => {
+                let load = -(weight / 2 * self.drift(&[], w));
+                self.enter(u.id());
+                self.add_load(u.id(), load);
+            }
+            (false, true) => self.add_inertia(w, u, weight),
+            (false, false) => {}
+        }
+    }
+
+    /// Adds loads, by velocity; those on what is not linear in velocities go to the coordinates.
+    fn add_loads(&mut self, loads: &[(Expr<'d>, Expr<'d>)], model: &Model<'d>) {
+        let velocities: Vec<Symbol> = model
+            .coordinates
+            .iter()
+            .filter_map(|c| c.v.as_symbol())
+            .collect();
+        let (linear, others): (Vec<_>, Vec<_>) = loads
+            .iter()
+            .copied()
+            .partition(|(u, _)| self.is_linear(u.id()));
+        let direct = reverse(self.dag, &others, &velocities);
+        let direct = model.coordinates.iter().map(|c| c.v).zip(direct);
+        // Several on one velocity are one, that nothing takes apart again.
+        let mut sums: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
+        for (u, load) in linear.into_iter().chain(direct) {
+            let place = self.places.iter().zip(&model.coordinates);
+            let place = place
+                .filter(|(_, c)| c.v == u)
+                .find_map(|(p, _)| p.as_ref());
+            match place {
+                // What acts on `v = ±(u − Σ c·part − rest)` acts on all of these.
+                Some(place) => {
+                    let load = load * place.sign.clone();
+                    sums.entry(place.id).or_default().push(load);
+                    for (part, c) in &place.parts {
+                        sums.entry(*part).or_default().push(-(*c * load));
+                    }
+                }
+                None if self.touches.contains_key(&u.id()) => {
+                    sums.entry(u.id()).or_default().push(load);
+                }
+                None => {}
+            }
+        }
+        // Their accelerations are needed, whether anything acts on them or not.
+        let parts = self.places.iter().flatten().flat_map(|place| &place.parts);
+        for id in parts.map(|(part, _)| *part).collect::<Vec<_>>() {
+            self.enter(id);
+        }
+        for (id, loads) in sums {
+            let load = self.dag.sum(loads);
+            if !load.is_zero() {
+                self.enter(id);
+                self.add_load(id, load);
+            }
+        }
+    }
+
+    fn enter(&mut self, id: Id) {
+        if self.form.contains_key(&id) {
+            return;
+        }
+        self.form.insert(id, BTreeMap::new());
+        self.count_uses(id, |uses| *uses += 1);
+    }
+
+    fn count_uses(&mut self, id: Id, change: fn(&mut usize)) {
+        if !self.coordinates.contains_key(&id) {
+            for &coordinate in &self.touches[&id] {
+                change(&mut self.uses[coordinate]);
+            }
+        }
+    }
+
+    /// `G_uw += value`, and `G_wu`.
+    fn add(&mut self, u: Id, w: Id, value: Expr<'d>) {
+        if value.is_zero() {
+            return;
+        }
+        self.terms += 1;
+        let mut add = |row: Id, column: Id| {
+            self.form
+                .entry(row)
+                .or_default()
+                .entry(column)
+                .or_default()
+                .push(value)
+        };
+        add(u, w);
+        if u != w {
+            add(w, u);
+        }
+    }
+
+    /// `g_u += load`.
+    fn add_load(&mut self, u: Id, load: Expr<'d>) {
+        if !load.is_zero() {
+            self.terms += 1;
+            self.loads.entry(u).or_default().push(load);
+        }
+    }
+
+    /// Takes a velocity out of the front: its own entry of G, the others of its row, and the terms
+    /// of its load.
+    fn take(&mut self, id: Id) -> (Expr<'d>, Vec<(Id, Expr<'d>)>, Vec<Expr<'d>>) {
+        let row = self.form.remove(&id).unwrap_or_default();
+        let mut own = self.dag.zero();
+        let mut others = Vec::new();
+        for (other, terms) in row {
+            let value = self.totals.total(terms);
+            if other == id {
+                own = value;
+                continue;
+            }
+            if let Some(row) = self.form.get_mut(&other) {
+                row.remove(&id);
+            }
+            if !value.is_zero() {
+                others.push((other, value));
+            }
+        }
+        self.count_uses(id, |uses| *uses -= 1);
+        (own, others, self.loads.remove(&id).unwrap_or_default())
+    }
+
+    /// Whether the elimination has taken more than any machine for which it is the better way.
+    fn is_too_long(&self) -> bool {
+        self.terms > BUDGET || self.dag.is_exhausted()
+    }
+
+    /// The next step; `None` inside once the front is empty.
+    fn next(&mut self) -> Option<Option<Vec<Step<'d>>>> {
+        if self.is_too_long() {
+            return None;
+        }
+        let is_free =
+            |(id, index): &(&Id, &usize)| self.form.contains_key(id) && self.uses[**index] == 0;
+        let free = self.coordinates.iter().filter(is_free).map(|(id, _)| *id);
+        if let Some(id) = free.min_by_key(|id| (self.form[id].len(), *id)) {
+            return self.eliminate(id).map(|step| Some(vec![step]));
+        }
+        match self.next_to_replace() {
+            Some(id) => {
+                let group = self.group(id)?;
+                Some(Some(self.replace(group)))
+            }
+            None => Some(None),
+        }
+    }
+
+    /// The velocity to replace by its parts, towards the coordinate that the fewest of the front
+    /// depend on: so that a chain is taken apart from its tip. The last one built of those that
+    /// depend on it; nothing else can be built from that.
+    fn next_to_replace(&self) -> Option<Id> {
+        let built = || {
+            self.form
+                .keys()
+                .rev()
+                .filter(|id| !self.coordinates.contains_key(id))
+        };
+        let used = self.uses.iter().enumerate().filter(|(_, uses)| **uses > 0);
+        let (coordinate, _) =
+            used.min_by_key(|(index, uses)| (**uses, std::cmp::Reverse(*index)))?;
+        built()
+            .find(|id| self.touches[*id].contains(&coordinate))
+            .copied()
+    }
+
+    fn eliminate(&mut self, id: Id) -> Option<Step<'d>> {
+        let (mut pivot, mut row, load) = self.take(id);
+        self.catch_up(id, &mut pivot, &mut row);
+        if pivot.is_zero() {
+            return None;
+        }
+        let load = self.totals.total(load);
+        let ratios: Vec<(Id, Expr<'d>)> =
+            row.iter().map(|(x, value)| (*x, *value / pivot)).collect();
+        for (x, ratio) in &ratios {
+            self.add_load(*x, -(*ratio * load));
+        }
+        let update = Update {
+            column: row.into_iter().collect(),
+            pivot,
+        };
+        match self.order {
+            Order::Short => self.make(&update),
+            Order::Ahead => self.late.push(update),
+        }
+        let parts = ratios.into_iter().map(|(x, ratio)| (x, -ratio)).collect();
+        Some(Step {
+            of: id,
+            alone: load / pivot,
+            parts,
+            pivot: Some(pivot),
+        })
+    }
+
+    /// `G −= w wᵀ/d`.
+    fn make(&mut self, update: &Update<'d>) {
+        for (position, (x, value)) in update.column.iter().enumerate() {
+            let ratio = *value / update.pivot;
+            for (y, other) in update.column.iter().take(position + 1) {
+                self.add(*x, *y, -(ratio * *other));
+            }
+        }
+    }
+
+    /// Makes all updates of one row that has been taken from the form, and those that it is in, of the
+    /// others.
+    fn catch_up(&mut self, id: Id, own: &mut Expr<'d>, row: &mut Vec<(Id, Expr<'d>)>) {
+        let (due, others) = std::mem::take(&mut self.late)
+            .into_iter()
+            .partition::<Vec<_>, _>(|update| update.column.contains_key(&id));
+        self.late = others;
+        let mut row_terms: BTreeMap<Id, Vec<Expr<'d>>> =
+            row.drain(..).map(|(x, value)| (x, vec![value])).collect();
+        let mut own_terms = vec![*own];
+        for mut update in due {
+            let Some(value) = update.column.remove(&id) else {
+                continue;
+            };
+            own_terms.push(-(value.square() / update.pivot));
+            for (x, other) in &update.column {
+                let terms = row_terms.entry(*x).or_default();
+                terms.push(-(value / update.pivot * *other));
+            }
+            self.make(&update);
+        }
+        *own = self.dag.sum(own_terms);
+        for (x, terms) in row_terms {
+            let value = self.dag.sum(terms);
+            if !value.is_zero() {
+                row.push((x, value));
+            }
+        }
+    }
+
+    /// The velocities that give way together with one: those that have parts in common with it, and
+    /// that nothing else in the front is built from.
+    fn group(&self, first: Id) -> Option<Vec<(Id, Composition<'d>)>> {
+        let own = self.composition(first)?;
+        let parts: BTreeSet<Id> = own.parts.iter().map(|(part, _)| *part).collect();
+        let touched = &self.touches[&first];
+        let mut group = vec![(first, own)];
+        let built = self.form.keys().rev().copied();
+        let others: Vec<Id> = built
+            .filter(|id| *id != first && !self.coordinates.contains_key(id))
+            .filter(|id| !touched.is_disjoint(&self.touches[id]))
+            .collect();
+        let both = |update: &Update<'d>, id: &Id| {
+            update.column.contains_key(&first) && update.column.contains_key(id)
+        };
+        let coupled = |id: &&Id| {
+            self.form[&first].contains_key(*id) || self.late.iter().any(|update| both(update, id))
+        };
+        for &id in others.iter().filter(coupled) {
+            let composition = self.composition(id)?;
+            let shares = composition
+                .parts
+                .iter()
+                .any(|(part, _)| parts.contains(part));
+            let mut above = others
+                .iter()
+                .copied()
+                .take_while(|above| *above > id)
+                .chain([first]);
+            if shares && !parts.contains(&id) && !above.any(|above| self.is_built_from(above, id)) {
+                group.push((id, composition));
+            }
+        }
+        Some(group)
+    }
+
+    /// Whether one velocity is built from another.
+    fn is_built_from(&self, id: Id, part: Id) -> bool {
+        let mut open = vec![id];
+        let mut seen = FxHashSet::default();
+        while let Some(id) = open.pop() {
+            if id == part {
+                return true;
+            }
+            if id > part && !self.coordinates.contains_key(&id) && seen.insert(id) {
+                self.dag.node(id).for_each_child(|child| {
+                    if child >= part && self.touches.contains_key(&child) {
+                        open.push(child);
+                    }
+                });
+            }
+        }
+        false
+    }
+
+    /// Replaces velocities `u = C w + e` by their parts `w`, all at once: with `B = G C`, its rows
+    /// and columns `G` become `Cᵀ B`, so that what columns have in common is computed once.
+    fn replace(&mut self, mut group: Vec<(Id, Composition<'d>)>) -> Vec<Step<'d>> {
+        let mut drifts: Vec<Expr<'d>> = group
+            .iter()
+            .map(|(id, Composition { parts, rest })| {
+                self.drift(parts, *rest) + self.fall(*id, parts)
+            })
+            .collect();
+        let position: BTreeMap<Id, usize> = group
+            .iter()
+            .enumerate()
+            .map(|(k, (id, _))| (*id, k))
+            .collect();
+        let mut inner: Vec<Vec<(usize, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut outer: Vec<Vec<(Id, Expr<'d>)>> = vec![Vec::new(); group.len()];
+        let mut loads: Vec<Vec<Expr<'d>>> = Vec::with_capacity(group.len());
+        for (k, (id, _)) in group.iter().enumerate() {
+            let (own, row, load) = self.take(*id);
+            if !own.is_zero() {
+                inner[k].push((k, own));
+            }
+            for (other, value) in row {
+                match position.get(&other) {
+                    Some(&l) => {
+                        inner[k].push((l, value));
+                        inner[l].push((k, value));
+                    }
+                    None => outer[k].push((other, value)),
+                }
+            }
+            loads.push(load);
+        }
+        if self.may_name && self.is_full(&group, &inner) {
+            self.name_coefficients(&mut group, &mut drifts);
+        }
+        for (k, mut load) in loads.into_iter().enumerate() {
+            let drifting = drifts
+                .iter()
+                .enumerate()
+                .filter(|(_, drift)| !drift.is_zero());
+            load.extend(
+                drifting.map(|(l, drift)| -(self.with_late(&group, &inner, k, l) * *drift)),
+            );
+            let load = self.totals.total(load);
+            for (x, c) in &group[k].1.parts {
+                self.enter(*x);
+                self.add_load(*x, *c * load);
+            }
+            for (y, value) in &outer[k] {
+                self.add_load(*y, -(*value * drifts[k]));
+                for (x, c) in &group[k].1.parts {
+                    // ẋ ẏ stands twice in the form where y is x itself.
+                    let factor = if x == y { 2 } else { 1 };
+                    self.add(*x, *y, factor * (*c * *value));
+                }
+            }
+        }
+        self.congruence(&group, &inner);
+        for update in &mut self.late {
+            // What drifts pulls at what the update couples it to, outside of the group.
+            let drifting = group.iter().zip(&drifts).filter_map(|((id, _), drift)| {
+                let value = *update.column.get(id)?;
+                (!drift.is_zero()).then(|| value * *drift)
+            });
+            let pull = self.dag.sum(drifting.collect::<Vec<_>>());
+            if !pull.is_zero() {
+                for (x, value) in &update.column {
+                    if !position.contains_key(x) {
+                        let load = *value / update.pivot * pull;
+                        self.loads.entry(*x).or_default().push(load);
+                    }
+                }
+            }
+            let mut terms: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
+            for (id, composition) in &group {
+                if let Some(value) = update.column.remove(id) {
+                    for (x, c) in &composition.parts {
+                        terms.entry(*x).or_default().push(*c * value);
+                    }
+                }
+            }
+            for (x, mut terms) in terms {
+                terms.extend(update.column.remove(&x));
+                update.column.insert(x, self.totals.total(terms));
+            }
+        }
+        let steps = group.into_iter().zip(drifts);
+        steps
+            .map(|((of, Composition { parts, .. }), alone)| Step {
+                of,
+                alone,
+                parts,
+                pivot: None,
+            })
+            .collect()
+    }
+
+    /// Whether the velocities of a group are coupled by what varies: then no identity of sines and
+    /// cosines makes `Cᵀ G C` shorter.
+    fn is_full(&self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) -> bool {
+        let couples = |(k, l): (usize, usize)| {
+            k != l && self.with_late(group, inner, k, l).stage() > Stage::PARAMETER
+        };
+        (0..group.len()).any(|k| (0..k).any(|l| couples((k, l))))
+    }
+
+    /// Gives names to coefficients such as `l cos φ`, so that they are computed once and stay together:
+    /// with `l` taken out of sums and `cos φ` left inside, every use has its own multiplication.
+    fn name_coefficients(&mut self, group: &mut [(Id, Composition<'d>)], drifts: &mut [Expr<'d>]) {
+        let first = self.names.len();
+        for (_, composition) in group.iter() {
+            for (_, c) in &composition.parts {
+                let (_, factors) = factors_of(*c);
+                let stage = |(factor, _): &(Id, i32)| self.dag.expr(*factor).stage();
+                let known = factors
+                    .iter()
+                    .filter(|f| stage(f) <= Stage::PARAMETER)
+                    .count();
+                let whole = self.product_of(&factors);
+                let is_new = self.names.iter().all(|(_, meaning)| *meaning != whole);
+                if known > 0 && known < factors.len() && is_new {
+                    let name = self.dag.symbol("coefficient", c.stage());
+                    self.names.push((name, whole));
+                }
+            }
+        }
+        let names = &self.names[first..];
+        for (_, composition) in group.iter_mut() {
+            for (_, c) in &mut composition.parts {
+                *c = self.with_names(*c, names);
+            }
+        }
+        for drift in drifts.iter_mut() {
+            *drift = self.with_names(*drift, names);
+        }
+    }
+
+    /// The same with names for the coefficients that are factors of its terms.
+    fn with_names(&self, e: Expr<'d>, names: &[(Expr<'d>, Expr<'d>)]) -> Expr<'d> {
+        let named = |term: Expr<'d>| {
+            let (_, factors) = factors_of(term);
+            let is_factor = |meaning: Expr<'d>| {
+                let (_, parts) = factors_of(meaning);
+                parts.iter().all(|part| factors.contains(part))
+            };
+            let name = names.iter().find(|(_, meaning)| is_factor(*meaning));
+            name.map_or(term, |(name, meaning)| term / *meaning * *name)
+        };
+        self.dag.sum(terms_of(e).into_iter().map(named))
+    }
+
+    fn product_of(&self, factors: &[(Id, i32)]) -> Expr<'d> {
+        let powers = factors.iter();
+        self.dag
+            .product(powers.map(|(factor, power)| self.dag.expr(*factor).powi(*power)))
+    }
+
+    /// An entry of G of two velocities of a group, with the updates that are not made yet.
+    fn with_late(
+        &self,
+        group: &[(Id, Composition<'d>)],
+        inner: &[Vec<(usize, Expr<'d>)>],
+        k: usize,
+        l: usize,
+    ) -> Expr<'d> {
+        let made = inner[k].iter().filter(|(other, _)| *other == l);
+        let late = self.late.iter().filter_map(|update| {
+            let [w_k, w_l] = [k, l].map(|k| update.column.get(&group[k].0));
+            Some(-(*w_k? * *w_l? / update.pivot))
+        });
+        self.dag.sum(made.map(|(_, value)| *value).chain(late))
+    }
+
+    /// Adds `Cᵀ G C`.
+    fn congruence(&mut self, group: &[(Id, Composition<'d>)], inner: &[Vec<(usize, Expr<'d>)>]) {
+        if let Some((parts, cos, sin)) = self.turn(group) {
+            return self.turn_inertia(parts, cos, sin, inner);
+        }
+        let mut columns: BTreeMap<Id, Vec<(usize, Expr<'d>)>> = BTreeMap::new();
+        for (k, (_, composition)) in group.iter().enumerate() {
+            for (part, c) in &composition.parts {
+                columns.entry(*part).or_default().push((k, *c));
+            }
+        }
+        // Sparse columns first: Cᵀ is applied to the products with dense ones.
+        let weight = |column: &[(usize, Expr<'d>)]| {
+            let varies = |(_, c): &&(usize, Expr<'d>)| c.stage() > Stage::CONSTANT;
+            (column.iter().filter(varies).count(), column.len())
+        };
+        let mut columns: Vec<(Id, Vec<(usize, Expr<'d>)>)> = columns.into_iter().collect();
+        columns.sort_by_key(|(id, column)| (weight(column), *id));
+        for (position, (x, column)) in columns.iter().enumerate() {
+            let mut products: BTreeMap<usize, Vec<Expr<'d>>> = BTreeMap::new();
+            for (l, c) in column {
+                for (k, value) in &inner[*l] {
+                    products.entry(*k).or_default().push(*c * *value);
+                }
+            }
+            let products: BTreeMap<usize, Expr<'d>> = products
+                .into_iter()
+                .map(|(k, terms)| (k, self.totals.total(terms)))
+                .collect();
+            for (y, sparse) in &columns[..=position] {
+                for (k, c) in sparse {
+                    if let Some(product) = products.get(k) {
+                        self.add(*x, *y, *c * *product);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether two velocities are two others along axes that are turned: `u = c w + s w'`, `u' = c
+    /// w' − s w`. Then `w` and `w'`, the cosine and the sine, this with its sign.
+    fn turn(&self, group: &[(Id, Composition<'d>)]) -> Option<([Id; 2], Expr<'d>, Expr<'d>)> {
+        let [(_, first), (_, second)] = group else {
+            return None;
+        };
+        let &[(a, c), (b, s)] = first.parts.as_slice() else {
+            return None;
+        };
+        let &[(a_again, s_again), (b_again, c_again)] = second.parts.as_slice() else {
+            return None;
+        };
+        if (a, b) != (a_again, b_again) {
+            return None;
+        }
+        let is_turn = |cos: Expr<'d>, sin: Expr<'d>| match cos.node() {
+            Node::Function(Function::Cos, angle) => {
+                let expected = self.dag.expr(angle[0]).sin();
+                sin == expected || sin == -expected
+            }
+            _ => false,
+        };
+        if c == c_again && s == -s_again && is_turn(c, s) {
+            return Some(([a, b], c, s));
+        }
+        let swapped = s == s_again && c == -c_again && is_turn(s, c);
+        swapped.then_some(([b, a], s, c))
+    }
+
+    /// Adds `Cᵀ G C` for a turn, with a few operations less: for `G = [x z; z y]` and `α = s (y − x) −
+    /// 2 c z` it is `[x + s α, −c α − z; ·, y − s α]`, since `c² + s² = 1`.
+    fn turn_inertia(
+        &mut self,
+        [a, b]: [Id; 2],
+        cos: Expr<'d>,
+        sin: Expr<'d>,
+        inner: &[Vec<(usize, Expr<'d>)>],
+    ) {
+        let entry = |k: usize, l: usize| {
+            let mut row = inner[k].iter();
+            row.find(|(other, _)| *other == l)
+                .map_or(self.dag.zero(), |(_, value)| *value)
+        };
+        let [x, y, z] = [entry(0, 0), entry(1, 1), entry(0, 1)];
+        let alpha = self.totals.total(vec![sin * (y - x), -2 * (cos * z)]);
+        for (u, w, terms) in [
+            (a, a, [x, sin * alpha]),
+            (b, b, [y, -(sin * alpha)]),
+            (a, b, [-z, -(cos * alpha)]),
+        ] {
+            for term in terms {
+                self.add(u, w, term);
+            }
+        }
+    }
+
+    /// `β = Σ ċ w + ė`: what the acceleration of `Σ c w + e` has beside `Σ c ẇ`.
+    fn drift(&mut self, parts: &[(Id, Expr<'d>)], rest: Expr<'d>) -> Expr<'d> {
+        if !self.drifts {
+            return self.dag.zero();
+        }
+        let mut terms = vec![self.rate.of(rest)];
+        for (part, c) in parts {
+            let w = self.dag.expr(*part);
+            let rate = self.rate.of(*c);
+            // Multiplied out: the parts have terms in common, as 2 ṡ φ̇ cos φ, of which each gives
+            // one half.
+            terms.extend(terms_of(rate).into_iter().map(|term| term * w));
+        }
+        let drift = self.dag.sum(terms);
+        self.totals.made(drift);
+        drift
+    }
+
+    /// What the acceleration of `Σ c w` has beside those of its parts because all of them are measured
+    /// from [free fall](Front::falls).
+    fn fall(&self, id: Id, parts: &[(Id, Expr<'d>)]) -> Expr<'d> {
+        let of = |id: &Id| self.falls.get(id).copied().unwrap_or(self.dag.zero());
+        let terms = parts.iter().map(|(part, c)| *c * of(part));
+        self.dag.sum(terms.chain([-of(&id)]))
+    }
+
+    /// Gravity: the machine is seen from where all falls freely.
+    ///
+    /// There nothing has weight, and the ground accelerates upwards; no load comes to any body, and
+    /// no sum of weights is rounded that the ground bears anyway.
+    fn gravity(&mut self, machine: &Unprojected<'d>) -> Vec<(Expr<'d>, Expr<'d>)> {
+        for pair in &machine.inertia {
+            let (id, Some(g)) = (pair.u.id(), pair.fall) else {
+                continue;
+            };
+            let moves = self.touches.contains_key(&id) && self.is_linear(id);
+            if moves && !self.coordinates.contains_key(&id) {
+                self.falls.entry(id).or_insert(g);
+            }
+        }
+        // So is what they are built on.
+        let mut open: BTreeSet<Id> = self.falls.keys().copied().collect();
+        while let Some(id) = open.pop_last() {
+            let Some(Composition { parts, .. }) = self.composition(id) else {
+                continue;
+            };
+            let unit = |(part, c): &&(Id, Expr<'d>)| {
+                *c == self.dag.one() && !self.coordinates.contains_key(part)
+            };
+            let carriers: Vec<Id> = parts.iter().filter(unit).map(|(part, _)| *part).collect();
+            if let [carrier] = carriers.as_slice()
+                && !self.falls.contains_key(carrier)
+            {
+                self.falls.insert(*carrier, self.falls[&id]);
+                open.insert(*carrier);
+            }
+        }
+        // The weights that remain as seen from there: mostly none. Bodies that share a velocity may
+        // fall differently along it, so each pair has its own.
+        let zero = self.dag.zero();
+        let load = |pair: &InertialPair<'d>| {
+            let seen = self.falls.get(&pair.u.id()).copied().unwrap_or(zero);
+            (pair.u, pair.weight * (pair.fall.unwrap_or(zero) - seen))
+        };
+        machine.inertia.iter().map(load).collect()
+    }
+
+    /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that
+    /// more than one other node is built from. `None` if it is not linear.
+    fn composition(&self, id: Id) -> Option<Composition<'d>> {
+        let mut parts: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
+        let mut rest = Vec::new();
+        let mut open = self.direct_parts(id)?;
+        while let Some((part, c)) = open.pop() {
+            if !self.touches.contains_key(&part) {
+                rest.push(c * self.dag.expr(part));
+                continue;
+            }
+            let is_product = matches!(self.dag.node(part), Node::Product(_));
+            let is_inner =
+                !self.form.contains_key(&part) && (is_product || self.parents[&part] == 1);
+            if is_inner {
+                open.extend(
+                    self.direct_parts(part)?
+                        .into_iter()
+                        .map(|(inner, d)| (inner, c * d)),
+                );
+            } else {
+                parts.entry(part).or_default().push(c);
+            }
+        }
+        let parts = parts
+            .into_iter()
+            .map(|(part, c)| (part, self.dag.sum(c)))
+            .collect();
+        Some(Composition {
+            parts,
+            rest: self.dag.sum(rest),
+        })
+    }
+
+    /// The same for the nodes that it is built from directly.
+    fn direct_parts(&self, id: Id) -> Option<Vec<(Id, Expr<'d>)>> {
+        match self.dag.node(id) {
+            Node::Sum(terms) => Some(
+                terms
+                    .iter()
+                    .map(|(term, c)| (*term, self.dag.constant(c.clone())))
+                    .collect(),
+            ),
+            Node::Product(factors) => {
+                let mut moving = factors
+                    .iter()
+                    .filter(|(factor, _)| self.touches.contains_key(factor));
+                let (part, power) = *moving.next()?;
+                if power != 1 || moving.next().is_some() {
+                    return None;
+                }
+                let rest = factors.iter().filter(|(factor, _)| *factor != part);
+                let c = self
+                    .dag
+                    .product(rest.map(|(factor, power)| self.dag.expr(*factor).powi(*power)));
+                Some(vec![(part, c)])
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a node is linear in velocities.
+    fn is_linear(&self, id: Id) -> bool {
+        let mut open = vec![id];
+        let mut seen = FxHashSet::default();
+        while let Some(id) = open.pop() {
+            let is_built = self.touches.contains_key(&id) && !self.coordinates.contains_key(&id);
+            if is_built && seen.insert(id) {
+                match self.direct_parts(id) {
+                    Some(parts) => open.extend(parts.into_iter().map(|(part, _)| part)),
+                    None => return false,
+                }
+            }
+        }
+        true
+    }
+}
+
+/// Sums are multiplied out up to this many terms; what cancels does so among few.
+const LONGEST_EXPANSION: usize = 24;
+
+/// Which sums are multiplied out.
+#[derive(Clone, Copy)]
+enum Reach {
+    /// Earlier totals that are factors of products.
+    TotalsInProducts,
+    /// The same, and again in what comes of it.
+    Deep,
+    /// Earlier totals.
+    Totals,
+    /// All sums.
+    Sums,
+}
+
+impl Reach {
+    const ALL: [Reach; 4] = [
+        Reach::TotalsInProducts,
+        Reach::Deep,
+        Reach::Totals,
+        Reach::Sums,
+    ];
+}
+
+/// Adds up what is left of entries and loads.
+struct Totals<'d> {
+    dag: &'d Dag,
+    /// The sums made here.
+    made: FxHashSet<Id>,
+    /// Whether any are multiplied out.
+    expands: bool,
+}
+
+impl<'d> Totals<'d> {
+    /// The sum; with sums among its factors multiplied out where that makes it shorter: terms of
+    /// several eliminations may cancel, which they cannot while some of them are inside a product.
+    fn total(&mut self, terms: Vec<Expr<'d>>) -> Expr<'d> {
+        let mut shortest = self.dag.sum(terms.iter().copied());
+        if !self.expands {
+            return shortest;
+        }
+        if terms.len() > 1 {
+            for reach in Reach::ALL {
+                if let Some(candidate) = self.partly_expanded(&terms, reach)
+                    && work(candidate) < work(shortest)
+                {
+                    shortest = candidate;
+                }
+            }
+        }
+        self.without_content(shortest)
+    }
+
+    /// The sum with those terms multiplied out that have something to cancel; `None` if there are
+    /// none, or it is long.
+    fn partly_expanded(&self, terms: &[Expr<'d>], reach: Reach) -> Option<Expr<'d>> {
+        let mut parts: Vec<Vec<Expr<'d>>> = Vec::with_capacity(terms.len());
+        let mut len = 0;
+        for &term in terms {
+            parts.push(self.expanded(term, reach)?);
+            len += parts.last().map_or(0, Vec::len);
+        }
+        let sum = |parts: &[Vec<Expr<'d>>]| self.dag.sum(parts.iter().flatten().copied());
+        let mut shortest = sum(&parts);
+        if len > LONGEST_EXPANSION || len == terms.len() || terms_of(shortest).len() == len {
+            return None;
+        }
+        for (position, &term) in terms.iter().enumerate() {
+            let expanded = std::mem::replace(&mut parts[position], vec![term]);
+            let candidate = sum(&parts);
+            if work(candidate) <= work(shortest) {
+                shortest = candidate;
+            } else {
+                parts[position] = expanded;
+            }
+        }
+        Some(shortest)
+    }
+
+    /// The term with sums among its factors multiplied out, unless that is long.
+    fn expanded(&self, term: Expr<'d>, reach: Reach) -> Option<Vec<Expr<'d>>> {
+        let mut done = Vec::new();
+        let mut open = vec![term];
+        while let Some(term) = open.pop() {
+            let (coefficient, factors) = factors_of(term);
+            let alone = factors.len() == 1;
+            let may_expand = |&(factor, power): &(Id, i32)| {
+                let total = power == 1 && self.made.contains(&factor);
+                match reach {
+                    Reach::TotalsInProducts | Reach::Deep => total && !alone,
+                    Reach::Totals => total,
+                    Reach::Sums => {
+                        let is_sum = matches!(self.dag.node(factor), Node::Sum(_));
+                        let varies = self.dag.expr(factor).stage() > Stage::PARAMETER;
+                        (1..=2).contains(&power) && is_sum && varies
+                    }
+                }
+            };
+            let (sums, rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(may_expand);
+            let rest = rest
+                .into_iter()
+                .map(|(factor, power)| self.dag.expr(factor).powi(power));
+            let mut products = vec![self.dag.product(rest) * coefficient];
+            for (sum, power) in &sums {
+                let right = terms_of(self.dag.expr(*sum));
+                for _ in 0..*power {
+                    let all = products
+                        .iter()
+                        .flat_map(|&x| right.iter().map(move |&y| x * y));
+                    products = all.collect();
+                    if done.len() + open.len() + products.len() > LONGEST_EXPANSION {
+                        return None;
+                    }
+                }
+            }
+            let again = matches!(reach, Reach::Deep) && !sums.is_empty();
+            if again {
+                open.append(&mut products)
+            } else {
+                done.append(&mut products)
+            }
+        }
+        Some(done)
+    }
+
+    /// A sum whose terms have factors in common, as the product of these and what is left.
+    fn without_content(&mut self, total: Expr<'d>) -> Expr<'d> {
+        let terms = terms_of(total);
+        let mut common: BTreeMap<Id, i32> = factors_of(terms[0]).1.into_iter().collect();
+        for &term in &terms[1..] {
+            let powers: BTreeMap<Id, i32> = factors_of(term).1.into_iter().collect();
+            common.retain(|id, power| {
+                let other = powers.get(id).copied().unwrap_or(0);
+                *power = if *power > 0 {
+                    other.clamp(0, *power)
+                } else {
+                    other.clamp(*power, 0)
+                };
+                *power != 0
+            });
+        }
+        if terms.len() < 2 || common.is_empty() {
+            self.made(total);
+            return total;
+        }
+        let common = self.dag.product(
+            common
+                .into_iter()
+                .map(|(id, power)| self.dag.expr(id).powi(power)),
+        );
+        let rest = self.dag.sum(terms.into_iter().map(|term| term / common));
+        self.made(rest);
+        common * rest
+    }
+
+    /// Remembers that a sum may be multiplied out again.
+    fn made(&mut self, sum: Expr<'d>) {
+        if matches!(sum.node(), Node::Sum(terms) if terms.len() > 1) {
+            self.made.insert(sum.id());
+        }
+    }
+}
+
+/// The numerical coefficient and the factors of an expression.
+fn factors_of(e: Expr<'_>) -> (Rational, Vec<(Id, i32)>) {
+    match e.node() {
+        Node::Constant(value) => (value, Vec::new()),
+        Node::Product(factors) => (Rational::ONE, factors.to_vec()),
+        Node::Sum(terms) if terms.len() == 1 => {
+            let (_, factors) = factors_of(e.dag().expr(terms[0].0));
+            (terms[0].1.clone(), factors)
+        }
+        _ => (Rational::ONE, vec![(e.id(), 1)]),
+    }
+}
+
+/// The terms of a sum, or of a multiple of a sum; of anything else, itself.
+fn terms_of(e: Expr<'_>) -> Vec<Expr<'_>> {
+    let dag = e.dag();
+    match e.node() {
+        Node::Sum(terms) if terms.len() == 1 => {
+            let inner = terms_of(dag.expr(terms[0].0));
+            inner
+                .into_iter()
+                .map(|term| term * terms[0].1.clone())
+                .collect()
+        }
+        Node::Sum(terms) => terms
+            .iter()
+            .map(|(id, c)| dag.expr(*id) * c.clone())
+            .collect(),
+        _ => vec![e],
+    }
+}
+
+/// The multiplications and additions at the top of an expression, its parts taken as given.
+fn work(e: Expr<'_>) -> usize {
+    if e.stage() <= Stage::PARAMETER {
+        return 0;
+    }
+    match e.node() {
+        Node::Sum(terms) => {
+            let each = |(id, c): &(Id, Rational)| {
+                let scaled = !c.is_one() && *c != Rational::MINUS_ONE;
+                work(e.dag().expr(*id)) + 1 + usize::from(scaled)
+            };
+            terms.iter().map(each).sum::<usize>() - 1
+        }
+        Node::Product(factors) => {
+            let (known, rest): (Vec<_>, Vec<_>) = factors
+                .iter()
+                .partition(|(id, _)| e.dag().expr(*id).stage() <= Stage::PARAMETER);
+            rest.iter()
+                .map(|(_, power)| power.unsigned_abs() as usize)
+                .sum::<usize>()
+                + usize::from(!known.is_empty())
+                - 1
+        }
+        _ => 0,
+    }
+}

@@ -1,0 +1,205 @@
+//! The inertia of bars in the plane, as masses at their joints.
+//!
+//! A bar turns at the rate `ω` about a joint `H` that moves, and carries something else at a point
+//! `T`, `u_T = u_H + l ω` with `l` across the bar. The velocity of a body on the line through both
+//! is `u = (1 − λ) u_H + λ u_T`, and because `(u_T − u_H)² = l² ω²`,
+//!
+//! ```text
+//! m u² = (1 − λ) m u_H² + λ m u_T² − λ (1 − λ) m l² ω²
+//! ```
+//!
+//! So two masses and what is left of the inertia stand for the body in every motion: work of the
+//! parameter stage, after which `H` and `T` alone are in the equations. Where bars hang on bars each
+//! joint has one mass. Of the ten operations that a centre of mass between the joints costs a link of
+//! a chain, none is left.
+//!
+//! This is done where `λ` is known to be between 0 and 1: a number, as for the middle of a uniform bar,
+//! or `c/l` where the spec assumes `c > 0` and `c <= l`. Then the terms are of the size of what they
+//! stand for. Of any two parameters nobody knows how large their quotient becomes: for a short bar with
+//! a far centre of mass the masses are large and of opposite signs, and as many digits of the turning
+//! are lost; without any length it is a machine still, that a quotient would deny.
+//!
+//! The same substitution in space is that of [`lumps`](crate), from where the idea is:
+//! W. Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop
+//! robots*, Int. J. Robotics Res. 14 (1995) 112–128.
+
+use std::collections::BTreeMap;
+
+use lagrangian_symbolic::{Expr, Id, Node, Rational, Stage};
+
+use crate::{InertialPair, Unprojected};
+use lagrangian_spec::model::Assumption;
+
+/// A component of the velocity of a point on a bar: `u = u_H + c ω`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arm<'d> {
+    /// `u_H`.
+    pub joint: Id,
+    /// `ω`.
+    pub turning: Id,
+    /// `c`.
+    pub across: Expr<'d>,
+    /// Whether other velocities are built from it.
+    pub carries: bool,
+}
+
+/// Replaces bodies by masses at the joints of their bars.
+///
+/// `arms` are the nodes that are components of points on bars. `None` if there is nothing to replace.
+pub(super) fn replaced<'d>(
+    machine: &Unprojected<'d>,
+    arms: &BTreeMap<Id, Arm<'d>>,
+    assumptions: &[Assumption<'d>],
+) -> Option<Unprojected<'d>> {
+    if !machine.drifts {
+        return None;
+    }
+    let mut replaced = machine.clone();
+    let carried = carried(arms);
+    let mut gone: Vec<Bar<'d>> = Vec::new();
+    replaced.inertia.clear();
+    let mut rest = machine.inertia.as_slice();
+    while let Some((&first, others)) = rest.split_first() {
+        rest = others;
+        let on_bar = others
+            .first()
+            .and_then(|&second| bar([first, second], arms, &carried, assumptions));
+        let Some(bar) = on_bar else {
+            replaced.inertia.push(first);
+            continue;
+        };
+        rest = &others[1..];
+        let mass = first.weight;
+        let dag = mass.dag();
+        let (near, far) = (mass * (1 - bar.share), mass * bar.share);
+        // What acts on the body, falls included, acts on both ends in these shares.
+        let falls = [first.fall, others[0].fall];
+        for ((joint, tip), fall) in bar.joint.iter().zip(&bar.tip).zip(falls) {
+            for (end, mass) in [(joint, near), (tip, far)] {
+                let end = dag.expr(*end);
+                replaced.inertia.push(InertialPair {
+                    fall,
+                    ..InertialPair::weightless(end, end, mass)
+                });
+            }
+        }
+        let turning = dag.expr(bar.turning);
+        // λ² l² and λ l² are products of lengths, without a quotient.
+        let [squared, single] = [2, 1].map(|power| bar.share.powi(power) * bar.length_squared);
+        let left = mass * (squared - single);
+        let left = InertialPair::weightless(turning, turning, left);
+        replaced.inertia.push(left);
+        gone.push(bar);
+    }
+    if gone.is_empty() {
+        return None;
+    }
+    let on = |u: Expr<'d>| {
+        gone.iter().find_map(|bar| {
+            let component = bar.body.iter().position(|id| *id == u.id())?;
+            let ends = [bar.joint[component], bar.tip[component]];
+            Some((bar, ends.map(|id| u.dag().expr(id))))
+        })
+    };
+    replaced.loads.clear();
+    for &(u, load) in &machine.loads {
+        match on(u) {
+            Some((bar, [joint, tip])) => {
+                let parts = [(joint, load * (1 - bar.share)), (tip, load * bar.share)];
+                replaced.loads.extend(parts);
+            }
+            None => replaced.loads.push((u, load)),
+        }
+    }
+    Some(replaced)
+}
+
+/// A body on a bar.
+struct Bar<'d> {
+    body: [Id; 2],
+    joint: [Id; 2],
+    tip: [Id; 2],
+    turning: Id,
+    /// `λ`.
+    share: Expr<'d>,
+    /// `l²`.
+    length_squared: Expr<'d>,
+}
+
+/// The points on each bar that carry something, one component each.
+fn carried(arms: &BTreeMap<Id, Arm<'_>>) -> BTreeMap<(Id, Id), Vec<Id>> {
+    let mut carried: BTreeMap<(Id, Id), Vec<Id>> = BTreeMap::new();
+    for (id, arm) in arms.iter().filter(|(_, arm)| arm.carries) {
+        carried
+            .entry((arm.joint, arm.turning))
+            .or_default()
+            .push(*id);
+    }
+    carried
+}
+
+/// The bar that a point is on, if there is another point in the same direction from its joint.
+fn bar<'d>(
+    inertia: [InertialPair<'d>; 2],
+    arms: &BTreeMap<Id, Arm<'d>>,
+    carried: &BTreeMap<(Id, Id), Vec<Id>>,
+    assumptions: &[Assumption<'d>],
+) -> Option<Bar<'d>> {
+    let [first, second] = inertia;
+    let (x, y, weight) = (first.u, second.u, first.weight);
+    let is_point = x == first.w && y == second.w && weight == second.weight;
+    if !is_point || weight.stage() > Stage::PARAMETER {
+        return None;
+    }
+    let body = [x.id(), y.id()];
+    let [at_x, at_y] = [arms.get(&body[0])?, arms.get(&body[1])?];
+    if at_x.turning != at_y.turning || at_x.joint == at_y.joint {
+        return None;
+    }
+    let fixed = |e: Expr<'d>| e.stage() <= Stage::PARAMETER;
+    let others = |arm: &Arm<'d>| {
+        let points = carried.get(&(arm.joint, arm.turning));
+        points.into_iter().flatten().copied()
+    };
+    for tip_x in others(at_x).filter(|id| !body.contains(id)) {
+        let share = at_x.across / arms[&tip_x].across;
+        if !is_share(share, assumptions) {
+            continue;
+        }
+        let is_tip = |id: &Id| at_y.across == share * arms[id].across;
+        let Some(tip_y) = others(at_y).filter(|id| !body.contains(id)).find(is_tip) else {
+            continue;
+        };
+        let length_squared = arms[&tip_x].across.square() + arms[&tip_y].across.square();
+        if fixed(length_squared) {
+            return Some(Bar {
+                body,
+                joint: [at_x.joint, at_y.joint],
+                tip: [tip_x, tip_y],
+                turning: at_x.turning,
+                share,
+                length_squared,
+            });
+        }
+    }
+    None
+}
+
+/// Whether a quotient of lengths is known to be in [0, 1]: it is `c/l`, and `c > 0` and `c <= l` are
+/// assumed.
+fn is_share(share: Expr<'_>, assumptions: &[Assumption<'_>]) -> bool {
+    if let Node::Constant(share) = share.node() {
+        return (Rational::ZERO..=Rational::ONE).contains(&share);
+    }
+    if share.stage() > Stage::PARAMETER {
+        return false;
+    }
+    let symbols = share.symbols();
+    let positive = assumptions
+        .iter()
+        .filter(|fact| fact.strict && fact.excess.symbols().is_subset(&symbols));
+    positive.map(|fact| fact.excess).any(|part| {
+        let rest = part / share - part;
+        assumptions.iter().any(|fact| fact.excess == rest)
+    })
+}

@@ -1,0 +1,288 @@
+//! The accelerations with their derivatives: `M ∂a/∂x = ∂r/∂x`, eq. (E26), one column for each
+//! variable.
+//!
+//! The elimination that finds the accelerations is one list of [`Step`]s, whether it goes along the
+//! machine or over the mass matrix. A right-hand side passes through it forwards, and what answers
+//! it comes back; nothing is factored again. The accelerations in the right-hand sides are the
+//! values that the same function computes.
+
+use lagrangian_symbolic::Expr;
+
+use crate::Unprojected;
+use crate::lower::articulated::{self, Order};
+use crate::lower::{Draft, Lowering, Planned};
+use lagrangian_program::graph::{Graph, Scaled};
+use lagrangian_program::solve::{self, Elimination, Pivot, System};
+use lagrangian_program::{Basis, Role, Shape};
+use lagrangian_spec::model::Model;
+
+/// One unknown that leaves the equations: `x_of = r_of/pivot + Σ c x_part`, and its load moves on:
+/// `r_part += c r_of`. One without a pivot only gives way to its parts.
+struct Step {
+    of: usize,
+    pivot: Option<Scaled>,
+    parts: Vec<(usize, Scaled)>,
+}
+
+/// The accelerations, and how they were found.
+pub(super) struct Solved {
+    pub accelerations: Vec<Scaled>,
+    pub multipliers: Vec<Scaled>,
+    steps: Vec<Step>,
+    pub pivots: Vec<Pivot>,
+    /// How many unknowns there are; the first are the accelerations.
+    unknowns: usize,
+}
+
+/// What the function is made from.
+pub(super) struct Asked<'a, 'd> {
+    pub system: &'a System,
+    /// The symbols of the multipliers.
+    pub multipliers: &'a [Expr<'d>],
+    pub unprojected: Option<&'a Unprojected<'d>>,
+    /// The right-hand sides, column by column, over the symbols of the accelerations too; in one form
+    /// or several.
+    pub slopes: &'a [Vec<Vec<Expr<'d>>>],
+    /// Pivots that are looked at once parameters are known.
+    pub known_pivots: &'a [Pivot],
+}
+
+/// The function of the accelerations and their derivatives, by the way that is cheapest to run.
+pub(super) fn derivatives<'d>(lowering: &mut Lowering<'_, 'd>, asked: &Asked<'_, 'd>) -> Draft {
+    let elimination = Elimination::of(&lowering.graph, asked.system);
+    let along = asked
+        .unprojected
+        .and_then(|machine| along_the_machine(lowering, lowering.model, asked.system, machine));
+    let mut candidates = functions(lowering, asked, along.as_ref());
+    // What is certainly longer is not even written down: each column passes through the matrix too.
+    let is_shorter = |draft: &Draft| {
+        elimination.multiplications * asked.columns() <= draft.function.counts().ops()
+    };
+    if candidates.iter().all(is_shorter) {
+        let by_matrix = by_matrix(&mut lowering.graph, asked, elimination);
+        candidates.extend(functions(lowering, asked, Some(&by_matrix)));
+    }
+    candidates
+        .into_iter()
+        .min_by(|a, b| a.function.cost().compare(b.function.cost()))
+        .expect("the mass matrix always leads to one")
+}
+
+/// The functions that lead from one elimination to the same numbers, one for each form of the
+/// right-hand sides.
+fn functions<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+    solved: Option<&Solved>,
+) -> Vec<Draft> {
+    let forms = solved.into_iter().flat_map(|solved| {
+        asked
+            .slopes
+            .iter()
+            .map(move |slopes| (solved, slopes.as_slice()))
+    });
+    forms
+        .map(|(solved, slopes)| function(lowering, asked, solved, slopes))
+        .collect()
+}
+
+impl Asked<'_, '_> {
+    /// How many columns there are, the accelerations among them.
+    fn columns(&self) -> usize {
+        1 + self.slopes.first().map_or(0, Vec::len)
+    }
+}
+
+fn by_matrix(graph: &mut Graph, asked: &Asked<'_, '_>, elimination: Elimination) -> Solved {
+    of_elimination(solve::solve(graph, asked.system, elimination), asked.system)
+}
+
+/// How the accelerations were found, where the matrix of the system was eliminated.
+pub(super) fn of_elimination(solution: solve::Solution, system: &System) -> Solved {
+    let step = |(pivot, column): (&Pivot, &solve::Column)| Step {
+        of: pivot.coordinate,
+        // Pivots of constraints are guarded as positive numbers; without one a row depends on others.
+        pivot: (!pivot.pivot.is_zero()).then(|| match pivot.coordinate < system.coordinates {
+            true => pivot.pivot,
+            false => pivot.pivot.negated(),
+        }),
+        parts: column
+            .below
+            .iter()
+            .map(|(i, l)| (*i, l.negated()))
+            .collect(),
+    };
+    let steps = solution.pivots.iter().zip(&solution.columns);
+    Solved {
+        accelerations: solution.accelerations,
+        multipliers: solution.multipliers,
+        steps: steps.map(step).collect(),
+        pivots: solution.pivots,
+        unknowns: system.forces.len(),
+    }
+}
+
+/// How the accelerations of an open machine are found along it.
+pub(super) fn along_the_machine<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    model: &Model<'d>,
+    system: &System,
+    machine: &Unprojected<'d>,
+) -> Option<Solved> {
+    let solution = articulated::solve(model, machine, Order::Short)?;
+    lowering.name(&solution.names);
+    lowering.lower(&solution.accelerations);
+    let mut unknowns = system.forces.len();
+    let mut numbers = solution.coordinates;
+    let mut number = |id| {
+        *numbers.entry(id).or_insert_with(|| {
+            unknowns += 1;
+            unknowns - 1
+        })
+    };
+    let mut steps = Vec::with_capacity(solution.steps.len());
+    for step in &solution.steps {
+        let coefficients: Vec<Expr<'d>> = step.parts.iter().map(|(_, c)| *c).collect();
+        lowering.lower(&coefficients);
+        lowering.lower(step.pivot.as_slice());
+        let coefficients = lowering.values(&coefficients);
+        let parts = step.parts.iter().map(|(part, _)| number(*part));
+        steps.push(Step {
+            parts: parts.zip(coefficients).collect(),
+            of: number(step.of),
+            pivot: step.pivot.map(|pivot| lowering.values(&[pivot])[0]),
+        });
+    }
+    // A pivot need only be positive where the entry of M that it was left over from is not at hand.
+    let scale = |coordinate: usize, pivot: Scaled| {
+        let diagonal = system.matrix[Shape::index(coordinate, coordinate)];
+        if diagonal.is_known() { diagonal } else { pivot }
+    };
+    let eliminated = steps.iter().filter_map(|step| step.pivot);
+    let pivots = solution.pivots.iter().zip(eliminated);
+    let pivots = pivots.map(|(&(coordinate, _), pivot)| Pivot {
+        coordinate,
+        pivot,
+        scale: scale(coordinate, pivot),
+    });
+    Some(Solved {
+        accelerations: lowering.values(&solution.accelerations),
+        multipliers: Vec::new(),
+        pivots: pivots.collect(),
+        steps,
+        unknowns,
+    })
+}
+
+/// The function: the accelerations first, then one column for each variable, row by row.
+fn function<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    asked: &Asked<'_, 'd>,
+    solved: &Solved,
+    slopes: &[Vec<Expr<'d>>],
+) -> Draft {
+    let n = asked.system.coordinates;
+    let rights = right_hand_sides(lowering, slopes, asked, solved);
+    let graph = &mut lowering.graph;
+    let inverses = inverses(graph, solved);
+    let mut columns = vec![solved.accelerations.clone()];
+    for right in rights {
+        columns.push(respond(graph, solved, &inverses, right));
+    }
+    let rows = (0..n).flat_map(|i| columns.iter().map(move |column| column[i]));
+    let planned = Planned {
+        role: Role::Derivatives,
+        rows: asked.system.forces.len(),
+        shape: Shape::Matrix(n, columns.len()),
+        results: rows.collect(),
+        pivots: solved
+            .pivots
+            .iter()
+            .copied()
+            .filter(|pivot| !asked.known_pivots.contains(pivot))
+            .collect(),
+    };
+    let net = planned.net(graph, true);
+    planned.draft(Some(graph), net, Basis::Derived, false)
+}
+
+/// The right-hand sides with the values of accelerations and multipliers in them.
+fn right_hand_sides<'d>(
+    lowering: &mut Lowering<'_, 'd>,
+    slopes: &[Vec<Expr<'d>>],
+    asked: &Asked<'_, 'd>,
+    solved: &Solved,
+) -> Vec<Vec<Scaled>> {
+    // What was lowered before may hold the accelerations as arguments, as outputs do.
+    let before = std::mem::take(&mut lowering.values);
+    for (coordinate, value) in lowering.model.coordinates.iter().zip(&solved.accelerations) {
+        lowering.values.insert(coordinate.a.id(), *value);
+    }
+    for (symbol, value) in asked.multipliers.iter().zip(&solved.multipliers) {
+        lowering.values.insert(symbol.id(), *value);
+    }
+    let mut rights = Vec::with_capacity(slopes.len());
+    for column in slopes {
+        lowering.lower(column);
+        let mut right = lowering.values(column);
+        for &(k, weight) in &asked.system.held {
+            let closing = right[asked.system.coordinates + k];
+            for (to, g) in right.iter_mut().zip(asked.system.row(k)) {
+                let graph = &mut lowering.graph;
+                let product = graph.product(&[(weight, 1), (*g, 1), (closing, 1)]);
+                *to = graph.sum(&[*to, product]);
+            }
+        }
+        rights.push(right);
+    }
+    lowering.values = before;
+    rights
+}
+
+/// The reciprocals of the pivots, step by step.
+pub(super) fn inverses(graph: &mut Graph, solved: &Solved) -> Vec<Scaled> {
+    let inverse = |step: &Step| match step.pivot {
+        Some(pivot) => {
+            let inverse = graph.product(&[(pivot, -1)]);
+            graph.whole(inverse)
+        }
+        None => Scaled::ZERO,
+    };
+    solved.steps.iter().map(inverse).collect()
+}
+
+/// Solves `M x = r` by the steps that found the accelerations; of rows of constraints, `−λ`.
+pub(super) fn respond(
+    graph: &mut Graph,
+    solved: &Solved,
+    inverses: &[Scaled],
+    right: Vec<Scaled>,
+) -> Vec<Scaled> {
+    let n = right.len();
+    let mut loads: Vec<Vec<Scaled>> = right.into_iter().map(|load| vec![load]).collect();
+    loads.resize(solved.unknowns, Vec::new());
+    let mut totals = Vec::with_capacity(solved.steps.len());
+    for step in &solved.steps {
+        let load = total(graph, &loads[step.of]);
+        for &(part, c) in &step.parts {
+            loads[part].push(graph.product(&[(c, 1), (load, 1)]));
+        }
+        totals.push(load);
+    }
+    let mut answers = vec![Scaled::ZERO; solved.unknowns];
+    for ((step, load), inverse) in solved.steps.iter().zip(totals).zip(inverses).rev() {
+        let mut terms = vec![graph.product(&[(load, 1), (*inverse, 1)])];
+        for &(part, c) in &step.parts {
+            terms.push(graph.product(&[(c, 1), (answers[part], 1)]));
+        }
+        answers[step.of] = total(graph, &terms);
+    }
+    answers.truncate(n);
+    answers
+}
+
+/// The sum, as one value that is computed once.
+fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
+    let sum = graph.sum(terms);
+    graph.whole(sum)
+}

@@ -1,0 +1,161 @@
+//! What the friction forces of the contacts bring about, eqs. (E32)–(E34): `M a = f + Gᵀλ + Σ τᵀF`.
+//!
+//! How large they are is not decided here, for it depends on what sticks and what slides. But
+//! everything is linear in them. So the elimination of `M` takes one column more for each contact,
+//! and whoever knows the state of the contacts has a system of as many equations as there are
+//! contacts left: `M + D(sign)`, eliminated as far as no sign is in it, and without a pivot that
+//! depends on one.
+
+use crate::SlidingEquation;
+use crate::lower::derivatives::{Solved, inverses, of_elimination, respond};
+use crate::lower::{Draft, Lowering, Origin, Planned};
+use lagrangian_program::graph::{Graph, Scaled};
+use lagrangian_program::solve::{self, Elimination};
+use lagrangian_program::{Basis, FrictionLayout, Role, Shape};
+
+/// The programs for [`Role::Friction`], from the equations as they were derived and multiplied out.
+pub(super) fn friction<'d>(lowering: &mut Lowering<'_, 'd>, source: Origin<'_, 'd>) -> Vec<Draft> {
+    let contacts: Vec<Contact> = source
+        .sliding
+        .iter()
+        .map(|sliding| Contact::of(lowering, sliding))
+        .collect();
+    let mut drafts = Vec::new();
+    let mut before = None;
+    for (basis, quantities) in [
+        (Basis::Derived, source.quantities),
+        (Basis::Expanded, source.expanded),
+    ] {
+        let Some(system) = lowering.system(quantities, source.quantities) else {
+            continue;
+        };
+        if before.as_ref() == Some(&system) {
+            continue;
+        }
+        let elimination = Elimination::of(&lowering.graph, &system);
+        let solution = solve::solve(&mut lowering.graph, &system, elimination);
+        let solved = of_elimination(solution, &system);
+        let layout = FrictionLayout {
+            coordinates: system.coordinates,
+            constraints: system.forces.len() - system.coordinates,
+            contacts: contacts.len(),
+        };
+        let results = results(&mut lowering.graph, layout, &solved, &contacts);
+        let known = |pivot: &solve::Pivot| pivot.pivot.is_known() && pivot.scale.is_known();
+        let (known_pivots, pivots): (Vec<_>, Vec<_>) = solved.pivots.into_iter().partition(known);
+        let planned = Planned {
+            role: Role::Friction,
+            shape: Shape::Vector(layout.len()),
+            results,
+            pivots,
+            rows: system.forces.len(),
+        };
+        for mut draft in planned.drafts(&mut lowering.graph, basis) {
+            draft.known_pivots.clone_from(&known_pivots);
+            drafts.push(draft);
+        }
+        before = Some(system);
+    }
+    drafts
+}
+
+/// A contact in numbers.
+struct Contact {
+    row: Vec<Scaled>,
+    drift: Scaled,
+    load: Scaled,
+    by_accelerations: Vec<Scaled>,
+    by_multipliers: Vec<Scaled>,
+    by_friction_forces: Vec<Scaled>,
+    friction: Scaled,
+    static_friction: Scaled,
+}
+
+impl Contact {
+    fn of<'d>(lowering: &mut Lowering<'_, 'd>, sliding: &SlidingEquation<'d>) -> Contact {
+        let mut many = |expressions: &[_]| {
+            lowering.lower(expressions);
+            lowering.values(expressions)
+        };
+        let mut one = |expression| many(&[expression])[0];
+        Contact {
+            drift: one(sliding.drift),
+            load: one(sliding.load),
+            friction: one(sliding.friction),
+            static_friction: one(sliding.static_friction),
+            row: many(&sliding.row),
+            by_accelerations: many(&sliding.by_accelerations),
+            by_multipliers: many(&sliding.by_multipliers),
+            by_friction_forces: many(&sliding.by_friction_forces),
+        }
+    }
+}
+
+/// All results, part by part.
+fn results(
+    graph: &mut Graph,
+    layout: FrictionLayout,
+    solved: &Solved,
+    contacts: &[Contact],
+) -> Vec<Scaled> {
+    let inverses = inverses(graph, solved);
+    let mut all = Vec::with_capacity(layout.len());
+    for part in 0..=contacts.len() {
+        let (accelerations, multipliers) = match part.checked_sub(1) {
+            None => (solved.accelerations.clone(), solved.multipliers.clone()),
+            Some(k) => {
+                let mut right = contacts[k].row.clone();
+                right.resize(layout.coordinates + layout.constraints, Scaled::ZERO);
+                let mut answers = respond(graph, solved, &inverses, right);
+                let multipliers = answers.split_off(layout.coordinates);
+                // The system is symmetric in a and −λ.
+                let multipliers = multipliers.into_iter().map(Scaled::negated);
+                (answers, multipliers.collect())
+            }
+        };
+        let mut combine = |start: Scaled, pairs: [(&[Scaled], &[Scaled]); 2]| {
+            let mut terms = vec![start];
+            for (coefficients, values) in pairs {
+                let products = coefficients.iter().zip(values);
+                terms.extend(products.map(|(&c, &x)| graph.product(&[(c, 1), (x, 1)])));
+            }
+            let sum = graph.sum(&terms);
+            graph.whole(sum)
+        };
+        let slips: Vec<Scaled> = contacts
+            .iter()
+            .map(|contact| {
+                let start = if part == 0 {
+                    contact.drift
+                } else {
+                    Scaled::ZERO
+                };
+                combine(start, [(&contact.row, &accelerations), (&[], &[])])
+            })
+            .collect();
+        let normals: Vec<Scaled> = contacts
+            .iter()
+            .map(|contact| {
+                let start = match part.checked_sub(1) {
+                    None => contact.load,
+                    Some(k) => contact.by_friction_forces[k],
+                };
+                let by = [
+                    (
+                        contact.by_accelerations.as_slice(),
+                        accelerations.as_slice(),
+                    ),
+                    (contact.by_multipliers.as_slice(), multipliers.as_slice()),
+                ];
+                combine(start, by)
+            })
+            .collect();
+        all.extend(accelerations);
+        all.extend(multipliers);
+        all.extend(slips);
+        all.extend(normals);
+    }
+    all.extend(contacts.iter().map(|contact| contact.friction));
+    all.extend(contacts.iter().map(|contact| contact.static_friction));
+    all
+}

@@ -1,0 +1,93 @@
+//! States at which roundings of candidates are compared.
+
+use lagrangian_program::Source;
+use lagrangian_program::rounding::{STATES, SplitMix, State, States};
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Expr, Symbol, evaluate, nearest};
+use rustc_hash::FxHashMap;
+
+/// How many are drawn for each at which all that the spec assumes holds.
+const TRIES: usize = 8;
+
+/// States around the start, where all that the machine assumes holds: angles and other pure
+/// numbers all the way round, lengths by half of themselves and 2 cm, rates of 5 rad/s and
+/// 0.5 m/s, times in [0, 10) s; parameters and inputs at their defaults. A parameter that has
+/// none is between ½ and 2, in its unit.
+pub(super) fn around_start(model: &Model<'_>) -> States {
+    let mut random = SplitMix(1);
+    let parameters = model.parameters.iter();
+    let parameters: Vec<f64> = parameters
+        .map(|p| match p.default {
+            Some(default) => nearest(default),
+            None => random.uniform(0.5, 2.0),
+        })
+        .collect();
+    let symbols = Symbols::of(model);
+    let starts: Vec<Expr<'_>> = model.coordinates.iter().map(|c| c.start).collect();
+    let facts: Vec<Expr<'_>> = model.assumptions.iter().map(|fact| fact.excess).collect();
+    let at_rest = State {
+        t: 0.0,
+        q: vec![0.0; starts.len()],
+        v: vec![0.0; starts.len()],
+        u: model.inputs.iter().map(|i| nearest(i.default)).collect(),
+        a: vec![0.0; starts.len()],
+    };
+    let starts = evaluate(model.dag, &starts, |symbol| {
+        symbols.value(symbol, &parameters, &at_rest)
+    });
+    let is_angle: Vec<bool> = model.coordinates.iter().map(|c| c.unit.is_one()).collect();
+    let mut states = Vec::with_capacity(STATES);
+    for _ in 0..TRIES * STATES {
+        let mut rates = || -> Vec<f64> {
+            let rate = |is_angle: &bool| {
+                let most = if *is_angle { 5.0 } else { 0.5 };
+                random.uniform(-most, most)
+            };
+            is_angle.iter().map(rate).collect()
+        };
+        let (v, a) = (rates(), rates());
+        let places = starts.iter().zip(&is_angle);
+        let q = places.map(|(&start, &is_angle)| {
+            let half = if is_angle {
+                3.2
+            } else {
+                0.02 + 0.5 * start.abs()
+            };
+            random.uniform(start - half, start + half)
+        });
+        let state = State {
+            q: q.collect(),
+            v,
+            a,
+            u: at_rest.u.clone(),
+            t: random.uniform(0.0, 10.0),
+        };
+        let excess = evaluate(model.dag, &facts, |symbol| {
+            symbols.value(symbol, &parameters, &state)
+        });
+        if excess.iter().all(|excess| *excess > 0.0) {
+            states.push(state);
+        }
+        if states.len() == STATES {
+            break;
+        }
+    }
+    States { parameters, states }
+}
+
+/// Which argument a symbol is.
+struct Symbols(FxHashMap<Symbol, Source>);
+
+impl Symbols {
+    fn of(model: &Model<'_>) -> Symbols {
+        Symbols(super::sources(model))
+    }
+
+    fn value(&self, symbol: Symbol, parameters: &[f64], state: &State) -> f64 {
+        match self.0.get(&symbol) {
+            Some(Source::Parameter(index)) => parameters[*index as usize],
+            Some(source) => state.read(*source),
+            None => f64::NAN,
+        }
+    }
+}

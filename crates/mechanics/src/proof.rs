@@ -1,0 +1,1447 @@
+//! Every program is proved before it is emitted or run.
+//!
+//! A [`Program`] becomes [`Proved`] by being held against Lagrange's equations of its own machine,
+//! evaluated literally ([`literal`](crate::equations::literal)); emitters and the machines that are
+//! interpreted take nothing else. What is compared:
+//!
+//! * energies, `M`, `h`, `Q`, `f`, the power of drives and dampers, outputs, facts and the start;
+//! * residual, rate, row and drift of each constraint, slip, row and drift of each guide;
+//! * accelerations, multipliers, and what friction forces bring about, by putting them into `M a = f + Gᵀλ
+//!   + Σ τᵀF`, `G a = γ` and the equations of the displacements that would open the guides;
+//! * derivatives, by running the accelerations over dual numbers;
+//! * accelerations in stages, and the pivots that are guarded.
+//!
+//! # In which numbers
+//!
+//! First in those of a prime field ([`Residue`]), at [`POINTS`] random points. There
+//! nothing is rounded: equal is equal, and what differs does so but for a chance of about the degree
+//! of the difference over 2⁶¹, over 2⁴⁸ where it stands in angles (J. T. Schwartz, J. ACM 27 (1980)
+//! 701–717; R. Zippel, EUROSAM 1979). Rows of matrices and vectors are not compared one by one but
+//! all at once, multiplied by a vector drawn at random, which leaves the same chance; where that
+//! fails they are looked at one by one, to say which is wrong.
+//!
+//! A field has no order, and no powers and logarithms of real numbers. So where a machine has any
+//! function but sine and cosine, or guides, whose reactions have a side; where the field knows no
+//! point at which all roots exist; and where it says that something differs: there the comparison is
+//! made (once more) in double-doubles that carry a bound of their own error ([`Ball`]), at
+//! [`STATES`] random states of the machine. It says for certain what differs, and has the last
+//! word: what is equal in 32 digits, up to the bound, at all of these states is equal, and the field
+//! may not know a law of powers or of roots that was used.
+//!
+//! Points and states are the same in every run: the same text has the same verdict. A failure tells
+//! the number of the point, which is its seed.
+
+mod number;
+pub mod symbolic;
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::ops::Deref;
+
+use lagrangian_scalar::{Ball, Dual, Residue, Scalar};
+use lagrangian_symbolic::{Expr, Function as Call, Node, reachable};
+
+use crate::equations::literal::{Lagrange, Literal, LiteralSliding, State};
+use crate::proof::symbolic::{determinant, guarded_coordinates, with_guarded_values};
+use crate::{Dependent, Equations};
+use crate::{Disagreement, POINTS};
+use lagrangian_program::quantity::{Entry, Kind, Use};
+use lagrangian_program::{Arguments, FrictionLayout, Interpreter, Program, Role, Shape};
+use lagrangian_spec::diagnostic::{Code, Diagnostic};
+use lagrangian_spec::model::{Model, Variable};
+use number::{Number, Sight};
+
+/// The states at which programs are compared in double-doubles.
+pub const STATES: usize = 4;
+
+/// The most states to try.
+const MOST_STATES: u64 = 96;
+
+/// The most points of the field to try. A root needs a point where its argument is a square, which
+/// is one of two; a machine with more than ten roots is compared at states.
+const MOST_POINTS: u64 = 4096;
+
+/// The most values of expressions that may be computed in search of a point.
+const MOST_VALUES: u64 = 4_000_000;
+
+/// A comparison may say nothing, where a pivot or a value is missing that the search for a point has not seen.
+/// So many comparisons are made for each that must say something,
+const COMPARISONS: u64 = 8;
+
+/// and as many more as compute no more than so many values: no proof costs more than so many times one
+/// that succeeds at once, or a second.
+const MOST_COMPARED: u64 = 40_000_000;
+
+/// A program that computes what Lagrange's equations of its machine say; see the
+/// [module](self).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Proved(Program);
+
+impl Proved {
+    /// Proves a program.
+    ///
+    /// # Errors
+    /// What is wrong with it, or that nothing can be said of it.
+    pub fn new<'d>(
+        program: Program,
+        model: &Model<'d>,
+        equations: &Equations<'d>,
+    ) -> Result<Proved, Unproved> {
+        match validate(&program, model, equations) {
+            Ok(()) => Ok(Proved(program)),
+            Err((disagreement, witness)) => Err(Unproved {
+                what: told(&disagreement, &program),
+                disagreement,
+                witness,
+            }),
+        }
+    }
+
+    /// The same machine with one function, as [`Program::restricted`]; proved to give the same.
+    ///
+    /// # Errors
+    /// If it does not.
+    pub fn restricted(&self, role: Role) -> Result<Proved, Unproved> {
+        let part = self.0.restricted(role);
+        match same_results(&self.0, &part, role) {
+            Ok(()) => Ok(Proved(part)),
+            Err(disagreement) => Err(Unproved {
+                what: told(&disagreement, &self.0),
+                disagreement,
+                witness: Witness::Field,
+            }),
+        }
+    }
+
+    /// The program.
+    pub fn into_program(self) -> Program {
+        self.0
+    }
+}
+
+impl Deref for Proved {
+    type Target = Program;
+    fn deref(&self) -> &Program {
+        &self.0
+    }
+}
+
+/// The program's listing.
+impl fmt::Display for Proved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// Why a program is not emitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unproved {
+    /// What is wrong.
+    pub disagreement: Disagreement,
+    /// Where it was seen.
+    pub witness: Witness,
+    /// What is wrong, by the names of the spec.
+    what: String,
+}
+
+/// In which numbers a program was found wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Witness {
+    /// Those of the prime field.
+    Field,
+    /// Double-doubles with a bound of their error.
+    States,
+}
+
+impl Unproved {
+    /// What a user is told, at the name of the machine.
+    pub fn diagnostic(&self, model: &Model<'_>) -> Diagnostic {
+        match self.disagreement {
+            Disagreement::Undefined => Diagnostic::new(
+                Code::Undefined,
+                model.span,
+                "no state was found at which the equations of motion have a value",
+            )
+            .help("something divides by zero, or takes a root or a logarithm that does not exist; if there are such states, give the coordinates start values near one of them"),
+            Disagreement::Exhausted { comparisons } => Diagnostic::new(
+                Code::TooLarge,
+                model.span,
+                format!("this machine could not be proved: {comparisons} states were compared, and too few of them have accelerations"),
+            )
+            .help("as many are compared as the size of its equations allows; where it is singular at most states, say what holds it, or make it smaller"),
+            _ => Diagnostic::new(Code::Internal, model.span, self.to_string()).help(
+                "this is a defect of lagrangian, not of the spec: nothing was emitted; please report it together with the spec",
+            ),
+        }
+    }
+}
+
+impl fmt::Display for Unproved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let witness = match self.witness {
+            Witness::Field => "point",
+            Witness::States => "state",
+        };
+        let seed = match self.disagreement {
+            Disagreement::Result { point, .. }
+            | Disagreement::Motion { point, .. }
+            | Disagreement::Constraint { point, .. }
+            | Disagreement::Reaction { point, .. }
+            | Disagreement::Settled { point, .. }
+            | Disagreement::Pivots { point } => format!(" (random {witness} {point})"),
+            Disagreement::Singular(_)
+            | Disagreement::Undefined
+            | Disagreement::Unseen { .. }
+            | Disagreement::Exhausted { .. } => String::new(),
+        };
+        write!(
+            f,
+            "the program of this machine was made wrong: {} what Lagrange's equations say{seed}",
+            self.what
+        )
+    }
+}
+
+impl std::error::Error for Unproved {}
+
+/// The subject of a sentence that goes on with what Lagrange's equations say.
+fn told(disagreement: &Disagreement, program: &Program) -> String {
+    let member = |(kind, index): (Kind, usize)| {
+        let name = program.member((kind, index));
+        match kind {
+            Kind::Coordinate => format!("`{name}`"),
+            Kind::Constraint => format!("the constraint `{name}`"),
+            Kind::Contact => format!("the guide `{name}`"),
+        }
+    };
+    let coordinate = |i: usize| member((Kind::Coordinate, i));
+    let constraint = |k: usize| member((Kind::Constraint, k));
+    let contact = |k: usize| member((Kind::Contact, k));
+    match *disagreement {
+        Disagreement::Result { role, index, .. } => {
+            let of = match program.entry(role, index) {
+                Entry::Whole => match role {
+                    Role::Output(_) | Role::Assumption(_) => {
+                        format!(" (`{}`)", program.title(role))
+                    }
+                    _ => String::new(),
+                },
+                Entry::Of(Kind::Coordinate, i) => format!(", in {},", coordinate(i)),
+                Entry::Of(kind, i) => format!(", of {},", member((kind, i))),
+                Entry::At(row @ (Kind::Coordinate, _), column) => {
+                    format!(", in {} and {},", member(row), member(column))
+                }
+                Entry::At(row, column) => {
+                    format!(", of {} by {},", member(row), member(column))
+                }
+                Entry::Rate(i) => format!(", the rate of {},", coordinate(i)),
+                Entry::Derivative(i, variable) => {
+                    let by = program.variable_name(variable);
+                    format!(", in {}, by `{by}`,", coordinate(i))
+                }
+                Entry::Index(index) => format!(", result {index},"),
+            };
+            format!("`{}`{of} is not", role.name())
+        }
+        Disagreement::Motion { coordinate: i, .. } => format!(
+            "`{}` breaks the equation of motion of {}, against",
+            program.solving().name(),
+            coordinate(i)
+        ),
+        Disagreement::Constraint { constraint: k, .. } => format!(
+            "`{}` breaks {}, against",
+            program.solving().name(),
+            constraint(k)
+        ),
+        Disagreement::Reaction { contact: k, .. } => {
+            format!("the normal reaction of {} is not", contact(k))
+        }
+        Disagreement::Settled {
+            coordinate: i,
+            constraint: k,
+            ..
+        } => format!(
+            "{} was taken to settle {}, which is not",
+            constraint(k),
+            coordinate(i)
+        ),
+        Disagreement::Pivots { .. } => "what guards the elimination is not".into(),
+        Disagreement::Singular(singular) => format!(
+            "the elimination stops at {}, against",
+            coordinate(singular.coordinate)
+        ),
+        Disagreement::Unseen { role } => format!("nothing holds `{}` against", role.name()),
+        Disagreement::Undefined | Disagreement::Exhausted { .. } => {
+            "no state was found to compare it with".into()
+        }
+    }
+}
+
+/// Holds a program against the equations of its machine.
+fn validate<'d>(
+    program: &Program,
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+) -> Result<(), (Disagreement, Witness)> {
+    let holonomic = |k: usize| program.constraints.get(k).is_some_and(|c| c.holonomic);
+    let machine = Lagrange::of(model, holonomic);
+    let nodes = reachable(model.dag, &machine.roots);
+    let most = MOST_VALUES / (nodes.len() as u64).max(1);
+    let most = most.clamp(MOST_STATES, MOST_POINTS);
+    let smooth = nodes.iter().all(|&id| match model.dag.node(id) {
+        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
+        _ => true,
+    });
+    let settled = settled(program, equations);
+    let relaxed = model.relaxed.as_deref();
+    let relaxed = relaxed.map(|relaxed| Lagrange::of(relaxed, holonomic));
+    let parts = Parts {
+        program,
+        machine: &machine,
+        relaxed: relaxed.as_ref(),
+        settled,
+    };
+    let work = work(program, nodes.len());
+    let in_field = Prover::<Residue>::new(parts).run(POINTS, most, work);
+    if in_field == Found::Equal && smooth && model.sliding.is_empty() {
+        return Ok(());
+    }
+    let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
+    match (in_field, at_states) {
+        (Found::Equal | Found::Nothing | Found::Exhausted(_), Found::Wrong(wrong)) => {
+            Err((wrong, Witness::States))
+        }
+        (_, Found::Equal) | (Found::Equal, _) => Ok(()),
+        (Found::Wrong(wrong), _) => Err((wrong, Witness::Field)),
+        (Found::Exhausted(comparisons), _) | (_, Found::Exhausted(comparisons)) => {
+            Err((Disagreement::Exhausted { comparisons }, Witness::States))
+        }
+        (_, _) => Err((Disagreement::Undefined, Witness::States)),
+    }
+}
+
+/// About how many values one comparison computes, for a machine of so many nodes: each with three
+/// infinitesimals, which are eight numbers.
+fn work(program: &Program, nodes: usize) -> u64 {
+    let code = |function: &lagrangian_program::Function| function.code.len() as u64;
+    let functions: u64 = program.functions.iter().map(code).sum();
+    let slopes = match program.derivatives.is_empty() {
+        true => 0,
+        false => program.function(Role::Accelerations).map_or(0, code),
+    };
+    8 * nodes as u64 + functions + 2 * slopes
+}
+
+/// Which coordinates the accelerations do not look at, since constraints settle them.
+fn settled<'a, 'd>(program: &Program, equations: &'a Equations<'d>) -> &'a [Dependent<'d>] {
+    let choice = program.choice(program.solving());
+    let is_reduced = choice.is_none_or(|choice| choice.chosen().form.reduced);
+    match &equations.reduction {
+        Some(reduction) if is_reduced => &reduction.dependents,
+        _ => &[],
+    }
+}
+
+/// What a prover works with.
+#[derive(Clone, Copy)]
+struct Parts<'a, 'd> {
+    program: &'a Program,
+    machine: &'a Lagrange<'a, 'd>,
+    relaxed: Option<&'a Lagrange<'a, 'd>>,
+    settled: &'a [Dependent<'d>],
+}
+
+/// What came of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+enum Found {
+    Equal,
+    Wrong(Disagreement),
+    /// Too few points at which everything has a value.
+    Nothing,
+    /// The same after so many comparisons, which are all that may be made.
+    Exhausted(u64),
+}
+
+/// Why a comparison says nothing yet, or that something is wrong.
+enum Verdict {
+    Elsewhere,
+    Wrong(Disagreement),
+}
+
+impl From<Disagreement> for Verdict {
+    fn from(disagreement: Disagreement) -> Verdict {
+        Verdict::Wrong(disagreement)
+    }
+}
+
+/// A sum, and how large the numbers are that went into it.
+#[derive(Clone, Copy)]
+struct Sum<R> {
+    value: R,
+    size: f64,
+}
+
+impl<R: Number> Sum<R> {
+    fn new() -> Sum<R> {
+        Sum {
+            value: R::ZERO,
+            size: 0.0,
+        }
+    }
+
+    fn of(terms: impl IntoIterator<Item = R>) -> Sum<R> {
+        terms.into_iter().fold(Sum::new(), Sum::plus)
+    }
+
+    fn products(a: &[R], b: &[R]) -> Sum<R> {
+        Sum::of(a.iter().zip(b).map(|(&a, &b)| a * b))
+    }
+
+    fn plus(self, term: R) -> Sum<R> {
+        Sum {
+            value: self.value + term,
+            size: self.size + term.size(),
+        }
+    }
+
+    /// Whether it is 0.
+    fn vanishes(self) -> Result<bool, Verdict> {
+        match self.value.look(self.size) {
+            Sight::Zero => Ok(true),
+            Sight::NotZero => Ok(false),
+            Sight::Hidden => Err(Verdict::Elsewhere),
+        }
+    }
+}
+
+fn equal<R: Number>(a: R, b: R) -> Result<bool, Verdict> {
+    Sum::of([a, -b]).vanishes()
+}
+
+/// Entry (i, j) of a symmetric matrix, by its lower triangle.
+fn row<R: Copy>(lower: &[R], n: usize, i: usize) -> impl Iterator<Item = R> {
+    (0..n).map(move |j| lower[Shape::index(i, j)])
+}
+
+/// What the functions of a program give at a state.
+struct Computed<R> {
+    mass_matrix: Vec<R>,
+    bias: Vec<R>,
+    applied: Vec<R>,
+    forces: Vec<R>,
+    rows: Vec<R>,
+    drift: Vec<R>,
+}
+
+/// A program, run in some numbers and compared.
+struct Prover<'a, 'd, R> {
+    parts: Parts<'a, 'd>,
+    interpreter: Interpreter<R>,
+    /// The same with the values of guards for accelerations.
+    guards: Interpreter<R>,
+    /// The accelerations over dual numbers, where derivatives are to be compared.
+    slopes: Option<Interpreter<Dual<R>>>,
+    number: u64,
+    /// How many comparisons were begun.
+    comparisons: u64,
+    /// For each output whether it had a value yet.
+    seen: Vec<bool>,
+    /// The functions that were looked at.
+    called: BTreeSet<Role>,
+    /// Whether accelerations were, at any point.
+    has_moved: bool,
+}
+
+impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
+    fn new(parts: Parts<'a, 'd>) -> Prover<'a, 'd, R> {
+        let program = parts.program;
+        let parameters = vec![R::ONE; program.parameters.len()];
+        let slopes = (!program.derivatives.is_empty()).then(|| {
+            let parameters = vec![Dual::<R>::ONE; program.parameters.len()];
+            Interpreter::new(&program.restricted(Role::Accelerations), &parameters)
+        });
+        Prover {
+            interpreter: Interpreter::new(program, &parameters),
+            guards: Interpreter::new(&with_guarded_values(program), &parameters),
+            slopes,
+            number: 0,
+            comparisons: 0,
+            seen: vec![false; program.outputs.len()],
+            called: BTreeSet::new(),
+            has_moved: false,
+            parts,
+        }
+    }
+
+    /// Compares at so many points, of at most `most`, each comparison being so much `work`.
+    fn run(mut self, points: usize, most: u64, work: u64) -> Found {
+        let allowed = COMPARISONS * points as u64 + MOST_COMPARED / work.max(1);
+        let mut good = 0;
+        for number in 0..most {
+            if self.comparisons >= allowed && good < points {
+                return Found::Exhausted(self.comparisons);
+            }
+            self.number = number;
+            match self.check() {
+                Ok(()) => good += 1,
+                Err(Verdict::Elsewhere) => {}
+                Err(Verdict::Wrong(disagreement)) => return Found::Wrong(disagreement),
+            }
+            // An output that has a value hardly anywhere is not waited for all the time.
+            let has_seen = self.seen.iter().all(|seen| *seen) || good >= 4 * points;
+            if good >= points && has_seen {
+                return self.covered();
+            }
+        }
+        match good >= points {
+            true => self.covered(),
+            false => Found::Nothing,
+        }
+    }
+
+    /// Whether every function of the program was looked at: a quantity of which the proof knows nothing is
+    /// not proved. Where there are no accelerations, there is nothing to compare with those.
+    fn covered(&self) -> Found {
+        let is_covered = |role: Role| {
+            self.called.contains(&role) || (role.row().called != Use::Seldom && !self.has_moved)
+        };
+        let functions = self.parts.program.functions.iter();
+        match functions.map(|f| f.role).find(|role| !is_covered(*role)) {
+            Some(role) => Found::Wrong(Disagreement::Unseen { role }),
+            None => Found::Equal,
+        }
+    }
+
+    fn check(&mut self) -> Result<(), Verdict> {
+        let machine = self.parts.machine;
+        let model = machine.model;
+        let state = R::state(self.number, machine);
+        // Most points without roots are found out here, for little.
+        let facts: Vec<Expr<'d>> = model.assumptions.iter().map(|fact| fact.excess).collect();
+        let facts = machine.values(&facts, &state);
+        let here = machine.values(&machine.roots, &state);
+        if !here.iter().all(|x| x.is_finite()) {
+            return Err(Verdict::Elsewhere);
+        }
+        self.comparisons += 1;
+        self.interpreter.prepare(&state.parameters);
+        self.guards.prepare(&state.parameters);
+        let are_facts = facts.iter().all(|x| x.is_positive());
+        match self.compare_at(state, &facts) {
+            // Where the spec's facts do not hold, agreement is agreement, and a difference is none.
+            Err(Verdict::Wrong(_)) if !are_facts => Err(Verdict::Elsewhere),
+            result => result,
+        }
+    }
+
+    fn compare_at(&mut self, state: State<R>, facts: &[R]) -> Result<(), Verdict> {
+        let machine = self.parts.machine;
+        let n = machine.model.coordinates.len();
+        let w = self.many(1, n);
+        let literal = machine.at(&state, &w);
+        let computed = self.computed(&state)?;
+        self.check_dynamics(&state, &w, &literal, &computed)?;
+        self.check_constraints(&state, &w, &literal, &computed)?;
+        self.check_power(&state, &literal, &computed)?;
+        let signs = self.check_slips(&state, &w, &literal)?;
+        self.check_rest(&state, facts)?;
+
+        let (state, computed) = match self.parts.settled.is_empty() {
+            true => (state, computed),
+            false => {
+                let state = self.follow(state)?;
+                let computed = self.computed(&state)?;
+                (state, computed)
+            }
+        };
+        if self.has_no_accelerations(&state, &computed)? {
+            return Ok(());
+        }
+        self.has_moved = true;
+        self.check_pivots(&state, &computed)?;
+        match literal.sliding.is_empty() {
+            true => self.check_motion(&state, &computed)?,
+            false => self.check_friction(&state, &computed, &signs)?,
+        }
+        self.check_derivatives(&state)?;
+        self.check_stages(&state, &computed)
+    }
+
+    /// Numbers drawn for this point; those of different kinds are independent.
+    fn many(&self, kind: u64, len: usize) -> Vec<R> {
+        let one = |i: usize| R::random(self.number, (kind << 32) + 1 + i as u64);
+        (0..len).map(one).collect()
+    }
+
+    fn wrong(&self, role: Role, index: usize) -> Verdict {
+        let point = self.number;
+        Disagreement::Result { role, index, point }.into()
+    }
+
+    /// Compares a result.
+    fn compare(&self, role: Role, index: usize, found: R, expected: R) -> Result<(), Verdict> {
+        self.settle(role, index, Sum::of([found, -expected]))
+    }
+
+    /// The same of a difference.
+    fn settle(&self, role: Role, index: usize, difference: Sum<R>) -> Result<(), Verdict> {
+        if !difference.value.is_finite() {
+            return Err(Verdict::Elsewhere);
+        }
+        match difference.vanishes()? {
+            true => Ok(()),
+            false => Err(self.wrong(role, index)),
+        }
+    }
+
+    /// The results of a function, whether they have values or not.
+    fn try_call(interpreter: &mut Interpreter<R>, role: Role, at: &State<R>, len: usize) -> Vec<R> {
+        let arguments = Arguments {
+            t: at.t,
+            q: &at.q,
+            v: &at.v,
+            u: &at.u,
+            a: &at.a,
+        };
+        let mut results = vec![R::ZERO; len];
+        match interpreter.call(role, arguments, &mut results) {
+            Ok(()) => results,
+            Err(_) => vec![R::ONE / R::ZERO; len],
+        }
+    }
+
+    /// The results of a function.
+    fn call(&mut self, role: Role, at: &State<R>, len: usize) -> Result<Vec<R>, Verdict> {
+        let results = Self::try_call(&mut self.interpreter, role, at, len);
+        self.called.insert(role);
+        match results.iter().all(|x| x.is_finite()) {
+            true => Ok(results),
+            false => Err(Verdict::Elsewhere),
+        }
+    }
+
+    fn computed(&mut self, at: &State<R>) -> Result<Computed<R>, Verdict> {
+        let n = at.q.len();
+        let m = self.parts.program.constraints.len();
+        Ok(Computed {
+            mass_matrix: self.call(Role::MassMatrix, at, Shape::Symmetric(n).len())?,
+            bias: self.call(Role::Bias, at, n)?,
+            applied: self.call(Role::Applied, at, n)?,
+            forces: self.call(Role::Forces, at, n)?,
+            rows: self.call(Role::ConstraintMatrix, at, n * m)?,
+            drift: self.call(Role::ConstraintDrift, at, m)?,
+        })
+    }
+
+    /// Energies, `M`, `h`, `Q` and `f`.
+    fn check_dynamics(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+        computed: &Computed<R>,
+    ) -> Result<(), Verdict> {
+        let n = w.len();
+        for (role, expected) in [
+            (Role::KineticEnergy, literal.kinetic_energy),
+            (Role::PotentialEnergy, literal.potential_energy),
+            (Role::Dissipation, literal.dissipation),
+        ] {
+            let found = self.call(role, at, 1)?[0];
+            self.compare(role, 0, found, expected)?;
+        }
+        let mut inertia = Sum::products(w, &computed.bias);
+        for (i, &w) in w.iter().enumerate() {
+            let along = row(&computed.mass_matrix, n, i).zip(&at.a);
+            for (m, &a) in along {
+                inertia = inertia.plus(w * m * a);
+            }
+        }
+        if !literal.inertia.is_finite() || !literal.applied.is_finite() {
+            return Err(Verdict::Elsewhere);
+        }
+        if !inertia.plus(-literal.inertia).vanishes()? {
+            return Err(self.wrong_inertia(at, computed));
+        }
+        let applied = Sum::products(w, &computed.applied);
+        if !applied.plus(-literal.applied).vanishes()? {
+            let at_row = |i: usize| (computed.applied[i], self.literal(at, i).applied);
+            return Err(self.wrong(Role::Applied, first_difference(n, at_row)));
+        }
+        for i in 0..n {
+            let sum = Sum::of([computed.forces[i], -computed.applied[i], computed.bias[i]]);
+            self.settle(Role::Forces, i, sum)?;
+        }
+        Ok(())
+    }
+
+    /// What the equations say for one coordinate.
+    fn literal(&self, at: &State<R>, i: usize) -> Literal<R> {
+        let mut w = vec![R::ZERO; at.q.len()];
+        w[i] = R::ONE;
+        self.parts.machine.at(at, &w)
+    }
+
+    /// Which entry of `M` or `h` is wrong.
+    fn wrong_inertia(&self, at: &State<R>, computed: &Computed<R>) -> Verdict {
+        let n = at.q.len();
+        let coasting = State {
+            a: vec![R::ZERO; n],
+            ..at.clone()
+        };
+        let biases: Vec<R> = (0..n).map(|i| self.literal(&coasting, i).inertia).collect();
+        let differs = |(a, b): (&R, &R)| matches!(equal(*a, *b), Ok(false));
+        if let Some(i) = biases.iter().zip(&computed.bias).position(differs) {
+            return self.wrong(Role::Bias, i);
+        }
+        for (i, &bias) in biases.iter().enumerate() {
+            let found = Sum::of(
+                row(&computed.mass_matrix, n, i)
+                    .zip(&at.a)
+                    .map(|(m, &a)| m * a),
+            );
+            let expected = self.literal(at, i).inertia - bias;
+            if matches!(found.plus(-expected).vanishes(), Ok(false)) {
+                let entry = |j: usize| {
+                    let mut one = coasting.clone();
+                    one.a[j] = R::ONE;
+                    let found = computed.mass_matrix[Shape::index(i, j)];
+                    (found, self.literal(&one, i).inertia - bias)
+                };
+                let j = first_difference(n, entry);
+                return self.wrong(Role::MassMatrix, Shape::index(i, j));
+            }
+        }
+        self.wrong(Role::MassMatrix, 0)
+    }
+
+    /// The power of drives and dampers, by the balance of energy: whatever the accelerations are,
+    /// `d(T + V)/dt = P − R + v·(M a − f)`. Where constraints move by themselves, their power is in
+    /// `P` and the last term is not there.
+    fn check_power(
+        &mut self,
+        at: &State<R>,
+        literal: &Literal<R>,
+        computed: &Computed<R>,
+    ) -> Result<(), Verdict> {
+        let model = self.parts.machine.model;
+        let n = at.q.len();
+        let damped = !model.dampers.is_empty() || !model.dissipations.is_empty();
+        let lost = match damped {
+            true => self.parts.machine.damping(at, &at.v),
+            false => R::ZERO,
+        };
+        let found = self.call(Role::DissipationRate, at, 1)?[0];
+        self.compare(Role::DissipationRate, 0, found, lost)?;
+        let power = self.call(Role::WorkRate, at, 1)?[0];
+        let with_constraints = Sum::of([power, -literal.energy_rate, -lost]);
+        let mut without = with_constraints;
+        for i in 0..n {
+            without = without.plus(-(at.v[i] * computed.forces[i]));
+            for (m, &a) in row(&computed.mass_matrix, n, i).zip(&at.a) {
+                without = without.plus(at.v[i] * m * a);
+            }
+        }
+        let mut moves = false;
+        for (constraint, row) in literal
+            .constraints
+            .iter()
+            .zip(computed.rows.chunks(n.max(1)))
+        {
+            let at_rest = Sum::products(row, &at.v).plus(-constraint.rate);
+            moves |= !at_rest.vanishes()?;
+        }
+        let is_balanced = (!moves && without.vanishes()?) || with_constraints.vanishes()?;
+        match is_balanced {
+            true => Ok(()),
+            false => Err(self.wrong(Role::WorkRate, 0)),
+        }
+    }
+
+    fn check_constraints(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+        computed: &Computed<R>,
+    ) -> Result<(), Verdict> {
+        let (n, m) = (w.len(), literal.constraints.len());
+        if m != self.parts.program.constraints.len() {
+            return Err(self.wrong(Role::ConstraintRates, 0));
+        }
+        let positions = self.call(Role::ConstraintPositions, at, m)?;
+        let rates = self.call(Role::ConstraintRates, at, m)?;
+        for (k, constraint) in literal.constraints.iter().enumerate() {
+            self.compare(
+                Role::ConstraintPositions,
+                k,
+                positions[k],
+                constraint.position,
+            )?;
+            self.compare(Role::ConstraintRates, k, rates[k], constraint.rate)?;
+            // What is said of positions must not depend on rates.
+            self.compare(Role::ConstraintPositions, k, constraint.by_rates, R::ZERO)?;
+            let row = &computed.rows[k * n..][..n];
+            let along = Sum::products(row, w).plus(-constraint.along);
+            if !constraint.along.is_finite() || !constraint.acceleration.is_finite() {
+                return Err(Verdict::Elsewhere);
+            }
+            if !along.vanishes()? {
+                let entry = |j: usize| (row[j], self.literal(at, j).constraints[k].along);
+                let j = first_difference(n, entry);
+                return Err(self.wrong(Role::ConstraintMatrix, k * n + j));
+            }
+            let drift = Sum::products(row, &at.a).plus(-computed.drift[k]);
+            self.settle(
+                Role::ConstraintDrift,
+                k,
+                drift.plus(-constraint.acceleration),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The slips, and for each whether the program counts it as the spec does: in a field it may be
+    /// the other way round, since a length there has no sign.
+    fn check_slips(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+    ) -> Result<Vec<R>, Verdict> {
+        let (n, count) = (w.len(), literal.sliding.len());
+        if count != self.parts.program.contacts.len() {
+            return Err(self.wrong(Role::Slips, 0));
+        }
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let slips = self.call(Role::Slips, at, count)?;
+        let rows = self.call(Role::SlipMatrix, at, count * n)?;
+        let drifts = self.call(Role::SlipDrift, at, count)?;
+        let mut signs = Vec::with_capacity(count);
+        for (k, contact) in literal.sliding.iter().enumerate() {
+            let sign = match equal(slips[k], contact.slip)? {
+                true => R::ONE,
+                false if !R::IS_ORDERED => -R::ONE,
+                false => return Err(self.wrong(Role::Slips, k)),
+            };
+            self.compare(Role::Slips, k, slips[k], sign * contact.slip)?;
+            let row = &rows[k * n..][..n];
+            let along = Sum::products(row, w).plus(-(sign * contact.slip_along));
+            if !along.vanishes()? {
+                let entry = |j: usize| (row[j], sign * self.literal(at, j).sliding[k].slip_along);
+                let j = first_difference(n, entry);
+                return Err(self.wrong(Role::SlipMatrix, k * n + j));
+            }
+            let rate = Sum::products(row, &at.a).plus(drifts[k]);
+            self.settle(Role::SlipDrift, k, rate.plus(-(sign * contact.slip_rate)))?;
+            signs.push(sign);
+        }
+        Ok(signs)
+    }
+
+    /// Outputs, facts and the start. An output may have no value here.
+    fn check_rest(&mut self, at: &State<R>, facts: &[R]) -> Result<(), Verdict> {
+        let machine = self.parts.machine;
+        let model = machine.model;
+        let outputs: Vec<Expr<'d>> = model.outputs.iter().map(|output| output.value).collect();
+        for (i, expected) in machine.values(&outputs, at).into_iter().enumerate() {
+            let role = Role::Output(i);
+            let found = Self::try_call(&mut self.interpreter, role, at, 1)[0];
+            self.called.insert(role);
+            if !found.is_finite() || !expected.is_finite() {
+                continue;
+            }
+            match Sum::of([found, -expected]).vanishes() {
+                Ok(true) => self.seen[i] = true,
+                Ok(false) => return Err(self.wrong(role, 0)),
+                Err(_) => {}
+            }
+        }
+        for (i, &expected) in facts.iter().enumerate() {
+            let role = Role::Assumption(i);
+            let found = self.call(role, at, 1)?[0];
+            self.compare(role, 0, found, expected)?;
+        }
+        let starts = model.coordinates.iter().map(|c| c.start);
+        let starts: Vec<Expr<'d>> = starts
+            .chain(model.coordinates.iter().map(|c| c.start_rate))
+            .collect();
+        let n = at.q.len();
+        let (mut q, mut v) = (vec![R::ZERO; n], vec![R::ZERO; n]);
+        self.interpreter.start(&mut q, &mut v);
+        let found = q.into_iter().chain(v);
+        for (i, (found, expected)) in found.zip(machine.values(&starts, at)).enumerate() {
+            // A start that does not exist, as √(−1) of a parameter, is the business of the run.
+            if found.is_finite() && expected.is_finite() {
+                self.compare(Role::Start, i, found, expected)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The state with the coordinates that constraints settle where they are settled. That they are
+    /// is seen by the constraints themselves.
+    fn follow(&self, mut at: State<R>) -> Result<State<R>, Verdict> {
+        let (machine, settled) = (self.parts.machine, self.parts.settled);
+        let point = self.number;
+        let wrong = |dependent: &Dependent<'_>| {
+            let (coordinate, constraint) = (dependent.coordinate, dependent.constraint);
+            Verdict::from(Disagreement::Settled {
+                coordinate,
+                constraint,
+                point,
+            })
+        };
+        let expressions: Vec<Expr<'d>> = settled
+            .iter()
+            .flat_map(|d| {
+                let meaning = d.offset.map_or(d.coefficient, |[_, meaning]| meaning);
+                [d.coefficient, meaning]
+            })
+            .collect();
+        let values = machine.values(&expressions, &at);
+        for (dependent, values) in settled.iter().zip(values.chunks_exact(2)) {
+            if values[0].look(1.0) == Sight::Zero {
+                return Err(wrong(dependent));
+            }
+        }
+        let offsets: Vec<(Expr<'d>, R)> = settled
+            .iter()
+            .zip(values.chunks_exact(2))
+            .filter_map(|(d, values)| d.offset.map(|[offset, _]| (offset, values[1])))
+            .collect();
+        let places: Vec<Expr<'d>> = settled.iter().flat_map(|d| [d.position, d.rate]).collect();
+        let values = machine.values_with(&places, &at, &offsets);
+        for (dependent, values) in settled.iter().zip(values.chunks_exact(2)) {
+            let i = dependent.coordinate;
+            [at.q[i], at.v[i]] = [values[0], values[1]];
+        }
+        let literal = machine.at(&at, &vec![R::ZERO; at.q.len()]);
+        for dependent in settled {
+            let constraint = literal.constraints[dependent.constraint];
+            let mut open = vec![constraint.rate];
+            if dependent.offset.is_none() {
+                open.push(constraint.position);
+            }
+            for value in open {
+                let i = dependent.coordinate;
+                let size = 1.0 + at.q[i].size() + at.v[i].size();
+                match value.look(size) {
+                    _ if !value.is_finite() => return Err(Verdict::Elsewhere),
+                    Sight::Zero => {}
+                    Sight::NotZero => return Err(wrong(dependent)),
+                    Sight::Hidden => return Err(Verdict::Elsewhere),
+                }
+            }
+        }
+        Ok(at)
+    }
+
+    /// The lower triangle of the matrix that is eliminated: `M`, and behind it the rows of `G`.
+    fn lower(&self, computed: &Computed<R>) -> Vec<R> {
+        let n = computed.bias.len();
+        let mut lower = computed.mass_matrix.clone();
+        for (k, row) in computed.rows.chunks(n.max(1)).enumerate() {
+            lower.extend(row);
+            lower.extend(vec![R::ZERO; k + 1]);
+        }
+        lower
+    }
+
+    /// Whether there are no accelerations since the equations do not determine any, which the guards
+    /// of the program tell whoever runs it.
+    fn has_no_accelerations(
+        &mut self,
+        at: &State<R>,
+        computed: &Computed<R>,
+    ) -> Result<bool, Verdict> {
+        let role = self.parts.program.solving();
+        let len = self
+            .parts
+            .program
+            .function(role)
+            .map_or(0, |f| f.results.len());
+        let results = Self::try_call(&mut self.interpreter, role, at, len);
+        if results.iter().all(|x| x.is_finite()) {
+            return Ok(false);
+        }
+        let lower = self.lower(computed);
+        let n = at.q.len() + self.parts.program.constraints.len();
+        let determinant = determinant(&lower, n);
+        let is_singular = match R::IS_ORDERED {
+            false => !determinant.is_finite() || determinant.look(0.0) == Sight::Zero,
+            // Of numbers that are rounded nobody knows a determinant to be 0, but a constraint may
+            // be seen to say nothing that the others do not say.
+            true => has_dependent(&computed.rows, at.q.len()),
+        };
+        match is_singular {
+            true => Ok(true),
+            false => Err(Verdict::Elsewhere),
+        }
+    }
+
+    /// `M a = f + Gᵀλ` and `G a = γ`.
+    fn check_motion(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
+        let (n, m) = (at.q.len(), self.parts.program.constraints.len());
+        let a = self.call(Role::Accelerations, at, n)?;
+        let multipliers = self.call(Role::Multipliers, at, m)?;
+        self.check_balance(computed, &a, &multipliers, &computed.forces)
+    }
+
+    /// The same for given accelerations, multipliers and forces.
+    fn check_balance(
+        &self,
+        computed: &Computed<R>,
+        a: &[R],
+        multipliers: &[R],
+        forces: &[R],
+    ) -> Result<(), Verdict> {
+        let (n, point) = (a.len(), self.number);
+        for (constraint, row) in computed.rows.chunks(n.max(1)).enumerate() {
+            let open = Sum::products(row, a).plus(-computed.drift[constraint]);
+            if !open.vanishes()? {
+                // What the others say already may contradict them; then no accelerations exist, and it
+                // is for the run to say so where it comes to it.
+                return match is_dependent(&computed.rows, n, constraint) {
+                    true => Ok(()),
+                    false => Err(Disagreement::Constraint { constraint, point }.into()),
+                };
+            }
+        }
+        for coordinate in 0..n {
+            let mut left = Sum::of([-forces[coordinate]]);
+            for (m, &a) in row(&computed.mass_matrix, n, coordinate).zip(a) {
+                left = left.plus(m * a);
+            }
+            for (row, &multiplier) in computed.rows.chunks(n).zip(multipliers) {
+                left = left.plus(-(row[coordinate] * multiplier));
+            }
+            if !left.vanishes()? {
+                return Err(Disagreement::Motion { coordinate, point }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
+    /// motion, of the constraints, and of the displacements that would open the guides.
+    fn check_friction(
+        &mut self,
+        at: &State<R>,
+        computed: &Computed<R>,
+        signs: &[R],
+    ) -> Result<(), Verdict> {
+        let (program, machine) = (self.parts.program, self.parts.machine);
+        let (n, m, count) = (at.q.len(), program.constraints.len(), signs.len());
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: m,
+            contacts: count,
+        };
+        let responses = self.call(Role::Friction, at, layout.len())?;
+        let friction_forces = self.many(2, count);
+        let part = layout.part();
+        let values: Vec<R> = (0..part)
+            .map(|i| {
+                let own = friction_forces.iter().enumerate();
+                own.fold(responses[i], |sum, (k, &f)| {
+                    sum + f * responses[(k + 1) * part + i]
+                })
+            })
+            .collect();
+        let (a, rest) = values.split_at(n);
+        let (multipliers, rest) = rest.split_at(m);
+        let (slip_rates, normals) = rest.split_at(count);
+        let rows = self.call(Role::SlipMatrix, at, count * n)?;
+        let drifts = self.call(Role::SlipDrift, at, count)?;
+        let mut forces = computed.forces.clone();
+        for (row, &friction) in rows.chunks(n).zip(&friction_forces) {
+            for (force, &tau) in forces.iter_mut().zip(row) {
+                *force = *force + tau * friction;
+            }
+        }
+        self.check_balance(computed, a, multipliers, &forces)?;
+        for (k, row) in rows.chunks(n).enumerate() {
+            let rate = Sum::products(row, a).plus(drifts[k]).plus(-slip_rates[k]);
+            self.settle(Role::Friction, n + m + k, rate)?;
+        }
+
+        let moving = State {
+            a: a.to_vec(),
+            ..at.clone()
+        };
+        let contacts = machine.at(&moving, &vec![R::ZERO; n]).sliding;
+        let at_coefficients = (1 + count) * part;
+        for (k, contact) in contacts.iter().enumerate() {
+            let places = [at_coefficients + k, at_coefficients + count + k];
+            for (place, expected) in places.into_iter().zip(contact.coefficients) {
+                self.compare(Role::Friction, place, responses[place], expected)?;
+            }
+        }
+        let pressed = Pressed {
+            multipliers,
+            friction_forces: &friction_forces,
+            normals,
+            signs,
+        };
+        self.check_reactions(&moving, &contacts, &pressed)
+    }
+
+    /// The normal reactions balance what would open the guides: the equations of the relaxed
+    /// machine along their normals.
+    fn check_reactions(
+        &self,
+        at: &State<R>,
+        contacts: &[LiteralSliding<R>],
+        pressed: &Pressed<'_, R>,
+    ) -> Result<(), Verdict> {
+        let (n, point) = (at.q.len(), self.number);
+        let Some(relaxed) = self.parts.relaxed else {
+            return Err(Verdict::Elsewhere);
+        };
+        let all = relaxed.model.coordinates.len();
+        let mut at = at.clone();
+        for list in [&mut at.q, &mut at.v, &mut at.a] {
+            list.resize(all, R::ZERO);
+        }
+        let dimension = relaxed.model.space.dimension();
+        // The side of each guide on which the body is.
+        let mut sides = Vec::with_capacity(contacts.len());
+        for contact in contacts {
+            let side = contact.side.sign();
+            sides.push(if R::IS_ORDERED { side } else { R::ONE });
+        }
+        if !sides.iter().all(|side| side.is_finite()) {
+            return Err(Verdict::Elsewhere);
+        }
+        let along: Vec<Literal<R>> = (0..contacts.len())
+            .map(|k| {
+                let mut w = vec![R::ZERO; all];
+                for (i, &left) in contacts[k].left.iter().enumerate() {
+                    w[n + dimension * k + i] = sides[k] * left;
+                }
+                relaxed.at(&at, &w)
+            })
+            .collect();
+        // In a field nobody knows on which side a body is: there any will do.
+        let patterns = if R::IS_ORDERED {
+            1
+        } else {
+            1u32 << contacts.len()
+        };
+        let mut wrong = 0;
+        for pattern in 0..patterns {
+            let normal = |j: usize| match pattern >> j & 1 {
+                0 => pressed.normals[j],
+                _ => -pressed.normals[j],
+            };
+            let mut first = None;
+            for (k, literal) in along.iter().enumerate() {
+                let mut open = Sum::of([literal.inertia, -literal.applied]);
+                for (constraint, &multiplier) in literal.constraints.iter().zip(pressed.multipliers)
+                {
+                    open = open.plus(-(constraint.along * multiplier));
+                }
+                for (j, contact) in literal.sliding.iter().enumerate() {
+                    let friction = pressed.signs[j] * pressed.friction_forces[j];
+                    open = open.plus(-(contact.slip_along * friction));
+                    open = open.plus(-(sides[j] * contact.off_along * normal(j)));
+                }
+                if !open.value.is_finite() {
+                    return Err(Verdict::Elsewhere);
+                }
+                if !open.vanishes()? {
+                    first = Some(k);
+                    break;
+                }
+            }
+            match first {
+                None => return Ok(()),
+                Some(contact) => wrong = wrong.max(contact),
+            }
+        }
+        let contact = wrong;
+        Err(Disagreement::Reaction { contact, point }.into())
+    }
+
+    /// The product of the pivots is the determinant of `M`, one for each coordinate, and each is
+    /// held against its `Mᵢᵢ` or itself; with constraints it is that of their matrix too, up to the
+    /// signs of theirs.
+    fn check_pivots(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
+        let program = self.parts.program;
+        let n = at.q.len() + program.constraints.len();
+        let coordinates = guarded_coordinates(program);
+        let mut sorted = coordinates.clone();
+        sorted.sort_unstable();
+        // A coordinate that a constraint settles may have none; then the constraint's is what it is
+        // divided by.
+        let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
+        let settled = self.parts.settled;
+        let is_settled = |i: &usize| settled.iter().any(|d| d.coordinate == *i);
+        if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
+            let point = self.number;
+            return Err(Disagreement::Pivots { point }.into());
+        }
+        let len = 2 * sorted.len();
+        let values = Self::try_call(&mut self.guards, program.solving(), at, len);
+        let mut pairs = vec![[R::ONE; 2]; n];
+        for (&i, pair) in coordinates.iter().zip(values.chunks_exact(2)) {
+            pairs[i] = [pair[0], pair[1]];
+        }
+        self.check_pairs(&pairs, &self.lower(computed), missing.is_empty())
+    }
+
+    /// The product of pivots is the determinant of the matrix with that lower triangle, and where
+    /// they are those of `M` the scales are its diagonal.
+    fn check_pairs(
+        &self,
+        pairs: &[[R; 2]],
+        lower: &[R],
+        are_of_matrix: bool,
+    ) -> Result<(), Verdict> {
+        let coordinates = self.parts.program.dimension();
+        let n = coordinates + self.parts.program.constraints.len();
+        let wrong = || Err(Disagreement::Pivots { point: self.number }.into());
+        if pairs.len() != n {
+            return wrong();
+        }
+        let pivots = pairs.iter().enumerate().map(
+            |(i, [pivot, _])| {
+                if i < coordinates { *pivot } else { -*pivot }
+            },
+        );
+        let product = pivots.fold(R::ONE, |product, pivot| product * pivot);
+        let whole = determinant(lower, n);
+        if !whole.is_finite() || !product.is_finite() {
+            return Err(Verdict::Elsewhere);
+        }
+        if !equal(product, whole)? {
+            return wrong();
+        }
+        // Coordinates that constraints hold because they have no inertia have another scale.
+        let own = &lower[..Shape::Symmetric(coordinates).len()];
+        let has_inertia = determinant(own, coordinates).look(0.0) == Sight::NotZero;
+        if are_of_matrix && has_inertia {
+            for (i, &[pivot, scale]) in pairs.iter().take(coordinates).enumerate() {
+                if !equal(scale, pivot)? && !equal(scale, lower[Shape::index(i, i)])? {
+                    return wrong();
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The accelerations over dual numbers have the derivatives that the program says: along one
+    /// direction drawn at random, and only where that fails by one variable at a time.
+    fn check_derivatives(&mut self, at: &State<R>) -> Result<(), Verdict> {
+        let (role, n) = (Role::Derivatives, at.q.len());
+        let variables = &self.parts.program.derivatives;
+        if variables.is_empty() {
+            return Ok(());
+        }
+        let width = 1 + variables.len();
+        let found = self.call(role, at, n * width)?;
+        let accelerations = self.call(Role::Accelerations, at, n)?;
+        for i in 0..n {
+            self.compare(role, i * width, found[i * width], accelerations[i])?;
+        }
+        let direction = self.many(3, variables.len());
+        let slopes = self.slopes_along(at, &direction)?;
+        for (i, &slope) in slopes.iter().enumerate() {
+            let row = &found[i * width + 1..][..variables.len()];
+            if Sum::products(row, &direction).plus(-slope).vanishes()? {
+                continue;
+            }
+            for column in 0..variables.len() {
+                let mut one = vec![R::ZERO; variables.len()];
+                one[column] = R::ONE;
+                let slope = self.slopes_along(at, &one)?[i];
+                self.compare(role, i * width + 1 + column, row[column], slope)?;
+            }
+            return Err(self.wrong(role, i * width + 1));
+        }
+        Ok(())
+    }
+
+    /// The derivatives of the accelerations along a direction.
+    fn slopes_along(&mut self, at: &State<R>, direction: &[R]) -> Result<Vec<R>, Verdict> {
+        let Some(interpreter) = &mut self.slopes else {
+            return Err(Verdict::Elsewhere);
+        };
+        let constants =
+            |values: &[R]| -> Vec<Dual<R>> { values.iter().map(|&x| Dual::constant(x)).collect() };
+        let mut lists = [
+            constants(&at.q),
+            constants(&at.v),
+            constants(&at.u),
+            constants(&at.parameters),
+        ];
+        for (variable, &derivative) in self.parts.program.derivatives.iter().zip(direction) {
+            let (list, i) = match *variable {
+                Variable::Coordinate(i) => (0, i),
+                Variable::Rate(i) => (1, i),
+                Variable::Input(i) => (2, i),
+                Variable::Parameter(i) => (3, i),
+            };
+            lists[list][i].derivative = derivative;
+        }
+        let [q, v, u, parameters] = &lists;
+        interpreter.prepare(parameters);
+        let t = Dual::constant(at.t);
+        let mut a = vec![Dual::constant(R::ZERO); at.q.len()];
+        let arguments = Arguments { t, q, v, u, a: &[] };
+        let called = interpreter.call(Role::Accelerations, arguments, &mut a);
+        if called.is_err() || !a.iter().all(|a| a.is_finite()) {
+            return Err(Verdict::Elsewhere);
+        }
+        Ok(a.iter().map(|a| a.derivative).collect())
+    }
+
+    /// The accelerations in stages are those at once, and the pivots that are guarded on the way are
+    /// those of `M`.
+    fn check_stages(&mut self, at: &State<R>, computed: &Computed<R>) -> Result<(), Verdict> {
+        let program = self.parts.program;
+        let roles = program.staged_roles();
+        let Some(&last) = roles.last() else {
+            return Ok(());
+        };
+        let n = program.dimension();
+        let expected = self.call(Role::Accelerations, at, n)?;
+        // Pivots of parameters alone; those of the stages take the place of others.
+        let mut pivots: Vec<Option<[R; 2]>> = vec![None; n + program.constraints.len()];
+        let known = &program.prepare.guards;
+        let varying = program
+            .function(Role::Accelerations)
+            .map_or(0, |f| f.guards.len());
+        let len = 2 * (known.len() + varying);
+        let values = Self::try_call(&mut self.guards, Role::Accelerations, at, len);
+        for (guard, pair) in known.iter().zip(values.chunks_exact(2)) {
+            pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+        }
+        let mut found = Vec::new();
+        for role in roles {
+            let Some(function) = program.function(role) else {
+                continue;
+            };
+            let len = function.results.len();
+            self.called.insert(role);
+            found = Self::try_call(&mut self.guards, role, at, len + 2 * function.guards.len());
+            for (guard, pair) in function.guards.iter().zip(found[len..].chunks_exact(2)) {
+                pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+            }
+            if role == last {
+                found.truncate(len);
+            } else {
+                self.guards.stand(role, &found);
+            }
+        }
+        if !found.iter().all(|x| x.is_finite()) {
+            return Err(Verdict::Elsewhere);
+        }
+        for (i, (&found, &expected)) in found.iter().zip(&expected).enumerate() {
+            self.compare(last, i, found, expected)?;
+        }
+        let pairs: Option<Vec<[R; 2]>> = pivots.into_iter().collect();
+        let pairs = pairs.unwrap_or_default();
+        self.check_pairs(&pairs, &self.lower(computed), true)
+    }
+}
+
+/// What acts in the guides.
+struct Pressed<'a, R> {
+    multipliers: &'a [R],
+    friction_forces: &'a [R],
+    normals: &'a [R],
+    /// Whether the program counts slips as the spec does.
+    signs: &'a [R],
+}
+
+/// The first place where what was found is not what was expected.
+fn first_difference<R: Number>(len: usize, at: impl Fn(usize) -> (R, R)) -> usize {
+    let differs = |i: &usize| {
+        let (found, expected) = at(*i);
+        matches!(equal(found, expected), Ok(false))
+    };
+    (0..len).find(differs).unwrap_or(0)
+}
+
+/// Whether a function gives the same in two programs of one machine.
+fn same_results(whole: &Program, part: &Program, role: Role) -> Result<(), Disagreement> {
+    let len = whole.function(role).map_or(0, |f| f.results.len());
+    let list = |kind: u64, len: usize| -> Vec<Residue> {
+        (0..len as u64).map(|i| Residue::random(kind, i)).collect()
+    };
+    let (n, mut good) = (whole.dimension(), 0);
+    let parameters = vec![Residue::ONE; whole.parameters.len()];
+    let mut programs = [whole, part].map(|program| Interpreter::new(program, &parameters));
+    for point in 0..MOST_STATES {
+        let number = |kind: u64| 8 * point + kind;
+        let lists = [1, 2, 3].map(|kind| list(number(kind), n));
+        let u = list(number(4), whole.inputs.len());
+        let arguments = Arguments {
+            t: list(number(5), 1)[0],
+            q: &lists[0],
+            v: &lists[1],
+            u: &u,
+            a: &lists[2],
+        };
+        let parameters = list(number(6), whole.parameters.len());
+        let mut results = [vec![Residue::ZERO; len], vec![Residue::ZERO; len]];
+        let mut has_values = [true; 2];
+        for ((program, results), has_values) in
+            programs.iter_mut().zip(&mut results).zip(&mut has_values)
+        {
+            program.prepare(&parameters);
+            *has_values = program.call(role, arguments, results).is_ok();
+        }
+        let [a, b] = &results;
+        let differs = |(a, b): (&Residue, &Residue)| a != b && (a.is_finite() || b.is_finite());
+        match a.iter().zip(b).position(differs) {
+            _ if has_values != [true; 2] => continue,
+            Some(index) => return Err(Disagreement::Result { role, index, point }),
+            None => good += 1,
+        }
+        if good == POINTS {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Whether one of some rows of length `n` is a combination of the others.
+fn is_dependent<R: Number>(rows: &[R], n: usize, one: usize) -> bool {
+    let mut ordered: Vec<&[R]> = rows.chunks(n.max(1)).collect();
+    let one = ordered.remove(one);
+    ordered.push(one);
+    vanishing(&ordered).last() == Some(&true)
+}
+
+/// Whether some of the rows are combinations of others.
+fn has_dependent<R: Number>(rows: &[R], n: usize) -> bool {
+    let rows: Vec<&[R]> = rows.chunks(n.max(1)).collect();
+    vanishing(&rows).contains(&true)
+}
+
+/// For each row whether it is a combination of those before it, by elimination; of numbers that are
+/// rounded whatever may be 0 counts as 0.
+fn vanishing<R: Number>(rows: &[&[R]]) -> Vec<bool> {
+    let is_zero = |x: &R| !matches!(x.look(0.0), Sight::NotZero);
+    let mut pivots: Vec<(usize, Vec<R>)> = Vec::new();
+    let mut vanishing = Vec::with_capacity(rows.len());
+    for row in rows {
+        let mut row = row.to_vec();
+        for (pivot, before) in &pivots {
+            let factor = row[*pivot] / before[*pivot];
+            for (to, &from) in row.iter_mut().zip(before) {
+                *to = *to + -(factor * from);
+            }
+            row[*pivot] = R::ZERO;
+        }
+        let pivot = row.iter().position(|x| !is_zero(x));
+        vanishing.push(pivot.is_none());
+        pivots.extend(pivot.map(|pivot| (pivot, row)));
+    }
+    vanishing
+}

@@ -1,0 +1,162 @@
+//! The numbers that a program and Lagrange's equations are compared in.
+
+use lagrangian_scalar::{Ball, Residue, Scalar};
+use lagrangian_symbolic::{Expr, nearest};
+
+use crate::equations::literal::{Lagrange, State};
+use lagrangian_program::rounding::SplitMix;
+
+/// What is seen of a number that ought to be 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sight {
+    Zero,
+    NotZero,
+    /// Rounding hides it.
+    Hidden,
+}
+
+/// A number in which values can be compared.
+pub(super) trait Number: Scalar<Stored = Self> {
+    /// Whether there are positive and negative numbers. A field has two roots of everything, and
+    /// cannot say which of them is meant.
+    const IS_ORDERED: bool;
+
+    /// A number drawn at random, the same for the same `seed` and `index`.
+    fn random(seed: u64, index: u64) -> Self;
+
+    /// Whether it is 0, where numbers of that size went into it.
+    fn look(self, size: f64) -> Sight;
+
+    /// Whether it is positive, as far as that means anything.
+    fn is_positive(self) -> bool;
+
+    /// State number `number` of a machine.
+    fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Self>;
+
+    /// Its magnitude.
+    fn size(self) -> f64 {
+        self.to_f64().abs()
+    }
+}
+
+impl Number for Residue {
+    const IS_ORDERED: bool = false;
+
+    fn random(seed: u64, index: u64) -> Residue {
+        Residue::random(seed, index)
+    }
+
+    fn look(self, _: f64) -> Sight {
+        match self == Residue::ZERO {
+            true => Sight::Zero,
+            false => Sight::NotZero,
+        }
+    }
+
+    /// "Is a square" plays the part of "is positive".
+    fn is_positive(self) -> bool {
+        self.sqrt().is_finite()
+    }
+
+    fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Residue> {
+        let model = machine.model;
+        let mut index = 0;
+        let mut many = |len: usize| -> Vec<Residue> {
+            let next = |_| {
+                index += 1;
+                Residue::random(number, index)
+            };
+            (0..len).map(next).collect()
+        };
+        let n = model.coordinates.len();
+        State {
+            parameters: many(model.parameters.len()),
+            t: many(1)[0],
+            q: many(n),
+            v: many(n),
+            u: many(model.inputs.len()),
+            a: many(n),
+        }
+    }
+}
+
+impl Number for Ball {
+    const IS_ORDERED: bool = true;
+
+    fn random(seed: u64, index: u64) -> Ball {
+        let mut random = SplitMix(seed.wrapping_mul(0x9e37_79b9) ^ index);
+        Ball::from_f64(random.uniform(-1.0, 1.0))
+    }
+
+    /// Different numbers are told apart whatever their radii are; equal ones are, up to rounding,
+    /// where rounding is far below whatever a wrong sign or factor would change.
+    fn look(self, size: f64) -> Sight {
+        const SHARE: f64 = 1.0 / (1u64 << 40) as f64;
+        if !self.is_finite() {
+            return Sight::Hidden;
+        }
+        if !self.contains(0.0) {
+            return Sight::NotZero;
+        }
+        match self.radius() <= SHARE * size.max(SHARE) {
+            true => Sight::Zero,
+            false => Sight::Hidden,
+        }
+    }
+
+    fn is_positive(self) -> bool {
+        self.exceeds(Ball::ZERO)
+    }
+
+    /// A state about the start: angles and other pure numbers all the way round at first and nearer
+    /// from try to try, lengths by half of themselves and 2 cm. Parameters are up to a hundredth or a
+    /// twentieth off their defaults, so that none is 0; one that has none is between ½ and 2.
+    fn state(number: u64, machine: &Lagrange<'_, '_>) -> State<Ball> {
+        let model = machine.model;
+        let mut random = SplitMix(number.wrapping_add(1).wrapping_mul(0x5851_f42d_4c95_7f2d));
+        let share = if number.is_multiple_of(2) { 0.01 } else { 0.05 };
+        let mut known = |default: Option<Expr<'_>>| match default.map(nearest) {
+            Some(0.0) => random.uniform(-share, share),
+            Some(default) => default * (1.0 + random.uniform(-share, share)),
+            None => random.uniform(0.5, 2.0),
+        };
+        let parameters: Vec<f64> = model.parameters.iter().map(|p| known(p.default)).collect();
+        let u: Vec<f64> = model.inputs.iter().map(|i| nearest(i.default)).collect();
+        let u = u.iter().map(|u| u + random.uniform(-1.0, 1.0)).collect();
+        let n = model.coordinates.len();
+        let nothing = State {
+            t: 0.0,
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+            a: vec![0.0; n],
+            u,
+            parameters,
+        };
+        let starts: Vec<Expr<'_>> = model.coordinates.iter().map(|c| c.start).collect();
+        let starts = machine.values(&starts, &nothing);
+        let width = 0.5f64.powi((number / 6) as i32);
+        let places = model.coordinates.iter().zip(starts);
+        let q = places.map(|(coordinate, start)| {
+            let half = match coordinate.unit.is_one() {
+                true => 3.2,
+                false => 0.02 + 0.5 * start.abs(),
+            };
+            start + width * random.uniform(-half, half)
+        });
+        let q: Vec<f64> = q.collect();
+        let mut rates = || -> Vec<Ball> {
+            let one = |_| Ball::from_f64(random.uniform(-2.0, 2.0));
+            (0..n).map(one).collect()
+        };
+        let (v, a) = (rates(), rates());
+        let exact = |list: Vec<f64>| list.into_iter().map(Ball::from_f64).collect();
+        State {
+            t: Ball::from_f64(random.uniform(0.0, 10.0)),
+            q: exact(q),
+            v,
+            a,
+            u: exact(nothing.u),
+            parameters: exact(nothing.parameters),
+        }
+    }
+}

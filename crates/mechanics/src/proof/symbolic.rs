@@ -1,0 +1,826 @@
+//! A program held against the equations it came from, and against Lagrange's equations themselves.
+//!
+//! Both sides are evaluated at random points of a prime field ([`Residue`]), where nothing is
+//! rounded: a program that is wrong in a sign, a factor or an operand gives another value, but for
+//! a chance of about the degree of the difference over 2⁶¹ at each point. The accelerations are not
+//! compared with other accelerations; they are put into the residual of Lagrange's equations, which
+//! must vanish. So it does not matter how they were computed.
+
+use std::fmt;
+
+use lagrangian_scalar::{Dual, Residue, Scalar};
+use lagrangian_symbolic::{Expr, Symbol, evaluate, substitute};
+use rustc_hash::FxHashMap;
+
+use crate::Quantity;
+use crate::{Dependent, Oracle, dependents};
+use lagrangian_program::{
+    Arguments, FrictionLayout, Function, Interpreter, Op, Program, Role, Shape, Singular, Source,
+    Value,
+};
+use lagrangian_spec::model::{Model, Variable};
+
+/// The points at which everything must agree.
+pub const POINTS: usize = 3;
+
+/// The most points to try. A root needs a point where its argument is a square, which is one point
+/// of two; a machine with twenty roots would need a million.
+const MOST_TRIES: u64 = 4096;
+
+/// How a program is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Disagreement {
+    /// A result has another value.
+    Result {
+        /// The function.
+        role: Role,
+        /// The index of the result.
+        index: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// The accelerations do not obey the equation of this coordinate.
+    Motion {
+        /// The index of the coordinate.
+        coordinate: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// The accelerations do not obey this constraint.
+    Constraint {
+        /// The index of the constraint.
+        constraint: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// The normal reaction of this guide does not balance what would open it.
+    Reaction {
+        /// The index of the contact.
+        contact: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// A coordinate was taken to be settled by a constraint that does not settle it.
+    Settled {
+        /// The index of the coordinate.
+        coordinate: usize,
+        /// The index of the constraint.
+        constraint: usize,
+        /// The number of the point.
+        point: u64,
+    },
+    /// The pivots that are guarded are not those of the mass matrix.
+    Pivots {
+        /// The number of the point.
+        point: u64,
+    },
+    /// The program calls a machine singular where it is not.
+    Singular(Singular),
+    /// No point was found at which everything has a value.
+    Undefined,
+    /// Nothing that the proof does looks at this function.
+    Unseen {
+        /// The function.
+        role: Role,
+    },
+    /// The same after as many comparisons as the size of the machine allows.
+    Exhausted {
+        /// How many.
+        comparisons: u64,
+    },
+}
+
+impl fmt::Display for Disagreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Disagreement::Result { role, index, point } => {
+                write!(
+                    f,
+                    "result {index} of {} differs at point {point}",
+                    role.name()
+                )
+            }
+            Disagreement::Motion { coordinate, point } => {
+                write!(
+                    f,
+                    "the accelerations break equation {coordinate} at point {point}"
+                )
+            }
+            Disagreement::Constraint { constraint, point } => {
+                write!(
+                    f,
+                    "the accelerations break constraint {constraint} at point {point}"
+                )
+            }
+            Disagreement::Reaction { contact, point } => {
+                write!(f, "the normal reaction {contact} differs at point {point}")
+            }
+            Disagreement::Settled {
+                coordinate,
+                constraint,
+                point,
+            } => {
+                write!(
+                    f,
+                    "constraint {constraint} does not settle coordinate {coordinate} at point {point}"
+                )
+            }
+            Disagreement::Pivots { point } => {
+                write!(
+                    f,
+                    "the guards do not hold the pivots of the elimination at point {point}"
+                )
+            }
+            Disagreement::Singular(singular) => {
+                write!(f, "called singular in coordinate {}", singular.coordinate)
+            }
+            Disagreement::Unseen { role } => {
+                write!(f, "nothing is compared with {}", role.name())
+            }
+            Disagreement::Undefined => {
+                f.write_str("no point where everything has a value was found")
+            }
+            Disagreement::Exhausted { comparisons } => write!(
+                f,
+                "no point where everything has a value was found in {comparisons} comparisons"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Disagreement {}
+
+/// Proves that the program computes what Lagrange's equations say: energies, M, h, Q, f = Q − h,
+/// accelerations that obey them, the derivatives of these, and the same accelerations in stages.
+///
+/// Derivatives are not compared with other formulas. The accelerations, once they are known to be
+/// right, are run over dual numbers of the prime field, where `ε² = 0` holds exactly as all else
+/// does: what stands before ε is the derivative.
+pub fn prove(
+    program: &Program,
+    model: &Model<'_>,
+    oracle: &Oracle<'_>,
+) -> Result<(), Disagreement> {
+    let n = model.coordinates.len();
+    let scalar = |role, value| Quantity {
+        role,
+        shape: Shape::Scalar,
+        values: vec![value],
+    };
+    let vector = |role, values| Quantity {
+        role,
+        shape: Shape::Vector(n),
+        values,
+    };
+    let forces = oracle
+        .applied
+        .iter()
+        .zip(&oracle.bias)
+        .map(|(&applied, &bias)| applied - bias)
+        .collect();
+    let mut quantities = vec![
+        Quantity {
+            role: Role::MassMatrix,
+            shape: Shape::Symmetric(n),
+            values: oracle.mass_matrix.lower().to_vec(),
+        },
+        vector(Role::Bias, oracle.bias.clone()),
+        vector(Role::Applied, oracle.applied.clone()),
+        vector(Role::Forces, forces),
+        scalar(Role::KineticEnergy, oracle.kinetic_energy),
+        scalar(Role::PotentialEnergy, oracle.potential_energy),
+        scalar(Role::Dissipation, oracle.dissipation),
+    ];
+    let constraints = &oracle.constraints;
+    if !constraints.is_empty() {
+        let each = |role, values: Vec<_>| Quantity {
+            role,
+            shape: Shape::Vector(values.len()),
+            values,
+        };
+        let rows = constraints.iter().flat_map(|c| c.row.clone()).collect();
+        quantities.extend([
+            each(
+                Role::ConstraintPositions,
+                constraints.iter().map(|c| c.position).collect(),
+            ),
+            each(
+                Role::ConstraintRates,
+                constraints.iter().map(|c| c.rate).collect(),
+            ),
+            each(Role::ConstraintMatrix, rows),
+        ]);
+    }
+    let contacts = &oracle.sliding;
+    if !contacts.is_empty() {
+        let vector = |role, values: Vec<_>| Quantity {
+            role,
+            shape: Shape::Vector(values.len()),
+            values,
+        };
+        let rows = contacts.iter().flat_map(|c| c.row.clone()).collect();
+        quantities.extend([
+            vector(Role::Slips, contacts.iter().map(|c| c.slip).collect()),
+            vector(Role::SlipMatrix, rows),
+            vector(Role::SlipDrift, contacts.iter().map(|c| c.drift).collect()),
+        ]);
+    }
+    let dependents = dependents(model, &crate::equations::constraints(model));
+    at_points(program, model, |point| {
+        point.check_values(&quantities)?;
+        point.follow(&dependents);
+        point.check_pivots()?;
+        point.check_motion(oracle)?;
+        point.check_derivatives()?;
+        point.check_stages()
+    })
+}
+
+/// Proves that the program computes the quantities that it was made from.
+pub fn prove_quantities(
+    program: &Program,
+    model: &Model<'_>,
+    quantities: &[Quantity<'_>],
+) -> Result<(), Disagreement> {
+    at_points(program, model, |point| point.check_values(quantities))
+}
+
+/// Why a check says nothing yet, or that something is wrong.
+enum Verdict {
+    /// Something has no value at this point.
+    Elsewhere,
+    Wrong(Disagreement),
+}
+
+impl From<Disagreement> for Verdict {
+    fn from(disagreement: Disagreement) -> Verdict {
+        Verdict::Wrong(disagreement)
+    }
+}
+
+/// Runs a check at [`POINTS`] points where everything has a value.
+fn at_points<'d>(
+    program: &Program,
+    model: &Model<'d>,
+    mut check: impl FnMut(&mut Point<'_, 'd>) -> Result<(), Verdict>,
+) -> Result<(), Disagreement> {
+    let mut good = 0;
+    for number in 0..MOST_TRIES {
+        match check(&mut Point::new(number, program, model)) {
+            Ok(()) => good += 1,
+            Err(Verdict::Elsewhere) => {}
+            Err(Verdict::Wrong(disagreement)) => return Err(disagreement),
+        }
+        if good == POINTS {
+            return Ok(());
+        }
+    }
+    Err(Disagreement::Undefined)
+}
+
+/// Random values of all symbols, and the program with them as arguments.
+struct Point<'a, 'd> {
+    number: u64,
+    program: &'a Program,
+    model: &'a Model<'d>,
+    interpreter: Interpreter<Residue>,
+    /// The same with the values of guards for accelerations.
+    guards: Interpreter<Residue>,
+    /// The coordinates that constraints settle.
+    settled: Vec<usize>,
+    t: Residue,
+    q: Vec<Residue>,
+    v: Vec<Residue>,
+    u: Vec<Residue>,
+    a: Vec<Residue>,
+}
+
+impl<'a, 'd> Point<'a, 'd> {
+    fn new(number: u64, program: &'a Program, model: &'a Model<'d>) -> Point<'a, 'd> {
+        let mut index = 0;
+        let mut next = || {
+            index += 1;
+            Residue::random(number, index)
+        };
+        let mut many = |len: usize| (0..len).map(|_| next()).collect::<Vec<Residue>>();
+        let n = model.coordinates.len();
+        let parameters = many(model.parameters.len());
+        Point {
+            number,
+            program,
+            model,
+            interpreter: Interpreter::new(program, &parameters),
+            guards: Interpreter::new(&with_guarded_values(program), &parameters),
+            settled: Vec::new(),
+            t: many(1)[0],
+            q: many(n),
+            v: many(n),
+            u: many(model.inputs.len()),
+            a: many(n),
+        }
+    }
+
+    /// Puts coordinates that constraints settle, and their rates, where they are settled: a program
+    /// may not look at them. What the start has decided is as the point has it.
+    fn follow(&mut self, dependents: &[Dependent<'d>]) {
+        self.settled = dependents.iter().map(|d| d.coordinate).collect();
+        let offsets = dependents.iter().filter_map(|d| d.offset);
+        let meant = offsets.filter_map(|[offset, meaning]| Some((offset.as_symbol()?, meaning)));
+        let meant: Vec<_> = meant.collect();
+        let states: Vec<Expr<'d>> = dependents
+            .iter()
+            .flat_map(|d| [d.rate, d.position])
+            .collect();
+        let states = substitute(self.model.dag, &states, &meant);
+        let values = self.evaluate_all(&states, &self.a);
+        for (dependent, state) in dependents.iter().zip(values.chunks_exact(2)) {
+            let i = dependent.coordinate;
+            [self.v[i], self.q[i]] = [state[0], state[1]];
+        }
+    }
+
+    /// The results of a function of the program; with what it reads undefined, they are undefined
+    /// too.
+    fn call(&mut self, role: Role, len: usize) -> Result<Vec<Residue>, Verdict> {
+        let arguments = Arguments {
+            t: self.t,
+            q: &self.q,
+            v: &self.v,
+            u: &self.u,
+            a: &self.a,
+        };
+        let mut results = vec![Residue::ZERO; len];
+        let called = self.interpreter.call(role, arguments, &mut results);
+        if !results.iter().all(|result| result.is_finite())
+            || called.is_err_and(|singular| singular.ratio.is_nan())
+        {
+            return Err(Verdict::Elsewhere);
+        }
+        called.map_err(Disagreement::Singular)?;
+        Ok(results)
+    }
+
+    /// The values of expressions, given the accelerations.
+    fn evaluate(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Result<Vec<Residue>, Verdict> {
+        let results = self.evaluate_all(expressions, a);
+        if results.iter().all(|result| result.is_finite()) {
+            Ok(results)
+        } else {
+            Err(Verdict::Elsewhere)
+        }
+    }
+
+    /// The same, whether they have a value or not.
+    fn evaluate_all(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Vec<Residue> {
+        let model = self.model;
+        let mut values: FxHashMap<Symbol, Residue> = FxHashMap::default();
+        let mut set = |symbol: Expr<'_>, value: Residue| {
+            if let Some(symbol) = symbol.as_symbol() {
+                values.insert(symbol, value);
+            }
+        };
+        set(model.time, self.t);
+        let parameters = model.parameters.iter().zip(self.interpreter.parameters());
+        parameters.for_each(|(parameter, value)| set(parameter.symbol, *value));
+        for (i, coordinate) in model.coordinates.iter().enumerate() {
+            set(coordinate.q, self.q[i]);
+            set(coordinate.v, self.v[i]);
+            set(coordinate.a, a[i]);
+        }
+        model
+            .inputs
+            .iter()
+            .zip(&self.u)
+            .for_each(|(input, value)| set(input.symbol, *value));
+        evaluate(model.dag, expressions, |symbol| values[&symbol])
+    }
+
+    fn check_values(&mut self, quantities: &[Quantity<'d>]) -> Result<(), Verdict> {
+        let expressions: Vec<Expr<'d>> = quantities
+            .iter()
+            .flat_map(|q| q.values.iter().copied())
+            .collect();
+        let expected = self.evaluate(&expressions, &self.a)?;
+        let mut expected = expected.into_iter();
+        for quantity in quantities {
+            let results = self.call(quantity.role, quantity.values.len())?;
+            for (index, (result, expected)) in results.into_iter().zip(&mut expected).enumerate() {
+                if result != expected {
+                    let (role, point) = (quantity.role, self.number);
+                    return Err(Disagreement::Result { role, index, point }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The accelerations and multipliers, put into the equations of motion and of the constraints,
+    /// leave nothing.
+    fn check_motion(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
+        if !oracle.sliding.is_empty() {
+            return self.check_friction(oracle);
+        }
+        let (n, point) = (oracle.residual.len(), self.number);
+        let accelerations = self.call(Role::Accelerations, n)?;
+        let mut left = self.evaluate(&oracle.residual, &accelerations)?;
+        if !oracle.constraints.is_empty() {
+            let multipliers = self.call(Role::Multipliers, oracle.constraints.len())?;
+            for (constraint, multiplier) in oracle.constraints.iter().zip(multipliers) {
+                let row = self.evaluate(&constraint.row, &accelerations)?;
+                for (left, g) in left.iter_mut().zip(row) {
+                    *left = *left - g * multiplier;
+                }
+            }
+            let residuals: Vec<Expr<'d>> = oracle.constraints.iter().map(|c| c.residual).collect();
+            let open = self.evaluate(&residuals, &accelerations)?;
+            if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
+                return Err(Disagreement::Constraint { constraint, point }.into());
+            }
+            let drift = self.call(Role::ConstraintDrift, residuals.len())?;
+            let coasting = self.evaluate(&residuals, &vec![Residue::ZERO; n])?;
+            let differs =
+                |(drift, coasting): (&Residue, &Residue)| *drift + *coasting != Residue::ZERO;
+            if let Some(index) = drift.iter().zip(&coasting).position(differs) {
+                let role = Role::ConstraintDrift;
+                return Err(Disagreement::Result { role, index, point }.into());
+            }
+        }
+        match left.iter().position(|left| *left != Residue::ZERO) {
+            Some(coordinate) => Err(Disagreement::Motion { coordinate, point }.into()),
+            None => Ok(()),
+        }
+    }
+
+    /// With any friction forces the accelerations, multipliers and normal reactions obey the equations of
+    /// motion, of the constraints, and of the displacements that would open the guides.
+    fn check_friction(&mut self, oracle: &Oracle<'d>) -> Result<(), Verdict> {
+        let (n, point) = (oracle.residual.len(), self.number);
+        let layout = FrictionLayout {
+            coordinates: n,
+            constraints: oracle.constraints.len(),
+            contacts: oracle.sliding.len(),
+        };
+        let (m, count, part) = (layout.constraints, layout.contacts, layout.part());
+        let responses = self.call(Role::Friction, layout.len())?;
+        let friction_forces: Vec<Residue> = (0..count as u64)
+            .map(|k| Residue::random(self.number, 1_000_000 + k))
+            .collect();
+        let values: Vec<Residue> = (0..part)
+            .map(|i| {
+                let own = friction_forces.iter().enumerate();
+                own.fold(responses[i], |sum, (k, f)| {
+                    sum + *f * responses[(k + 1) * part + i]
+                })
+            })
+            .collect();
+        let (a, rest) = values.split_at(n);
+        let (multipliers, rest) = rest.split_at(m);
+        let (slips, normals) = rest.split_at(count);
+
+        let mut left = self.evaluate(&oracle.residual, a)?;
+        for (constraint, multiplier) in oracle.constraints.iter().zip(multipliers) {
+            let row = self.evaluate(&constraint.row, a)?;
+            for (left, g) in left.iter_mut().zip(row) {
+                *left = *left - g * *multiplier;
+            }
+        }
+        let residuals: Vec<Expr<'d>> = oracle.constraints.iter().map(|c| c.residual).collect();
+        let open = self.evaluate(&residuals, a)?;
+        if let Some(constraint) = open.iter().position(|left| *left != Residue::ZERO) {
+            return Err(Disagreement::Constraint { constraint, point }.into());
+        }
+        for (contact, friction) in oracle.sliding.iter().zip(&friction_forces) {
+            let row = self.evaluate(&contact.row, a)?;
+            for (left, tau) in left.iter_mut().zip(row) {
+                *left = *left - tau * *friction;
+            }
+        }
+        if let Some(coordinate) = left.iter().position(|left| *left != Residue::ZERO) {
+            return Err(Disagreement::Motion { coordinate, point }.into());
+        }
+        let wrong = |index: usize| {
+            let role = Role::Friction;
+            Verdict::from(Disagreement::Result { role, index, point })
+        };
+        for (k, contact) in oracle.sliding.iter().enumerate() {
+            let known = self.evaluate(&[contact.slip_rate, contact.unbalanced], a)?;
+            if known[0] != slips[k] {
+                return Err(wrong(n + m + k));
+            }
+            let terms = [
+                (&contact.by_multipliers, multipliers, -Residue::ONE),
+                (
+                    &contact.by_friction_forces,
+                    &friction_forces[..],
+                    -Residue::ONE,
+                ),
+                (&contact.by_normals, normals, -Residue::ONE),
+            ];
+            let mut open = known[1];
+            for (coefficients, values, sign) in terms {
+                for (c, x) in self.evaluate(coefficients, a)?.into_iter().zip(values) {
+                    open = open + sign * c * *x;
+                }
+            }
+            if open != Residue::ZERO {
+                return Err(wrong(n + m + count + k));
+            }
+            let at = (1 + count) * part + k;
+            let expected = self.evaluate(&contact.coefficients, a)?;
+            for (index, expected) in [at, at + count].into_iter().zip(expected) {
+                if responses[index] != expected {
+                    return Err(wrong(index));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The lower triangle of the matrix that is eliminated: M, and behind it the rows of G.
+    fn lower(&mut self) -> Result<Vec<Residue>, Verdict> {
+        let (n, m) = (self.program.dimension(), self.program.constraints.len());
+        let mut lower = self.call(Role::MassMatrix, Shape::Symmetric(n).len())?;
+        if m > 0 {
+            let rows = self.call(Role::ConstraintMatrix, n * m)?;
+            for (k, row) in rows.chunks(n).enumerate() {
+                lower.extend(row);
+                lower.extend(vec![Residue::ZERO; k + 1]);
+            }
+        }
+        Ok(lower)
+    }
+
+    /// The accelerations over dual numbers have the derivatives that the program says.
+    fn check_derivatives(&mut self) -> Result<(), Verdict> {
+        let (role, n) = (Role::Derivatives, self.program.dimension());
+        let variables = &self.program.derivatives;
+        if variables.is_empty() {
+            return Ok(());
+        }
+        let width = 1 + variables.len();
+        let found = self.call(role, n * width)?;
+        let accelerations = self.call(Role::Accelerations, n)?;
+        let check = |column: usize, expected: &[Residue]| {
+            let differs = |i: &usize| found[i * width + column] != expected[*i];
+            match (0..n).find(differs) {
+                Some(i) => Err(Verdict::from(Disagreement::Result {
+                    role,
+                    index: i * width + column,
+                    point: self.number,
+                })),
+                None => Ok(()),
+            }
+        };
+        check(0, &accelerations)?;
+        let constants = |values: &[Residue]| -> Vec<Dual<Residue>> {
+            values.iter().map(|x| Dual::constant(*x)).collect()
+        };
+        let mut arguments = [
+            constants(&self.q),
+            constants(&self.v),
+            constants(&self.u),
+            constants(self.interpreter.parameters()),
+        ];
+        let mut interpreter = Interpreter::new(self.program, &arguments[3]);
+        let mut a = vec![Dual::constant(Residue::ZERO); n];
+        for (column, variable) in (1..).zip(variables) {
+            let (list, i) = match *variable {
+                Variable::Coordinate(i) => (0, i),
+                Variable::Rate(i) => (1, i),
+                Variable::Input(i) => (2, i),
+                Variable::Parameter(i) => (3, i),
+            };
+            let before = arguments[list][i];
+            arguments[list][i] = Dual::variable(before.value);
+            if list == 3 {
+                interpreter.prepare(&arguments[3]);
+            }
+            let [q, v, u, _] = &arguments;
+            let t = Dual::constant(self.t);
+            let called = interpreter.call(
+                Role::Accelerations,
+                Arguments { t, q, v, u, a: &[] },
+                &mut a,
+            );
+            arguments[list][i] = before;
+            if list == 3 {
+                interpreter.prepare(&arguments[3]);
+            }
+            if called.is_err() || !a.iter().all(|a| a.is_finite()) {
+                return Err(Verdict::Elsewhere);
+            }
+            let slopes: Vec<Residue> = a.iter().map(|a| a.derivative).collect();
+            check(column, &slopes)?;
+        }
+        Ok(())
+    }
+
+    /// The accelerations in stages are those at once, and the pivots that are guarded on the way are
+    /// those of M.
+    fn check_stages(&mut self) -> Result<(), Verdict> {
+        let n = self.program.dimension();
+        let roles = self.program.staged_roles();
+        let Some(&last) = roles.last() else {
+            return Ok(());
+        };
+        let expected = self.call(Role::Accelerations, n)?;
+        let lower = self.lower()?;
+        // Pivots of parameters alone; those of the stages take the place of others.
+        let rows = n + self.program.constraints.len();
+        let mut pivots: Vec<Option<[Residue; 2]>> = vec![None; rows];
+        let probe = with_guarded_values(self.program);
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let values = self.in_stages(&probe, &mut pivots);
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let found = values?;
+        if let Some(index) = found.iter().zip(&expected).position(|(a, b)| a != b) {
+            let (role, point) = (last, self.number);
+            return Err(Disagreement::Result { role, index, point }.into());
+        }
+        let pairs: Option<Vec<[Residue; 2]>> = pivots.into_iter().collect();
+        self.check_pairs(pairs.as_deref().unwrap_or_default(), &lower, true)
+    }
+
+    /// The accelerations in stages, and by coordinates the pivots on the way with their scales; by
+    /// a program [with the values of guards](with_guarded_values).
+    fn in_stages(
+        &mut self,
+        probe: &Program,
+        pivots: &mut [Option<[Residue; 2]>],
+    ) -> Result<Vec<Residue>, Verdict> {
+        let known = &self.program.prepare.guards;
+        let varying = probe.function(Role::Accelerations);
+        let len = varying.map_or(0, |function| function.results.len());
+        let values = self.call(Role::Accelerations, len)?;
+        for (guard, pair) in known.iter().zip(values.chunks_exact(2)) {
+            pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+        }
+        let mut results = Vec::new();
+        for role in self.program.staged_roles() {
+            let Some(function) = self.program.function(role) else {
+                continue;
+            };
+            let len = function.results.len();
+            results = self.call(role, len + 2 * function.guards.len())?;
+            let pairs = results[len..].chunks_exact(2);
+            for (guard, pair) in function.guards.iter().zip(pairs) {
+                pivots[guard.coordinate] = Some([pair[0], pair[1]]);
+            }
+            if role == Role::AccelerationsAt {
+                results.truncate(len);
+            } else {
+                self.interpreter.stand(role, &results);
+            }
+        }
+        Ok(results)
+    }
+
+    /// The product of the pivots is the determinant of M, one for each coordinate, and each is held
+    /// against its Mᵢᵢ or itself; with constraints it is that of their matrix too, up to the signs of
+    /// theirs.
+    fn check_pivots(&mut self) -> Result<(), Verdict> {
+        let n = self.program.dimension() + self.program.constraints.len();
+        let wrong = Disagreement::Pivots { point: self.number };
+        let lower = self.lower()?;
+        let coordinates = guarded_coordinates(self.program);
+        let mut sorted = coordinates.clone();
+        sorted.sort_unstable();
+        // A coordinate that a constraint settles may have none; then the constraint's is what it is
+        // divided by.
+        let missing: Vec<usize> = (0..n).filter(|i| !sorted.contains(i)).collect();
+        let is_settled = |i: &usize| self.settled.contains(i);
+        if sorted.len() + missing.len() != n || !missing.iter().all(is_settled) {
+            return Err(wrong.into());
+        }
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let values = self.call(self.program.solving(), 2 * sorted.len());
+        std::mem::swap(&mut self.interpreter, &mut self.guards);
+        let values = values?;
+        let mut pairs = vec![[Residue::ONE; 2]; n];
+        for (&i, pair) in coordinates.iter().zip(values.chunks_exact(2)) {
+            pairs[i] = [pair[0], pair[1]];
+        }
+        self.check_pairs(&pairs, &lower, missing.is_empty())
+    }
+
+    /// The product of pivots is the determinant of the matrix with that lower triangle, and where
+    /// they are those of M the scales are its diagonal.
+    fn check_pairs(
+        &self,
+        pairs: &[[Residue; 2]],
+        lower: &[Residue],
+        are_of_matrix: bool,
+    ) -> Result<(), Verdict> {
+        let coordinates = self.program.dimension();
+        let n = coordinates + self.program.constraints.len();
+        let product = (0..n)
+            .zip(pairs)
+            .fold(Residue::ONE, |product, (i, [pivot, _])| {
+                let sign = if i < coordinates {
+                    Residue::ONE
+                } else {
+                    -Residue::ONE
+                };
+                product * sign * *pivot
+            });
+        let diagonal = |i: usize| lower[Shape::index(i, i)];
+        let mut by_coordinates = pairs.iter().take(coordinates).enumerate();
+        // Where coordinates are put into others, these have another inertia; so have those that
+        // constraints hold because they have none.
+        let own = &lower[..Shape::Symmetric(coordinates).len()];
+        let has_inertia = determinant(own, coordinates) != Residue::ZERO;
+        let scales = !are_of_matrix
+            || !has_inertia
+            || by_coordinates.all(|(i, [pivot, scale])| *scale == diagonal(i) || scale == pivot);
+        let determinant = determinant(lower, n);
+        if !determinant.is_finite() {
+            return Err(Verdict::Elsewhere);
+        }
+        if pairs.len() == n && product == determinant && scales {
+            Ok(())
+        } else {
+            Err(Disagreement::Pivots { point: self.number }.into())
+        }
+    }
+}
+
+/// A program whose accelerations are the pivots and their scales instead, in the order of the
+/// guards: those of `prepare` first; and whose stages have theirs behind their results.
+pub(super) fn with_guarded_values(program: &Program) -> Program {
+    let mut probe = program
+        .with_functions(|role| role == program.solving() || program.staged_roles().contains(&role));
+    let values = |function: &Function| {
+        function
+            .guards
+            .iter()
+            .flat_map(|guard| [guard.pivot, guard.scale])
+            .collect()
+    };
+    let known: Vec<Value> = values(&probe.prepare);
+    let first = probe.prepare.results.len();
+    probe.prepare.results.extend(&known);
+    probe.prepare.guards.clear();
+    for function in probe
+        .functions
+        .iter_mut()
+        .filter(|function| function.role == program.solving())
+    {
+        let varying: Vec<Value> = values(function);
+        function.results.clear();
+        for index in first..first + known.len() {
+            function.results.push(Value(function.code.len() as u32));
+            function.code.push(Op::Read(Source::Prepared(index as u32)));
+        }
+        function.results.extend(varying);
+        function.shape = Shape::Vector(function.results.len());
+        function.guards.clear();
+    }
+    let staged = program.staged_roles();
+    let stages = probe.functions.iter_mut();
+    for function in stages.filter(|function| staged.contains(&function.role)) {
+        let varying: Vec<Value> = values(function);
+        function.results.extend(varying);
+        function.shape = Shape::Vector(function.results.len());
+        function.guards.clear();
+    }
+    probe
+}
+
+/// The coordinates of the guards, in the order of [`with_guarded_values`].
+pub(super) fn guarded_coordinates(program: &Program) -> Vec<usize> {
+    let functions = [Some(&program.prepare), program.function(program.solving())];
+    let guards = functions
+        .into_iter()
+        .flatten()
+        .flat_map(|function| &function.guards);
+    guards.map(|guard| guard.coordinate).collect()
+}
+
+/// The determinant of a symmetric matrix, by its lower triangle.
+pub(super) fn determinant<R: Scalar>(lower: &[R], n: usize) -> R {
+    let entry = |i: usize, j: usize| lower[Shape::index(i.max(j), i.min(j))];
+    let row = |i: usize| (0..n).map(|j| entry(i, j)).collect();
+    let mut left: Vec<Vec<R>> = (0..n).map(row).collect();
+    let mut determinant = R::ONE;
+    for k in 0..n {
+        // Rows are exchanged: without inertia of its own a coordinate has no pivot in its place.
+        let Some(found) = (k..n).find(|&i| left[i][k] != R::ZERO) else {
+            return R::ZERO;
+        };
+        if found != k {
+            left.swap(found, k);
+            determinant = -determinant;
+        }
+        let pivot = left[k].clone();
+        determinant = determinant * pivot[k];
+        for row in &mut left[k + 1..] {
+            if row[k] != R::ZERO {
+                let l = row[k] / pivot[k];
+                for (x, y) in row.iter_mut().zip(&pivot).skip(k) {
+                    *x = *x - l * *y;
+                }
+            }
+        }
+    }
+    determinant
+}

@@ -1,0 +1,523 @@
+//! Guided contacts: their normal reactions against formulas typed in by hand, and guides that are none.
+
+use lagrangian_mechanics::{Carrying, Equations};
+use lagrangian_print::compare::compare;
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_spec::diagnostic::{Code, Report};
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Dag, Expr};
+
+use crate::harness::{derived, residues, resolved, text_of};
+
+/// The expressions are equal at points of the prime field.
+fn assert_equal<'d>(
+    model: &Model<'d>,
+    equations: &Equations<'d>,
+    pairs: &[(&str, Expr<'d>, Expr<'d>)],
+) {
+    let differences: Vec<Expr<'d>> = pairs.iter().map(|(_, a, b)| *a - *b).collect();
+    for values in residues(model, equations, &differences, false) {
+        for ((name, ..), value) in pairs.iter().zip(values) {
+            assert!(value == Residue::ZERO, "{name}");
+        }
+    }
+}
+
+fn symbol<'d>(model: &Model<'d>, name: &str) -> Expr<'d> {
+    let parameters = model.parameters.iter();
+    let mut found = parameters.filter(|p| p.name.to_string() == name);
+    found.next().expect("a parameter").symbol
+}
+
+#[test]
+fn the_prisms_have_the_coefficients_of_the_paper() {
+    derived(&text_of("prisms"), |model, equations| {
+        let dag: &Dag = model.dag;
+        let of = |name| symbol(model, name);
+        let (m, big, g) = (of("m"), of("M"), of("g"));
+        let (mu1, mu2, tan) = (of("mu1"), of("mu2"), of("alpha").tan());
+        let contacts = &equations.sliding;
+        // P = −b q̇ − d q̇ q̈: b_i = Σ μ ν τ_i, d_ij = Σ μ τ_i ρ_j.
+        let b = |i: usize| dag.sum(contacts.iter().map(|c| c.friction * c.load * c.row[i]));
+        let d = |i: usize, j: usize| {
+            dag.sum(
+                contacts
+                    .iter()
+                    .map(|c| c.friction * c.row[i] * c.by_accelerations[j]),
+            )
+        };
+        let zero = dag.zero();
+        assert_equal(
+            model,
+            equations,
+            &[
+                ("b1", b(0), mu2 * (m + big) * g),
+                ("b2", b(1), mu1 * m * g),
+                ("d11", d(0, 0), zero),
+                ("d12", d(0, 1), -(m * mu2 * tan)),
+                ("d21", d(1, 0), -(m * mu1 * tan)),
+                ("d22", d(1, 1), zero),
+            ],
+        );
+    });
+}
+
+#[test]
+fn the_bracket_that_the_paper_drops_is_found() {
+    derived(&text_of("prisms"), |model, equations| {
+        let found = compare(model, equations);
+        let verdicts: Vec<(&str, bool)> =
+            found.iter().map(|c| (c.item.as_str(), c.agrees)).collect();
+        assert_eq!(
+            verdicts,
+            [
+                ("potential_energy", true),
+                ("friction q1", false),
+                ("friction q2", true)
+            ]
+        );
+        // −μ₂ [(m + M) g − m q̈₂ tan α], printed without the bracket: the term is positive and has μ₂.
+        let m = |name| symbol(model, name);
+        let right = m("mu2") * m("m") * model.coordinates[1].a * m("alpha").tan();
+        let printed = -(m("m") * model.coordinates[1].a * m("alpha").tan());
+        let sum = |terms: &[Expr<'_>]| terms.len();
+        let mend = &found[1].mend[0];
+        assert_eq!((sum(&mend.add), sum(&mend.drop)), (1, 1));
+        assert_equal(
+            model,
+            equations,
+            &[("add", mend.add[0], right), ("drop", mend.drop[0], printed)],
+        );
+    });
+}
+
+/// A piston that a crank-shaped cam lifts: the piston slides between two walls that are not parallel to
+/// what lifts it, so that both press.
+const LIFTED: &str = "machine Lifted in plane {
+    parameters { m: kg = 1, M: kg = 2, alpha: rad = 0.4, mu: 1 = 0.2, nu: 1 = 0.1, g: m/s^2 = 9.81 }
+    coordinates { x: m }
+    frames { wedge = ground.shift(x, 0), piston = ground.shift(0, x*tan(alpha)) }
+    bodies { wedge { mass: M, frame: wedge }, piston { mass: m, frame: piston } }
+    gravity (0, -g);
+    sliding {
+        face { body: piston, on: wedge, direction: (-cos(alpha), sin(alpha)), friction: mu },
+        slot { body: piston, on: ground, direction: (0, 1), friction: nu },
+    }
+}";
+
+#[test]
+fn two_guides_of_one_body_share_what_it_takes_to_hold_it() {
+    let text = LIFTED.replace("(-cos(alpha), sin(alpha))", "(-cos(alpha), -sin(alpha))");
+    // The wedge that lifts it slopes up to the left: seen from it, the piston moves to the left and up.
+    for (text, fits) in [(LIFTED, true), (text.as_str(), false)] {
+        let refused = codes(text);
+        assert_eq!(refused.is_empty(), fits, "{refused:?}");
+    }
+    derived(LIFTED, |model, equations| {
+        let of = |name| symbol(model, name);
+        let (m, g, alpha) = (of("m"), of("g"), of("alpha"));
+        let (sin, cos, a) = (alpha.sin(), alpha.cos(), model.coordinates[0].a);
+        let [face, slot] = &equations.sliding[..] else {
+            panic!("two contacts");
+        };
+        // Directions turned left: n_face = (−sin α, −cos α), n_slot = (−1, 0). Newton for the piston:
+        // N_face n_face + N_slot n_slot + (0, −m g) = (0, m ẍ tan α).
+        let normal = -(m * (g + a * alpha.tan()) / cos);
+        assert_equal(
+            model,
+            equations,
+            &[
+                ("face", face.normal(model), normal),
+                ("slot", slot.normal(model), -(normal * sin)),
+                // Friction on the face, along (−cos α, sin α), lifts too: N_face cos α = … + F sin α.
+                ("face by face", face.by_friction_forces[0], sin / cos),
+                (
+                    "face by slot",
+                    face.by_friction_forces[1],
+                    model.dag.one() / cos,
+                ),
+            ],
+        );
+    });
+}
+
+fn codes(text: &str) -> Vec<(Code, String)> {
+    resolved(text, |model| {
+        let mut report = Report::new();
+        let _ = Equations::derive(model, &mut report);
+        let diagnostics = report.diagnostics();
+        diagnostics
+            .iter()
+            .map(|d| (d.code, d.message.clone()))
+            .collect()
+    })
+}
+
+#[test]
+fn guides_that_are_none_are_refused() {
+    let cart = |sliding: &str| {
+        format!(
+            "machine Cart in plane {{
+                parameters {{ m: kg = 1, M: kg = 2, alpha: rad = 0.4, w: rad/s = 2 }}
+                coordinates {{ x: m, y: m }}
+                frames {{
+                    cart = ground.shift(x, 0),
+                    box = cart.shift(y, 0),
+                    piston = ground.shift(0, x*tan(alpha)),
+                }}
+                bodies {{
+                    cart {{ mass: M, frame: cart }}, box {{ mass: m, frame: box }},
+                    piston {{ mass: m, frame: piston }}, still {{ mass: m, at: (0, 1) }},
+                }}
+                sliding {{ {sliding} }}
+            }}"
+        )
+    };
+    let of = |fields: &str| format!("a {{ {fields}, friction: 0.1 }}");
+    for (sliding, said) in [
+        (
+            of("body: cart, on: ground, direction: (0, 1)"),
+            "let the body of `a` leave",
+        ),
+        (
+            of("body: cart, on: ground, direction: direction(w*t)"),
+            "let the body of `a` leave",
+        ),
+        (
+            of("body: still, on: ground, direction: (1, 0)"),
+            "`a` does not slide",
+        ),
+        (
+            of("body: cart, on: ground, direction: (0, 0)"),
+            "has no length",
+        ),
+        (
+            of("body: cart, on: ground, direction: (1, 0), normal: (1, 1)"),
+            "not at a right angle",
+        ),
+        (
+            of("body: piston, on: cart, direction: (-cos(alpha), sin(alpha))"),
+            "held by more than this guide",
+        ),
+        (
+            of("body: box, on: cart, direction: (1, 0)")
+                + ","
+                + &of("body: box, on: ground, direction: (1, 0)").replacen('a', "b", 1),
+            "is not determined",
+        ),
+    ] {
+        let refused = codes(&cart(&sliding));
+        let [(code, message)] = &refused[..] else {
+            panic!("{sliding}: {refused:?}");
+        };
+        assert_eq!(*code, Code::NoGuide);
+        assert!(message.contains(said), "{sliding}: {message}");
+    }
+    assert!(codes(&cart(&of("body: box, on: cart, direction: (2, 0)"))).is_empty());
+}
+
+/// A bead on the parabola y = k z²/2: N = m (g + k ż²)/√(1 + k² z²) upwards, whatever the lengths of what is said of the guide.
+#[test]
+fn the_side_of_a_normal_does_not_depend_on_lengths() {
+    let guides = [
+        ("(1, k*z)", "(-k*z, 1)"),
+        ("(0.5, 0.5*k*z)", "(-k*z, 1)"),
+        ("(1.5, 1.5*k*z)", "(-k*z, 1)"),
+        ("(2, 2*k*z)", "(-3*k*z, 3)"),
+        ("(3, 3*k*z)", "(-k*z, 1)"),
+        ("(-3, -3*k*z)", "(-k*z, 1)"),
+        ("(5/7, 5/7*k*z)", "(-11*k*z, 11)"),
+        ("(sqrt(3), sqrt(3)*k*z)", "(-k*z, 1)"),
+        ("(-pi, -pi*k*z)", "(-2*k*z, 2)"),
+        ("(1 + z^2*k^2, (1 + z^2*k^2)*k*z)", "(-k*z, 1)"),
+        ("(s*(1, k*z))", "(-k*z, 1)"),
+        ("(-s*(1, k*z))", "(-k*z, 1)"),
+        ("(1, k*z)", "(s^2*(-k*z, 1))"),
+        ("(cos(k*z)*(1, k*z))", "(-k*z, 1)"),
+    ];
+    for (direction, normal) in guides {
+        let text = format!(
+            "machine Bead in plane {{
+                parameters {{ m: kg = 2, k: 1/m = 0.7, g: m/s^2 = 9.81, mu: 1 = 0.2, s: 1 = 3 }}
+                coordinates {{ z: m }}
+                frames {{ bead = ground.shift(z, k*z^2/2) }}
+                bodies {{ bead {{ mass: m, frame: bead }} }}
+                gravity (0, -g);
+                sliding {{ wire {{ body: bead, on: ground, direction: {direction}, normal: {normal}, friction: mu }} }}
+            }}"
+        );
+        derived(&text, |model, equations| {
+            let (z, v) = (model.coordinates[0].q, model.coordinates[0].v);
+            let [normal_of_bead] = &equations.sliding[..] else {
+                panic!("one guide");
+            };
+            let normal_of_bead = normal_of_bead.normal(model);
+            for (z_at, v_at, s_at) in [
+                (0.3, 1.2, 3.0),
+                (-1.4, 0.5, 3.0),
+                (-0.2, -2.0, 0.4),
+                (1.1, 0.1, -1.7),
+            ] {
+                let (m, k, g) = (2.0, 0.7, 9.81);
+                let value = |symbol| match Some(symbol) {
+                    of if of == z.as_symbol() => z_at,
+                    of if of == v.as_symbol() => v_at,
+                    of if of == model.coordinates[0].a.as_symbol() => 0.8,
+                    of => {
+                        let known = [("m", m), ("k", k), ("g", g), ("s", s_at), ("mu", 0.2)];
+                        let is_it =
+                            |(name, _): &&(&str, f64)| self::symbol(model, name).as_symbol() == of;
+                        known.iter().find(is_it).expect("a parameter").1
+                    }
+                };
+                let found = lagrangian_symbolic::evaluate(model.dag, &[normal_of_bead], value)[0];
+                let expected = m * (g + k * v_at * v_at) / (1.0 + k * k * z_at * z_at).sqrt();
+                assert!(
+                    (found - expected).abs() < 1e-12 * expected,
+                    "{direction} {normal}: {found} {expected}"
+                );
+            }
+        });
+    }
+}
+
+/// A machine with a cart on a rail, and what is hung on it.
+fn on_a_cart(coordinates: &str, rest: &str) -> String {
+    format!(
+        "machine Cart in plane {{
+            parameters {{ m: kg = 1, M: kg = 2, l: m = 1, k: N/m = 9, P: N = 2, mu: 1 = 0.2, g: m/s^2 = 9.81 }}
+            coordinates {{ x: m, {coordinates} }}
+            frames {{ cart = ground.shift(x, 0) }}
+            gravity (0, -g);
+            {rest}
+        }}"
+    )
+}
+
+const RAIL: &str = "rail { body: cart, on: ground, direction: (1, 0), friction: mu }";
+
+#[test]
+fn what_moves_with_a_guided_body_and_is_tied_to_it_by_nothing_is_refused() {
+    let hung = |bob: &str| {
+        let bodies =
+            format!("bodies {{ cart {{ mass: M, frame: cart }}, bob {{ mass: m, {bob} }} }}");
+        on_a_cart("phi: rad", &format!("{bodies} sliding {{ {RAIL} }}"))
+    };
+    for (bob, is_right) in [
+        ("at: cart.at + l*(sin(phi), -cos(phi))", true),
+        ("at: cart.point(l*sin(phi), -l*cos(phi))", true),
+        ("frame: cart.turn(phi).shift(0, -l)", true),
+        ("at: (x + l*sin(phi), -l*cos(phi))", false),
+        ("frame: ground.shift(x, -l).turn(phi)", false),
+        // The frame of the cart, said again.
+        ("frame: ground.shift(x, 0).turn(phi).shift(0, -l)", true),
+        // Free along the rail, and still written by it.
+        ("at: (x + l*phi, l)", false),
+        ("at: (l*phi, l)", true),
+        ("at: cart.at + (l*phi, l)", true),
+        // The rope over a pulley: it may pull as it likes.
+        ("at: (l*phi, -x)", false),
+        // Built on the cart, and driven by something that is not.
+        ("at: cart.at + l*(phi, x/l)", false),
+    ] {
+        let found = codes(&hung(bob));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, message)], false) => {
+                assert!(
+                    message.contains("`bob`") || message.contains("`cart`"),
+                    "{message}"
+                );
+            }
+            _ => panic!("{bob}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn guides_that_share_a_coordinate_are_refused_and_a_rod_between_them_is_not() {
+    let guides = format!(
+        "sliding {{ {RAIL}, wall {{ body: b, on: ground, direction: (0, 1), friction: mu }} }}"
+    );
+    let bodies = |b: &str| {
+        format!(
+            "bodies {{ cart {{ mass: M, frame: cart }}, b {{ mass: m, frame: ground.shift(0, {b}) }} }}"
+        )
+    };
+    let shared = on_a_cart("", &format!("{} {guides}", bodies("sqrt(l^2 - x^2)")));
+    let found = codes(&shared);
+    assert!(
+        !found.is_empty() && found.iter().all(|(code, _)| *code == Code::Untied),
+        "{found:?}"
+    );
+    for (rod, is_right) in [
+        ("norm(cart.at - b.at) = l", true),
+        ("x^2 + y^2 = l^2", false),
+        // A rope along both guides.
+        ("x + y = l", true),
+    ] {
+        let rest = format!("{} {guides} constraints {{ rod: {rod} }}", bodies("y"));
+        let found = codes(&on_a_cart("y: m", &rest));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, message)], false) => assert!(message.contains("`rod`"), "{message}"),
+            _ => panic!("{rod}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn what_is_written_in_coordinates_must_act_along_the_guide() {
+    let with = |section: &str| {
+        on_a_cart(
+            "",
+            &format!("bodies {{ cart {{ mass: M, frame: cart }} }} sliding {{ {RAIL} }} {section}"),
+        )
+    };
+    for (section, is_right) in [
+        ("springs { s { stiffness: k, stretch: x } }", true),
+        ("springs { s { stiffness: k, stretch: 2*l - x } }", true),
+        (
+            "springs { s { stiffness: k, stretch: sqrt(x^2 + l^2) - l } }",
+            false,
+        ),
+        (
+            "springs { s { stiffness: k, from: cart.at, to: (0, l), length: l } }",
+            true,
+        ),
+        (
+            "springs { s { stiffness: k, from: (x, 0), to: (0, l), length: l } }",
+            false,
+        ),
+        (
+            "springs { s { stiffness: k, from: (x, 0), to: (3*l, 0), length: l } }",
+            true,
+        ),
+        ("forces { f { at: cart.at, force: (P, P) } }", true),
+        ("forces { f { at: (x, 0), force: (P, P) } }", false),
+        ("forces { f { at: (x, 0), force: (P, 0) } }", true),
+        ("forces { f { on: x, value: P } }", true),
+        ("potentials { v: k*x^4/l^2 }", true),
+    ] {
+        let found = codes(&with(section));
+        match (&found[..], is_right) {
+            ([], true) => {}
+            ([(Code::Untied, _)], false) => {}
+            _ => panic!("{section}: {found:?}"),
+        }
+    }
+}
+
+#[test]
+fn what_guides_carry_and_coordinates_move_is_known() {
+    let carrying = |text: &str| resolved(text, |model| Carrying::of(model).expect("it has guides"));
+    // The wedge is body 0, the slider body 1; the floor is guide 0.
+    let built = carrying(&text_of("prisms"));
+    assert_eq!(built.carried, [vec![0, 1], vec![1]]);
+    assert_eq!(built.moved, [vec![0, 1], vec![1]]);
+    assert_eq!(built.pushed_by, [Some(vec![0]), Some(vec![1])]);
+    assert!((0..2).all(|guide| built.unsaid(guide).is_empty()));
+    let absolute = text_of("prisms").replace("wedge.shift(-q2", "ground.shift(q1 - q2");
+    assert!(codes(&absolute).is_empty());
+    let absolute = carrying(&absolute);
+    assert_eq!(absolute.carried, [vec![0], vec![1]]);
+    assert_eq!(absolute.moved, built.moved);
+    // What pushes the slider pushes the wedge, and nobody says how much of that is across the floor.
+    assert_eq!(absolute.unsaid(0), [1]);
+    assert!(absolute.unsaid(1).is_empty());
+    let forced = text_of("prisms")
+        .replace("wedge.shift(-q2", "ground.shift(q1 - q2")
+        .replace(
+            "gravity (0, -g);",
+            "gravity (0, -g); forces { f { on: q2, value: m*g } }",
+        );
+    assert!(matches!(&codes(&forced)[..], [(Code::Untied, _)]));
+}
+
+#[test]
+fn what_acts_from_a_place_that_moves_with_the_body_and_is_none_of_it_is_refused_straight_across_too()
+ {
+    // Above the cart, beside it at its height, and in between: written by its frame, it is the cart's; by formulas, nobody's.
+    let with = |place: &str, section: &str| {
+        let text = format!(
+            "machine Above in plane {{
+                parameters {{ m: kg = 1, mu: 1 = 0.1, l: m = 1, k: N/m = 30 }}
+                coordinates {{ x: m = 0.2 }}
+                frames {{ floor = ground.shift(x, 0) }}
+                bodies {{ cart {{ mass: m, frame: floor }} }}
+                gravity (0, -k*l/m);
+                sliding {{ rail {{ body: cart, on: ground, direction: (1, 0), friction: mu }} }}
+                {section}
+            }}"
+        );
+        text.replace("PLACE", place)
+    };
+    let spring = "springs { s { stiffness: k, from: PLACE, to: cart.at, length: l/2 } }";
+    let potential = "potentials { v: k/2*(norm(PLACE - cart.at) - l/2)^2 }";
+    for section in [spring, potential] {
+        for (place, is_right) in [
+            ("floor.point(0, l)", true),
+            ("floor.point(l, 2*l)", true),
+            ("(2*l, l)", true),
+            ("(x, l)", false),
+            ("(x + l, 2*l)", false),
+            ("(x + l, 0)", true),
+        ] {
+            match (&codes(&with(place, section))[..], is_right) {
+                ([], true) | ([(Code::Untied, _)], false) => {}
+                (found, _) => panic!("{place}, {section}: {found:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_any_coordinates() {
+    // A block on the slope of a cart that it is not built on, in any two coordinates. What pushes the block
+    // along the slope may push the cart back, or not; what pushes the cart alone does not ask.
+    let written = |x: &str, s: &str, section: &str| {
+        format!(
+            "machine Block in plane {{
+                parameters {{ m: kg = 1, mu: 1 = 0.1, l: m = 1, P: N = 3, w: s = 1 }}
+                coordinates {{ a: 1 = 1.3, b: 1 = 0.7 }}
+                frames {{
+                    floor = ground.shift(l*({x}), 0),
+                    slope = floor.turn(0.4),
+                    top = ground.shift(l*({x}) + l*({s})*cos(0.4), l*({s})*sin(0.4)),
+                }}
+                bodies {{ cart {{ mass: m, frame: floor }}, block {{ mass: m, frame: top }} }}
+                gravity (0, -P/m);
+                sliding {{
+                    rail {{ body: cart, on: ground, direction: (1, 0), friction: mu }},
+                    ramp {{ body: block, on: slope, direction: slope.vector(1, 0), friction: mu }},
+                }}
+                {section}
+            }}"
+        )
+    };
+    let on = |coordinate: &str| format!("forces {{ f {{ on: {coordinate}, value: P*l }} }}");
+    let (x, s) = ("a*cos(b)", "a*sin(b)");
+    for (text, is_right) in [
+        (written("a", "b", ""), true),
+        (written("a", "b", &on("a")), true),
+        (written("a", "b", &on("b")), false),
+        (written(x, s, ""), true),
+        (written(x, s, &on("a")), false),
+        (written(x, s, &on("b")), false),
+        (written(x, s, "potentials { v: P*l*a*cos(b) }"), true),
+        (written(x, s, "potentials { v: P*l*a*sin(b) }"), false),
+        (
+            written(x, s, "dissipations { d: P*l*der(a*cos(b))^2*w }"),
+            true,
+        ),
+        (
+            written(x, s, "dissipations { d: P*l*der(a*sin(b))^2*w }"),
+            false,
+        ),
+    ] {
+        match (&codes(&text)[..], is_right) {
+            ([], true) | ([(Code::Untied, _)], false) => {}
+            (found, _) => panic!("{found:?}, {text}"),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Machines that have no equations are told so, at the word that is the reason.
+
+use lagrangian_mechanics::Equations;
+use lagrangian_spec::diagnostic::{Code, Report};
+
+use crate::harness::resolved;
+
+/// The codes and messages of a machine that cannot be derived.
+fn refused(text: &str) -> Vec<(Code, String)> {
+    resolved(text, |model| {
+        let mut report = Report::new();
+        assert!(Equations::derive(model, &mut report).is_none());
+        report
+            .diagnostics()
+            .iter()
+            .map(|d| (d.code, d.message.clone()))
+            .collect()
+    })
+}
+
+#[test]
+fn sections_that_are_not_derived_yet_are_named() {
+    let codes = refused(
+        "machine Held in plane {
+            parameters { m: kg = 1, r: m = 1 }
+            coordinates { x: m, y: m }
+            frames { table = ground.shift(x, y) }
+            bodies { ball { mass: m, inertia: m*r^2, frame: table } }
+            circles {
+                rim { on: ball, center: (0, 0), radius: r },
+                bowl { on: ground, center: (0, 0), radius: 2*r },
+            }
+            sliding { guide { body: ball, on: ground, direction: (1, 0), friction: 0.1 } }
+            derivatives { coordinates }
+            contacts { inside { circle: rim, inside: bowl, restitution: 0.5, friction: 0.1 } }
+        }",
+    );
+    // Circles alone are a drawing.
+    assert_eq!(codes.len(), 2);
+    assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
+    assert!(
+        codes[0].1.contains("`derivatives`") && codes[1].1.contains("`contacts`"),
+        "{codes:?}"
+    );
+}
+
+#[test]
+fn a_coordinate_that_moves_nothing_is_named() {
+    let codes = refused(
+        "machine Idle in plane {
+            parameters { m: kg = 1, k: N*m = 1 }
+            coordinates { x: m, psi: rad }
+            bodies { ball { mass: m, at: (x, 0) } }
+            torsion_springs { idle { stiffness: k, twist: psi } }
+        }",
+    );
+    assert_eq!(codes.len(), 1);
+    assert_eq!(codes[0].0, Code::NoInertia);
+    assert!(codes[0].1.contains("`psi`"), "{codes:?}");
+}
+
+#[test]
+fn turning_a_particle_moves_nothing() {
+    let codes = refused(
+        "machine Turned in plane {
+            parameters { m: kg = 1 }
+            coordinates { x: m, psi: rad }
+            frames { here = ground.shift(x, 0).turn(psi) }
+            bodies { ball { mass: m, frame: here } }
+        }",
+    );
+    assert_eq!(codes[0].0, Code::NoInertia);
+}
+
+#[test]
+fn a_kink_has_no_expansion() {
+    let codes = refused(
+        "machine Kink in plane {
+            parameters { m: kg = 1, k: N/m = 1, l: m = 1 }
+            coordinates { theta: rad }
+            bodies { bob { mass: m, at: polar(l, theta) } }
+            springs { rope { stiffness: k, from: (l, 0), to: bob.at, length: l/2 } }
+            approximations { theta: small }
+        }",
+    );
+    assert_eq!(codes[0].0, Code::NoExpansion);
+    assert!(codes[0].1.contains("theta"), "{codes:?}");
+}
+
+#[test]
+fn too_many_coordinates_are_counted() {
+    let text = crate::harness::text_of("chain").replace("N = 8", "N = 300");
+    let codes = refused(&text);
+    assert_eq!(codes.len(), 1);
+    assert_eq!(codes[0].0, Code::TooLarge);
+    assert!(codes[0].1.contains("300"), "{codes:?}");
+}
+
+#[test]
+fn equations_that_outgrow_every_computer_are_refused() {
+    // Each of many bodies moves with each of many coordinates, in its own way.
+    let codes = refused(
+        "machine Dense in plane {
+            constants { N = 200, B = 2000 }
+            parameters { m: kg = 1, l: m = 1 }
+            coordinates { q[1..N]: rad }
+            define { sum[0] = 0, sum[i in 1..N] = sum[i-1] + sin(q[i]) }
+            bodies { body[i in 1..B] { mass: i*m, at: (l*sin(i*sum[N]), l*cos(sum[N]/i)) } }
+        }",
+    );
+    assert_eq!(codes[0].0, Code::TooLarge, "{codes:?}");
+}

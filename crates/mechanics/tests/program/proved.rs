@@ -1,0 +1,297 @@
+//! The gate: no program leaves the compiler that is not what Lagrange's equations of its machine say.
+
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::{Disagreement, Proved, Witness};
+use lagrangian_program::{Mutant, Op, Program, Role, mutants};
+use lagrangian_spec::diagnostic::{Code, Report};
+use lagrangian_spec::source::{Disk, Sources};
+use lagrangian_symbolic::Dag;
+
+use crate::harness::{compiled, machine};
+use crate::machines::same_values;
+
+/// What is told of a text that cannot be compiled.
+fn told(text: &str) -> (Vec<Code>, String) {
+    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+    let model = lagrangian_spec::model(
+        &dag,
+        "test",
+        text,
+        &[],
+        &mut Disk,
+        &mut sources,
+        &mut report,
+    );
+    let made = model.and_then(|model| Compiled::new(model, &mut report));
+    assert!(made.is_none(), "nothing is emitted");
+    let codes = report.diagnostics().iter().map(|one| one.code).collect();
+    (codes, report.render_short(&sources))
+}
+
+/// Damaged programs are stopped, but for damage that changes nothing.
+fn assert_stopped(machine: &Compiled<'_>, stride: usize) {
+    let Compiled {
+        model,
+        equations,
+        program,
+    } = machine;
+    let (mut tried, mut idle) = (0, 0);
+    for Mutant {
+        change,
+        program: mutant,
+    } in mutants(program, stride)
+    {
+        tried += 1;
+        match Proved::new(mutant.clone(), model, equations) {
+            Err(unproved) => {
+                let diagnostic = unproved.diagnostic(model);
+                assert!(
+                    matches!(diagnostic.code, Code::Internal | Code::Undefined),
+                    "{unproved}"
+                );
+            }
+            Ok(_) => {
+                idle += 1;
+                assert!(
+                    same_values(model, program, &mutant),
+                    "{}: let through: {change}",
+                    program.name
+                );
+            }
+        }
+    }
+    println!("{}: {tried} tried, {idle} without effect", program.name);
+    assert!(
+        tried >= 15 && 5 * idle <= tried,
+        "{}: {idle} of {tried}",
+        program.name
+    );
+}
+
+#[test]
+fn damaged_programs_of_every_kind_of_machine_are_stopped() {
+    for (name, stride) in [
+        ("heavy_top", 7),
+        ("four_bar", 17),
+        ("rolling_coin", 23),
+        ("slider_crank", 13),
+        ("wedge_and_block", 5),
+        ("prisms", 7),
+        ("two_body_orbit", 3),
+        ("small_angle_crusher", 61),
+        ("frozen_crusher", 61),
+        ("rolling_cylinder", 2),
+    ] {
+        machine(name, &[], |machine| assert_stopped(machine, stride));
+    }
+}
+
+/// A quantity that was added to programs and not to the proof is not proved, and a program of it is stopped.
+#[test]
+fn a_function_that_nothing_is_compared_with_is_stopped() {
+    machine("double_pendulum", &[], |machine| {
+        let mut program = Program::clone(&machine.program);
+        let energy = program.function(Role::KineticEnergy).expect("it is there");
+        let mut unknown = energy.clone();
+        unknown.role = Role::Assumption(program.assumptions.len());
+        let role = unknown.role;
+        program.functions.push(unknown);
+        let unproved = Proved::new(program, &machine.model, &machine.equations)
+            .expect_err("nothing is known of it");
+        assert_eq!(unproved.disagreement, Disagreement::Unseen { role });
+        assert_eq!(unproved.diagnostic(&machine.model).code, Code::Internal);
+    });
+}
+
+/// What a function may depend on stands in its row: the potential energy does not depend on rates.
+#[test]
+fn a_function_reads_what_its_row_says() {
+    machine("double_pendulum", &[], |machine| {
+        let mut program = Program::clone(&machine.program);
+        let kinetic = program.function(Role::KineticEnergy).expect("it is there");
+        let mut wrong = kinetic.clone();
+        wrong.role = Role::PotentialEnergy;
+        let place = program.functions.iter().position(|f| f.role == wrong.role);
+        program.functions[place.expect("it is there")] = wrong;
+        let what = program.verify().expect_err("it reads rates");
+        assert!(what.contains("nothing that it may depend on"), "{what}");
+    });
+}
+
+/// Signs, powers, tables of exponentials and more roots than a field has squares for.
+const ROOTS: &str = "machine Roots in plane {
+    parameters { m: kg = 1, k: N/m = 3, c: N = 2, l: m = 1, b: kg/m = 0.1, p: 1 = 2.5 }
+    coordinates { x: m = 0.3, y: m = 0.4 }
+    bodies { ball { mass: m, at: (x, y) } }
+    springs {
+        s[i in 1..14] { stiffness: k, from: (i*l, -2*l), to: (x, y), length: l },
+    }
+    potentials { bowl: k*l^2*(2 + x^2/l^2)^p, well: c*exp(-x/l)*abs(x - y/3) }
+    dissipations { drag: b*abs(der(x))^3 }
+    forces { wind { at: (x, y), force: (c*max(x, y)/l, c*min(x/l, sin(y/l))) } }
+}";
+
+#[test]
+fn what_the_field_cannot_carry_is_compared_in_double_doubles() {
+    compiled(ROOTS, &[], |machine| {
+        let Compiled {
+            model,
+            equations,
+            program,
+        } = machine;
+        let mut at_states = 0;
+        for Mutant {
+            change,
+            program: mutant,
+        } in mutants(program, 5)
+        {
+            match Proved::new(mutant.clone(), model, equations) {
+                Err(unproved) => {
+                    at_states += usize::from(unproved.witness == Witness::States);
+                }
+                Ok(_) => assert!(
+                    same_values(model, program, &mutant),
+                    "let through: {change}"
+                ),
+            }
+        }
+        assert!(at_states > 100, "{at_states}");
+    });
+}
+
+#[test]
+fn a_machine_without_any_state_is_refused() {
+    let roots: Vec<String> = (1..=16).map(|k| format!("sqrt(-{k} - x^2)")).collect();
+    let text = format!(
+        "machine Nowhere in plane {{
+            parameters {{ c: J = 1, l: m = 1, m: kg = 1 }}
+            coordinates {{ x: rad = 0.3 }}
+            bodies {{ ball {{ mass: m, at: (l*x, 0) }} }}
+            potentials {{ p: c*({}) }}
+        }}",
+        roots.join(" + ")
+    );
+    let (codes, text) = told(&text);
+    assert_eq!(codes, [Code::Undefined], "{text}");
+    assert!(text.contains("no state was found"), "{text}");
+}
+
+/// The first program in which an operation of a function is damaged so that the gate says this.
+fn blamed(
+    machine: &Compiled<'_>,
+    role: Role,
+    is_it: impl Fn(&Disagreement) -> bool,
+) -> Option<String> {
+    let Compiled {
+        model,
+        equations,
+        program,
+    } = machine;
+    let of_role = mutants(program, 1).filter(|mutant| mutant.change.starts_with(&role.name()));
+    let mut found = of_role.filter_map(|mutant| {
+        let unproved = Proved::new(mutant.program, model, equations).err()?;
+        is_it(&unproved.disagreement).then(|| unproved.diagnostic(model).message)
+    });
+    found.next()
+}
+
+/// A block on a rail, which is pressed to it through two rods.
+const RODS: &str = "machine Rods in plane {
+    parameters { m: kg = 1, l: m = 1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+    coordinates { s: m = 0, x: m = 0.6, y: m = 0.8, z: m = 1.2, w: m = 0.1 }
+    frames { block = ground.shift(s, 0) }
+    bodies {
+        block { mass: m, frame: block, at: block.origin },
+        ball { mass: m, at: (x, y) },
+        bob { mass: 2*m, at: (z, w) },
+    }
+    gravity (0, -g);
+    sliding { rail { body: block, on: ground, direction: (1, 0), friction: mu } }
+    constraints { near: norm(ball.at - block.at) = l, far: norm(bob.at - ball.at) = l }
+}";
+
+#[test]
+fn a_wrong_program_is_told_by_the_names_of_the_spec() {
+    let constraint = |wanted: usize| move |found: &Disagreement| matches!(found, Disagreement::Constraint { constraint, .. } if *constraint == wanted);
+    machine("slider_crank", &[], |machine| {
+        for (index, constraint_of) in machine.program.constraints.iter().enumerate() {
+            let text = blamed(machine, Role::Accelerations, constraint(index));
+            let text = text.expect("a constraint can be broken");
+            assert!(
+                text.contains(&format!("`{}`", constraint_of.name)),
+                "{text}"
+            );
+        }
+    });
+    compiled(RODS, &[], |machine| {
+        // The second one alone: what was blamed used to be the first whatever had failed.
+        let far = damaged_row(machine, 1);
+        assert!(far.contains("`far`") && !far.contains("`near`"), "{far}");
+        let reaction = |found: &Disagreement| matches!(found, Disagreement::Reaction { .. });
+        let text = blamed(machine, Role::Friction, reaction).expect("a reaction can be wrong");
+        assert!(text.contains("`rail`"), "{text}");
+    });
+    machine("double_pendulum", &[], |machine| {
+        let motion = |found: &Disagreement| matches!(found, Disagreement::Motion { .. });
+        let text = blamed(machine, Role::Accelerations, motion).expect("a wrong acceleration");
+        assert!(text.contains("equation of motion of `theta"), "{text}");
+    });
+}
+
+/// What is said where the row and the drift of one constraint are right, and the accelerations obey
+/// all constraints but that one: its part of every response is doubled.
+fn damaged_row(machine: &Compiled<'_>, constraint: usize) -> String {
+    let Compiled {
+        model,
+        equations,
+        program,
+    } = machine;
+    let mut wrong: Program = (**program).clone();
+    let n = wrong.dimension();
+    let friction = wrong.functions.iter_mut();
+    let friction = friction.into_iter().find(|f| f.role == Role::Friction);
+    let function = friction.expect("it slides");
+    // A coordinate that this constraint holds and the others do not.
+    let rows = |k: usize| &equations.constraints[k].row;
+    let others = (0..equations.constraints.len()).filter(|k| *k != constraint);
+    let others: Vec<usize> = others.collect();
+    let own = (0..n)
+        .find(|&i| !rows(constraint)[i].is_zero() && others.iter().all(|&k| rows(k)[i].is_zero()));
+    let place = own.expect("a coordinate of its own");
+    let value = function.results[place];
+    function.code.push(Op::Add(value, value));
+    let doubled = lagrangian_program::Value(function.code.len() as u32 - 1);
+    function.results[place] = doubled;
+    let unproved = Proved::new(wrong, model, equations).expect_err("it is wrong");
+    unproved.diagnostic(model).message
+}
+
+#[test]
+fn derivatives_and_stages_are_proved_too() {
+    let library = |name: &str| crate::harness::library_text(name);
+    for name in ["double_pendulum", "cart_pole", "kapitza_pendulum"] {
+        let text = library(name);
+        let end = text.rfind('}').expect("a machine ends");
+        for section in [
+            "derivatives { coordinates, rates, parameters }",
+            "stages { time, coordinates }",
+        ] {
+            let text = format!("{} {section} }}", &text[..end]);
+            compiled(&text, &[], |machine| assert_stopped(machine, 11));
+        }
+    }
+}
+
+#[test]
+fn machines_whose_accelerations_are_determined_nowhere_are_let_through_with_their_guards() {
+    let text = "machine Twice in plane {
+        parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+        coordinates { x: m = 0.6, y: m = -0.8 }
+        bodies { bob { mass: m, at: (x, y) } }
+        gravity (0, -g);
+        constraints { rod: x^2 + y^2 = l^2, again: 2*x^2 + 2*y^2 = 2*l^2 }
+    }";
+    compiled(text, &[], |machine| {
+        assert_eq!(machine.program.constraints.len(), 2);
+    });
+}

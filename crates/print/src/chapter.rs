@@ -1,0 +1,242 @@
+//! What a derivation says: the chapter on one machine that a book on mechanics would have.
+//!
+//! Everything in it is computed from the model and its equations; what it says is not there has been decided in the prime
+//! field ([`Facts`]). Long formulas are left out, and the members in the middle of a long family: the text says so, and where
+//! to find them.
+
+mod conserved;
+mod constraints;
+mod contacts;
+mod energies;
+mod kinematics;
+mod machine;
+mod motion;
+mod program;
+mod published;
+
+use lagrangian_symbolic::{Expr, Math, Names, math};
+
+use super::document::{Block, Row, Run, Section, Words};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::equations::groups::{self, Contribution};
+use lagrangian_mechanics::equations::integrals::Facts;
+use lagrangian_spec::model::{Model, Name};
+
+/// Expressions of a greater [`size`](Expr::size) are not printed: they would fill pages, and nobody reads them.
+const READABLE: u64 = 3000;
+
+/// Of families with more members than this only the first ones and the last are shown.
+const LONG_FAMILY: usize = 6;
+
+/// How many members of a long family are shown before the last.
+const FIRST_MEMBERS: usize = 2;
+
+/// What every section is written from.
+struct Chapter<'a, 'd> {
+    compiled: &'a Compiled<'d>,
+    model: &'a Model<'d>,
+    contributions: Vec<Contribution<'d>>,
+    facts: Facts<'d>,
+}
+
+/// The sections of the chapter on a machine.
+pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
+    let chapter = Chapter {
+        compiled,
+        model: &compiled.model,
+        contributions: groups::contributions(&compiled.model),
+        facts: Facts::of(&compiled.model, &compiled.equations),
+    };
+    let sections = [
+        ("The machine", chapter.machine()),
+        ("Kinematics", chapter.kinematics()),
+        ("Energies and forces", chapter.energies()),
+        ("Equations of motion", chapter.motion()),
+        ("Constraints", chapter.constraints()),
+        ("Friction", chapter.contacts()),
+        ("Mass matrix", chapter.mass_matrix()),
+        (
+            "What is conserved, and what is not there",
+            chapter.conserved(),
+        ),
+        ("Published equations", chapter.published()),
+        ("The code", chapter.program()),
+    ];
+    let sections = sections
+        .into_iter()
+        .filter(|(_, blocks)| !blocks.is_empty());
+    sections
+        .map(|(title, blocks)| Section {
+            title: title.into(),
+            blocks,
+        })
+        .collect()
+}
+
+/// A line of words from its pieces.
+macro_rules! words {
+    ($($run:expr),* $(,)?) => { vec![$($crate::document::Run::from($run)),*] };
+}
+use words;
+
+impl<'d> Chapter<'_, 'd> {
+    /// A formula for an expression, arranged to be short.
+    fn math(&self, expression: Expr<'d>) -> Math {
+        math(expression, self.model.dag)
+    }
+
+    /// The name of a symbol, or a formula for what is none.
+    fn name(&self, symbol: Expr<'d>) -> Math {
+        match symbol.as_symbol() {
+            Some(symbol) => self.model.dag.math(symbol),
+            None => self.math(symbol),
+        }
+    }
+
+    /// `left = right`; or words on how long it would be.
+    fn equality(&self, left: Math, right: Expr<'d>, note: &str) -> Vec<Row> {
+        if right.size() > READABLE {
+            let long = Math::text(format!("{} symbols, not shown", right.size()));
+            return Row::lines(&left.equals(long), 0, note);
+        }
+        Row::lines(&left.equals(self.math(right)), 0, note)
+    }
+}
+
+/// An item of a list to be shown, or members of a family that are not.
+enum Shown {
+    /// The item of this index.
+    Item(usize),
+    /// So many items from this index on, members of one family.
+    LeftOut(usize, usize),
+}
+
+/// Which items of a list are shown: of a long family the first two and the last.
+fn shown<'n>(names: impl Iterator<Item = &'n Name>) -> Vec<Shown> {
+    let names: Vec<&Name> = names.collect();
+    let mut shown = Vec::new();
+    let mut begin = 0;
+    while begin < names.len() {
+        let family = |name: &&&Name| name.index.is_some() && name.base == names[begin].base;
+        let length = names[begin..].iter().take_while(family).count().max(1);
+        if length > LONG_FAMILY {
+            shown.extend((begin..begin + FIRST_MEMBERS).map(Shown::Item));
+            shown.push(Shown::LeftOut(
+                begin + FIRST_MEMBERS,
+                length - FIRST_MEMBERS - 1,
+            ));
+            shown.push(Shown::Item(begin + length - 1));
+        } else {
+            shown.extend((begin..begin + length).map(Shown::Item));
+        }
+        begin += length;
+    }
+    shown
+}
+
+/// `bob[3]` and `x_left`, as an index of a letter.
+fn label(name: &Name) -> Math {
+    let base = name.base.replace('_', " ");
+    match name.index {
+        Some(index) => Math::text(format!("{base} {index}")),
+        None => Math::text(base),
+    }
+}
+
+fn code(text: impl ToString) -> Run {
+    Run::Code(text.to_string())
+}
+
+/// What a doc comment says: paragraphs, with code where it has backticks.
+fn prose(docs: &str) -> Vec<Block> {
+    let paragraphs = docs.split("\n\n").filter(|text| !text.trim().is_empty());
+    paragraphs
+        .map(|text| Block::Paragraph(line(text)))
+        .collect()
+}
+
+/// The same as one line.
+fn line(docs: &str) -> Words {
+    let mut words = Vec::new();
+    let mut rest = docs.trim();
+    while let Some((before, after)) = rest.split_once('`') {
+        let Some((inside, after)) = after.split_once('`') else {
+            break;
+        };
+        words.extend(words![before]);
+        words.push(code(inside));
+        rest = after;
+    }
+    words.extend(words![rest]);
+    words
+}
+
+/// `a`, `a and b`, `a, b and c`.
+fn listed(items: impl IntoIterator<Item = Words>) -> Words {
+    let items: Vec<Words> = items.into_iter().collect();
+    let last = items.len().saturating_sub(1);
+    let mut words = Vec::new();
+    for (index, item) in items.into_iter().enumerate() {
+        match index {
+            0 => {}
+            _ if index == last => words.extend(words![" and "]),
+            _ => words.extend(words![", "]),
+        }
+        words.extend(item);
+    }
+    words
+}
+
+/// A paragraph from pieces of lines.
+fn paragraph(parts: impl IntoIterator<Item = Words>) -> Block {
+    Block::Paragraph(parts.into_iter().flatten().collect())
+}
+
+fn head(titles: &[&str]) -> Vec<Words> {
+    titles.iter().map(|title| words![*title]).collect()
+}
+
+/// `N*s/m^2` as people write it.
+fn unit(text: &str) -> Words {
+    let mut pretty = String::with_capacity(text.len());
+    let mut raised = false;
+    for letter in text.chars() {
+        raised = letter == '^' || (raised && (letter == '-' || letter.is_ascii_digit()));
+        pretty.push(match letter {
+            '^' => continue,
+            '*' => '·',
+            '-' if raised => '⁻',
+            '0'..='9' if raised => {
+                ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][letter as usize - '0' as usize]
+            }
+            letter => letter,
+        });
+    }
+    words![pretty]
+}
+
+/// `one thing`, `two things`, `12 things`.
+fn counted(n: usize, thing: &str) -> String {
+    const SMALL: [&str; 13] = [
+        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+        "eleven", "twelve",
+    ];
+    let number = SMALL
+        .get(n)
+        .map_or_else(|| n.to_string(), |word| (*word).to_owned());
+    let plural = match (n, thing.strip_suffix('y')) {
+        (1, _) => thing.to_owned(),
+        (_, Some(stem)) => format!("{stem}ies"),
+        (_, None) => format!("{thing}s"),
+    };
+    format!("{number} {plural}")
+}
+
+/// With a capital at its beginning.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters
+        .next()
+        .map(|letter| letter.to_uppercase().to_string());
+    first.into_iter().chain([letters.collect()]).collect()
+}

@@ -1,0 +1,287 @@
+//! What is conserved, and what the equations are free of; every line has been decided for this very machine.
+
+use lagrangian_symbolic::{Expr, Math, math_as_built, substitute};
+
+use super::kinematics::particles;
+use super::{Chapter, READABLE, capital, code, counted, listed, words};
+use crate::document::{Block, Row, Words};
+use lagrangian_mechanics::equations::groups::{Term, compact};
+use lagrangian_mechanics::equations::integrals::{Cyclic, Energy};
+use lagrangian_spec::model::{Space, stage};
+
+/// The most names in a sentence.
+const LONGEST_LIST: usize = 12;
+
+impl<'d> Chapter<'_, 'd> {
+    pub(super) fn conserved(&self) -> Vec<Block> {
+        let mut blocks = self.energy_balance();
+        for cyclic in self.facts.cyclic.iter().take(LONGEST_LIST) {
+            blocks.extend(self.cyclic(cyclic));
+        }
+        if self.facts.cyclic.len() > LONGEST_LIST {
+            let more = counted(self.facts.cyclic.len() - LONGEST_LIST, "more coordinate");
+            blocks.push(Block::Paragraph(words![format!("Cyclic as well: {more}.")]));
+        }
+        let absent = self.absent();
+        if !absent.is_empty() {
+            blocks.push(Block::Paragraph(words!["What is not there costs nothing:"]));
+            blocks.push(Block::List(absent));
+        }
+        blocks
+    }
+
+    fn energy_balance(&self) -> Vec<Block> {
+        let letter = Math::letter;
+        let equations = &self.compiled.equations;
+        let sum = || letter('T') + letter('V');
+        match &self.facts.energy {
+            Energy::Conserved => {
+                let text = "Energy is conserved: nothing drives the machine, nothing damps it. Along every motion";
+                let constant = sum().equals(Math::text("constant"));
+                vec![Block::Paragraph(words![text]), Block::formula(&constant)]
+            }
+            Energy::Jacobi(integral) => {
+                let text = "Energy is not conserved, since something is driven; but the energies do not show explicit time, \
+                            and Jacobi's integral is conserved:";
+                let rows = self.equality(Math::letter('E'), *integral, "");
+                vec![Block::Paragraph(words![text]), Block::Formula(rows)]
+            }
+            Energy::Balance => {
+                let rate = Math::fraction(letter('d'), letter('d') * letter('t'));
+                let mut rows = Vec::new();
+                let mut right = Math::default();
+                let mut explain = |letter: char, value: Expr<'d>, note: &str| {
+                    rows.extend(self.equality(Math::letter(letter), value, note));
+                };
+                if !equations.work_rate.is_zero() {
+                    right = Math::letter('P');
+                    explain('P', equations.work_rate, "put in");
+                }
+                if !equations.dissipation_rate.is_zero() {
+                    let damped = Math::letter('R');
+                    right = if right.is_empty() {
+                        -damped
+                    } else {
+                        right - damped
+                    };
+                    explain('R', equations.dissipation_rate, "taken out");
+                }
+                let balance = (rate * sum().in_parentheses()).equals(right);
+                let mut lines = Row::lines(&balance, 0, "");
+                lines.extend(rows);
+                let text = "Energy is not conserved. Along every motion";
+                vec![Block::Paragraph(words![text]), Block::Formula(lines)]
+            }
+        }
+    }
+
+    fn cyclic(&self, cyclic: &Cyclic<'d>) -> Vec<Block> {
+        let coordinate = &self.model.coordinates[cyclic.coordinate];
+        let q = || self.name(coordinate.q);
+        let p = || Math::letter('p').with_index(q());
+        let (t, v) = (Math::letter('T'), Math::letter('V'));
+        let mut words = words![q(), " is cyclic: neither ", t, " nor ", v, " depends on it"];
+        words.extend(match cyclic.force.is_zero() {
+            true => words![", and nothing else acts on it. Its momentum is conserved:"],
+            false if self.compiled.equations.constraints.is_empty() => {
+                words![". Its momentum is changed by what is applied and damped alone:"]
+            }
+            false => {
+                words![
+                    ". Its momentum is changed by what is applied, damped and constrained alone:"
+                ]
+            }
+        });
+        let momentum = self.momentum(cyclic);
+        let mut rows = Row::lines(&p().equals(momentum), 0, "");
+        if !cyclic.force.is_zero() {
+            let rate = Math::letter('p').dotted().with_index(q());
+            // By its sources, of which those that cancel are 0.
+            let forces = self
+                .contributions
+                .iter()
+                .map(|part| part.forces[cyclic.coordinate]);
+            let reactions = self.compiled.equations.constraints.iter();
+            let reactions = reactions.map(|c| c.row[cyclic.coordinate] * c.multiplier);
+            let all = self.model.dag.sum(forces.chain(reactions));
+            rows.extend(self.equality(rate, all, ""));
+        }
+        vec![Block::Paragraph(words), Block::Formula(rows)]
+    }
+
+    /// `Σ Mᵢⱼ vⱼ`, and what is driven.
+    fn momentum(&self, cyclic: &Cyclic<'d>) -> Math {
+        let model = self.model;
+        let dag = model.dag;
+        let at_rest: Vec<_> = model
+            .coordinates
+            .iter()
+            .filter_map(|c| Some((c.v.as_symbol()?, dag.zero())))
+            .collect();
+        let driven = substitute(dag, &[cyclic.momentum], &at_rest)[0];
+        let row = model
+            .coordinates
+            .iter()
+            .enumerate()
+            .map(|(j, coordinate)| Term {
+                coefficient: *self
+                    .compiled
+                    .equations
+                    .mass_matrix
+                    .get(cyclic.coordinate, j),
+                factor: coordinate.v,
+            });
+        let driven = Term {
+            coefficient: driven,
+            factor: dag.one(),
+        };
+        let terms: Vec<Term<'d>> = row
+            .chain([driven])
+            .map(|term| Term {
+                coefficient: compact(term.coefficient),
+                ..term
+            })
+            .filter(|term| !term.coefficient.is_zero())
+            .collect();
+        let size = terms.iter().fold(0, |size: u64, term| {
+            size.saturating_add(term.value().size())
+        });
+        if size > READABLE {
+            return Math::text(format!("{size} symbols, not shown"));
+        }
+        let mut sum = Math::default();
+        for (position, term) in terms.iter().enumerate() {
+            let term = self.term(term);
+            sum = if position == 0 { term } else { sum + term };
+        }
+        if sum.is_empty() { Math::number(0) } else { sum }
+    }
+
+    /// What the machine lacks, and what stands still.
+    fn absent(&self) -> Vec<Words> {
+        let model = self.model;
+        let equations = &self.compiled.equations;
+        let matrix = equations.mass_matrix.lower();
+        let mut items = Vec::new();
+        let zeros = matrix.iter().filter(|entry| entry.is_zero()).count();
+        let constants = matrix
+            .iter()
+            .filter(|entry| entry.stage() <= stage::PARAMETER)
+            .count()
+            - zeros;
+        if self.facts.constant_mass_matrix {
+            items.push(words![
+                "The mass matrix is constant: it is known when the parameters are."
+            ]);
+        } else if constants > 0 {
+            let verb = if constants == 1 { "depends" } else { "depend" };
+            let entries = capital(&counted(constants, "entry"));
+            items.push(words![format!(
+                "{entries} of the mass matrix, on and below the diagonal, {verb} on parameters only."
+            )]);
+        }
+        if zeros > 0 {
+            let verb = if zeros == 1 { "is" } else { "are" };
+            let entries = capital(&counted(zeros, "entry"));
+            items.push(words![format!(
+                "{entries} of the mass matrix, of {} on and below the diagonal, {verb} zero.",
+                matrix.len()
+            )]);
+        }
+        if self.facts.blocks.len() > 1 {
+            items.push(self.blocks());
+        }
+        if equations.bias.iter().all(|h| h.is_zero()) {
+            items.push(words![
+                "No terms of velocities: the inertia forces are linear in the accelerations."
+            ]);
+        } else {
+            let free: Vec<usize> = (0..equations.bias.len())
+                .filter(|&i| equations.bias[i].is_zero())
+                .collect();
+            if !free.is_empty() {
+                let mut words = words!["No terms of velocities in the inertia of "];
+                words.extend(self.coordinates(&free));
+                words.extend(words!["."]);
+                items.push(words);
+            }
+        }
+        if self.facts.autonomous {
+            items.push(words![
+                "Explicit time: neither energies nor forces depend on it."
+            ]);
+        }
+        if equations.potential_energy.is_zero() {
+            items.push(words!["Potential energy: there is none."]);
+        }
+        if equations.dissipation.is_zero() {
+            items.push(words!["Dissipation: there is none."]);
+        }
+        if model.forces.is_empty() && model.torques.is_empty() {
+            items.push(words!["Applied forces and torques: there are none."]);
+        }
+        let particles = particles(&model.bodies);
+        if !particles.is_empty() {
+            let names = particles
+                .iter()
+                .take(LONGEST_LIST)
+                .map(|body| words![code(&body.name)]);
+            let mut words = words!["Inertia against turning: "];
+            words.extend(listed(names));
+            let more = particles.len().saturating_sub(LONGEST_LIST);
+            words.extend(words![match (more, particles.len(), model.space) {
+                (0, 1, _) => " is a particle.".to_owned(),
+                (0, _, Space::Plane | Space::Space) => " are particles.".to_owned(),
+                (more, ..) => format!(" and {more} more are particles."),
+            }]);
+            items.push(words);
+        }
+        items
+    }
+
+    /// Which accelerations occur together.
+    fn blocks(&self) -> Words {
+        let (alone, together): (Vec<&Vec<usize>>, Vec<_>) =
+            self.facts.blocks.iter().partition(|block| block.len() == 1);
+        let mut sentences: Vec<Words> = Vec::new();
+        for block in together {
+            let mut words = words!["the accelerations of "];
+            words.extend(self.coordinates(block));
+            words.extend(words![" occur together"]);
+            sentences.push(words);
+        }
+        if !alone.is_empty() {
+            let alone: Vec<usize> = alone.into_iter().flatten().copied().collect();
+            let verb = if alone.len() == 1 {
+                " stands alone"
+            } else {
+                " stand alone, each by itself"
+            };
+            let mut words = words![if alone.len() == 1 {
+                "that of "
+            } else {
+                "those of "
+            }];
+            words.extend(self.coordinates(&alone));
+            words.extend(words![verb]);
+            sentences.push(words);
+        }
+        let mut words = words!["Coupling by inertia: "];
+        words.extend(listed(sentences));
+        words.extend(words!["."]);
+        words
+    }
+
+    /// The names of some coordinates.
+    fn coordinates(&self, indices: &[usize]) -> Words {
+        let name = |&i: &usize| words![math_as_built(self.model.coordinates[i].q, self.model.dag)];
+        let mut words = listed(indices.iter().take(LONGEST_LIST).map(name));
+        if indices.len() > LONGEST_LIST {
+            words.extend(words![format!(
+                " and {} more",
+                indices.len() - LONGEST_LIST
+            )]);
+        }
+        words
+    }
+}

@@ -1,0 +1,84 @@
+//! Guided contacts: how they slide, what presses, and what friction does with that.
+
+use lagrangian_symbolic::Math;
+use lagrangian_symbolic::print::{Form, Mark, Sign};
+
+use super::{Chapter, words};
+use crate::document::{Block, Row};
+use lagrangian_mechanics::SlidingEquation;
+
+impl<'d> Chapter<'_, 'd> {
+    pub(super) fn contacts(&self) -> Vec<Block> {
+        let contacts = &self.compiled.equations.sliding;
+        if contacts.is_empty() {
+            return Vec::new();
+        }
+        let letter = Math::letter;
+        let size = |x: Math| Math::form(Form::Bars, [x]);
+        let sign = Math::mark(Mark::Function("sgn"));
+        let sign = sign.then(Sign::Apply, letter('w'));
+        let slides = Math::sign(Sign::Negative);
+        let slides = Math::row([slides, letter('μ') * size(letter('N')) * sign]);
+        let slides = letter('F').equals(slides);
+        let mut blocks = vec![
+            Block::Paragraph(words![
+                "The friction ",
+                letter('F'),
+                " of a contact that slides with the velocity ",
+                letter('w'),
+                " is",
+            ]),
+            Block::Formula(Row::lines(&slides, 0, "")),
+            Block::Paragraph(words![
+                "and of one that sticks whatever holds it, up to ",
+                letter('μ').with_index(Math::number(0)) * size(letter('N')),
+                ". The normal reaction ",
+                letter('N'),
+                " is what keeps the guide shut: the equation of a displacement along its normal. It depends on the \
+                 accelerations, and so friction changes the matrix in front of them.",
+            ]),
+        ];
+        for contact in contacts {
+            blocks.extend(self.contact(contact));
+        }
+        blocks
+    }
+
+    fn contact(&self, contact: &SlidingEquation<'d>) -> Vec<Block> {
+        let heading = Block::Heading(words!["Contact ", contact.name.clone()]);
+        let letter = Math::letter;
+        let mut rows = self.equality(letter('w'), contact.slip, "slip");
+        let constraints = self.compiled.equations.constraints.iter();
+        let held = constraints.zip(&contact.by_multipliers);
+        let held = held.map(|(constraint, &by)| by * constraint.multiplier);
+        let normal = contact.normal(self.model);
+        let normal = self.model.dag.sum(std::iter::once(normal).chain(held));
+        rows.extend(self.equality(letter('N'), normal, "normal reaction"));
+        rows.extend(self.equality(letter('μ'), contact.friction, ""));
+        if contact.static_friction != contact.friction {
+            let name = letter('μ').with_index(Math::number(0));
+            rows.extend(self.equality(name, contact.static_friction, ""));
+        }
+        for (coordinate, &entry) in self.model.coordinates.iter().zip(&contact.row) {
+            if !entry.is_zero() {
+                let on = self.name(coordinate.q);
+                let force = letter('Q').with_index(on);
+                let entry = if entry.is_one() {
+                    letter('F')
+                } else {
+                    self.math(entry) * letter('F')
+                };
+                rows.extend(Row::lines(&force.equals(entry), 0, "its part of the force"));
+            }
+        }
+        let mut blocks = vec![heading, Block::Formula(rows)];
+        if contact.by_friction_forces.iter().any(|by| !by.is_zero()) {
+            blocks.push(Block::Paragraph(words![
+                "The friction forces of other contacts press on this guide as well; that is left out of ",
+                letter('N'),
+                " here.",
+            ]));
+        }
+        blocks
+    }
+}

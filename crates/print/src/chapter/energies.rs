@@ -1,0 +1,215 @@
+//! Energies, dissipation and applied forces, each by what it comes from.
+
+use lagrangian_symbolic::print::Sign;
+use lagrangian_symbolic::{Expr, Math};
+
+use super::{Chapter, Shown, code, label, listed, paragraph, shown, words};
+use crate::document::{Block, Row, Words};
+use lagrangian_mechanics::equations::groups::{Contribution, Source};
+use lagrangian_spec::model::{Name, Space};
+
+/// A sum of energies longer than this is not written out: its terms stand above it.
+const LONGEST_SUM: u64 = 400;
+
+impl<'d> Chapter<'_, 'd> {
+    pub(super) fn energies(&self) -> Vec<Block> {
+        let mut blocks = self.kinetic_energy();
+        let is_potential = |source: Source| {
+            matches!(
+                source,
+                Source::Gravity | Source::Spring(_) | Source::Potential(_)
+            )
+        };
+        let is_dissipation =
+            |source: Source| matches!(source, Source::Damper(_) | Source::Dissipation(_));
+        let equations = &self.compiled.equations;
+        blocks.extend(self.energy(
+            'V',
+            "Potential energy",
+            is_potential,
+            equations.potential_energy,
+        ));
+        blocks.extend(self.energy(
+            'D',
+            "Rayleigh's dissipation function",
+            is_dissipation,
+            equations.dissipation,
+        ));
+        blocks.extend(self.forces());
+        blocks
+    }
+
+    fn kinetic_energy(&self) -> Vec<Block> {
+        let bodies = &self.model.bodies;
+        if bodies.is_empty() {
+            return Vec::new();
+        }
+        let letter = Math::letter;
+        let k = || letter('k');
+        let half = || Math::fraction(Math::number(1), Math::number(2));
+        let r = || Math::bold('r').dotted().with_index(k());
+        let linear = half() * letter('m').with_index(k()) * r().then(Sign::Dot, r());
+        let angular = match self.model.space {
+            Space::Plane => {
+                half() * letter('J').with_index(k()) * letter('ω').with_index(k()).squared()
+            }
+            Space::Space => {
+                let omega = || Math::bold('ω').with_index(k());
+                half() * omega().then(Sign::Dot, Math::bold('J').with_index(k()) * omega())
+            }
+        };
+        let sum = Math::form(
+            lagrangian_symbolic::print::Form::Under,
+            [Math::sign(Sign::Sum), k()],
+        );
+        let general = letter('T').equals(sum * (linear + angular).in_parentheses());
+        let mut blocks = vec![
+            Block::Paragraph(words!["Kinetic energy, over all bodies:"]),
+            Block::formula(&general),
+        ];
+        let of_body = |name: &Name| letter('T').with_index(label(name));
+        let mut rows = Vec::new();
+        let mut sum = Math::default();
+        for (position, shown) in shown(bodies.iter().map(|body| &body.name))
+            .into_iter()
+            .enumerate()
+        {
+            let term = match shown {
+                Shown::Item(index) => {
+                    let energy = self.compiled.equations.bodies[index].kinetic_energy;
+                    rows.extend(self.equality(of_body(&bodies[index].name), energy, ""));
+                    of_body(&bodies[index].name)
+                }
+                Shown::LeftOut(..) => Math::sign(Sign::Dots),
+            };
+            sum = if position == 0 { term } else { sum + term };
+        }
+        let total = self.compiled.equations.kinetic_energy;
+        if bodies.len() > 1 {
+            if total.size() <= LONGEST_SUM {
+                sum = sum.equals(self.math(total));
+            }
+            rows.extend(Row::lines(&letter('T').equals(sum), 0, ""));
+        }
+        blocks.push(Block::Formula(rows));
+        blocks
+    }
+
+    /// An energy by its sources, and its sum.
+    fn energy(
+        &self,
+        letter: char,
+        title: &str,
+        is_part: impl Fn(Source) -> bool,
+        total: Expr<'d>,
+    ) -> Vec<Block> {
+        let parts = self
+            .contributions
+            .iter()
+            .filter(|part| is_part(part.source));
+        let parts: Vec<(Name, &Contribution<'d>, Expr<'d>)> = parts
+            .filter_map(|part| Some((self.name_of(part.source), part, part.energy?)))
+            .collect();
+        if parts.is_empty() {
+            return Vec::new();
+        }
+        let mut rows = Vec::new();
+        for shown in shown(parts.iter().map(|(name, ..)| name)) {
+            match shown {
+                Shown::Item(index) => {
+                    let (name, part, energy) = &parts[index];
+                    let left = Math::letter(letter).with_index(label(name));
+                    rows.extend(self.equality(left, *energy, kind_of(part.source)));
+                }
+                Shown::LeftOut(from, count) => {
+                    let text = format!("and {count} more of {}", parts[from].0.base);
+                    rows.extend(Row::lines(&Math::text(text), 0, ""));
+                }
+            }
+        }
+        if parts.len() > 1 && total.size() <= LONGEST_SUM {
+            let total = Math::letter(letter).equals(self.math(total));
+            rows.extend(Row::lines(&total, 0, "together"));
+        }
+        vec![
+            Block::Paragraph(words![format!("{title}, by what it comes from:")]),
+            Block::Formula(rows),
+        ]
+    }
+
+    /// Applied forces and torques: what each does along the coordinates.
+    fn forces(&self) -> Vec<Block> {
+        let parts = self.contributions.iter();
+        let parts = parts.filter(|part| part.energy.is_none());
+        let parts: Vec<(Name, &Contribution<'d>)> = parts
+            .map(|part| (self.name_of(part.source), part))
+            .collect();
+        if parts.is_empty() {
+            return Vec::new();
+        }
+        let mut rows = Vec::new();
+        let mut idle: Vec<Words> = Vec::new();
+        for shown in shown(parts.iter().map(|(name, _)| name)) {
+            match shown {
+                Shown::Item(index) => {
+                    let (name, part) = &parts[index];
+                    let acting = part.forces.iter().zip(&self.model.coordinates);
+                    let acting: Vec<_> = acting.filter(|(force, _)| !force.is_zero()).collect();
+                    if acting.is_empty() {
+                        idle.push(words![code(name)]);
+                    }
+                    let note = format!("{} {name}", kind_of(part.source));
+                    for (position, (force, coordinate)) in acting.into_iter().enumerate() {
+                        let left = Math::letter('Q').with_index(self.name(coordinate.q));
+                        let note = if position == 0 { note.as_str() } else { "" };
+                        rows.extend(self.equality(left, *force, note));
+                    }
+                }
+                Shown::LeftOut(from, count) => {
+                    let text = format!("and {count} more of {}", parts[from].0.base);
+                    rows.extend(Row::lines(&Math::text(text), 0, ""));
+                }
+            }
+        }
+        let text = "What applied forces and torques contribute to the generalized forces, by their virtual work; what is \
+                    not listed is zero:";
+        let mut blocks = vec![Block::Paragraph(words![text]), Block::Formula(rows)];
+        if !idle.is_empty() {
+            blocks.push(paragraph([
+                words!["No work is done by "],
+                listed(idle),
+                words!["."],
+            ]));
+        }
+        blocks
+    }
+
+    /// What the spec calls a source.
+    fn name_of(&self, source: Source) -> Name {
+        let model = self.model;
+        match source {
+            Source::Gravity => Name {
+                base: "gravity".into(),
+                index: None,
+            },
+            Source::Spring(k) => model.springs[k].name.clone(),
+            Source::Potential(k) => model.potentials[k].name.clone(),
+            Source::Damper(k) => model.dampers[k].name.clone(),
+            Source::Dissipation(k) => model.dissipations[k].name.clone(),
+            Source::Force(k) => model.forces[k].name.clone(),
+            Source::Torque(k) => model.torques[k].name.clone(),
+        }
+    }
+}
+
+fn kind_of(source: Source) -> &'static str {
+    match source {
+        Source::Gravity => "",
+        Source::Spring(_) => "spring",
+        Source::Potential(_) => "potential",
+        Source::Damper(_) => "damper",
+        Source::Dissipation(_) => "dissipation",
+        Source::Force(_) => "force",
+        Source::Torque(_) => "torque",
+    }
+}

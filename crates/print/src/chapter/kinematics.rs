@@ -1,0 +1,186 @@
+//! Kinematics: frames of reference; where bodies are, how fast they move, how they turn.
+
+use lagrangian_symbolic::{Expr, Math, print::Sign};
+
+use super::{Chapter, Shown, code, label, line, listed, shown, words};
+use crate::document::{Block, Words};
+use lagrangian_mechanics::angular_velocities;
+use lagrangian_spec::model::{Body, Frame, Inertia, PoseId, Space, Step};
+
+impl<'d> Chapter<'_, 'd> {
+    pub(super) fn kinematics(&self) -> Vec<Block> {
+        let mut blocks = Vec::new();
+        if !self.model.frames.is_empty() {
+            blocks.push(Block::Paragraph(words![
+                "Frames of reference, each by how it comes from another:"
+            ]));
+            let frames = &self.model.frames;
+            let item = |shown| match shown {
+                Shown::Item(index) => self.frame(&frames[index]),
+                Shown::LeftOut(from, count) => {
+                    words![format!(
+                        "… and {count} more of {}, made in the same way",
+                        frames[from].name.base
+                    )]
+                }
+            };
+            let items = shown(frames.iter().map(|frame| &frame.name))
+                .into_iter()
+                .map(item);
+            blocks.push(Block::List(items.collect()));
+        }
+        if self.model.bodies.is_empty() {
+            return blocks;
+        }
+        let turning = match self.model.space {
+            Space::Plane => {
+                "positions and velocities of mass centres along the ground's axes, and angular velocities"
+            }
+            Space::Space => {
+                "positions and velocities of mass centres along the ground's axes, and angular velocities about each \
+                 body's own axes"
+            }
+        };
+        let exact = match self.model.approximations.is_empty() {
+            true => "",
+            false => "; all of these are exact, approximations begin with the energies",
+        };
+        blocks.push(Block::Paragraph(words![format!(
+            "The bodies: {turning}{exact}."
+        )]));
+        let angular = angular_velocities(self.model);
+        for shown in shown(self.model.bodies.iter().map(|body| &body.name)) {
+            match shown {
+                Shown::Item(index) => blocks.extend(self.body(index, &angular[index])),
+                Shown::LeftOut(from, count) => {
+                    let base = &self.model.bodies[from].name.base;
+                    let text = format!(
+                        "{count} more bodies of the family {base} follow in the same way; they are left out here, and \
+                         "
+                    );
+                    let words = words![
+                        text,
+                        code("derive --as program"),
+                        " has what is computed for each."
+                    ];
+                    blocks.push(Block::Paragraph(words));
+                }
+            }
+        }
+        blocks
+    }
+
+    /// `platform`: the ground, moved by (x, y), turned by θ.
+    fn frame(&self, frame: &Frame) -> Words {
+        let model = self.model;
+        let mut steps: Vec<Words> = Vec::new();
+        let mut here = frame.pose;
+        // Up to the nearest frame that has a name and stands before this one.
+        let parent = loop {
+            let pose = &model.poses[here.index()];
+            match &pose.step {
+                Step::Ground => break words!["the ground"],
+                Step::Shift(by) => {
+                    steps.push(words!["moved by ", self.tuple(by), " along its axes"])
+                }
+                Step::Turn { angle, .. } if model.space == Space::Plane => {
+                    steps.push(words!["turned by ", self.math(*angle)]);
+                }
+                Step::Turn { axis, angle } => {
+                    let axis = Math::letter(['x', 'y', 'z'][axis % 3]);
+                    steps.push(words!["turned about ", axis, " by ", self.math(*angle)]);
+                }
+            }
+            here = pose.parent;
+            let named = model.frames.iter().find(|other| other.pose == here);
+            if let Some(named) = named.filter(|_| here != PoseId::GROUND) {
+                break words![code(&named.name)];
+            }
+        };
+        let mut words = words![code(&frame.name), ": "];
+        words.extend(parent);
+        for step in steps.into_iter().rev() {
+            words.extend(words![", "]);
+            words.extend(step);
+        }
+        if !frame.docs.is_empty() {
+            words.extend(words![". "]);
+            words.extend(line(&frame.docs));
+        }
+        words
+    }
+
+    /// `(a, b)`.
+    fn tuple(&self, components: &[Expr<'d>]) -> Math {
+        let components = components.iter().map(|&component| self.math(component));
+        Math::joined(components, Sign::Comma).in_parentheses()
+    }
+
+    fn body(&self, index: usize, angular: &[Expr<'d>]) -> Vec<Block> {
+        let body = &self.model.bodies[index];
+        let derived = &self.compiled.equations.bodies[index];
+        let mut blocks = vec![Block::Heading(words![body.name.to_string()])];
+        let mut words = self.inertia(body);
+        if !body.docs.is_empty() {
+            words.extend(words![" "]);
+            words.extend(line(&body.docs));
+        }
+        blocks.push(Block::Paragraph(words));
+        let mut rows = Vec::new();
+        for (&axis, &position) in ['x', 'y', 'z'].iter().zip(&derived.position) {
+            let axis = Math::letter(axis).with_index(label(&body.name));
+            rows.extend(self.equality(axis, position, ""));
+        }
+        for (&axis, &velocity) in ['x', 'y', 'z'].iter().zip(&derived.velocity) {
+            let rate = Math::letter(axis).dotted().with_index(label(&body.name));
+            rows.extend(self.equality(rate, velocity, ""));
+        }
+        let omega = || Math::letter('ω');
+        match angular {
+            [] => {}
+            [about] => {
+                rows.extend(self.equality(omega().with_index(label(&body.name)), *about, ""));
+            }
+            all => {
+                for (&axis, &about) in ['x', 'y', 'z'].iter().zip(all) {
+                    let index = [label(&body.name), Math::letter(axis)];
+                    let omega = omega().with_index(Math::joined(index, Sign::Comma));
+                    rows.extend(self.equality(omega, about, ""));
+                }
+            }
+        }
+        blocks.push(Block::Formula(rows));
+        blocks
+    }
+
+    /// Mass and inertia in words.
+    fn inertia(&self, body: &Body<'d>) -> Words {
+        let mut words = words!["Mass ", self.math(body.mass)];
+        match &body.inertia {
+            Inertia::Particle => words.extend(words!["; a particle: turning it takes no energy."]),
+            Inertia::Planar(inertia) => {
+                words.extend(words![", moment of inertia ", self.math(*inertia), "."]);
+            }
+            Inertia::Tensor(tensor) => {
+                let list = |entries: &[Expr<'d>]| {
+                    listed(entries.iter().map(|&entry| words![self.math(entry)]))
+                };
+                words.extend(words![", moments of inertia "]);
+                words.extend(list(&tensor[..3]));
+                if tensor[3..].iter().any(|product| !product.is_zero()) {
+                    words.extend(words![", entries "]);
+                    words.extend(list(&tensor[3..]));
+                    words.extend(words![" of the tensor off its diagonal (xy, xz, yz)"]);
+                }
+                words.extend(words![", about its mass centre along its own axes."]);
+            }
+        }
+        words
+    }
+}
+
+/// Bodies whose rotation carries no energy.
+pub(super) fn particles<'a, 'd>(bodies: &'a [Body<'d>]) -> Vec<&'a Body<'d>> {
+    let is_particle = |body: &&Body<'d>| matches!(body.inertia, Inertia::Particle);
+    bodies.iter().filter(is_particle).collect()
+}

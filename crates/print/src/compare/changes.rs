@@ -1,0 +1,280 @@
+//! Which of the terms to add are terms to drop that somebody mistyped: the slips of a print.
+//!
+//! Two terms are as far apart as the slips that lead from one to the other:
+//!
+//! | slip | distance |
+//! | --- | --- |
+//! | the sign | 1 |
+//! | the number in front | 1 |
+//! | a factor too much or too few, or in another power | 1 |
+//! | a dot too much or too few: `x`, `der(x)` | 1 |
+//! | another index: `s1`, `s2`; `m`, `m0` | 1 |
+//! | sine for cosine, or another angle in it | 1 |
+//! | another bracket | 1 |
+//! | any other factor for another | 2 |
+//!
+//! Terms at a distance of two or less that have a factor in common, up to such slips, are a change.
+//! Of all ways to join terms to drop with terms to add, one at most with each, that with the
+//! smallest sum of distances is taken, where a term that is left alone counts for more than a
+//! change. Of equal ones the one in which the fewest slips are in what moves, and then that whose
+//! terms stand nearest to each other in the two lists.
+
+use lagrangian_symbolic::{Expr, Function, Node, Rational};
+
+use lagrangian_spec::model::stage;
+
+/// The most slips in a change.
+const SLIPS: u64 = 2;
+
+/// The most terms that are joined: finding the best way takes time with the cube of their number.
+const TERMS: usize = 150;
+
+/// The changes among terms to drop and terms to add, by their places in the two lists, in the order
+/// of the first.
+pub(super) fn pairs(drop: &[Expr<'_>], add: &[Expr<'_>]) -> Vec<(usize, usize)> {
+    if drop.is_empty() || add.is_empty() || drop.len() + add.len() > TERMS {
+        return Vec::new();
+    }
+    let [from, to] = [drop, add].map(|list| list.iter().map(|&e| Term::of(e)).collect::<Vec<_>>());
+    // What counts first weighs more than all together that counts later: `TERMS` slips, `TERMS²`
+    // places.
+    const SLIP: u64 = 1 << 32;
+    const MOVING: u64 = 1 << 16;
+    const { assert!(TERMS * TERMS < MOVING as usize) };
+    let cost = |i: usize, j: usize| match to.get(j) {
+        Some(to) => match from[i].distance(to) {
+            Some((slips, moving)) => slips * SLIP + moving * MOVING + i.abs_diff(j) as u64,
+            None => 3 * SLIPS * SLIP,
+        },
+        // Stays alone.
+        None => (SLIPS + 1) * SLIP,
+    };
+    let places = assignment(drop.len(), add.len() + drop.len(), cost);
+    let joined = places.into_iter().enumerate();
+    joined.filter(|&(_, j)| j < add.len()).collect()
+}
+
+/// A power.
+pub(super) type Factor<'d> = (Expr<'d>, i32);
+
+/// A product, factor by factor.
+pub(super) struct Term<'d> {
+    /// The number in front.
+    pub coefficient: Rational,
+    /// Everything else.
+    pub factors: Vec<Factor<'d>>,
+}
+
+impl<'d> Term<'d> {
+    pub fn of(term: Expr<'d>) -> Term<'d> {
+        let dag = term.dag();
+        let (coefficient, product) = match term.node() {
+            Node::Sum(inner) if inner.len() == 1 => (inner[0].1.clone(), dag.expr(inner[0].0)),
+            Node::Constant(value) => (value, dag.one()),
+            _ => (Rational::ONE, term),
+        };
+        let factors = match product.node() {
+            Node::Product(factors) => factors.iter().map(|&(id, n)| (dag.expr(id), n)).collect(),
+            _ if product.is_one() => Vec::new(),
+            _ => vec![(product, 1)],
+        };
+        Term {
+            coefficient,
+            factors,
+        }
+    }
+
+    /// How many slips lead to another term, and in how many factors that move; `None` if they are
+    /// too many, or the terms have nothing in common.
+    fn distance(&self, other: &Term<'d>) -> Option<(u64, u64)> {
+        let mut slips = 0;
+        slips += u64::from(self.coefficient.is_negative() != other.coefficient.is_negative());
+        slips += u64::from(self.coefficient.abs() != other.coefficient.abs());
+        let (mut here, mut there) = (self.factors.clone(), other.factors.clone());
+        let (mut common, mut moving) = (0, 0);
+        let moves = |factor: &Factor<'d>| u64::from(factor.0.stage() > stage::PARAMETER);
+        // The same factors first, then those that differ by their power alone, then by a slip.
+        let alike: [fn(&Factor<'d>, &Factor<'d>) -> bool; 3] = [
+            |a, b| a == b,
+            |a, b| a.0 == b.0,
+            |a, b| a.1 == b.1 && differ_by_a_slip(a.0, b.0),
+        ];
+        for (alike, price) in alike.into_iter().zip([0, 1, 1]) {
+            here.retain(|factor| {
+                let found = there.iter().position(|other| alike(factor, other));
+                if let Some(place) = found {
+                    there.remove(place);
+                    slips += price;
+                    moving += price * moves(factor);
+                    common += 1;
+                }
+                found.is_none()
+            });
+        }
+        let (fewer, more) = (here.len().min(there.len()), here.len().max(there.len()));
+        slips += (2 * fewer + (more - fewer)) as u64;
+        moving += here.iter().chain(&there).map(moves).sum::<u64>();
+        (common > 0 && slips <= SLIPS).then_some((slips, moving))
+    }
+}
+
+/// Whether one factor is the other with one slip.
+pub(super) fn differ_by_a_slip(a: Expr<'_>, b: Expr<'_>) -> bool {
+    let dag = a.dag();
+    match (a.node(), b.node()) {
+        (Node::Symbol(a), Node::Symbol(b)) => {
+            let [a, b] = [a, b].map(|symbol| dag.name(symbol));
+            let ((dots_a, name_a), (dots_b, name_b)) = (undotted(&a), undotted(&b));
+            let (letters_a, letters_b) = (without_index(name_a), without_index(name_b));
+            match dots_a == dots_b {
+                true => letters_a == letters_b,
+                false => name_a == name_b,
+            }
+        }
+        (Node::Function(f, x), Node::Function(g, y)) => {
+            let circular = |f| matches!(f, Function::Sin | Function::Cos);
+            f == g || (x == y && circular(f) && circular(g))
+        }
+        (Node::Sum(_), Node::Sum(_)) => true,
+        _ => false,
+    }
+}
+
+/// How often a name is differentiated, and the name: `der(der(x))` is `x` with two dots.
+fn undotted(name: &str) -> (usize, &str) {
+    let (mut dots, mut rest) = (0, name);
+    while let Some(inside) = rest
+        .strip_prefix("der(")
+        .and_then(|rest| rest.strip_suffix(')'))
+    {
+        (dots, rest) = (dots + 1, inside);
+    }
+    (dots, rest)
+}
+
+/// A name without the digits at its end, or the index of a member of a family: `phi` of `phi1`, `q`
+/// of `q[3]`.
+fn without_index(name: &str) -> &str {
+    let base = name.split('[').next().unwrap_or(name);
+    base.trim_end_matches(|c: char| c.is_ascii_digit())
+}
+
+/// The column of each row such that the sum of costs is least, no column taken twice; there are as
+/// many columns as rows, or more.
+///
+/// H. W. Kuhn, *The Hungarian method for the assignment problem*, Naval Res. Logist. Quart. 2
+/// (1955) 83–97, as rows that join one after the other by a shortest path (R. Jonker, A. Volgenant,
+/// Computing 38 (1987) 325–340).
+fn assignment(rows: usize, columns: usize, cost: impl Fn(usize, usize) -> u64) -> Vec<usize> {
+    let cost = |row: usize, column: usize| i64::try_from(cost(row, column)).unwrap_or(i64::MAX / 4);
+    // What rows and columns pay; no pair costs less than both together, a joined one exactly that.
+    let (mut of_row, mut of_column) = (vec![0i64; rows], vec![0i64; columns]);
+    let mut row_in: Vec<Option<usize>> = vec![None; columns];
+    for newcomer in 0..rows {
+        let mut shortest = vec![i64::MAX; columns];
+        let mut before: Vec<Option<usize>> = vec![None; columns];
+        let mut settled = vec![false; columns];
+        let (mut row, mut last) = (newcomer, None);
+        let end = loop {
+            for column in (0..columns).filter(|&column| !settled[column]) {
+                let way = cost(row, column) - of_row[row] - of_column[column];
+                if way < shortest[column] {
+                    (shortest[column], before[column]) = (way, last);
+                }
+            }
+            let open = (0..columns).filter(|&column| !settled[column]);
+            let Some(nearest) = open.min_by_key(|&column| shortest[column]) else {
+                return Vec::new(); // fewer columns than rows
+            };
+            let step = shortest[nearest];
+            // The rows on the tree pay more, their columns less, so that all on it stays exact.
+            of_row[newcomer] += step;
+            for column in 0..columns {
+                if !settled[column] {
+                    shortest[column] -= step;
+                } else if let Some(row) = row_in[column] {
+                    of_row[row] += step;
+                    of_column[column] -= step;
+                }
+            }
+            settled[nearest] = true;
+            last = Some(nearest);
+            match row_in[nearest] {
+                Some(next) => row = next,
+                None => break nearest,
+            }
+        };
+        let mut column = end;
+        loop {
+            let previous = before[column];
+            row_in[column] = match previous {
+                Some(previous) => row_in[previous],
+                None => Some(newcomer),
+            };
+            match previous {
+                Some(previous) => column = previous,
+                None => break,
+            }
+        }
+    }
+    let mut column_of = vec![0; rows];
+    for (column, row) in row_in.into_iter().enumerate() {
+        if let Some(row) = row {
+            column_of[row] = column;
+        }
+    }
+    column_of
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least sum of costs, by trying every way.
+    fn least(rows: usize, columns: usize, cost: &dyn Fn(usize, usize) -> u64) -> u64 {
+        fn from(
+            row: usize,
+            rows: usize,
+            taken: &mut Vec<bool>,
+            cost: &dyn Fn(usize, usize) -> u64,
+        ) -> u64 {
+            if row == rows {
+                return 0;
+            }
+            let mut best = u64::MAX;
+            for column in 0..taken.len() {
+                if !std::mem::replace(&mut taken[column], true) {
+                    best = best.min(cost(row, column) + from(row + 1, rows, taken, cost));
+                    taken[column] = false;
+                }
+            }
+            best
+        }
+        from(0, rows, &mut vec![false; columns], cost)
+    }
+
+    #[test]
+    fn no_other_assignment_costs_less() {
+        for seed in 0..300u64 {
+            let rows = 1 + (seed % 5) as usize;
+            let columns = rows + (seed / 5 % 3) as usize;
+            // Few different costs, so that there are ties.
+            let cost = |row: usize, column: usize| {
+                let mixed = (seed * 31 + row as u64 * 7 + column as u64 * 3 + 1)
+                    .wrapping_mul(0x9E37_79B9_7F4A_7C15);
+                (mixed >> 40) % (2 + seed % 9)
+            };
+            let columns_of = assignment(rows, columns, cost);
+            let mut distinct = columns_of.clone();
+            distinct.sort_unstable();
+            distinct.dedup();
+            assert_eq!(distinct.len(), rows, "seed {seed}");
+            let total: u64 = columns_of
+                .iter()
+                .enumerate()
+                .map(|(r, &c)| cost(r, c))
+                .sum();
+            assert_eq!(total, least(rows, columns, &cost), "seed {seed}");
+        }
+    }
+}

@@ -1,0 +1,237 @@
+//! A text to read, before anyone says in which language: sections, words, formulas, tables.
+//!
+//! [`markdown`](super::markdown), [`latex`](super::latex) and [`html`](super::html) print the same [`Document`]. Formulas
+//! in it are values, not texts in one of these languages.
+
+use lagrangian_symbolic::Math;
+use lagrangian_symbolic::print::{Mark, Sign};
+
+use lagrangian_mechanics::Compiled;
+
+/// The width of a line of a formula, in the size of its font (em): less than the 47 of A4 paper with margins of 2 cm, since
+/// [`Math::width`] is an estimate.
+pub(super) const LINE: f32 = 43.0;
+
+/// What each step of an indent takes, in em.
+pub(super) const INDENT: f32 = 1.0;
+
+/// How much wider a line may be where nothing can be broken: less than the margin of the page.
+const TOLERANCE: f32 = 2.0;
+
+/// What a note at the right margin takes, in em.
+const NOTE: f32 = 8.0;
+
+/// A derivation to read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Document {
+    /// What it is about: the machine's name.
+    pub title: String,
+    /// Its chapters.
+    pub sections: Vec<Section>,
+}
+
+/// A chapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// What it is about.
+    pub title: String,
+    /// What it says.
+    pub blocks: Vec<Block>,
+}
+
+/// A piece of a chapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Block {
+    /// A heading below that of the section.
+    Heading(Words),
+    /// Words.
+    Paragraph(Words),
+    /// Items, one below the other.
+    List(Vec<Words>),
+    /// A formula, line by line.
+    Formula(Vec<Row>),
+    /// A table: its head, its rows.
+    Table(Vec<Words>, Vec<Vec<Words>>),
+}
+
+/// Words with mathematics and code among them.
+pub type Words = Vec<Run>;
+
+/// A piece of a line of words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Run {
+    /// Words, nothing in them escaped.
+    Text(String),
+    /// Mathematics.
+    Math(Math),
+    /// What a program or a spec would say.
+    Code(String),
+}
+
+/// A line of a formula.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Row {
+    /// The line.
+    pub math: Math,
+    /// How many steps it is indented by; lines that continue others are.
+    pub indent: usize,
+    /// What is said about it at the right margin; nothing if empty.
+    pub note: String,
+}
+
+impl From<&str> for Run {
+    fn from(text: &str) -> Run {
+        Run::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Run {
+    fn from(text: String) -> Run {
+        Run::Text(text)
+    }
+}
+
+impl From<Math> for Run {
+    fn from(math: Math) -> Run {
+        Run::Math(math)
+    }
+}
+
+impl Document {
+    /// The derivation of a machine, a chapter to read.
+    pub fn new(compiled: &Compiled<'_>) -> Document {
+        Document {
+            title: compiled.model.name.clone(),
+            sections: super::chapter::sections(compiled),
+        }
+    }
+}
+
+/// How a column of a table is set.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Column {
+    /// Numbers, one below the other, of this width in em.
+    Numbers(f32),
+    /// Each cell in one line, of this width in em.
+    Line(f32),
+    /// Cells are broken into lines of this width in em.
+    Wrapped(f32),
+}
+
+impl Column {
+    /// Its width in em, with the space around it.
+    pub fn width(self) -> f32 {
+        // Twice 6 points.
+        const SPACE: f32 = 1.2;
+        let (Column::Numbers(width) | Column::Line(width) | Column::Wrapped(width)) = self;
+        width + SPACE
+    }
+}
+
+/// The columns of a table, so that it fits a page: what is said last is wrapped, and where the rest is
+/// too wide the widest words are.
+pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
+    let natural = |k: usize| {
+        let rows = rows.iter().map(Vec::as_slice).chain([head]);
+        let cells = rows.filter_map(|row| row.get(k));
+        cells.map(width_of_words).fold(0.0, f32::max)
+    };
+    let column = |k: usize| match k + 1 == head.len() {
+        _ if super::html::is_numeric(rows, k) => Column::Numbers(natural(k)),
+        true => Column::Wrapped(DESCRIPTION),
+        false => Column::Line(natural(k)),
+    };
+    let mut columns: Vec<Column> = (0..head.len()).map(column).collect();
+    let whole: f32 = columns.iter().map(|column| column.width()).sum();
+    let line_width = |column: &Column| match column {
+        Column::Line(width) => *width,
+        _ => 0.0,
+    };
+    let by_width = |a: &&mut Column, b: &&mut Column| line_width(a).total_cmp(&line_width(b));
+    if whole > PAGE
+        && let Some(widest) = columns.iter_mut().max_by(by_width)
+    {
+        let left = line_width(widest) - (whole - PAGE);
+        *widest = Column::Wrapped(left.max(LEAST_WRAPPED));
+    }
+    columns
+}
+
+/// The width of a table, in em: 17 cm in a font of 10 points, less what an estimate may be off by.
+const PAGE: f32 = 47.0;
+
+/// The width of a column that describes what the others name, in em: 7 cm.
+const DESCRIPTION: f32 = 19.9;
+
+/// The least width of words that are broken into lines, in em: a long word.
+const LEAST_WRAPPED: f32 = 8.0;
+
+/// About how wide words are in one line, in em.
+fn width_of_words(words: &Words) -> f32 {
+    // Of typewriter type, all letters are as wide.
+    let run = |run: &Run| match run {
+        Run::Text(text) => Math::text(text.clone()).width(),
+        Run::Math(math) => math.width(),
+        Run::Code(code) => 0.525 * code.chars().count() as f32,
+    };
+    words.iter().map(run).sum()
+}
+
+impl Row {
+    /// A formula in lines: the first is indented by so many steps, the others by two more; the note stands at the first.
+    ///
+    /// What does not fit the page even so, such as a very long fraction, is left out: the line says so.
+    pub fn lines(math: &Math, indent: usize, note: &str) -> Vec<Row> {
+        let room = LINE - if note.is_empty() { 0.0 } else { NOTE };
+        let room = |steps: usize| room - INDENT * steps as f32;
+        let mut lines = math.lines(room(indent), room(indent + 2));
+        let margin = LINE + TOLERANCE - INDENT * (indent + 2) as f32;
+        if lines.iter().any(|line| line.width() > margin) {
+            lines = vec![left_out(math, margin)];
+        }
+        let lines = lines.into_iter();
+        let row = |(index, math)| Row {
+            math,
+            indent: if index == 0 { indent } else { indent + 2 },
+            note: if index == 0 {
+                note.to_owned()
+            } else {
+                String::new()
+            },
+        };
+        lines.enumerate().map(row).collect()
+    }
+}
+
+/// A formula without what stands on its right side, or without its left side where that is too wide
+/// by itself, or without all but its sign.
+fn left_out(math: &Math, room: f32) -> Math {
+    let marks = math.marks();
+    let row = |marks: &[Mark]| Math::row(marks.iter().cloned().map(Math::mark));
+    let note = || Math::text("(too wide for a page, not shown)");
+    let sign = match marks.first() {
+        Some(Mark::Sign(Sign::Plus | Sign::Minus)) => Math::mark(Mark::Sign(Sign::Plus)),
+        _ => Math::default(),
+    };
+    let equals = marks
+        .iter()
+        .position(|mark| *mark == Mark::Sign(Sign::Equals));
+    let Some(equals) = equals else {
+        return Math::row([sign, note()]);
+    };
+    let without_right = Math::row([row(&marks[..=equals]), note()]);
+    let without_left = Math::row([sign.clone(), note(), row(&marks[equals..])]);
+    let shortened = [without_right, without_left];
+    let fits = |formula: &Math| formula.width() <= room;
+    shortened
+        .into_iter()
+        .find(fits)
+        .unwrap_or_else(|| Math::row([sign, note()]))
+}
+
+impl Block {
+    /// A formula, in as many lines as it takes.
+    pub fn formula(math: &Math) -> Block {
+        Block::Formula(Row::lines(math, 0, ""))
+    }
+}

@@ -1,0 +1,10 @@
+//! The derivation for reading: a chapter on a machine as [`markdown`], [`latex`] and [`html`], and the [comparison](compare) of
+//! its equations with printed ones.
+
+pub mod compare;
+pub mod document;
+pub mod html;
+pub mod latex;
+pub mod markdown;
+
+mod chapter;

@@ -1,0 +1,211 @@
+//! Factors that terms of a sum have in common, taken out: `x·y + x·z·w + u` becomes `x·(y + z·w) +
+//! u`.
+//!
+//! Greedy: the factor that most terms have is taken out of these, and so on with what is left
+//! inside and outside. Among factors that occur equally often, the one known last is taken, so
+//! that what remains inside is known early. Products that something else uses too are left alone:
+//! they would have to be computed twice.
+//!
+//! This is Horner's rule for several variables, with the order of variables chosen on the way (J.
+//! Carnicer and M. Gasca, *Evaluation of multivariate polynomials and their derivatives*, Math.
+//! Comp. 54 (1990) 231–243, say what it saves). It competes with [common
+//! pairs](super::pairs): a factor that is taken out is no longer there to be shared. So a
+//! program is made both ways, and the cheaper one is taken.
+
+use std::cmp::Reverse;
+
+use rustc_hash::FxHashMap;
+
+use super::net::{Index, Item, Net, Signed};
+
+/// Longer sums are left as they are: every factor that is taken out is found by counting all.
+const LONGEST_SUM: usize = 512;
+
+/// How deep factors are taken out of what others were taken out of.
+const DEEPEST: usize = 48;
+
+/// How many factors may be looked at in one function, counted anew for each one that is taken out.
+/// Where it takes more, the sums after that stay as they are.
+const LOOKS: usize = 2_000_000;
+
+/// A term of a sum.
+struct Monomial {
+    /// Its factors by index, repeated for powers; of a term that is no product of its own, the
+    /// term.
+    factors: Vec<Index>,
+    negative: bool,
+    /// The item that it is, unless it has been changed.
+    item: Option<Index>,
+}
+
+impl Monomial {
+    /// Whether a factor may be taken out: a term that is nothing but a factor stays.
+    fn is_product(&self) -> bool {
+        self.factors.len() > 1
+    }
+
+    /// Takes a factor out.
+    fn divide(&mut self, factor: Index) {
+        if let Ok(position) = self.factors.binary_search(&factor) {
+            self.factors.remove(position);
+        }
+        self.item = None;
+    }
+}
+
+impl Net {
+    /// Takes common factors out of all sums; says whether there were any.
+    pub fn factor(&mut self) -> bool {
+        let uses = self.uses();
+        let mut changed = false;
+        let mut looks = LOOKS;
+        for index in 0..self.items.len() {
+            let Item::Sum(terms) = &self.items[index] else {
+                continue;
+            };
+            let monomials: Vec<Monomial> = terms
+                .iter()
+                .map(|&term| self.monomial(term, &uses))
+                .collect();
+            if monomials.len() > LONGEST_SUM || self.most_common(&monomials, &mut looks).is_none() {
+                continue;
+            }
+            changed = true;
+            let terms = self.factored(monomials, 0, &mut looks);
+            let terms: Vec<Signed> = terms.into_iter().map(|term| self.written(term)).collect();
+            self.items[index] = match *terms.as_slice() {
+                // All of it is one product; its item is nobody else's.
+                [(product, false)] => self.items[product as usize].clone(),
+                _ => Item::Sum(terms),
+            };
+        }
+        if changed {
+            self.forget_unused();
+        }
+        changed
+    }
+
+    /// Empties the items that no root needs any more, so that nothing is shared with them.
+    fn forget_unused(&mut self) {
+        let mut needed = vec![false; self.items.len()];
+        let mut open: Vec<Index> = self.roots.iter().map(|(root, _)| *root).collect();
+        while let Some(index) = open.pop() {
+            if !std::mem::replace(&mut needed[index as usize], true) {
+                super::net::operands(&self.items[index as usize], |operand| open.push(operand));
+            }
+        }
+        for (item, needed) in self.items.iter_mut().zip(needed) {
+            if !needed {
+                *item = Item::Sum(vec![]);
+            }
+        }
+    }
+
+    /// How often each item is used, by items and as a result.
+    pub fn uses(&self) -> Vec<u32> {
+        let mut uses = vec![0; self.items.len()];
+        let mut count = |index: Index| uses[index as usize] += 1;
+        for item in &self.items {
+            super::net::operands(item, &mut count);
+        }
+        self.roots.iter().for_each(|(root, _)| count(*root));
+        uses
+    }
+
+    fn monomial(&self, (item, negative): Signed, uses: &[u32]) -> Monomial {
+        let mut factors = match &self.items[item as usize] {
+            Item::Product { up, down } if down.is_empty() && uses[item as usize] == 1 => up.clone(),
+            _ => vec![item],
+        };
+        factors.sort_unstable();
+        Monomial {
+            factors,
+            negative,
+            item: Some(item),
+        }
+    }
+
+    /// The same sum with common factors taken out.
+    fn factored(
+        &mut self,
+        mut terms: Vec<Monomial>,
+        depth: usize,
+        looks: &mut usize,
+    ) -> Vec<Monomial> {
+        while depth < DEEPEST
+            && let Some(factor) = self.most_common(&terms, looks)
+        {
+            let has = |term: &Monomial| term.is_product() && term.factors.contains(&factor);
+            let (mut inside, outside) = terms.into_iter().partition::<Vec<_>, _>(has);
+            let mut common = vec![factor];
+            inside.iter_mut().for_each(|term| term.divide(factor));
+            // What else all of them have.
+            while let Some(&next) = inside[0].factors.iter().find(|next| {
+                inside
+                    .iter()
+                    .all(|term| term.is_product() && term.factors.contains(next))
+            }) {
+                inside.iter_mut().for_each(|term| term.divide(next));
+                common.push(next);
+            }
+            let negative = inside.iter().all(|term| term.negative);
+            inside.iter_mut().for_each(|term| term.negative ^= negative);
+            let inside = self.factored(inside, depth + 1, looks);
+            match <[Monomial; 1]>::try_from(inside) {
+                Ok([product]) => {
+                    common.extend(product.factors);
+                    terms = outside;
+                    terms.push(Monomial::new(common, negative ^ product.negative));
+                }
+                Err(inside) => {
+                    let sum = inside.into_iter().map(|term| self.written(term)).collect();
+                    common.push(self.add(Item::Sum(sum)));
+                    terms = outside;
+                    terms.push(Monomial::new(common, negative));
+                }
+            }
+        }
+        terms
+    }
+
+    /// The factor that most products among the terms have, if two have one: of several, the one known
+    /// last, then the oldest. None once so many factors have been looked at.
+    fn most_common(&self, terms: &[Monomial], looks: &mut usize) -> Option<Index> {
+        let factors: usize = terms.iter().map(|term| term.factors.len()).sum();
+        *looks = looks.checked_sub(factors)?;
+        let mut counts: FxHashMap<Index, u32> = FxHashMap::default();
+        for term in terms.iter().filter(|term| term.is_product()) {
+            for group in term.factors.chunk_by(|a, b| a == b) {
+                *counts.entry(group[0]).or_default() += 1;
+            }
+        }
+        let common = counts.into_iter().filter(|(_, count)| *count > 1);
+        let best = common
+            .max_by_key(|&(factor, count)| (count, self.stages[factor as usize], Reverse(factor)));
+        best.map(|(factor, _)| factor)
+    }
+
+    /// A term as an item.
+    fn written(&mut self, term: Monomial) -> Signed {
+        let item = match (term.item, term.factors.as_slice()) {
+            (Some(item), _) => item,
+            (None, &[factor]) => factor,
+            (None, _) => self.add(Item::Product {
+                up: term.factors,
+                down: vec![],
+            }),
+        };
+        (item, term.negative)
+    }
+}
+
+impl Monomial {
+    fn new(mut factors: Vec<Index>, negative: bool) -> Monomial {
+        factors.sort_unstable();
+        Monomial {
+            factors,
+            negative,
+            item: None,
+        }
+    }
+}

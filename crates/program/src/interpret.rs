@@ -1,0 +1,624 @@
+//! Programs run over any number, without a compiler: the command line's engine, and what generated
+//! code is tested against.
+
+use lagrangian_scalar::Scalar;
+use lagrangian_symbolic::Function as Call;
+use rustc_hash::FxHashMap;
+
+use super::{Contracted, Contractions, Function, Op, Program, Role, Singular, Source, Value};
+
+/// A program ready to run over numbers of type `S`.
+///
+/// It does what the program says in the order in which the program says it, and contracts the
+/// products that generated code contracts: in the same arithmetic its results have the same bits as
+/// those of generated code.
+/// Nothing is allocated after [`Interpreter::new`].
+#[derive(Clone, Debug)]
+pub struct Interpreter<S> {
+    layout: Layout,
+    prepare: Tape<S>,
+    start: Tape<S>,
+    functions: Vec<Tape<S>>,
+    /// Constants, arguments, then the values of operations.
+    registers: Vec<S>,
+    /// Why there are no accelerations at any state.
+    singular: Option<Singular>,
+}
+
+/// The arguments of a call. What a function does not read may be empty.
+#[derive(Clone, Copy, Debug)]
+pub struct Arguments<'a, S> {
+    /// The time.
+    pub t: S,
+    /// Coordinates.
+    pub q: &'a [S],
+    /// Velocities.
+    pub v: &'a [S],
+    /// Inputs.
+    pub u: &'a [S],
+    /// Accelerations.
+    pub a: &'a [S],
+}
+
+impl<S: Scalar<Stored = S>> Interpreter<S> {
+    /// The program with the given parameters.
+    ///
+    /// # Panics
+    /// If `parameters` is not as long as [`Program::parameters`].
+    pub fn new(program: &Program, parameters: &[S]) -> Interpreter<S> {
+        let mut layout = Layout::new(program);
+        let mut constants = Constants::default();
+        let mut tape = |function: &Function| Tape::new(function, &layout, &mut constants);
+        let prepare = tape(&program.prepare);
+        let start = tape(&program.start);
+        let functions: Vec<Tape<S>> = program.functions.iter().map(tape).collect();
+        // Constants come last: how many there are is known only now.
+        let temporaries = [&prepare, &start]
+            .into_iter()
+            .chain(&functions)
+            .map(|tape| tape.temporaries)
+            .max();
+        layout.constants = layout.temporaries + temporaries.unwrap_or(0);
+        let mut registers = vec![S::ZERO; layout.constants];
+        registers.extend(constants.values);
+        let mut interpreter = Interpreter {
+            layout,
+            prepare,
+            start,
+            functions,
+            registers,
+            singular: None,
+        };
+        for tape in [&mut interpreter.prepare, &mut interpreter.start]
+            .into_iter()
+            .chain(&mut interpreter.functions)
+        {
+            tape.place_constants(interpreter.layout.constants);
+        }
+        interpreter.prepare(parameters);
+        interpreter
+    }
+
+    /// Changes the parameters.
+    ///
+    /// # Panics
+    /// If `parameters` is not as long as [`Program::parameters`].
+    pub fn prepare(&mut self, parameters: &[S]) {
+        self.layout.parameters.fill(&mut self.registers, parameters);
+        self.prepare.run::<S>(&mut self.registers);
+        for (index, value) in self.prepare.results.iter().enumerate() {
+            self.registers[self.layout.prepared.start + index] = self.registers[*value as usize];
+        }
+        self.singular = self.prepare.check(&self.registers).err();
+    }
+
+    /// The parameters.
+    pub fn parameters(&self) -> &[S] {
+        let Region { start, len } = self.layout.parameters;
+        &self.registers[start..start + len]
+    }
+
+    /// Where the coordinates start, and how fast.
+    ///
+    /// # Panics
+    /// If `q` or `v` is not as long as [`Program::coordinates`].
+    pub fn start(&mut self, q: &mut [S], v: &mut [S]) {
+        self.start.run::<S>(&mut self.registers);
+        let n = q.len();
+        assert_eq!(v.len(), n, "q and v are as long as the coordinates");
+        let results = self.start.results.iter();
+        let mut values = results.map(|&value| self.registers[value as usize]);
+        for place in q.iter_mut().chain(v) {
+            // A machine that starts at rest has no results for its rates.
+            *place = values.next().unwrap_or(S::ZERO);
+        }
+    }
+
+    /// Runs the function of a role, if the program has one, and writes its results, arranged as its
+    /// [`Shape`](super::Shape) says.
+    ///
+    /// # Panics
+    /// If an argument that the function reads, or `results`, has another length than the program
+    /// says.
+    pub fn call(
+        &mut self,
+        role: Role,
+        arguments: Arguments<'_, S>,
+        results: &mut [S],
+    ) -> Result<(), Singular> {
+        self.call_in::<S>(role, arguments, results)
+    }
+
+    /// The same in arithmetic on numbers `N`, which are kept as `S`: what generated code does for
+    /// accelerations and their derivatives.
+    ///
+    /// # Panics
+    /// As [`call`](Interpreter::call).
+    #[inline(always)]
+    pub fn call_in<N: Scalar<Stored = S>>(
+        &mut self,
+        role: Role,
+        arguments: Arguments<'_, S>,
+        results: &mut [S],
+    ) -> Result<(), Singular> {
+        let Some(tape) = self.functions.iter().find(|tape| tape.role == role) else {
+            return Ok(());
+        };
+        if let Some(singular) = self.singular.filter(|_| role.inverts()) {
+            return Err(singular);
+        }
+        let reads = tape.reads;
+        let registers = &mut self.registers;
+        registers[self.layout.time] = arguments.t;
+        for (read, region, values) in [
+            (reads.coordinates, &self.layout.coordinates, arguments.q),
+            (reads.velocities, &self.layout.velocities, arguments.v),
+            (reads.inputs, &self.layout.inputs, arguments.u),
+            (reads.accelerations, &self.layout.accelerations, arguments.a),
+        ] {
+            if read {
+                region.fill(registers, values);
+            }
+        }
+        tape.run::<N>(registers);
+        tape.copy_results(registers, results);
+        tape.check(registers)
+    }
+
+    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next
+    /// stage.
+    ///
+    /// # Panics
+    /// If `values` is not as long as the results of that role.
+    pub fn stand(&mut self, role: Role, values: &[S]) {
+        let region = match role {
+            Role::AtTime => &self.layout.at_time,
+            _ => &self.layout.at_position,
+        };
+        region.fill(&mut self.registers, values);
+    }
+}
+
+/// Which registers hold what.
+#[derive(Clone, Debug)]
+struct Layout {
+    parameters: Region,
+    prepared: Region,
+    time: usize,
+    coordinates: Region,
+    velocities: Region,
+    inputs: Region,
+    accelerations: Region,
+    at_time: Region,
+    at_position: Region,
+    /// The first register for values of operations.
+    temporaries: usize,
+    /// The first register for constants.
+    constants: usize,
+}
+
+#[derive(Clone, Debug)]
+struct Region {
+    start: usize,
+    len: usize,
+}
+
+impl Region {
+    fn fill<S: Copy>(&self, registers: &mut [S], values: &[S]) {
+        registers[self.start..self.start + self.len].copy_from_slice(values);
+    }
+}
+
+impl Layout {
+    fn new(program: &Program) -> Layout {
+        let mut next = 0;
+        let mut region = |len: usize| {
+            let start = next;
+            next += len;
+            Region { start, len }
+        };
+        let n = program.dimension();
+        let left = |role| program.function(role).map_or(0, |f| f.results.len());
+        Layout {
+            parameters: region(program.parameters.len()),
+            prepared: region(program.prepare.results.len()),
+            time: region(1).start,
+            coordinates: region(n),
+            velocities: region(n),
+            inputs: region(program.inputs.len()),
+            accelerations: region(n),
+            at_time: region(left(Role::AtTime)),
+            at_position: region(left(Role::AtPosition)),
+            temporaries: next,
+            constants: 0,
+        }
+    }
+
+    fn register(&self, source: Source) -> usize {
+        let (region, index) = match source {
+            Source::Parameter(index) => (&self.parameters, index),
+            Source::Prepared(index) => (&self.prepared, index),
+            Source::Time => return self.time,
+            Source::Coordinate(index) => (&self.coordinates, index),
+            Source::Velocity(index) => (&self.velocities, index),
+            Source::Input(index) => (&self.inputs, index),
+            Source::Acceleration(index) => (&self.accelerations, index),
+            Source::AtTime(index) => (&self.at_time, index),
+            Source::AtPosition(index) => (&self.at_position, index),
+        };
+        region.start + index as usize
+    }
+}
+
+/// Constants of all functions, each once.
+struct Constants<S> {
+    values: Vec<S>,
+    index_of: FxHashMap<Op, u32>,
+}
+
+impl<S> Default for Constants<S> {
+    fn default() -> Self {
+        Constants {
+            values: Vec::new(),
+            index_of: FxHashMap::default(),
+        }
+    }
+}
+
+/// A register.
+type Register = u32;
+
+/// Marks the number of a constant, until it is known where constants are.
+const IS_CONSTANT: Register = 1 << 31;
+
+/// One operation on registers.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    Add {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Sub {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Mul {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Div {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Neg {
+        to: Register,
+        a: Register,
+    },
+    /// A sum with the product that is contracted into it.
+    Contracted {
+        kind: Contracted,
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    ProductError {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    SumError {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Sin {
+        to: Register,
+        a: Register,
+    },
+    Cos {
+        to: Register,
+        a: Register,
+    },
+    SinCos {
+        sin: Register,
+        cos: Register,
+        a: Register,
+    },
+    Unary {
+        call: Call,
+        to: Register,
+        a: Register,
+    },
+    Binary {
+        call: Call,
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+}
+
+#[derive(Clone, Debug)]
+struct Check<S> {
+    pivot: Register,
+    scale: Register,
+    tolerance: S,
+    coordinate: usize,
+}
+
+/// A function in terms of registers.
+#[derive(Clone, Debug)]
+struct Tape<S> {
+    role: Role,
+    reads: super::Reads,
+    steps: Vec<Step>,
+    results: Vec<Register>,
+    checks: Vec<Check<S>>,
+    temporaries: usize,
+}
+
+impl<S: Scalar> Tape<S> {
+    fn new(function: &Function, layout: &Layout, constants: &mut Constants<S>) -> Tape<S> {
+        let first = layout.temporaries;
+        let mut temporaries = 0;
+        let mut register: Vec<Register> = Vec::with_capacity(function.code.len());
+        let mut steps = Vec::with_capacity(function.code.len());
+        // The step that computes the sine or the cosine of a register.
+        let mut circular: FxHashMap<Register, usize> = FxHashMap::default();
+        let contractions = Contractions::of(function);
+        for (index, op) in function.code.iter().enumerate() {
+            let at = |value: Value| register[value.index()];
+            let to = (first + temporaries) as Register;
+            if contractions.is_part(Value(index as u32)) {
+                // The sum that uses it computes it.
+                register.push(Register::MAX);
+                continue;
+            }
+            let step = match *op {
+                _ if let Some(sum) = contractions.sum(Value(index as u32)) => {
+                    let ([a, b], c) = (sum.factors.map(at), at(sum.term));
+                    Step::Contracted {
+                        kind: sum.kind,
+                        to,
+                        a,
+                        b,
+                        c,
+                    }
+                }
+                Op::Constant(_) | Op::Pi => {
+                    let next = constants.values.len() as u32;
+                    let index = *constants.index_of.entry(op.clone()).or_insert(next);
+                    if index == next {
+                        constants.values.push(match op {
+                            Op::Constant(value) => value.evaluate(),
+                            _ => S::pi(),
+                        });
+                    }
+                    register.push(index | IS_CONSTANT);
+                    continue;
+                }
+                Op::Read(source) => {
+                    register.push(layout.register(source) as Register);
+                    continue;
+                }
+                Op::Add(a, b) => Step::Add {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::Sub(a, b) => Step::Sub {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::Mul(a, b) => Step::Mul {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::Div(a, b) => Step::Div {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::Neg(a) => Step::Neg { to, a: at(a) },
+                Op::ProductError(a, b) => Step::ProductError {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::SumError(a, b) => Step::SumError {
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+                Op::Sin(a) => Step::Sin { to, a: at(a) },
+                Op::Cos(a) => Step::Cos { to, a: at(a) },
+                Op::Unary(call, a) => Step::Unary { call, to, a: at(a) },
+                Op::Binary(call, a, b) => Step::Binary {
+                    call,
+                    to,
+                    a: at(a),
+                    b: at(b),
+                },
+            };
+            temporaries += 1;
+            register.push(to);
+            if let Step::Sin { a, .. } | Step::Cos { a, .. } = step {
+                let earlier = circular.get(&a).copied();
+                let both = match (earlier.map(|earlier| steps[earlier]), step) {
+                    (Some(Step::Sin { to: sin, .. }), Step::Cos { to: cos, .. })
+                    | (Some(Step::Cos { to: cos, .. }), Step::Sin { to: sin, .. }) => {
+                        Some((sin, cos))
+                    }
+                    _ => None,
+                };
+                if let (Some(earlier), Some((sin, cos))) = (earlier, both) {
+                    steps[earlier] = Step::SinCos { sin, cos, a };
+                    continue;
+                }
+                circular.insert(a, steps.len());
+            }
+            steps.push(step);
+        }
+        let at = |value: &Value| register[value.index()];
+        let checks = function.guards.iter().map(|guard| Check {
+            pivot: at(&guard.pivot),
+            scale: at(&guard.scale),
+            tolerance: S::from_f64(guard.tolerance),
+            coordinate: guard.coordinate,
+        });
+        Tape {
+            role: function.role,
+            reads: function.reads(),
+            checks: checks.collect(),
+            results: function.results.iter().map(at).collect(),
+            steps,
+            temporaries,
+        }
+    }
+
+    fn place_constants(&mut self, first: usize) {
+        let place = |register: &mut Register| {
+            if *register & IS_CONSTANT != 0 {
+                *register = (*register & !IS_CONSTANT) + first as Register;
+            }
+        };
+        for step in &mut self.steps {
+            match step {
+                Step::Add { a, b, .. }
+                | Step::Sub { a, b, .. }
+                | Step::Mul { a, b, .. }
+                | Step::Div { a, b, .. }
+                | Step::ProductError { a, b, .. }
+                | Step::SumError { a, b, .. }
+                | Step::Binary { a, b, .. } => {
+                    place(a);
+                    place(b);
+                }
+                Step::Contracted { a, b, c, .. } => {
+                    place(a);
+                    place(b);
+                    place(c);
+                }
+                Step::Neg { a, .. }
+                | Step::Sin { a, .. }
+                | Step::Cos { a, .. }
+                | Step::SinCos { a, .. }
+                | Step::Unary { a, .. } => place(a),
+            }
+        }
+        self.results.iter_mut().for_each(place);
+        for check in &mut self.checks {
+            place(&mut check.pivot);
+            place(&mut check.scale);
+        }
+    }
+
+    /// Runs the steps in arithmetic on numbers `N`, which are kept as `S`.
+    #[inline(always)]
+    fn run<N: Scalar<Stored = S>>(&self, registers: &mut [S])
+    where
+        S: Copy,
+    {
+        for step in &self.steps {
+            let at = |register: Register| N::load(registers[register as usize]);
+            let (to, value) = match *step {
+                Step::Add { to, a, b } => (to, at(a) + at(b)),
+                Step::Sub { to, a, b } => (to, at(a) - at(b)),
+                Step::Mul { to, a, b } => (to, at(a) * at(b)),
+                Step::Div { to, a, b } => (to, at(a) / at(b)),
+                Step::Neg { to, a } => (to, -at(a)),
+                Step::Contracted { kind, to, a, b, c } => {
+                    let value = match kind {
+                        Contracted::Add => at(a).mul_add(at(b), at(c)),
+                        Contracted::Sub => at(a).mul_sub(at(b), at(c)),
+                        Contracted::SubFrom => at(a).neg_mul_add(at(b), at(c)),
+                    };
+                    (to, value)
+                }
+                Step::ProductError { to, a, b } => (to, at(a).product_error(at(b))),
+                Step::SumError { to, a, b } => (to, at(a).sum_error(at(b))),
+                Step::Sin { to, a } => (to, at(a).sin()),
+                Step::Cos { to, a } => (to, at(a).cos()),
+                Step::SinCos { sin, cos, a } => {
+                    let (of_sin, of_cos) = at(a).sin_cos();
+                    registers[sin as usize] = of_sin.store();
+                    (cos, of_cos)
+                }
+                Step::Unary { call, to, a } => (to, unary(call, at(a))),
+                Step::Binary { call, to, a, b } => (to, binary(call, at(a), at(b))),
+            };
+            registers[to as usize] = value.store();
+        }
+    }
+
+    fn copy_results(&self, registers: &[S], results: &mut [S]) {
+        assert_eq!(
+            results.len(),
+            self.results.len(),
+            "room for the results of {}",
+            self.role.name()
+        );
+        for (result, value) in results.iter_mut().zip(&self.results) {
+            *result = registers[*value as usize];
+        }
+    }
+
+    fn check(&self, registers: &[S]) -> Result<(), Singular> {
+        for check in &self.checks {
+            let (pivot, scale) = (
+                registers[check.pivot as usize],
+                registers[check.scale as usize],
+            );
+            if !pivot.exceeds(check.tolerance * scale) {
+                let (pivot, scale) = (pivot.to_f64(), scale.to_f64());
+                // Nothing is left of nothing.
+                let ratio = if pivot == 0.0 { 0.0 } else { pivot / scale };
+                return Err(Singular {
+                    coordinate: check.coordinate,
+                    ratio,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A function of one argument.
+pub fn unary<S: Scalar>(call: Call, x: S) -> S {
+    match call {
+        Call::Sin => x.sin(),
+        Call::Cos => x.cos(),
+        Call::Tan => x.tan(),
+        Call::Asin => x.asin(),
+        Call::Acos => x.acos(),
+        Call::Atan => x.atan(),
+        Call::Sinh => x.sinh(),
+        Call::Cosh => x.cosh(),
+        Call::Tanh => x.tanh(),
+        Call::Exp => x.exp(),
+        Call::Ln => x.ln(),
+        Call::Sqrt => x.sqrt(),
+        Call::Abs => x.abs(),
+        Call::Sign => x.sign(),
+        Call::Atan2 | Call::Min | Call::Max | Call::Pow => {
+            unreachable!("{call:?} has two arguments")
+        }
+    }
+}
+
+/// A function of two arguments.
+pub fn binary<S: Scalar>(call: Call, x: S, y: S) -> S {
+    match call {
+        Call::Atan2 => x.atan2(y),
+        Call::Min => x.min(y),
+        Call::Max => x.max(y),
+        Call::Pow => x.powf(y),
+        _ => unreachable!("{call:?} has one argument"),
+    }
+}

@@ -1,0 +1,296 @@
+//! The values of one function, products and sums still whole: where common parts are found.
+//!
+//! A function starts from the part of the [`Graph`] that its results need; what parameters alone
+//! decide is cut off and becomes an argument. Then every quotient gets its division, shared where a
+//! divisor occurs more than once, and [common pairs](super::pairs) of factors and of terms become
+//! items of their own.
+
+use lagrangian_symbolic::Function;
+use rustc_hash::FxHashMap;
+
+use super::graph::{Graph, Id, Node};
+use super::{Op, Source};
+use lagrangian_units::Stages;
+
+/// Powers up to this are written out as repeated factors, so that x² in x²·y and in x²·z is found
+/// as a common pair; higher ones are squared and multiplied by themselves, since nobody shares
+/// parts of x¹⁷.
+const WRITTEN_OUT_POWER: u32 = 8;
+
+/// An index into [`Net::items`].
+pub type Index = u32;
+
+/// A term of a sum: an item, and whether it is subtracted.
+pub type Signed = (Index, bool);
+
+/// What is computed, or read.
+#[derive(Clone, Debug)]
+pub enum Item {
+    /// A constant or an argument.
+    Leaf(Leaf),
+    /// Signed terms.
+    Sum(Vec<Signed>),
+    /// Factors, repeated for powers, over divisors.
+    Product {
+        /// The factors.
+        up: Vec<Index>,
+        /// The divisors.
+        down: Vec<Index>,
+    },
+    /// A function of its arguments.
+    Function(Function, Vec<Index>),
+}
+
+/// What is computed elsewhere.
+#[derive(Clone, Debug)]
+pub enum Leaf {
+    /// A constant or an argument.
+    Op(Op),
+    /// What parameters alone decide.
+    Prepared(Id),
+}
+
+/// What is known when: constants and prepared values, time, coordinates, velocities, inputs,
+/// accelerations.
+pub type Stage = u8;
+
+/// The stage of what time decides, and nothing that comes after it.
+pub const TIME: Stage = 1;
+
+/// The stage of what time and coordinates decide, and nothing that comes after them.
+pub const POSITION: Stage = 2;
+
+/// What one function computes, sums and products merged as far as they may be.
+#[derive(Clone)]
+pub struct Net {
+    /// The items, operands before what uses them.
+    pub items: Vec<Item>,
+    /// For each of them when it is known.
+    pub stages: Vec<Stage>,
+    /// What may stay while the rest changes: products and sums are not merged across.
+    pub apart: Stages,
+    /// What is asked for, with its sign.
+    pub roots: Vec<Signed>,
+}
+
+impl Net {
+    /// What the roots need. With `cut`, what parameters alone decide is an argument.
+    pub fn new(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Net {
+        let mut net = Net {
+            items: Vec::new(),
+            stages: Vec::new(),
+            apart: Stages::default(),
+            roots: Vec::new(),
+        };
+        let mut index_of: FxHashMap<Id, Index> = FxHashMap::default();
+        for id in needed(graph, roots, cut) {
+            let index = net.add_node(graph, id, cut, &index_of);
+            index_of.insert(id, index);
+        }
+        net.roots = roots
+            .iter()
+            .map(|(id, negative)| (index_of[id], *negative))
+            .collect();
+        net.share_divisions();
+        net
+    }
+
+    /// How many operands all items have together.
+    pub fn size(&self) -> usize {
+        let mut size = 0;
+        for item in &self.items {
+            operands(item, |_| size += 1);
+        }
+        size
+    }
+
+    fn add_node(
+        &mut self,
+        graph: &Graph,
+        id: Id,
+        cut: bool,
+        index_of: &FxHashMap<Id, Index>,
+    ) -> Index {
+        let item = match graph.node(id) {
+            Node::Constant(value) => Item::Leaf(Leaf::Op(Op::Constant(value.clone()))),
+            Node::Pi => Item::Leaf(Leaf::Op(Op::Pi)),
+            Node::Read(source) if !(cut && graph.is_known(id)) => {
+                Item::Leaf(Leaf::Op(Op::Read(*source)))
+            }
+            _ if cut && graph.is_known(id) => Item::Leaf(Leaf::Prepared(id)),
+            Node::Whole(inner) => return index_of[inner],
+            Node::Sum(terms) => Item::Sum(
+                terms
+                    .iter()
+                    .map(|term| (index_of[&term.id], term.negative))
+                    .collect(),
+            ),
+            Node::Function(function, arguments) => Item::Function(
+                *function,
+                arguments
+                    .iter()
+                    .map(|argument| index_of[argument])
+                    .collect(),
+            ),
+            Node::Product(factors) => return self.add_product(factors, index_of),
+            Node::Read(_) => unreachable!("an argument is cut off or read"),
+        };
+        self.add(item)
+    }
+
+    fn add_product(&mut self, factors: &[(Id, i32)], index_of: &FxHashMap<Id, Index>) -> Index {
+        let (mut up, mut down) = (Vec::new(), Vec::new());
+        for &(id, power) in factors {
+            let side = if power > 0 { &mut up } else { &mut down };
+            let (item, power) = (index_of[&id], power.unsigned_abs());
+            if power <= WRITTEN_OUT_POWER {
+                side.extend((0..power).map(|_| item));
+            } else {
+                side.push(self.add_power(item, power));
+            }
+        }
+        self.add(Item::Product { up, down })
+    }
+
+    /// x^power by squaring.
+    fn add_power(&mut self, x: Index, power: u32) -> Index {
+        let mut value = x;
+        // From the second-highest bit down: square, and multiply by x where the bit is set.
+        for bit in (0..power.ilog2()).rev() {
+            value = self.add(Item::Product {
+                up: vec![value, value],
+                down: vec![],
+            });
+            if power >> bit & 1 == 1 {
+                value = self.add(Item::Product {
+                    up: vec![value, x],
+                    down: vec![],
+                });
+            }
+        }
+        value
+    }
+
+    /// Appends an item.
+    pub fn add(&mut self, item: Item) -> Index {
+        let mut stage = match &item {
+            Item::Leaf(Leaf::Op(Op::Read(source))) => stage_of(*source),
+            _ => 0,
+        };
+        operands(&item, |operand| {
+            stage = stage.max(self.stages[operand as usize])
+        });
+        self.stages.push(stage);
+        self.items.push(item);
+        Index::try_from(self.items.len() - 1).expect("memory ends before 2^32 items")
+    }
+
+    /// A divisor that several products have gets one reciprocal; a single division stays a
+    /// division.
+    fn share_divisions(&mut self) {
+        // Divisors that always occur together are one divisor.
+        let mut groups: FxHashMap<Vec<Index>, Vec<usize>> = FxHashMap::default();
+        for (index, item) in self.items.iter_mut().enumerate() {
+            if let Item::Product { down, .. } = item
+                && !down.is_empty()
+            {
+                down.sort_unstable();
+                groups.entry(down.clone()).or_default().push(index);
+            }
+        }
+        let mut groups: Vec<_> = groups.into_iter().collect();
+        groups.sort_unstable_by_key(|(_, products)| products[0]);
+        let mut company: FxHashMap<Index, usize> = FxHashMap::default();
+        for (down, _) in &groups {
+            let mut bases = down.clone();
+            bases.dedup();
+            bases
+                .iter()
+                .for_each(|base| *company.entry(*base).or_default() += 1);
+        }
+        let mut reciprocals: FxHashMap<Index, Index> = FxHashMap::default();
+        for (down, products) in groups {
+            let (own, shared): (Vec<Index>, Vec<Index>) =
+                down.iter().partition(|base| company[base] == 1);
+            let mut factors: Vec<Index> = Vec::new();
+            for base in shared {
+                let reciprocal = match reciprocals.get(&base) {
+                    Some(&known) => known,
+                    None => self.add(Item::Product {
+                        up: vec![],
+                        down: vec![base],
+                    }),
+                };
+                reciprocals.insert(base, reciprocal);
+                factors.push(reciprocal);
+            }
+            let mut left = own;
+            if products.len() > 1 && !left.is_empty() {
+                factors.push(self.add(Item::Product {
+                    up: vec![],
+                    down: std::mem::take(&mut left),
+                }));
+            }
+            for product in products {
+                if let Item::Product { up, down } = &mut self.items[product] {
+                    up.extend(&factors);
+                    down.clone_from(&left);
+                }
+            }
+        }
+    }
+}
+
+/// The nodes that the roots need, operands first; operands of what is cut off are not needed.
+fn needed(graph: &Graph, roots: &[(Id, bool)], cut: bool) -> Vec<Id> {
+    let mut seen = vec![false; graph.size()];
+    let mut found: Vec<Id> = Vec::new();
+    let mut visit = |id: Id, found: &mut Vec<Id>| {
+        if !std::mem::replace(&mut seen[id.index()], true) {
+            found.push(id);
+        }
+    };
+    roots.iter().for_each(|(id, _)| visit(*id, &mut found));
+    let mut next = 0;
+    while let Some(&id) = found.get(next) {
+        next += 1;
+        if cut && graph.is_known(id) {
+            continue;
+        }
+        match graph.node(id) {
+            Node::Constant(_) | Node::Pi | Node::Read(_) => {}
+            Node::Sum(terms) => terms.iter().for_each(|term| visit(term.id, &mut found)),
+            Node::Product(factors) => factors
+                .iter()
+                .for_each(|(factor, _)| visit(*factor, &mut found)),
+            Node::Function(_, arguments) => arguments
+                .iter()
+                .for_each(|argument| visit(*argument, &mut found)),
+            Node::Whole(inner) => visit(*inner, &mut found),
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Calls `visit` with every operand.
+pub fn operands(item: &Item, mut visit: impl FnMut(Index)) {
+    match item {
+        Item::Leaf(_) => {}
+        Item::Sum(terms) => terms.iter().for_each(|(term, _)| visit(*term)),
+        Item::Product { up, down } => up.iter().chain(down).for_each(|factor| visit(*factor)),
+        Item::Function(_, arguments) => arguments.iter().for_each(|argument| visit(*argument)),
+    }
+}
+
+/// When an argument is known.
+pub fn stage_of(source: Source) -> Stage {
+    match source {
+        Source::Parameter(_) | Source::Prepared(_) => 0,
+        Source::Time | Source::AtTime(_) => TIME,
+        Source::Coordinate(_) | Source::AtPosition(_) => POSITION,
+        Source::Velocity(_) => 3,
+        Source::Input(_) => 4,
+        Source::Acceleration(_) => 5,
+    }
+}

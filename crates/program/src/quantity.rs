@@ -1,0 +1,439 @@
+//! The table of quantities: everything that a machine can be asked for, a row each.
+//!
+//! A row says how a quantity is called, in what symbol formulas have it, how its numbers are arranged and
+//! what it may depend on. Emitters, the interpreter, the listing, proofs and `docs/quantities.md` read
+//! these rows; so a new quantity is one row here, and in `lagrangian_mechanics::quantities` the expressions
+//! that it consists of.
+
+use super::{FrictionLayout, Program, Shape};
+use lagrangian_units::Variable;
+
+/// Of what there is one number each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The generalized coordinates.
+    Coordinate,
+    /// The bilateral constraints.
+    Constraint,
+    /// The guided contacts with friction.
+    Contact,
+}
+
+/// How the results of a function are arranged, whatever machine it is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// One number.
+    Number,
+    /// One number for each of a kind.
+    Each(Kind),
+    /// A symmetric matrix, a row for each of a kind.
+    Symmetric(Kind),
+    /// A row for each of a kind, in it a number for each of another; row after row.
+    Rows(Kind, Kind),
+    /// For each coordinate its acceleration, then the derivatives of that by each variable.
+    Differentials,
+    /// What follows from friction forces, see [`FrictionLayout`].
+    Responses,
+    /// Coordinates, and behind them their rates if any of these is not 0.
+    State,
+    /// Numbers that the compiler chooses.
+    Chosen,
+}
+
+/// What a quantity may be a function of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// The time t.
+    Time,
+    /// The coordinates q.
+    Coordinates,
+    /// Their rates v.
+    Velocities,
+    /// The accelerations a.
+    Accelerations,
+    /// The inputs u.
+    Inputs,
+}
+
+impl Argument {
+    /// The letter of equations and of code.
+    pub fn letter(self) -> &'static str {
+        match self {
+            Argument::Time => "t",
+            Argument::Coordinates => "q",
+            Argument::Velocities => "v",
+            Argument::Accelerations => "a",
+            Argument::Inputs => "u",
+        }
+    }
+}
+
+/// Which machines have a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Needs {
+    /// All of them.
+    Nothing,
+    /// Those with bilateral constraints.
+    Constraints,
+    /// Those with guided contacts.
+    Contacts,
+    /// Those that are asked for it.
+    Request,
+}
+
+impl Needs {
+    /// Whether a machine of these sizes has the quantity, or may be asked for it.
+    pub fn are_met(self, sizes: Sizes) -> bool {
+        match self {
+            Needs::Nothing | Needs::Request => true,
+            Needs::Constraints => sizes.constraints > 0,
+            Needs::Contacts => sizes.contacts > 0,
+        }
+    }
+}
+
+/// Where a function is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Use {
+    /// Now and then: of zeros there is no function.
+    Seldom,
+    /// At every stage of a step: it runs with whatever instructions the processor has.
+    Often,
+    /// As often, and it solves for accelerations: it has no value where the mass matrix is singular.
+    Solves,
+}
+
+/// A row of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// What its function is called.
+    pub name: &'static str,
+    /// Its symbol in formulas, ASCII; empty where there is none.
+    pub symbol: &'static str,
+    /// What its numbers are called in code, with `*` for the name or the place of each.
+    pub code: &'static str,
+    /// How its numbers are arranged.
+    pub extent: Extent,
+    /// What it may depend on.
+    pub of: &'static [Argument],
+    /// Which machines have it.
+    pub needs: Needs,
+    /// Where it is called.
+    pub called: Use,
+    /// Where `docs/equations.md` defines it; empty where the name is the definition.
+    pub equation: &'static str,
+    /// What it is, with units: a sentence in ASCII, symbols between backticks.
+    pub docs: &'static str,
+}
+
+/// How many there are of whatever a quantity has numbers for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sizes {
+    /// Coordinates.
+    pub coordinates: usize,
+    /// Constraints.
+    pub constraints: usize,
+    /// Contacts.
+    pub contacts: usize,
+    /// Variables that accelerations are differentiated by.
+    pub derivatives: usize,
+}
+
+/// Writes the enumeration and the table from the same rows.
+macro_rules! quantities {
+    ($($(#[doc = $docs:literal])+ $role:ident $(($index:ty))? => {
+        $name:literal, $symbol:literal, $code:literal, $extent:expr, [$($of:ident)*], $needs:ident, $called:ident,
+        $equation:literal
+    })+) => {
+        /// What a function computes.
+        ///
+        /// The order is that of functions in a program.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Role {
+            $($(#[doc = $docs])+ $role $(($index))?),+
+        }
+
+        impl Role {
+            /// The row of the table.
+            pub fn row(self) -> &'static Row {
+                match self {
+                    $(Role::$role { .. } => {
+                        const ROW: &Row = &Row {
+                            name: $name,
+                            symbol: $symbol,
+                            code: $code,
+                            extent: $extent,
+                            of: &[$(Argument::$of),*],
+                            needs: Needs::$needs,
+                            called: Use::$called,
+                            equation: $equation,
+                            docs: concat!($($docs),+),
+                        };
+                        ROW
+                    })+
+                }
+            }
+
+            /// Every quantity; of outputs and assumptions the first.
+            pub fn all() -> impl Iterator<Item = Role> {
+                [$(Role::$role $((<$index>::MIN))?),+].into_iter()
+            }
+        }
+    };
+}
+
+use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
+use Kind::{Constraint, Contact, Coordinate};
+
+quantities! {
+    /// Prepared values: what parameters alone decide.
+    Prepare => { "prepare", "", "k*", Chosen, [], Nothing, Seldom, "" }
+    /// The coordinates at the start, and behind them their rates if any of these is not 0.
+    Start => { "start", "", "s*", State, [], Nothing, Seldom, "" }
+    /// Mass matrix `M`.
+    MassMatrix => { "mass_matrix", "M", "m*", Symmetric(Coordinate), [Time Coordinates], Nothing, Seldom, "E4" }
+    /// Bias `h`: velocity products and explicit time in the inertia forces.
+    Bias => { "bias", "h", "h_*", Each(Coordinate), [Time Coordinates Velocities], Nothing, Seldom, "E5" }
+    /// Applied generalized forces `Q`.
+    Applied => {
+        "applied", "Q", "q_*", Each(Coordinate), [Time Coordinates Velocities Inputs], Nothing, Seldom, "E6"
+    }
+    /// Right-hand side `f = Q - h` of `M a = f`.
+    Forces => {
+        "forces", "f", "f_*", Each(Coordinate), [Time Coordinates Velocities Inputs], Nothing, Seldom, "E7"
+    }
+    /// Residuals `g` of the constraints of positions; 0 for those of velocities alone.
+    ConstraintPositions => {
+        "constraint_positions", "g", "g*", Each(Constraint), [Time Coordinates], Constraints, Seldom, "E29"
+    }
+    /// Residuals `phi = G v + dg/dt` of the constraints at the level of velocities.
+    ConstraintRates => {
+        "constraint_rates", "phi", "phi*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom, "E29"
+    }
+    /// Constraint matrix `G`, the derivatives of `phi` by the rates.
+    ConstraintMatrix => {
+        "constraint_matrix", "G", "g*", Rows(Constraint, Coordinate), [Time Coordinates], Constraints, Seldom, "E30"
+    }
+    /// Right-hand side `gamma` of `G a = gamma`.
+    ConstraintDrift => {
+        "constraint_drift", "gamma", "gamma*", Each(Constraint), [Time Coordinates Velocities], Constraints, Seldom,
+        "E30"
+    }
+    /// Accelerations `a`.
+    Accelerations => {
+        "accelerations", "a", "*_ddot", Each(Coordinate), [Time Coordinates Velocities Inputs], Nothing, Solves, "E7"
+    }
+    /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
+    Multipliers => {
+        "multipliers", "lambda", "lambda*", Each(Constraint), [Time Coordinates Velocities Inputs], Constraints, Solves,
+        "E31"
+    }
+    /// Slips `w` of the guided contacts, in m/s.
+    Slips => { "slips", "w", "w*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32" }
+    /// Slip matrix `tau`, the derivatives of the slips by the rates.
+    SlipMatrix => { "slip_matrix", "tau", "tau*", Rows(Contact, Coordinate), [Time Coordinates], Contacts, Seldom, "E32" }
+    /// Rates `dw/dt` of the slips where all accelerations are 0.
+    SlipDrift => {
+        "slip_drift", "sigma", "drift*", Each(Contact), [Time Coordinates Velocities], Contacts, Seldom, "E32"
+    }
+    /// What there is without friction, and what a unit of each friction force adds to it: accelerations, multipliers,
+    /// `dw/dt` and the normal reaction of each contact; behind these the coefficients of friction. A machine with
+    /// contacts has this in place of accelerations and multipliers.
+    Friction => {
+        "friction", "", "r*", Responses, [Time Coordinates Velocities Inputs], Contacts, Solves, "E34"
+    }
+    /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
+    /// `M da/dx = d(f - M a)/dx` with `a` held.
+    Derivatives => {
+        "derivatives", "", "d*", Differentials, [Time Coordinates Velocities Inputs], Request, Solves, "E26"
+    }
+    /// What time alone decides of the accelerations.
+    AtTime => { "at_time", "", "r*", Chosen, [Time], Request, Often, "" }
+    /// What time and coordinates decide of the accelerations.
+    AtPosition => { "at_position", "", "r*", Chosen, [Time Coordinates], Request, Solves, "" }
+    /// Accelerations `a`, of what the stage before has left.
+    AccelerationsAt => {
+        "accelerations_at", "a", "*_ddot", Each(Coordinate), [Time Coordinates Velocities Inputs], Request, Solves, "E7"
+    }
+    /// Kinetic energy `T`, in J.
+    KineticEnergy => { "kinetic_energy", "T", "", Number, [Time Coordinates Velocities], Nothing, Seldom, "E1" }
+    /// Potential energy `V`, in J.
+    PotentialEnergy => { "potential_energy", "V", "", Number, [Time Coordinates Inputs], Nothing, Seldom, "E2" }
+    /// Dissipation function `D`, in W.
+    Dissipation => { "dissipation", "D", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E3" }
+    /// Power `P` that drives, forces and inputs put in, in W.
+    WorkRate => {
+        "work_rate", "P", "", Number, [Time Coordinates Velocities Accelerations Inputs], Nothing, Seldom, "E19"
+    }
+    /// Power `R` that dampers take out, in W.
+    DissipationRate => {
+        "dissipation_rate", "R", "", Number, [Time Coordinates Velocities Inputs], Nothing, Seldom, "E18"
+    }
+    /// A quantity to observe, by its index among the outputs.
+    Output(usize) => {
+        "output", "", "", Number, [Time Coordinates Velocities Accelerations Inputs], Request, Seldom, ""
+    }
+    /// What a fact says is positive, by its index among the assumptions.
+    Assumption(usize) => { "assumption", "", "", Number, [Time Coordinates Velocities Inputs], Request, Seldom, "" }
+}
+
+impl Role {
+    /// The name of a function of this role; outputs and assumptions are numbered.
+    pub fn name(self) -> String {
+        match self {
+            Role::Output(index) | Role::Assumption(index) => format!("{}_{index}", self.row().name),
+            _ => self.row().name.into(),
+        }
+    }
+
+    /// Whether a function of this role inverts the mass matrix: it has no value where that is singular.
+    pub fn inverts(self) -> bool {
+        self.row().called == Use::Solves
+    }
+
+    /// Whether a function of this role is called so often that it is to run with whatever instructions the
+    /// processor has.
+    pub fn is_fast(self) -> bool {
+        self.row().called != Use::Seldom
+    }
+
+    /// Whether there is a function even if it gives zeros.
+    pub fn is_kept(self) -> bool {
+        self.is_fast() || matches!(self, Role::Output(_) | Role::Assumption(_))
+    }
+}
+
+impl Sizes {
+    /// How many there are of a kind.
+    pub fn of(self, kind: Kind) -> usize {
+        match kind {
+            Kind::Coordinate => self.coordinates,
+            Kind::Constraint => self.constraints,
+            Kind::Contact => self.contacts,
+        }
+    }
+}
+
+impl Extent {
+    /// How results are arranged in a machine; `None` where that is up to the compiler.
+    pub fn shape(self, sizes: Sizes) -> Option<Shape> {
+        Some(match self {
+            Number => Shape::Scalar,
+            Each(kind) => Shape::Vector(sizes.of(kind)),
+            Symmetric(kind) => Shape::Symmetric(sizes.of(kind)),
+            Rows(kind, other) => Shape::Vector(sizes.of(kind) * sizes.of(other)),
+            Differentials => Shape::Matrix(sizes.coordinates, 1 + sizes.derivatives),
+            Responses => {
+                let Sizes {
+                    coordinates,
+                    constraints,
+                    contacts,
+                    ..
+                } = sizes;
+                let layout = FrictionLayout {
+                    coordinates,
+                    constraints,
+                    contacts,
+                };
+                Shape::Vector(layout.len())
+            }
+            State | Chosen => return None,
+        })
+    }
+}
+
+/// What a result of a function is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entry {
+    /// Everything: there is one result.
+    Whole,
+    /// One of a kind.
+    Of(Kind, usize),
+    /// One of a kind, by one of another: an entry of a matrix.
+    At((Kind, usize), (Kind, usize)),
+    /// The rate of a coordinate.
+    Rate(usize),
+    /// The acceleration of a coordinate, by a variable.
+    Derivative(usize, Variable),
+    /// The result of this index.
+    Index(usize),
+}
+
+impl Program {
+    /// How many there are of whatever a quantity has numbers for.
+    pub fn sizes(&self) -> Sizes {
+        Sizes {
+            coordinates: self.coordinates.len(),
+            constraints: self.constraints.len(),
+            contacts: self.contacts.len(),
+            derivatives: self.derivatives.len(),
+        }
+    }
+
+    /// What a result of a function is about, by its index.
+    pub fn entry(&self, role: Role, index: usize) -> Entry {
+        let n = self.dimension();
+        match role.row().extent {
+            Number => Entry::Whole,
+            Each(kind) => Entry::Of(kind, index),
+            Symmetric(kind) => {
+                let (i, j) = Shape::place(index);
+                Entry::At((kind, i), (kind, j))
+            }
+            Rows(kind, other) => {
+                let width = self.sizes().of(other).max(1);
+                Entry::At((kind, index / width), (other, index % width))
+            }
+            Differentials => {
+                let width = 1 + self.derivatives.len();
+                let column = (index % width).checked_sub(1);
+                match column.and_then(|column| self.derivatives.get(column)) {
+                    Some(variable) => Entry::Derivative(index / width, *variable),
+                    None => Entry::Of(Coordinate, index / width),
+                }
+            }
+            State if index >= n => Entry::Rate(index - n),
+            State => Entry::Of(Coordinate, index),
+            Responses | Chosen => Entry::Index(index),
+        }
+    }
+
+    /// The name of one of a kind, as the spec writes it; its number where there is none.
+    pub fn member(&self, (kind, index): (Kind, usize)) -> String {
+        let name = match kind {
+            Coordinate => self
+                .coordinates
+                .get(index)
+                .map(|slot| slot.name.to_string()),
+            Constraint => self.constraints.get(index).map(|one| one.name.clone()),
+            Contact => self.contacts.get(index).cloned(),
+        };
+        name.unwrap_or_else(|| index.to_string())
+    }
+
+    /// What a function computes, in a sentence or two: ASCII, symbols between backticks.
+    pub fn docs(&self, role: Role) -> String {
+        match role {
+            Role::Accelerations => {
+                let equations = match self.constraints.is_empty() {
+                    true => "`M a = f`",
+                    false => "`M a = f + G^T lambda`, `G a = gamma`",
+                };
+                let form = match self.choice(role) {
+                    Some(choice) => format!(" {}", choice.chosen().form),
+                    None => String::new(),
+                };
+                format!("Accelerations `a`, the solution of {equations}{form}.")
+            }
+            Role::Output(index) => match self.outputs.get(index) {
+                Some(slot) => slot.docs.clone(),
+                None => String::new(),
+            },
+            Role::Assumption(index) => match self.assumptions.get(index) {
+                Some(fact) => format!("By how much `{}` holds.", fact.text),
+                None => String::new(),
+            },
+            role => role.row().docs.trim().to_owned(),
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! A program without what nobody asks for.
+
+use super::schedule::with_operands;
+use super::{Function, Op, Program, Role, Shape, Source, Value};
+use lagrangian_units::Stages;
+
+impl Program {
+    /// The same machine with one function, beside [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and with those prepared values that this one reads.
+    ///
+    /// A mass matrix of n coordinates has n² prepared values; accelerations that are eliminated
+    /// along a chain read a few for each link.
+    pub fn restricted(&self, role: Role) -> Program {
+        let mut functions: Vec<Function> = self.functions.clone();
+        functions.retain(|function| function.role == role);
+        let mut slots: Vec<Option<u32>> = vec![None; self.prepare.results.len()];
+        for op in functions.iter().flat_map(|function| &function.code) {
+            if let Op::Read(Source::Prepared(slot)) = op {
+                slots[*slot as usize] = Some(0);
+            }
+        }
+        let kept = slots.iter_mut().filter_map(Option::as_mut);
+        kept.zip(0..).for_each(|(slot, number)| *slot = number);
+        for op in functions.iter_mut().flat_map(|function| &mut function.code) {
+            if let Op::Read(Source::Prepared(slot)) = op {
+                *slot = slots[*slot as usize].expect("what is read is kept");
+            }
+        }
+        let is_kept = |slot: usize| slots[slot].is_some();
+        let results = self.prepare.results.iter().enumerate();
+        let results = results.filter(|(slot, _)| is_kept(*slot));
+        let formulas = self.prepared.iter().enumerate();
+        let formulas = formulas.filter(|(slot, _)| is_kept(*slot));
+        let prepare = Function {
+            results: results.map(|(_, value)| *value).collect(),
+            ..self.prepare.clone()
+        };
+        let mut choices = self.choices.clone();
+        choices.retain(|choice| choice.role() == role);
+        Program {
+            prepared: formulas.map(|(_, formula)| formula.clone()).collect(),
+            prepare: without_the_unused(prepare),
+            functions,
+            choices,
+            stages: Stages::default(),
+            ..self.clone()
+        }
+    }
+}
+
+impl Program {
+    /// The same with some of the functions, beside [`prepare`](Program::prepare) and
+    /// [`start`](Program::start), and all prepared values.
+    pub fn with_functions(&self, is_kept: impl Fn(Role) -> bool) -> Program {
+        let functions = self.functions.iter().filter(|f| is_kept(f.role));
+        Program {
+            name: self.name.clone(),
+            docs: String::new(),
+            parameters: self.parameters.clone(),
+            coordinates: self.coordinates.clone(),
+            inputs: self.inputs.clone(),
+            outputs: self.outputs.clone(),
+            assumptions: self.assumptions.clone(),
+            constraints: self.constraints.clone(),
+            contacts: self.contacts.clone(),
+            kept: self.kept.clone(),
+            derivatives: self.derivatives.clone(),
+            stages: self.stages,
+            prepare: self.prepare.clone(),
+            prepared: self.prepared.clone(),
+            start: self.start.clone(),
+            functions: functions.cloned().collect(),
+            choices: Vec::new(),
+        }
+    }
+}
+
+/// A function with those operations only that a result or a guard needs.
+fn without_the_unused(function: Function) -> Function {
+    let Function {
+        code,
+        mut results,
+        mut guards,
+        ..
+    } = function;
+    let mut is_used = vec![false; code.len()];
+    let guarded = guards.iter().flat_map(|guard| [guard.pivot, guard.scale]);
+    for value in results.iter().copied().chain(guarded) {
+        is_used[value.index()] = true;
+    }
+    for (index, op) in code.iter().enumerate().rev() {
+        if is_used[index] {
+            op.operands()
+                .for_each(|operand| is_used[operand.index()] = true);
+        }
+    }
+    let mut place = vec![Value(0); code.len()];
+    let mut left: Vec<Op> = Vec::new();
+    for (index, op) in code.iter().enumerate().filter(|(index, _)| is_used[*index]) {
+        place[index] = Value(left.len() as u32);
+        left.push(with_operands(op, |operand| place[operand.index()]));
+    }
+    for value in &mut results {
+        *value = place[value.index()];
+    }
+    for guard in &mut guards {
+        guard.pivot = place[guard.pivot.index()];
+        guard.scale = place[guard.scale.index()];
+    }
+    Function {
+        shape: Shape::Vector(results.len()),
+        code: left,
+        results,
+        guards,
+        ..function
+    }
+}

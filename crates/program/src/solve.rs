@@ -1,0 +1,478 @@
+//! The accelerations from `M a = f`, specialised to what is zero, constant or varying in M.
+//!
+//! M = L D Lᵀ without exchange of rows, in an order found here. M is symmetric and positive
+//! definite wherever the coordinates describe the machine, and for such a matrix every order is
+//! backward stable: the computed factors are those of M + ΔM with |ΔM| ≤ γ |L| |D| |Lᵀ| ≤ γ' √(Mᵢᵢ
+//! Mⱼⱼ) (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, theorems
+//! 10.3 and 10.4). So the order may be the one that is cheapest to run.
+//!
+//! The order is that of minimum degree with a weight for stages: operations whose operands only
+//! parameters decide are free, because they are done once. Zeros stay out of the code altogether;
+//! blocks that are not coupled fall apart by themselves.
+//!
+//! Bilateral constraints are further rows and columns, `M a − Gᵀ λ = f` and `G a = γ`, which is
+//! symmetric in `a` and `−λ`. The whole is not definite, so not every order will do; a constraint is
+//! eliminated once all its coordinates are, and then its pivot is `−G M⁻¹ Gᵀ` of what is
+//! eliminated already: of one sign wherever the constraints say different things. So a long chain
+//! that closes is eliminated from its ends, as a tree is.
+//!
+//! What may be divided by is decided at a random point of a prime field, where nothing is rounded and
+//! no zero is in disguise. Constraints that say what others have said already leave a pivot of 0: their
+//! multipliers are 0 here, and a guard that always fails tells whoever asks that these are not the
+//! only ones. Where M is singular and the constraints hold what has no inertia, `M + Gᵀ W G` takes its
+//! place, which has the same motion and the same multipliers since the constraints decide `G a`
+//! ([`System::held`]).
+//!
+//! W. F. Tinney and J. W. Walker, *Direct solutions of sparse network equations by optimally
+//! ordered triangular factorization*, Proc. IEEE 55 (1967) 1801–1809, scheme 2.
+
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_symbolic::Rational;
+
+use super::graph::{Graph, Scaled};
+use super::{Shape, Source};
+
+/// How many times n·2⁻⁵² of its diagonal entry a pivot must exceed.
+///
+/// What is left of Mᵢᵢ in the pivot dᵢ carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the
+/// elimination (theorem 10.3), half of n·2⁻⁵²·Mᵢᵢ and a little; the rest allows for entries of M
+/// that are wrong by 7n·2⁻⁵³ of themselves, more than the roundings on the way from the ground to a
+/// body of any machine seen. A pivot below that may be nothing but error: there, accelerations
+/// would have no correct digit.
+const PIVOT_MARGIN: f64 = 4.0;
+
+/// The share of a diagonal entry that may be rounding error in a pivot of an n×n matrix.
+pub fn pivot_tolerance(n: usize) -> f64 {
+    PIVOT_MARGIN * n as f64 * f64::EPSILON
+}
+
+/// Accelerations, and the pivots that must not vanish, in the order of elimination.
+pub struct Solution {
+    /// `a`, in the order of the coordinates.
+    pub accelerations: Vec<Scaled>,
+    /// Of the constraints.
+    pub multipliers: Vec<Scaled>,
+    /// What must not vanish, in the order of elimination.
+    pub pivots: Vec<Pivot>,
+    /// What was done with each pivot.
+    pub columns: Vec<Column>,
+}
+
+/// A pivot of the elimination.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Pivot {
+    /// The coordinate that is eliminated; behind all coordinates a constraint.
+    pub coordinate: usize,
+    /// Its value.
+    pub pivot: Scaled,
+    /// The diagonal entry that it was left over from.
+    pub scale: Scaled,
+}
+
+/// What is solved: the lower triangle of M row by row and f; behind them the rows of G, each with
+/// zeros up to the diagonal, and γ.
+#[derive(Clone, PartialEq)]
+pub struct System {
+    /// The triangle.
+    pub matrix: Vec<Scaled>,
+    /// The right-hand side.
+    pub forces: Vec<Scaled>,
+    /// How many rows are of coordinates.
+    pub coordinates: usize,
+    /// Constraints whose squares are part of M and f, `M + Σ wₖ gₖ gₖᵀ` and `f + Σ wₖ γₖ gₖ`, with
+    /// their weights.
+    pub held: Vec<(usize, Scaled)>,
+}
+
+impl System {
+    /// The lower triangle at a random point where all of it has a value.
+    fn at_random(&self, graph: &Graph) -> Option<Vec<Residue>> {
+        /// A square root exists at every second point.
+        const TRIALS: u64 = 16;
+        let at = |seed| graph.evaluate(&self.matrix, |source| random(seed, source));
+        (0..TRIALS)
+            .map(at)
+            .find(|values| values.iter().all(|value| value.is_finite()))
+    }
+
+    /// The row of a constraint.
+    pub fn row(&self, constraint: usize) -> &[Scaled] {
+        let start = Shape::index(self.coordinates + constraint, 0);
+        &self.matrix[start..start + self.coordinates]
+    }
+
+    /// The same system with a regular M, where constraints hold what has no inertia: each of these
+    /// adds as much inertia along it as its coordinates have together.
+    pub fn held_by_constraints(mut self, graph: &mut Graph) -> System {
+        let n = self.coordinates;
+        let count = self.forces.len() - n;
+        if count == 0 {
+            return self;
+        }
+        let Some(values) = self.at_random(graph) else {
+            return self;
+        };
+        let entry = |i: usize, j: usize| values[Shape::index(i.max(j), i.min(j))];
+        let rows = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect());
+        let free = lagrangian_symbolic::null_space(rows.collect(), n);
+        let mut matrix = self.matrix.clone();
+        let mut forces = self.forces.clone();
+        for k in 0..count {
+            let along = |direction: &Vec<Residue>| {
+                let products = (0..n).map(|j| entry(n + k, j) * direction[j]);
+                products.fold(Residue::ZERO, |sum, x| sum + x)
+            };
+            if free
+                .iter()
+                .all(|direction| along(direction) == Residue::ZERO)
+            {
+                continue;
+            }
+            let row = self.row(k).to_vec();
+            let own = (0..n).filter(|&j| !row[j].is_zero());
+            let inertia = own.clone().fold(Residue::ZERO, |sum, j| sum + entry(j, j));
+            let inert: Vec<usize> = match inertia == Residue::ZERO {
+                true => (0..n).collect(),
+                false => own.clone().collect(),
+            };
+            let inertia = inert.iter().map(|&j| self.matrix[Shape::index(j, j)]);
+            let inertia = graph.sum(&inertia.collect::<Vec<_>>());
+            let squares: Vec<Scaled> = own.clone().map(|j| graph.product(&[(row[j], 2)])).collect();
+            let squares = graph.sum(&squares);
+            let weight = graph.quotient(inertia, squares);
+            let weight = graph.whole(weight);
+            let weighted: Vec<Scaled> = row
+                .iter()
+                .map(|g| {
+                    let weighted = graph.product(&[(weight, 1), (*g, 1)]);
+                    graph.whole(weighted)
+                })
+                .collect();
+            for i in own.clone() {
+                for j in own.clone().take_while(|j| *j <= i) {
+                    let place = &mut matrix[Shape::index(i, j)];
+                    let product = graph.product(&[(weighted[i], 1), (row[j], 1)]);
+                    *place = total(graph, &[*place, product]);
+                }
+                let product = graph.product(&[(weighted[i], 1), (self.forces[n + k], 1)]);
+                forces[i] = total(graph, &[forces[i], product]);
+            }
+            self.held.push((k, weight));
+        }
+        self.matrix = matrix;
+        self.forces = forces;
+        self
+    }
+}
+
+/// A random value of what is read, one and the same for the same seed.
+fn random(seed: u64, source: Source) -> Residue {
+    let (kind, index) = match source {
+        Source::Time => (0, 0),
+        Source::Parameter(index) => (1, index),
+        Source::Prepared(index) => (2, index),
+        Source::Coordinate(index) => (3, index),
+        Source::Velocity(index) => (4, index),
+        Source::Input(index) => (5, index),
+        Source::Acceleration(index) => (6, index),
+        Source::AtTime(index) => (7, index),
+        Source::AtPosition(index) => (8, index),
+    };
+    Residue::random(seed, kind << 32 | u64::from(index))
+}
+
+/// Solves `M a = f + Gᵀ λ`, `G a = γ`.
+pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> Solution {
+    let System {
+        matrix,
+        forces,
+        coordinates,
+        ..
+    } = system;
+    let (n, is_constraint) = (forces.len(), |row: usize| row >= *coordinates);
+    let mut left = Entries::new(matrix, n);
+    // The diagonal of G M⁻¹ Gᵀ.
+    let mut compliance: Vec<Vec<Scaled>> = vec![Vec::new(); n - coordinates];
+    let mut pivots = Vec::with_capacity(n);
+    let mut reduced: Vec<Vec<Scaled>> = forces.iter().map(|force| vec![*force]).collect();
+    let mut columns: Vec<Column> = Vec::with_capacity(n);
+    let mut eliminated = vec![false; n];
+    for k in elimination.order {
+        eliminated[k] = true;
+        if elimination.dependent.contains(&k) {
+            pivots.push(Pivot {
+                coordinate: k,
+                pivot: Scaled::ZERO,
+                scale: graph.constant(&Rational::ONE),
+            });
+            columns.push(Column {
+                k,
+                scaled: Scaled::ZERO,
+                below: Vec::new(),
+            });
+            continue;
+        }
+        let pivot = left.total(graph, k, k);
+        pivots.push(match is_constraint(k) {
+            false => Pivot {
+                coordinate: k,
+                pivot,
+                scale: matrix[Shape::index(k, k)],
+            },
+            true => Pivot {
+                coordinate: k,
+                pivot: pivot.negated(),
+                scale: total(graph, &compliance[k - coordinates]),
+            },
+        });
+        // Column k of what is left of M: u, of which l = u/d.
+        let mut column = Vec::new();
+        let matters = |i: &usize| !eliminated[*i] && !elimination.dependent.contains(i);
+        for i in (0..n).filter(matters) {
+            let u = left.total(graph, i, k);
+            if !u.is_zero() {
+                let l = graph.quotient(u, pivot);
+                column.push((i, u, graph.whole(l)));
+            }
+        }
+        // Mᵢⱼ −= lᵢ uⱼ.
+        for (position, &(i, _, l)) in column.iter().enumerate() {
+            for &(j, u, _) in &column[..=position] {
+                let product = graph.product(&[(l, 1), (u, 1)]);
+                left.subtract(i, j, product);
+                if i == j && is_constraint(i) && !is_constraint(k) {
+                    compliance[i - coordinates].push(product);
+                }
+            }
+        }
+        // fᵢ −= lᵢ fₖ.
+        let force = total(graph, &reduced[k]);
+        for &(i, _, l) in &column {
+            reduced[i].push(graph.product(&[(l, 1), (force, 1)]).negated());
+        }
+        let scaled = graph.quotient(force, pivot);
+        columns.push(Column {
+            k,
+            scaled,
+            below: column.iter().map(|&(i, _, l)| (i, l)).collect(),
+        });
+    }
+    // aₖ = fₖ/dₖ − Σ lᵢ aᵢ, last pivot first.
+    let mut accelerations = vec![Scaled::ZERO; n];
+    for Column { k, scaled, below } in columns.iter().rev() {
+        let mut terms = vec![*scaled];
+        terms.extend(
+            below
+                .iter()
+                .map(|&(i, l)| graph.product(&[(l, 1), (accelerations[i], 1)]).negated()),
+        );
+        accelerations[*k] = total(graph, &terms);
+    }
+    let multipliers = accelerations.split_off(*coordinates);
+    Solution {
+        accelerations,
+        multipliers: multipliers.into_iter().map(Scaled::negated).collect(),
+        pivots,
+        columns,
+    }
+}
+
+/// One step of the elimination: `scaled` is fₖ/dₖ, `below` holds the rows i and multipliers lᵢ.
+pub struct Column {
+    k: usize,
+    scaled: Scaled,
+    /// The rows below it, and what was taken off them.
+    pub below: Vec<(usize, Scaled)>,
+}
+
+/// The sum, as one value that is computed once.
+fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
+    let sum = graph.sum(terms);
+    graph.whole(sum)
+}
+
+/// What is left of M while it is eliminated: for each entry of the lower triangle its terms.
+struct Entries {
+    n: usize,
+    terms: Vec<Vec<Scaled>>,
+}
+
+impl Entries {
+    fn new(matrix: &[Scaled], n: usize) -> Entries {
+        let terms = matrix.iter().map(|entry| {
+            if entry.is_zero() {
+                vec![]
+            } else {
+                vec![*entry]
+            }
+        });
+        Entries {
+            n,
+            terms: terms.collect(),
+        }
+    }
+
+    fn subtract(&mut self, i: usize, j: usize, term: Scaled) {
+        self.terms[Shape::index(i, j)].push(term.negated());
+    }
+
+    fn total(&self, graph: &mut Graph, i: usize, j: usize) -> Scaled {
+        total(graph, &self.terms[Shape::index(i, j)])
+    }
+}
+
+/// What kind of number an entry is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    Zero,
+    /// Decided by parameters: work on such entries is done once.
+    Known,
+    Varying,
+}
+
+/// The kinds of all entries, and which rows are left.
+struct Pattern {
+    kinds: Vec<Vec<Kind>>,
+    left: Vec<usize>,
+}
+
+impl Pattern {
+    fn new(entries: &Entries) -> Pattern {
+        let kind = |i, j| match entries.terms[Shape::index(i, j)].first() {
+            None => Kind::Zero,
+            Some(entry) if entry.is_known() => Kind::Known,
+            Some(_) => Kind::Varying,
+        };
+        let kinds = (0..entries.n)
+            .map(|i| (0..entries.n).map(|j| kind(i, j)).collect())
+            .collect();
+        Pattern {
+            kinds,
+            left: (0..entries.n).collect(),
+        }
+    }
+
+    /// The rows that eliminating k changes: how many are known, how many vary.
+    fn neighbours(&self, k: usize) -> (usize, usize) {
+        let count = |kind| {
+            self.left
+                .iter()
+                .filter(|&&i| i != k && self.kinds[i][k] == kind)
+                .count()
+        };
+        (count(Kind::Known), count(Kind::Varying))
+    }
+
+    /// The multiplications that eliminating k takes at run time: for the multipliers, for the rest
+    /// of the matrix, for the right-hand side and the solution.
+    fn cost(&self, k: usize) -> usize {
+        let (known, varying) = self.neighbours(k);
+        let all = known + varying;
+        let pairs = |m: usize| m * (m + 1) / 2;
+        if self.kinds[k][k] == Kind::Varying {
+            all + pairs(all) + 2 * all
+        } else {
+            varying + pairs(all) - pairs(known) + 2 * all
+        }
+    }
+
+    fn eliminate(&mut self, k: usize) {
+        self.left.retain(|&i| i != k);
+        let touched: Vec<usize> = self
+            .left
+            .iter()
+            .copied()
+            .filter(|&i| self.kinds[i][k] != Kind::Zero)
+            .collect();
+        for &i in &touched {
+            for &j in &touched {
+                let known = [(k, k), (i, k), (j, k)]
+                    .iter()
+                    .all(|&(a, b)| self.kinds[a][b] == Kind::Known);
+                let change = if known { Kind::Known } else { Kind::Varying };
+                self.kinds[i][j] = self.kinds[i][j].max(change);
+            }
+        }
+    }
+}
+
+/// A system at a random point, while it is eliminated; without numbers where no point was found.
+struct Numbers {
+    lower: Option<Vec<Residue>>,
+}
+
+impl Numbers {
+    fn is_zero(&self, i: usize, j: usize) -> bool {
+        let index = Shape::index(i.max(j), i.min(j));
+        let entry = self.lower.as_ref().map(|lower| lower[index]);
+        entry == Some(Residue::ZERO)
+    }
+
+    /// Takes row k, whose pivot is not zero, out of the rows that are left.
+    fn eliminate(&mut self, k: usize, left: &[usize]) {
+        let Some(lower) = &mut self.lower else {
+            return;
+        };
+        let index = |i: usize, j: usize| Shape::index(i.max(j), i.min(j));
+        let pivot = lower[index(k, k)];
+        let column = left.iter().map(|&i| (i, lower[index(i, k)]));
+        let column: Vec<(usize, Residue)> = column.filter(|(_, u)| *u != Residue::ZERO).collect();
+        for (position, &(i, u)) in column.iter().enumerate() {
+            let l = u / pivot;
+            for &(j, other) in &column[..=position] {
+                let entry = &mut lower[index(i, j)];
+                *entry = *entry - l * other;
+            }
+        }
+    }
+}
+
+/// The order in which coordinates are eliminated: each time the cheapest one; the first one, if
+/// several are.
+pub struct Elimination {
+    order: Vec<usize>,
+    /// Rows of which nothing is left beside those before them.
+    dependent: Vec<usize>,
+    /// How many multiplications it will take at run time.
+    pub multiplications: usize,
+}
+
+impl Elimination {
+    /// The order for a system.
+    pub fn of(graph: &Graph, system: &System) -> Elimination {
+        let n = system.forces.len();
+        let mut numbers = Numbers {
+            lower: system.at_random(graph),
+        };
+        let mut pattern = Pattern::new(&Entries::new(&system.matrix, n));
+        let whole = pattern.kinds.clone();
+        // A constraint waits for all its coordinates.
+        let is_ready = |k: usize, left: &[usize]| {
+            let waits_for = |&&i: &&usize| i < system.coordinates && whole[k][i] != Kind::Zero;
+            k < system.coordinates || left.iter().find(waits_for).is_none()
+        };
+        let mut elimination = Elimination {
+            order: Vec::with_capacity(n),
+            dependent: Vec::new(),
+            multiplications: 0,
+        };
+        let next = |pattern: &Pattern, numbers: &Numbers| {
+            let ready = pattern.left.iter().filter(|k| is_ready(**k, &pattern.left));
+            ready
+                .map(|&k| (numbers.is_zero(k, k), pattern.cost(k), k))
+                .min()
+        };
+        while let Some((is_zero, cost, k)) = next(&pattern, &numbers) {
+            elimination.order.push(k);
+            if is_zero {
+                elimination.dependent.push(k);
+                pattern.left.retain(|&i| i != k);
+            } else {
+                elimination.multiplications += cost;
+                pattern.eliminate(k);
+                numbers.eliminate(k, &pattern.left);
+            }
+        }
+        elimination
+    }
+}

@@ -1,0 +1,63 @@
+//! What the parts of a machine are called, and what its equations are asked for by these names.
+
+use std::fmt;
+
+/// The name of an item, or of a member of a family: `link[3]`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Name {
+    /// The name as declared.
+    pub base: String,
+    /// The member of the family, where it is one.
+    pub index: Option<i64>,
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.index {
+            Some(index) => write!(f, "{}[{index}]", self.base),
+            None => f.write_str(&self.base),
+        }
+    }
+}
+
+/// The name of the rate of a coordinate, or of a member of a family of them: `der(theta)`, `der(q[3])`.
+pub fn rate_name(coordinate: &str, index: impl fmt::Display) -> String {
+    format!("der({coordinate}{index})")
+}
+
+/// What accelerations depend on, and can be differentiated by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Variable {
+    /// A coordinate, by its index in the list of coordinates.
+    Coordinate(usize),
+    /// The rate of a coordinate.
+    Rate(usize),
+    /// An input, by its index in that of inputs.
+    Input(usize),
+    /// A parameter, by its index in that of parameters.
+    Parameter(usize),
+}
+
+impl Variable {
+    /// Every coordinate, then every rate: what a linearization needs.
+    pub fn of_state(coordinates: usize) -> Vec<Variable> {
+        let q = (0..coordinates).map(Variable::Coordinate);
+        q.chain((0..coordinates).map(Variable::Rate)).collect()
+    }
+}
+
+/// What may stay while the rest changes, so that its work is not done again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stages {
+    /// Time.
+    pub time: bool,
+    /// Time and coordinates.
+    pub coordinates: bool,
+}
+
+impl Stages {
+    /// Whether nothing is asked for.
+    pub fn is_empty(self) -> bool {
+        self == Stages::default()
+    }
+}

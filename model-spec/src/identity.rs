@@ -1,0 +1,389 @@
+//! What is equal, and what equations do not depend on although it stands in them: by experiment in
+//! a prime field.
+//!
+//! Sines and cosines cancel in ways that no local rule sees: how far a top has spun about its own
+//! axis is in the position of every particle of it and in none of its equations. So it is not
+//! looked for but tried: two expressions are evaluated at points of a prime field, where nothing is
+//! rounded. Different values prove a difference; equal values at a random point leave a chance of
+//! about the degree of the expressions over 2⁴⁸ that they differ after all (J. T. Schwartz, *Fast
+//! probabilistic algorithms for verification of polynomial identities*, J. ACM 27 (1980) 701–717).
+//!
+//! Points are fixed, so the same machine gives the same equations.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lagrangian_scalar::{Residue, Scalar};
+use lagrangian_symbolic::{
+    Dag, Expr, Function, Node, Symbol, evaluate, evaluation_work, reachable, reverse, substitute,
+};
+
+use crate::model::stage;
+
+/// Experiments that have to agree.
+const EXPERIMENTS: usize = 3;
+
+/// The same where signs stand in an expression: a sign has two values, so that each experiment
+/// leaves a chance of ½.
+const EXPERIMENTS_WITH_SIGNS: usize = 64;
+
+/// Experiments that are tried for each one that counts: a square root exists at every second point.
+const TRIALS: usize = 16;
+
+/// The [work](evaluation_work) that experiments on one machine may take: some seconds. What is left
+/// open then stays as it is.
+const WORK: usize = 30_000_000;
+
+/// Whether the two are equal, as far as the prime field can tell; `None` where neither has a value
+/// at any point.
+pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
+    let dag = a.dag();
+    let needed = experiments(dag, &[a, b]);
+    let mut agreeing = 0;
+    for seed in 0..(TRIALS * needed) as u64 {
+        let values = evaluate(dag, &[a, b], |symbol| random(seed, symbol));
+        if values.iter().all(|value| value.is_finite()) {
+            if values[0] != values[1] {
+                return Some(false);
+            }
+            agreeing += 1;
+            if agreeing == needed {
+                return Some(true);
+            }
+        }
+    }
+    None
+}
+
+/// Whether an expression is zero, as far as the prime field can tell; `None` where it has a value at
+/// no point.
+pub fn is_zero(expression: Expr<'_>) -> Option<bool> {
+    match expression.is_zero() {
+        true => Some(true),
+        false => equal(expression, expression.dag().zero()),
+    }
+}
+
+/// Writes 0 for what is zero, however it is spelled: `1 - sin(x)^2 - cos(x)^2`.
+pub fn write_zeros<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
+    // One evaluation of all leaves few to be looked at one by one.
+    let values = evaluate(dag, expressions, |symbol| random(0, symbol));
+    for (expression, value) in expressions.iter_mut().zip(values) {
+        let is_suspect = value == Residue::ZERO || !value.is_finite();
+        if is_suspect && is_zero(*expression) == Some(true) {
+            *expression = dag.zero();
+        }
+    }
+}
+
+/// Whether one may divide by all of these: none is zero at a random point. `names` are symbols in them
+/// with what they stand for, in which there are none of these symbols.
+///
+/// What has a value at no point that is tried is not known to be zero.
+pub fn are_divisors<'d>(
+    dag: &'d Dag,
+    divisors: &[Expr<'d>],
+    names: &[(Expr<'d>, Expr<'d>)],
+) -> bool {
+    for seed in 0..TRIALS as u64 {
+        let mut known: BTreeMap<Symbol, Residue> = BTreeMap::new();
+        let meanings: Vec<Expr<'d>> = names.iter().map(|(_, meaning)| *meaning).collect();
+        let values = evaluate(dag, &meanings, |symbol| random(seed, symbol));
+        for ((name, _), value) in names.iter().zip(values) {
+            known.extend(name.as_symbol().map(|symbol| (symbol, value)));
+        }
+        let value = |symbol: Symbol| known.get(&symbol).copied();
+        let values = evaluate(dag, divisors, |s| {
+            value(s).unwrap_or_else(|| random(seed, s))
+        });
+        if values.contains(&Residue::ZERO) {
+            return false;
+        }
+        if values.iter().all(|value| value.is_finite()) {
+            return true;
+        }
+    }
+    true
+}
+
+/// Whether an expression is a function of parameters alone, whatever else stands in it.
+pub fn is_free_of_motion(expression: Expr<'_>) -> bool {
+    constants(expression.dag(), &[expression])[0].is_some()
+}
+
+/// The directions that a matrix takes to zero, wherever all entries have a value: one for each of as
+/// many columns as it lacks in rank, with 1 in this column. `None` where they have a value at no point
+/// that is tried.
+pub fn null_space<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> Option<Vec<Vec<Residue>>> {
+    let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
+    let width = rows.first().map_or(0, Vec::len);
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let values = points.find(|values| values.iter().all(|x| x.is_finite()))?;
+    let rows = values.chunks(width.max(1)).map(<[_]>::to_vec);
+    Some(lagrangian_symbolic::null_space(rows.collect(), width))
+}
+
+fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
+    if factor != Residue::ZERO {
+        for (x, y) in row.iter_mut().zip(other) {
+            if *y != Residue::ZERO {
+                *x = *x - factor * *y;
+            }
+        }
+    }
+}
+
+/// The sign of an expression, if it is the same everywhere: that of a number times a square.
+///
+/// In the field a sign is the Legendre symbol, and that of `c x²` is that of `c` at every point, though
+/// it need not be the sign of the number `c`: this is seen where the expression has a real value.
+pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
+    let dag = expression.dag();
+    let mut signs = Vec::new();
+    for seed in 0..(TRIALS * EXPERIMENTS_WITH_SIGNS) as u64 {
+        let value = evaluate(dag, &[expression], |symbol| random(seed, symbol))[0];
+        if value.is_finite() && value != Residue::ZERO {
+            signs.push(value.sign());
+        }
+        let is_other = |sign: &Residue| *sign != signs[0];
+        if signs.iter().any(is_other) {
+            return None;
+        }
+        if signs.len() == EXPERIMENTS_WITH_SIGNS {
+            break;
+        }
+    }
+    if signs.len() < EXPERIMENTS_WITH_SIGNS {
+        return None;
+    }
+    /// Far above any rounding.
+    const CLEAR: f64 = 1e-9;
+    let real =
+        (0..TRIALS as u32).map(|point| evaluate(dag, &[expression], |s| number(point, s))[0]);
+    let clear: Vec<f64> = real.filter(|x| x.is_finite() && x.abs() > CLEAR).collect();
+    let positive = *clear.first()? > 0.0;
+    clear
+        .iter()
+        .all(|x| (*x > 0.0) == positive)
+        .then_some(positive)
+}
+
+/// Whether the last of some rows is a combination of the others, wherever all have a value. Of rows
+/// that have one nowhere it is not said.
+pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
+    let all: Vec<Expr<'d>> = rows.iter().flatten().copied().collect();
+    let width = rows.first().map_or(0, Vec::len);
+    let mut points = (0..TRIALS as u64).map(|seed| evaluate(dag, &all, |s| random(seed, s)));
+    let Some(values) = points.find(|values| values.iter().all(|x| x.is_finite())) else {
+        return false;
+    };
+    let mut rows: Vec<Vec<Residue>> = values.chunks(width.max(1)).map(<[_]>::to_vec).collect();
+    let Some(mut last) = rows.pop() else {
+        return false;
+    };
+    while let Some(row) = rows.pop() {
+        let Some(pivot) = row.iter().position(|x| *x != Residue::ZERO) else {
+            continue;
+        };
+        for other in rows.iter_mut().chain([&mut last]) {
+            let factor = other[pivot] / row[pivot];
+            subtract(other, factor, &row);
+        }
+    }
+    last.iter().all(|x| *x == Residue::ZERO)
+}
+
+/// An expression with nothing but parameters in it, if it is a function of them alone.
+pub fn as_function_of_parameters(expression: Expr<'_>) -> Option<Expr<'_>> {
+    let mut settled = [expression];
+    settle(expression.dag(), &mut settled);
+    (settled[0].stage() <= stage::PARAMETER && !settled[0].is_undefined()).then_some(settled[0])
+}
+
+/// The symbols among `candidates` that stand in the expressions although none depends on them.
+///
+/// With 0 put in for these symbols all expressions keep their values.
+pub fn cyclic<'d>(dag: &'d Dag, expressions: &[Expr<'d>], candidates: &[Symbol]) -> Vec<Symbol> {
+    // The slopes of a random combination of the expressions, all in one sweep, leave few to be
+    // tried one by one.
+    let combined: Vec<_> = (1..)
+        .map(|n: i64| dag.int(n * n + 7 * n + 1))
+        .zip(expressions)
+        .collect();
+    let seeds: Vec<_> = combined
+        .into_iter()
+        .map(|(weight, &e)| (e, weight))
+        .collect();
+    let slopes = reverse(dag, &seeds, candidates);
+    let nodes = reachable(dag, expressions);
+    let standing: BTreeSet<Symbol> = nodes
+        .iter()
+        .filter_map(|&id| dag.expr(id).as_symbol())
+        .collect();
+    let suspects = candidates
+        .iter()
+        .zip(constants(dag, &slopes))
+        .filter(|&(symbol, slope)| slope == Some(Residue::ZERO) && standing.contains(symbol))
+        .map(|(&symbol, _)| symbol)
+        .collect();
+    irrelevant(dag, expressions, suspects)
+}
+
+/// The symbols of a list on which none of the expressions depends: with 0 put in for them all keep
+/// their values.
+pub fn irrelevant<'d>(
+    dag: &'d Dag,
+    expressions: &[Expr<'d>],
+    mut cyclic: Vec<Symbol>,
+) -> Vec<Symbol> {
+    let needed = experiments(dag, expressions);
+    if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK {
+        return Vec::new();
+    }
+    let mut agreeing = 0;
+    for seed in 0..(TRIALS * needed) as u64 {
+        if agreeing == needed || cyclic.is_empty() {
+            return cyclic;
+        }
+        let at = |zero: Option<Symbol>| {
+            evaluate(dag, expressions, |symbol| match zero {
+                Some(zero) if zero == symbol => Residue::ZERO,
+                _ => random(seed, symbol),
+            })
+        };
+        let here = at(None);
+        if here.iter().all(|value| value.is_finite()) {
+            cyclic.retain(|&symbol| at(Some(symbol)) == here);
+            agreeing += 1;
+        }
+    }
+    Vec::new()
+}
+
+/// The expressions with 0 put in for symbols on which they do not depend; as they were if that has
+/// no value.
+pub fn without<'d>(dag: &'d Dag, expressions: Vec<Expr<'d>>, symbols: &[Symbol]) -> Vec<Expr<'d>> {
+    let zeros: Vec<_> = symbols.iter().map(|&symbol| (symbol, dag.zero())).collect();
+    let shorter = substitute(dag, &expressions, &zeros);
+    let has_value = !shorter.iter().any(|expression| expression.is_undefined());
+    if has_value { shorter } else { expressions }
+}
+
+/// Rewrites every expression that depends on nothing but parameters such that nothing else stands
+/// in it; what is zero becomes the constant 0.
+pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
+    let constants = constants(dag, expressions);
+    for (expression, constant) in expressions.iter_mut().zip(constants) {
+        if let Some(value) = constant {
+            let symbols = expression.symbols().into_iter();
+            let varying = symbols.filter(|&symbol| dag.stage_of(symbol) > stage::PARAMETER);
+            let zeros: Vec<_> = varying.map(|symbol| (symbol, dag.zero())).collect();
+            let settled = substitute(dag, &[*expression], &zeros);
+            if value == Residue::ZERO && is_zero(*expression) == Some(true) {
+                *expression = dag.zero();
+            } else if evaluate(dag, &settled, |symbol| varied(dag, 0, symbol)) == [value] {
+                *expression = settled[0];
+            }
+        }
+    }
+}
+
+/// For each expression that depends on nothing but parameters its value at a point; the point is
+/// the same for all.
+fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
+    // One more: the first has nothing to agree with.
+    let needed = experiments(dag, expressions) + 1;
+    let mut trials: Vec<Trial> = varying(dag, expressions)
+        .into_iter()
+        .map(|varies| Trial {
+            varies,
+            ..Trial::default()
+        })
+        .collect();
+    let mut left = WORK / evaluation_work(dag, expressions).max(1);
+    for seed in 0..(TRIALS * needed) as u64 {
+        let is_open = |&i: &usize| !trials[i].varies && trials[i].agreeing < needed;
+        let open: Vec<usize> = (0..expressions.len()).filter(is_open).collect();
+        if open.is_empty() || left == 0 {
+            break;
+        }
+        left -= 1;
+        let roots: Vec<Expr<'_>> = open.iter().map(|&i| expressions[i]).collect();
+        let values = evaluate(dag, &roots, |symbol| varied(dag, seed, symbol));
+        open.iter()
+            .zip(values)
+            .for_each(|(&i, value)| trials[i].add(value));
+    }
+    let constant = |trial: Trial| {
+        trial
+            .first
+            .filter(|_| !trial.varies && trial.agreeing >= needed)
+    };
+    trials.into_iter().map(constant).collect()
+}
+
+/// Which expressions surely depend on more than parameters: ordinary numbers say so where the
+/// difference is large, at a hundredth of the price.
+fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
+    /// Far above any rounding.
+    const CLEAR: f64 = 1e-6;
+    let at = |point: u32| {
+        evaluate(dag, expressions, |symbol| {
+            let fixed = dag.stage_of(symbol) <= stage::PARAMETER;
+            number(if fixed { 0 } else { point }, symbol)
+        })
+    };
+    let differ = |(a, b): (f64, f64)| (a - b).abs() > CLEAR * (1.0 + a.abs() + b.abs());
+    at(1).into_iter().zip(at(2)).map(differ).collect()
+}
+
+/// A number between ½ and 1½ for a symbol: fractions of multiples of √2, √3, …, which are spread
+/// evenly (H. Weyl, *Über die Gleichverteilung von Zahlen mod. Eins*, Math. Ann. 77 (1916)
+/// 313–352).
+pub fn number(point: u32, symbol: Symbol) -> f64 {
+    let root = (symbol.index() as f64 + 2.0).sqrt() * std::f64::consts::E;
+    0.5 + (f64::from(point + 1) * root).fract()
+}
+
+/// What is known of an expression after some experiments in which parameters stay the same.
+#[derive(Clone, Default)]
+struct Trial {
+    first: Option<Residue>,
+    agreeing: usize,
+    varies: bool,
+}
+
+impl Trial {
+    fn add(&mut self, value: Residue) {
+        if value.is_finite() {
+            self.varies |= *self.first.get_or_insert(value) != value;
+            self.agreeing += 1;
+        }
+    }
+}
+
+/// A value for a symbol.
+pub fn random(seed: u64, symbol: Symbol) -> Residue {
+    Residue::random(seed, symbol.index() as u64)
+}
+
+/// Parameters always the same, everything else new in every experiment.
+fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
+    let seed = if dag.stage_of(symbol) > stage::PARAMETER {
+        seed
+    } else {
+        u64::MAX
+    };
+    random(seed, symbol)
+}
+
+/// How many experiments prove something about the expressions.
+fn experiments(dag: &Dag, expressions: &[Expr<'_>]) -> usize {
+    use Function::{Abs, Max, Min, Sign};
+    let is_sign = |id| matches!(dag.node(id), Node::Function(Abs | Max | Min | Sign, _));
+    let signs = reachable(dag, expressions).into_iter().any(is_sign);
+    if signs {
+        EXPERIMENTS_WITH_SIGNS
+    } else {
+        EXPERIMENTS
+    }
+}

@@ -1,0 +1,168 @@
+//! Circles in the plane: where they are, and how two of them touch.
+
+use std::collections::BTreeSet;
+
+use lagrangian_symbolic::{Expr, Node, Symbol, Tangent};
+
+use crate::identity;
+use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
+
+/// How two circles stand to each other.
+pub struct Contact<'d> {
+    /// How far they are apart, in m: 0 where they touch.
+    pub gap: Expr<'d>,
+    /// The velocity of the point of the first circle that is nearest to the other, less that of the
+    /// other's, along the tangent.
+    pub slip: Expr<'d>,
+}
+
+/// The centre of a circle and the axes of what it is fixed to, in ground axes.
+pub fn placed<'d>(model: &Model<'d>, circle: &Circle<'d>) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
+    let pose_of = |pose: PoseId| &model.poses[pose.index()];
+    let (origin, axes) = match circle.on {
+        Place::Frame(pose) => (&pose_of(pose).origin, pose_of(pose).axes.clone()),
+        Place::Body(body) => {
+            let body = &model.bodies[body];
+            let ground = || pose_of(PoseId::GROUND).axes.clone();
+            (&body.at, body_axes(model, body).unwrap_or_else(ground))
+        }
+    };
+    let along = |k: usize| {
+        let along = circle.center.iter().zip(&axes);
+        let along = along.map(|(&c, axis)| c * axis[k]);
+        model.dag.sum([origin[k]].into_iter().chain(along))
+    };
+    ((0..origin.len()).map(along).collect(), axes)
+}
+
+/// The axes of a body, in ground axes; none where the spec does not say how it is turned.
+pub fn body_axes<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Vec<Vec<Expr<'d>>>> {
+    match body.rotation {
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].axes.clone()),
+        Rotation::Unspecified => None,
+        Rotation::Angle(angle) => {
+            let (sin, cos) = (angle.sin(), angle.cos());
+            Some(vec![vec![cos, sin], vec![-sin, cos]])
+        }
+    }
+}
+
+/// The angle of a body in the plane.
+pub fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
+    match body.rotation {
+        Rotation::Unspecified => None,
+        Rotation::Angle(angle) => Some(angle),
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),
+    }
+}
+
+/// How fast what a circle is fixed to turns.
+fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
+    let angle = match circle.on {
+        Place::Frame(pose) => Some(model.poses[pose.index()].angle),
+        Place::Body(body) => planar_angle(model, &model.bodies[body]),
+    };
+    angle.map_or(model.dag.zero(), |angle| rate.of(angle))
+}
+
+/// How a circle touches what it is to touch.
+pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Contact<'d> {
+    let circle = &model.circles[touching.circle];
+    match touching.surface {
+        Surface::Inside(other) => with_circle(model, [circle, &model.circles[other]], true, rate),
+        Surface::Outside(other) => with_circle(model, [circle, &model.circles[other]], false, rate),
+        Surface::Along(pose) => with_line(model, circle, pose, rate),
+    }
+}
+
+/// How a circle touches the first axis `e` of a frame from the side of the second, `n`. With `c` from
+/// the frame's origin to the centre, radius `r`, and the circle turning at the rate `ω`:
+///
+/// ```text
+/// gap = c·n − r,    slip = ċ·e + r ω
+/// ```
+///
+/// A point of the line moves across it, whatever the rate at which the frame turns; `c·n` counts as
+/// `r` there.
+fn with_line<'d>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    pose: PoseId,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    let frame = &model.poses[pose.index()];
+    let (centre, _) = placed(model, circle);
+    let line: Vec<Expr<'d>> = centre
+        .iter()
+        .zip(&frame.origin)
+        .map(|(&a, &b)| difference(a, b))
+        .collect();
+    let along =
+        |axis: &[Expr<'d>], u: &[Expr<'d>]| model.dag.sum(axis.iter().zip(u).map(|(&e, &u)| e * u));
+    let velocity: Vec<Expr<'d>> = line.iter().map(|&c| rate.of(c)).collect();
+    let omega = turning(model, circle, rate);
+    Contact {
+        gap: along(&frame.axes[1], &line) - circle.radius,
+        slip: along(&frame.axes[0], &velocity) + circle.radius * omega,
+    }
+}
+
+/// How two circles touch. With `c` from the centre of the other circle to that of the first, `d`
+/// its length, `e = c/d`, `τ` that turned left, radii `r` and `R`, rates of turning `ω` and `Ω`:
+///
+/// ```text
+/// inside    gap = R − r − d,    slip = ċ·τ + r ω − R Ω
+/// outside   gap = d − r − R,    slip = ċ·τ − r ω − R Ω
+/// ```
+fn with_circle<'d>(
+    model: &Model<'d>,
+    [first, other]: [&Circle<'d>; 2],
+    is_inside: bool,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    let centres = [first, other].map(|circle| placed(model, circle).0);
+    let [a, b] = &centres;
+    let line: Vec<Expr<'d>> = a.iter().zip(b).map(|(&a, &b)| difference(a, b)).collect();
+    let facts = model.assumptions.iter().map(|fact| fact.excess);
+    let facts: Vec<_> = facts.map(|fact| (fact, fact.symbols())).collect();
+    let distance = distance(&line, &facts);
+    // ċ·τ = (c × ċ)/d.
+    let velocity = [rate.of(line[0]), rate.of(line[1])];
+    let sweep = line[0] * velocity[1] - line[1] * velocity[0];
+    let [omega, omega_of_other] = [first, other].map(|circle| turning(model, circle, rate));
+    let (r, big) = (first.radius, other.radius);
+    let sign = if is_inside { 1 } else { -1 };
+    Contact {
+        gap: match is_inside {
+            true => big - r - distance,
+            false => distance - r - big,
+        },
+        slip: sweep / distance + r * omega * sign - big * omega_of_other,
+    }
+}
+
+/// `a − b` with what both have in common left out.
+fn difference<'d>(a: Expr<'d>, b: Expr<'d>) -> Expr<'d> {
+    let dag = a.dag();
+    let terms = |e: Expr<'d>| match e.node() {
+        Node::Sum(terms) => terms
+            .iter()
+            .map(|(id, factor)| dag.expr(*id) * factor.clone())
+            .collect(),
+        _ => vec![e],
+    };
+    let (a, b) = (terms(a), terms(b));
+    dag.sum(a.into_iter().chain(b.into_iter().map(|term| -term)))
+}
+
+/// The length of a line, √(u·u), or what is assumed not to be negative and has that square: `facts`
+/// with their symbols.
+pub fn distance<'d>(line: &[Expr<'d>], facts: &[(Expr<'d>, BTreeSet<Symbol>)]) -> Expr<'d> {
+    let squares = line.iter().map(|c| c.square());
+    let square = line[0].dag().sum(squares);
+    let symbols = square.symbols();
+    let known = facts.iter().find(|(fact, of)| {
+        of.is_subset(&symbols) && identity::equal(fact.square(), square) == Some(true)
+    });
+    known.map_or_else(|| square.sqrt(), |&(fact, _)| fact)
+}
