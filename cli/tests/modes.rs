@@ -1415,7 +1415,7 @@ fn what_is_kept_of_the_start_says_from_where_to_look() {
     let free = spec("");
     for arguments in [&[][..], &["--keep", "x"]] {
         let found = modes(&[&[free.path()], arguments].concat());
-        close(number(&found["equilibrium"]["y"]), 1.0);
+        close(number(&found["equilibrium"]["q"]["y"]), 1.0);
     }
     // No point of the ring is at y = 3: the nearest is at x = 0.
     let off = "with `y` kept, `ring` is 8.0000e0 m^2 off";
@@ -1425,7 +1425,7 @@ fn what_is_kept_of_the_start_says_from_where_to_look() {
         assert!(!ok && error.contains(off), "{error}");
     }
     let found = modes(&[kept.path(), "--keep", "none"]);
-    close(number(&found["equilibrium"]["y"]), 1.0);
+    close(number(&found["equilibrium"]["q"]["y"]), 1.0);
     let (ok, _, error) = said(&[free.path(), "--keep", "z"]);
     assert!(
         !ok && error.contains("--keep z: no coordinate named `z`"),

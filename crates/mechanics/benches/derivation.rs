@@ -1,4 +1,4 @@
-//! How long it takes to derive machines: `cargo bench -p lagrangian-spec --bench derivation`.
+//! How long it takes to derive machines: `cargo bench -p lagrangian-mechanics --bench derivation`.
 //!
 //! The limits are those of the project: the crusher within 10 ms, a chain of 16 links within 50 ms, of 64 within 1 s, and growth
 //! no worse than n². Resolving the spec is timed apart. Shown is the mean of some runs, in time of the processor where the system

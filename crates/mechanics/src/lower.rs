@@ -783,11 +783,18 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
         .system(source.expanded, source.quantities)
         .filter(|expanded| *expanded != systems[0].1);
     systems.extend(expanded.map(|system| (Basis::Expanded, system)));
+    let elimination = Elimination::of(&lowering.graph, &systems[0].1);
+    let has_other = elimination.multiplications <= MOST_MULTIPLICATIONS;
     let mut drafts = Vec::new();
     for basis in [Basis::Along, Basis::Ahead] {
-        if let Some(machine) = source.unprojected {
-            let matrix = &systems[0].1.matrix;
-            drafts.extend(along_the_machine(lowering, source, matrix, machine, basis));
+        let Some(machine) = source.unprojected else {
+            break;
+        };
+        let matrix = &systems[0].1.matrix;
+        match along_the_machine(lowering, source, matrix, machine, (basis, has_other)) {
+            Some(along) => drafts.extend(along),
+            // The other order is no shorter.
+            None => break,
         }
     }
     if let Some(machine) = source.cut_open
@@ -1014,14 +1021,15 @@ fn solved<'d>(
     drafts
 }
 
-/// The accelerations by [`articulated::solve`].
+/// The accelerations by [`articulated::solve`]; `None` where these are too long for a way beside that from the mass
+/// matrix, and there is one.
 fn along_the_machine<'d>(
     lowering: &mut Lowering<'_, 'd>,
     source: Set<'_, 'd>,
     matrix: &[Scaled],
     machine: &Unprojected<'d>,
-    basis: Basis,
-) -> Vec<Draft> {
+    (basis, has_other): (Basis, bool),
+) -> Option<Vec<Draft>> {
     let order = match basis {
         Basis::Ahead => Order::Ahead,
         _ => Order::Short,
@@ -1033,10 +1041,19 @@ fn along_the_machine<'d>(
         ..
     }) = articulated::solve(source.model, machine, order)
     else {
-        return Vec::new();
+        return Some(Vec::new());
     };
-    lowering.name(&names);
     let values: Vec<Expr<'d>> = pivots.iter().map(|(_, pivot)| *pivot).collect();
+    if has_other {
+        let named = names.iter().map(|(_, value)| *value);
+        let all: Vec<Expr<'d>> = named
+            .chain(accelerations.iter().chain(&values).copied())
+            .collect();
+        if symbolic::evaluation_work(source.model.dag, &all) > LARGEST_FACTORED {
+            return None;
+        }
+    }
+    lowering.name(&names);
     lowering.lower(&accelerations);
     lowering.lower(&values);
     let results = lowering.values(&accelerations);
@@ -1073,7 +1090,7 @@ fn along_the_machine<'d>(
         counts.min().unwrap_or(0)
     };
     let is_cheap = 100 * ops(&full) <= (100 + DEAREST_GUARDS) * ops(&lean);
-    if is_cheap { full } else { lean }
+    Some(if is_cheap { full } else { lean })
 }
 
 /// Of a machine's diagonal entries of M, against which its pivots are held, the most that they may

@@ -113,6 +113,21 @@ fn long_definitions_end_within_bounds() {
 fn the_longest_definitions_end_within_bounds() {
     let (what, first, rule) = RULES[0];
     assert!(!is_derived(what, &chained(first, rule, 40_000)), "{what}");
+    // One coordinate and one body: nothing in this is large but its length.
+    let (what, first, rule) = RULES[2];
+    is_derived(what, &chained(first, rule, 10_000));
+}
+
+#[test]
+fn products_of_many_factors_end_within_bounds() {
+    is_derived(
+        "500 factors",
+        &chained("2 + x/a", "f[i-1]*(2 + sin(i*x/a))", 500),
+    );
+    is_derived(
+        "500 thirds",
+        &chained("2 + x/a", "f[i-1]*(2 + sin(i*x/a))/3", 500),
+    );
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What a mechanic is told: every code has a spec in `tests/ui/` that makes the mistake, and beside
 //! it what is printed.
 //!
-//! After a change of the messages, `UPDATE_UI=1 cargo test -p lagrangian-spec --test ui` writes what
+//! After a change of the messages, `UPDATE_UI=1 cargo test -p lagrangian-mechanics --test ui` writes what
 //! is printed now. Read the difference as its reader would.
 
 use std::collections::BTreeMap;

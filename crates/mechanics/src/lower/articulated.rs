@@ -50,6 +50,14 @@ const BUDGET: usize = 40_000;
 /// eliminated along itself.
 const MOST_GROWTH: usize = 4_000_000;
 
+/// How many there may be in all: nothing of what was tried is forgotten, and this is half a gigabyte.
+const MOST_SIZE: usize = 10_000_000;
+
+/// How many nodes may lie between the velocity of a point on a bar and those of its joint and of the bar. A
+/// velocity that is built from more, nested deeper than anybody places a point, is none of a bar; and each
+/// would have to be followed to its end.
+const LONGEST_ARM: usize = 64;
+
 /// Accelerations in the order of the coordinates, and pivots in the order of elimination, with
 /// their coordinates.
 pub(super) struct Solution<'d> {
@@ -74,7 +82,7 @@ pub(super) fn solve<'d>(
 
 /// What `derive` makes of a machine; `None` where the graph grows too much on the way.
 fn within_bounds<T>(dag: &Dag, derive: impl FnOnce() -> Option<T>) -> Option<T> {
-    dag.set_limit(dag.size() + MOST_GROWTH);
+    dag.set_limit((dag.size() + MOST_GROWTH).min(MOST_SIZE));
     let derived = derive();
     let is_whole = !dag.is_exhausted();
     dag.set_limit(usize::MAX);
@@ -393,11 +401,23 @@ impl<'d> Front<'d> {
         let mut arms: BTreeMap<Id, Arm<'d>> = BTreeMap::new();
         let mut nodes: Vec<Id> = self.touches.keys().copied().collect();
         nodes.sort_unstable();
+        // What a node is built from comes before it, so each is looked at once.
+        let mut linear: FxHashSet<Id> = FxHashSet::default();
         for id in nodes {
-            if self.coordinates.contains_key(&id) || !self.is_linear(id) {
+            if self.coordinates.contains_key(&id) {
                 continue;
             }
-            let Some(Composition { parts, rest }) = self.composition(id) else {
+            let is_settled = |(part, _): &(Id, Expr<'d>)| {
+                !self.touches.contains_key(part)
+                    || self.coordinates.contains_key(part)
+                    || linear.contains(part)
+            };
+            let direct = self.direct_parts(id);
+            if !direct.is_some_and(|parts| parts.iter().all(is_settled)) {
+                continue;
+            }
+            linear.insert(id);
+            let Some(Composition { parts, rest }) = self.composition_within(id, LONGEST_ARM) else {
                 continue;
             };
             let mut parts = parts;
@@ -1112,6 +1132,11 @@ impl<'d> Front<'d> {
     /// What a velocity is built from: velocities of coordinates, nodes of the front, and nodes that
     /// more than one other node is built from. `None` if it is not linear.
     fn composition(&self, id: Id) -> Option<Composition<'d>> {
+        self.composition_within(id, usize::MAX)
+    }
+
+    /// The same, if no more nodes than `most` lie between it and what it is built from.
+    fn composition_within(&self, id: Id, mut most: usize) -> Option<Composition<'d>> {
         let mut parts: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         let mut rest = Vec::new();
         let mut open = self.direct_parts(id)?;
@@ -1124,6 +1149,7 @@ impl<'d> Front<'d> {
             let is_inner =
                 !self.form.contains_key(&part) && (is_product || self.parents[&part] == 1);
             if is_inner {
+                most = most.checked_sub(1)?;
                 open.extend(
                     self.direct_parts(part)?
                         .into_iter()
