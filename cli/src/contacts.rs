@@ -103,7 +103,10 @@ impl Contacts {
         let system = machine.prepare();
         let values = || model.parameters.iter().zip(machine.parameter_values());
         let friction = |name: &str| {
-            let rolling = model.rolling.iter().find(|r| r.name.to_string() == name)?;
+            let rolling = model
+                .rolling()
+                .into_iter()
+                .find(|r| r.name.to_string() == name)?;
             let known = |symbol| {
                 let own = values().find(|(p, _)| p.symbol.as_symbol() == Some(symbol));
                 own.map_or(f64::NAN, |(_, value)| *value)

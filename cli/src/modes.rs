@@ -170,7 +170,7 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag, files: &Files) -> Result<Compil
     reading.keep_from(files.all())?;
     if model
         .as_ref()
-        .is_some_and(|model| !model.sliding.is_empty())
+        .is_some_and(|model| !model.sliding().is_empty())
     {
         return Err(Failure::run(
             "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",

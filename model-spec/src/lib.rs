@@ -8,6 +8,7 @@
 //! it and never edits it; whatever is wrong with a spec goes into one [`Report`].
 
 pub mod diagnostic;
+mod elements;
 pub mod identity;
 pub mod model;
 pub mod resolve;

@@ -13,7 +13,6 @@
 
 use lagrangian_symbolic::{Dag, Expr};
 
-use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
@@ -21,8 +20,13 @@ pub use crate::unit::{Name, Stages, Variable};
 
 pub mod bounds;
 pub mod circles;
+pub mod element;
+mod published;
+
+pub use published::*;
 
 use bounds::Bound;
+use element::Element;
 
 /// When a value becomes known: the order in which work can be done once and kept.
 pub mod stage {
@@ -75,32 +79,15 @@ pub struct Model<'d> {
     pub frames: Vec<Frame>,
     /// Rigid bodies and particles.
     pub bodies: Vec<Body<'d>>,
-    /// The acceleration of gravity.
-    pub gravity: Option<Vec<Expr<'d>>>,
-    /// Springs and torsion springs: energy ½ k stretch².
-    pub springs: Vec<Elastic<'d>>,
-    /// Dampers: dissipation ½ b (d stretch/dt)².
-    pub dampers: Vec<Elastic<'d>>,
-    /// Potential energies, in coordinates, parameters and time.
-    pub potentials: Vec<Term<'d>>,
-    /// Dissipation functions, in coordinates, velocities, parameters and time.
-    pub dissipations: Vec<Term<'d>>,
-    /// Applied and generalized forces.
-    pub forces: Vec<Force<'d>>,
-    /// Applied torques.
-    pub torques: Vec<Torque<'d>>,
-    /// Bilateral constraints.
-    pub constraints: Vec<Constraint<'d>>,
-    /// Guided contacts with Coulomb friction.
-    pub sliding: Vec<Sliding<'d>>,
+    /// Whatever contributes to the equations beside the inertia of the bodies: springs, gravity, forces,
+    /// constraints, in the order of [`crate::elements`].
+    pub elements: Vec<Element<'d>>,
     /// The same machine with every guide of `sliding` relaxed: what the guided body is built on can
     /// move off, by two coordinates for each guide behind all others. It tells what holds the guides
     /// shut. None where nothing slides.
     pub relaxed: Option<Box<Model<'d>>>,
     /// Circles that can touch.
     pub circles: Vec<Circle<'d>>,
-    /// Circles that touch and roll.
-    pub rolling: Vec<Rolling<'d>>,
     /// Unilateral contacts.
     pub contacts: Vec<Contact<'d>>,
     /// Coordinates that are not treated exactly.
@@ -360,99 +347,6 @@ pub enum Rotation<'d> {
     Frame(PoseId),
 }
 
-/// A spring (energy ½ k stretch²) or a damper (dissipation ½ b (d stretch/dt)²), linear or
-/// torsional.
-#[derive(Clone)]
-pub struct Elastic<'d> {
-    /// Its name.
-    pub name: Name,
-    /// What the spec says about it.
-    pub docs: String,
-    /// Stiffness or damping coefficient; no later than a parameter or time.
-    pub coefficient: Expr<'d>,
-    /// Stretch or twist, of positions and time.
-    pub stretch: Expr<'d>,
-    /// The points that it joins, where it was given by them.
-    pub ends: Option<[Vec<Expr<'d>>; 2]>,
-    /// Whether it twists instead of stretching.
-    pub torsional: bool,
-    /// Its name in the spec.
-    pub span: Span,
-}
-
-/// A named term of an energy or a dissipation.
-#[derive(Clone)]
-pub struct Term<'d> {
-    /// Its name.
-    pub name: Name,
-    /// What the spec says about it.
-    pub docs: String,
-    /// Its value.
-    pub value: Expr<'d>,
-    /// Its name in the spec.
-    pub span: Span,
-}
-
-/// An applied force.
-#[derive(Clone)]
-pub struct Force<'d> {
-    /// Its name.
-    pub name: Name,
-    /// What the spec says about it.
-    pub docs: String,
-    /// Where it acts.
-    pub action: Action<'d>,
-    /// Its name in the spec.
-    pub span: Span,
-}
-
-/// Where a force acts.
-#[derive(Clone)]
-pub enum Action<'d> {
-    /// At a point of the machine.
-    Point {
-        /// The point.
-        at: Vec<Expr<'d>>,
-        /// The force, in ground axes.
-        force: Vec<Expr<'d>>,
-    },
-    /// On a coordinate.
-    Coordinate {
-        /// The index of the coordinate.
-        coordinate: usize,
-        /// The generalized force.
-        value: Expr<'d>,
-    },
-}
-
-/// An applied torque.
-#[derive(Clone)]
-pub struct Torque<'d> {
-    /// Its name.
-    pub name: Name,
-    /// What the spec says about it.
-    pub docs: String,
-    /// The index of the body, which has an angle or a frame.
-    pub body: usize,
-    /// One component in the plane, three in ground axes in space.
-    pub torque: Vec<Expr<'d>>,
-    /// Its name in the spec.
-    pub span: Span,
-}
-
-/// A bilateral constraint, `expression = 0`.
-#[derive(Clone)]
-pub struct Constraint<'d> {
-    /// Its name.
-    pub name: Name,
-    /// Left side less right side; with velocities it is nonholonomic.
-    pub expression: Expr<'d>,
-    /// The unit of both sides.
-    pub unit: Unit,
-    /// Its name in the spec.
-    pub span: Span,
-}
-
 /// What a body slides on, a circle sits on, or a force acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
@@ -460,27 +354,6 @@ pub enum Place {
     Frame(PoseId),
     /// A body, by its index.
     Body(usize),
-}
-
-/// A guided contact whose normal reaction makes Coulomb friction.
-#[derive(Clone)]
-pub struct Sliding<'d> {
-    /// Its name.
-    pub name: Name,
-    /// The body that slides, by its index.
-    pub body: usize,
-    /// What it slides on.
-    pub on: Place,
-    /// The direction of sliding, as given.
-    pub direction: Vec<Expr<'d>>,
-    /// The side on which the body is, as given; the direction turned left where nothing is said.
-    pub normal: Option<Vec<Expr<'d>>>,
-    /// The coefficient of friction.
-    pub friction: Expr<'d>,
-    /// The coefficient of friction of what sticks, where it is another.
-    pub static_friction: Option<Expr<'d>>,
-    /// Its name in the spec.
-    pub span: Span,
 }
 
 /// A circle, fixed to a frame or body.
@@ -516,20 +389,6 @@ pub enum Surface {
     Outside(usize),
     /// The first axis of a frame, on the side of the second.
     Along(PoseId),
-}
-
-/// A circle that touches something and rolls on it.
-#[derive(Clone)]
-pub struct Rolling<'d> {
-    /// Its name.
-    pub name: Name,
-    /// Which circle, and on what.
-    pub circles: Touching,
-    /// The coefficient of friction that there is, of parameters. The motion does not depend on it: it
-    /// says how far rolling may be believed.
-    pub friction: Option<Expr<'d>>,
-    /// Its name in the spec.
-    pub span: Span,
 }
 
 /// A unilateral contact: gap ≥ 0.
@@ -596,119 +455,4 @@ pub struct Output<'d> {
     pub value: Expr<'d>,
     /// Its name in the spec.
     pub span: Span,
-}
-
-/// Equations that somebody printed, to be held against the derived ones.
-#[derive(Clone)]
-pub struct Published<'d> {
-    /// The title of the block.
-    pub title: String,
-    /// What was printed.
-    pub items: Vec<PublishedItem<'d>>,
-    /// Where the block stands.
-    pub span: Span,
-}
-
-/// One printed formula.
-#[derive(Clone)]
-pub struct PublishedItem<'d> {
-    /// What the formula is for.
-    pub quantity: PublishedQuantity,
-    /// What was printed: one value, or the components of a vector. An equation is its left side
-    /// less its right side.
-    pub printed: Vec<Expr<'d>>,
-    /// The terms of each, as printed; none of a vector that is not printed by its components.
-    pub terms: Vec<Vec<PrintedTerm<'d>>>,
-    /// The item, as the spec writes its head: `kinetic_energy mortar`.
-    pub text: String,
-    /// Where the printed formula adds what cannot be added. The formula is compared all the same:
-    /// whoever prints a wrong unit has lost a factor, and the comparison says which.
-    pub remarks: Vec<Diagnostic>,
-    /// Where the spec says it.
-    pub span: Span,
-}
-
-/// A term of a printed formula, as it stands there.
-#[derive(Clone, Debug)]
-pub struct PrintedTerm<'d> {
-    /// Whether it is subtracted, with everything brought to the left of an equals sign.
-    pub negative: bool,
-    /// Whether it stands right of an equals sign.
-    pub on_the_right: bool,
-    /// Its factors, in the order of the print.
-    pub factors: Vec<PrintedFactor<'d>>,
-}
-
-/// A factor of a printed term.
-#[derive(Clone, Debug)]
-pub struct PrintedFactor<'d> {
-    /// As the spec writes it, a sum in brackets.
-    pub text: String,
-    /// Whether it stands behind a slash.
-    pub divides: bool,
-    /// What it is.
-    pub value: Expr<'d>,
-}
-
-impl<'d> PrintedTerm<'d> {
-    /// As the spec writes it.
-    pub fn text(&self) -> String {
-        let factors = self.factors.iter();
-        let factors = factors.map(|factor| (factor.text.as_str(), factor.divides));
-        product(self.negative, factors)
-    }
-
-    /// The same with the other sign.
-    pub fn opposite(&self) -> PrintedTerm<'d> {
-        PrintedTerm {
-            negative: !self.negative,
-            ..self.clone()
-        }
-    }
-
-    /// What it is; none for a term without factors.
-    pub fn value(&self) -> Option<Expr<'d>> {
-        let dag = self.factors.first()?.value.dag();
-        let factors = self.factors.iter();
-        let factors = factors.map(|factor| factor.value.powi(if factor.divides { -1 } else { 1 }));
-        let product = dag.product(factors);
-        Some(if self.negative { -product } else { product })
-    }
-}
-
-/// `-a*b/c`.
-pub fn product<'a>(negative: bool, factors: impl IntoIterator<Item = (&'a str, bool)>) -> String {
-    let mut text = String::from(if negative { "-" } else { "" });
-    for (k, (factor, divides)) in factors.into_iter().enumerate() {
-        text += match (k, divides) {
-            (0, false) => "",
-            (0, true) => "1/",
-            (_, false) => "*",
-            (_, true) => "/",
-        };
-        text += factor;
-    }
-    text
-}
-
-/// What a printed formula is for; bodies and coordinates by their indices.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PublishedQuantity {
-    /// The kinetic energy of one body, or of the machine.
-    KineticEnergy(Option<usize>),
-    /// The potential energy.
-    PotentialEnergy,
-    /// The dissipation function.
-    Dissipation,
-    /// The applied generalized force on a coordinate.
-    Force(usize),
-    /// The generalized friction on a coordinate, of contacts that slide along their directions and
-    /// press to their sides.
-    Friction(usize),
-    /// The position of a body's mass centre.
-    Position(usize),
-    /// The velocity of a body's mass centre.
-    Velocity(usize),
-    /// The equation of motion of a coordinate.
-    Equation(usize),
 }

@@ -13,7 +13,9 @@
 //! | [`work`] | in which order |
 //! | [`expression`] | the value and the unit of an expression |
 //! | [`frames`] | frames and points |
-//! | [`items`] | bodies, springs, forces, … |
+//! | [`fields`] | the fields of records |
+//! | [`items`] | parameters, coordinates, bodies, circles, … |
+//! | [`element`] | what elements mean, by the list that it is given |
 //! | [`rates`] | rates at the start |
 //! | [`bounds`] | numbers that no machine has |
 //! | [`warnings`] | what may not be meant |
@@ -28,7 +30,9 @@
 mod bounds;
 mod brachistochrone;
 mod derivatives;
-mod expression;
+pub(crate) mod element;
+pub(crate) mod expression;
+mod fields;
 mod frames;
 mod items;
 mod keep;
@@ -40,7 +44,7 @@ mod rates;
 mod relaxation;
 mod stages;
 mod text;
-mod value;
+pub(crate) mod value;
 mod warnings;
 mod work;
 
@@ -57,13 +61,13 @@ use crate::model::bounds::Bound;
 use crate::model::{Model, Pose, PoseId, Space, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, SectionKind, Spec};
-use crate::unit::Unit;
 
+use element::Row;
 use frames::PoseKey;
 use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
 use relaxation::Guide;
-use value::{MemberId, Scope, limits};
+use value::MemberId;
 use work::Need;
 
 /// The most nodes that the expressions of one machine may have.
@@ -80,38 +84,52 @@ const STEP_LIMIT: usize = 2_000_000;
 /// The most names of the base in a message.
 const SHOWN_CONSTANTS: usize = 8;
 
-impl<'d> Model<'d> {
-    /// Finds out what a spec means.
-    ///
-    /// `constants` replaces the values of constants, by name: `N = 64`. `files` is where `extends`
-    /// finds the base. There is a model only if the report has no errors.
-    pub fn resolve(
-        spec: Spec,
-        dag: &'d Dag,
-        constants: &[(String, Rational)],
-        files: &mut dyn Files,
-        sources: &mut Sources,
-        report: &mut Report,
-    ) -> Option<Model<'d>> {
-        let layers = Layers::load(spec, files, sources, report);
-        let mut model = Resolver::new(&layers, dag, constants, report).resolve(&layers.specs)?;
-        if !model.sliding.is_empty() {
-            // What is wrong has been said.
-            let mut unread = Report::new();
-            let mut resolver = Resolver::new(&layers, dag, constants, &mut unread);
-            resolver.guides = relaxation::guides(&model);
-            resolver.time = model.time;
-            resolver.symbols = relaxation::symbols(&model);
-            model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
-        }
-        Some(model)
+/// What a spec is read with: the sections of the language, and what those of elements mean.
+#[derive(Clone, Copy)]
+pub(crate) struct Language {
+    /// All sections, in the order of the reference.
+    pub sections: &'static [SectionKind],
+    /// Those of elements, in the order in which they are worked out.
+    pub elements: &'static [Row],
+}
+
+impl Language {
+    /// That of values alone.
+    const WITHOUT_SECTIONS: Language = Language {
+        sections: &[],
+        elements: &[],
+    };
+}
+
+/// Finds out what a spec means. There is a model only if the report has no errors.
+pub(crate) fn resolve<'d>(
+    spec: Spec,
+    language: Language,
+    dag: &'d Dag,
+    constants: &[(String, Rational)],
+    (files, sources): (&mut dyn Files, &mut Sources),
+    report: &mut Report,
+) -> Option<Model<'d>> {
+    let layers = Layers::load(spec, language.sections, files, sources, report);
+    let resolver = Resolver::new(&layers, language, dag, constants, report);
+    let mut model = resolver.resolve(&layers.specs)?;
+    if !model.sliding().is_empty() {
+        // What is wrong has been said.
+        let mut unread = Report::new();
+        let mut resolver = Resolver::new(&layers, language, dag, constants, &mut unread);
+        resolver.guides = relaxation::guides(&model);
+        resolver.time = model.time;
+        resolver.symbols = relaxation::symbols(&model);
+        model.relaxed = resolver.resolve(&layers.specs).map(Box::new);
     }
+    Some(model)
 }
 
 /// The work in progress.
-struct Resolver<'a, 'd, 'r> {
-    dag: &'d Dag,
-    space: Space,
+pub(crate) struct Resolver<'a, 'd, 'r> {
+    pub(crate) dag: &'d Dag,
+    pub(crate) space: Space,
+    language: Language,
     /// The values that the caller sets for constants.
     overrides: &'r [(String, Rational)],
     report: &'r mut Report,
@@ -157,6 +175,7 @@ struct Resolver<'a, 'd, 'r> {
 impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     fn new(
         layers: &Layers,
+        language: Language,
         dag: &'d Dag,
         overrides: &'r [(String, Rational)],
         report: &'r mut Report,
@@ -164,6 +183,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         Resolver {
             dag,
             space: space_of(&layers.specs),
+            language,
             overrides,
             report,
             said: FxHashSet::default(),
@@ -220,18 +240,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         let assumptions = self.assumptions(layers);
         let facts = assumptions.iter().map(|fact| fact.excess);
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
-        let mut springs = self.each(Springs, Self::spring);
-        springs.extend(self.each(TorsionSprings, Self::torsion_spring));
-        let gravity = self.gravity(layers);
-        let dampers = self.each(Dampers, Self::damper);
-        let potentials = self.each(Potentials, Self::potential);
-        let dissipations = self.each(Dissipations, Self::dissipation);
-        let forces = self.each(Forces, Self::force);
-        let torques = self.each(Torques, Self::torque);
-        let constraints = self.each(Constraints, Self::constraint);
+        let elements = self.elements(layers);
         let circles = self.each(Circles, Self::circle);
-        let sliding = self.each(Sliding, Self::sliding);
-        let rolling = self.each(Rolling, Self::rolling);
         let contacts = self.each(Contacts, Self::contact);
         let approximations = self.each(Approximations, |resolver, member| {
             Some(resolver.approximation(member))
@@ -271,18 +281,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             poses: std::mem::take(&mut self.poses),
             frames,
             bodies: bodies.into_iter().map(|(_, body)| body).collect(),
-            gravity,
-            springs,
-            dampers,
-            potentials,
-            dissipations,
-            forces,
-            torques,
-            constraints,
-            sliding,
+            elements,
             relaxed: None,
             circles,
-            rolling,
             contacts,
             approximations: approximations.into_iter().flatten().collect(),
             outputs,
@@ -305,7 +306,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             destination,
             published,
             bounds,
-            sections: sections_of(layers),
+            sections: self.sections_of(layers),
         };
         self.notice_weight(&model, layers);
         Some(model)
@@ -337,7 +338,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 }
             });
         }
-        for section in SectionKind::ALL {
+        for section in self.language.sections {
             for (ordinal, member) in self.members_of(*section).into_iter().enumerate() {
                 self.ordinals.insert(member, ordinal);
             }
@@ -345,31 +346,17 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     }
 
     /// Which one of its section a member is.
-    fn ordinal(&self, member: MemberId) -> Option<usize> {
+    pub(crate) fn ordinal(&self, member: MemberId) -> Option<usize> {
         self.ordinals.get(&member).copied()
     }
 
-    /// The acceleration of gravity, as the last variant says it.
-    fn gravity(&mut self, layers: &'a [Spec]) -> Option<Vec<Expr<'d>>> {
-        let mut said = None;
-        for spec in layers {
-            let mut removed = spec.remove.iter().map(|remove| remove.section.value);
-            if removed.any(|section| section == SectionKind::Gravity) {
-                said = None;
-            }
-            said = spec.gravity.as_ref().or(said);
-        }
-        let said = said?.value.as_ref()?;
-        let scope = Scope {
-            index: None,
-            limit: &limits::GRAVITY,
-            hint: None,
+    /// The headings of all sections, each where it is said first.
+    fn sections_of(&self, layers: &[Spec]) -> Vec<(SectionKind, Span)> {
+        let heading = |&kind: &SectionKind| {
+            let span = layers.iter().find_map(|spec| spec.section(kind))?;
+            Some((kind, span))
         };
-        let unit = Unit::METRE.rate().rate();
-        let why = "gravity is an acceleration, in m/s^2";
-        let gravity =
-            self.settle(|resolver| resolver.vector_in(said, "a vector", unit, why, scope));
-        Some(gravity?.components)
+        self.language.sections.iter().filter_map(heading).collect()
     }
 
     /// What can be wrong with the head of a machine.
@@ -459,7 +446,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     }
 
     /// Reports a mistake, once in each place.
-    fn push(&mut self, diagnostic: Diagnostic) {
+    pub(crate) fn push(&mut self, diagnostic: Diagnostic) {
         let about_units = matches!(diagnostic.code, Code::UnitMismatch | Code::UnitOfPower);
         match &mut self.remarks {
             Some(remarks) if about_units => remarks.push(diagnostic),
@@ -472,7 +459,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
     }
 
     /// Reports a mistake that needs no more words.
-    fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
+    pub(crate) fn error(&mut self, code: Code, span: Span, message: impl Into<String>) {
         self.push(Diagnostic::new(code, span, message));
     }
 
@@ -500,13 +487,4 @@ fn space_of(layers: &[Spec]) -> Space {
         Some(syntax::Space::Space) => Space::Space,
         _ => Space::Plane, // where nobody says it, the parser has reported that
     }
-}
-
-/// The headings of all sections, each where it is said first.
-fn sections_of(layers: &[Spec]) -> Vec<(SectionKind, Span)> {
-    let heading = |&kind: &SectionKind| {
-        let span = layers.iter().find_map(|spec| spec.section(kind))?;
-        Some((kind, span))
-    };
-    SectionKind::ALL.iter().filter_map(heading).collect()
 }

@@ -55,7 +55,9 @@
 //! ```
 //!
 //! A parameter, a coordinate, an input and an output need their unit, a constant and an output
-//! their value. Which fields a record may have says [`SectionKind::fields`].
+//! their value. Which fields a record may have says [`SectionKind::fields`]. Of the
+//! sections whose items are elements the grammar shows those that there are: the parser is given their
+//! list, see [`Section`].
 
 mod ast;
 mod brackets;
@@ -63,6 +65,7 @@ mod expression;
 mod item;
 mod machine;
 mod parse;
+mod section;
 mod unit;
 
 /// What to write instead of a branch.
@@ -77,3 +80,4 @@ pub(crate) fn coordinate_of_rate(name: &str) -> Option<&str> {
 pub(crate) use crate::unit::rate_name;
 pub use ast::*;
 pub use expression::NESTING_LIMIT;
+pub use section::{Form, Section};

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use lagrangian_spec::diagnostic::Code::{self, *};
 use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::element::{Contribution, Element, Energy, Site};
 use lagrangian_spec::model::{Inertia, Model, Rotation};
 use lagrangian_spec::source::{InMemory, Sources};
 use lagrangian_symbolic::{Dag, Expr, Rational, evaluate};
@@ -387,7 +388,7 @@ fn a_variant_adds_replaces_and_removes() {
         "springs { left { stiffness: 2*k, stretch: x } } remove springs.left;",
     );
     assert_eq!(
-        listed(model.springs.iter().map(|spring| &spring.name)),
+        listed(of(&model, "springs").map(|spring| &spring.name)),
         "left"
     );
     let model = variant(&dag, "parameters { l: m = 7 }");
@@ -395,18 +396,14 @@ fn a_variant_adds_replaces_and_removes() {
     assert_eq!(model.name, "Test");
     assert!(
         variant(&dag, "gravity (0, -g); parameters { g: m/s^2 = 9.81 }")
-            .gravity
+            .gravity()
             .is_some()
     );
-    assert!(
-        variant(
-            &dag,
-            "remove springs; springs { s { stiffness: k, stretch: y } }"
-        )
-        .springs
-        .len()
-            == 1
+    let model = variant(
+        &dag,
+        "remove springs; springs { s { stiffness: k, stretch: y } }",
     );
+    assert_eq!(of(&model, "springs").count(), 1);
     // What the base said of a removed name is wrong in the base.
     let gone = errors(r#"machine Test extends "base.machine" { remove frames.f; }"#);
     assert!(gone.starts_with("base.machine:"), "{gone}");
@@ -527,7 +524,7 @@ fn the_head_of_a_model_is_that_of_the_variant() {
         "height a"
     );
     assert_eq!(model.outputs[1].unit_text, "rad");
-    let springs = lagrangian_spec::syntax::SectionKind::Springs;
+    let springs = lagrangian_spec::syntax::SectionKind::named("springs").expect("a section");
     assert!(model.section(springs).is_some());
     assert!(
         model
@@ -762,6 +759,23 @@ fn a_chain_stays_short() {
     assert!(nodes(100) < 2 * nodes(50));
 }
 
+/// The elements of a section.
+fn of<'m, 'd>(model: &'m Model<'d>, word: &'static str) -> impl Iterator<Item = &'m Element<'d>> {
+    let all = model.elements.iter();
+    all.filter(move |element| element.section.word == word)
+}
+
+/// What the elements of a section deform.
+fn stretches<'d>(model: &Model<'d>, word: &'static str) -> Vec<Expr<'d>> {
+    let contributions = of(model, word).flat_map(|element| &element.contributions);
+    let stretches = contributions.filter_map(|contribution| match contribution {
+        Contribution::Stored(Energy::Quadratic(of))
+        | Contribution::Dissipated(Energy::Quadratic(of)) => Some(of.measure),
+        _ => None,
+    });
+    stretches.collect()
+}
+
 #[test]
 fn springs_between_points_stretch_by_their_distance() {
     let dag = Dag::new();
@@ -770,10 +784,16 @@ fn springs_between_points_stretch_by_their_distance() {
         "springs { s { stiffness: k, from: (0, 0), to: (x, y), length: l } }
          dampers { d { damping: b, from: (0, 0), to: (x, y) } }",
     );
-    let stretches = [model.springs[1].stretch, model.dampers[0].stretch];
+    let (springs, dampers) = (stretches(&model, "springs"), stretches(&model, "dampers"));
+    let stretches = [springs[1], dampers[0]];
     let values = [("x", 3.0), ("y", -4.0), ("l", 2.0)];
     close(&numbers(&dag, &stretches, &values), &[3.0, 5.0]);
-    assert!(model.springs[1].ends.is_some() && model.springs[0].ends.is_none());
+    let between = |element: &Element| {
+        let drawing = element.drawing.as_ref().expect("drawn");
+        matches!(drawing.site, Site::Between(_))
+    };
+    let between: Vec<bool> = of(&model, "springs").map(between).collect();
+    assert_eq!(between, [false, true]);
 }
 
 #[test]
@@ -797,11 +817,11 @@ fn a_distance_that_is_assumed_to_be_positive_has_no_root() {
     );
     let [r, x, y, z] = [0, 2, 3, 4].map(|i| model.coordinates[i].q);
     let l = model.parameters[2].symbol;
-    let stretches: Vec<Expr> = model.springs.iter().map(|spring| spring.stretch).collect();
-    assert_eq!(stretches[..3], [r - l, y - x, z - x]);
-    assert_eq!(model.dampers[0].stretch, r);
+    let springs = stretches(&model, "springs");
+    assert_eq!(springs[..3], [r - l, y - x, z - x]);
+    assert_eq!(stretches(&model, "dampers"), [r]);
     // Nothing says which side of 0 it is on.
-    close(&numbers(&dag, &stretches[3..], &[("x", -2.0)]), &[2.0]);
+    close(&numbers(&dag, &springs[3..], &[("x", -2.0)]), &[2.0]);
 }
 
 /// The examples of the language's reference.

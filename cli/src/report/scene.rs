@@ -13,7 +13,8 @@
 //! vectors are places in the list of values that the page computes.
 
 use lagrangian_spec::model::circles::{body_axes, placed};
-use lagrangian_spec::model::{Body, Elastic, Inertia, Model, Place, PoseId, Rotation, Step, stage};
+use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
+use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
 use serde::Serialize;
 
@@ -201,10 +202,8 @@ struct Points {
     body_axes: Vec<Option<usize>>,
     /// Centre, radius, axes of each circle.
     circles: Vec<[usize; 3]>,
-    /// Of each spring, then of each damper, that is given by its ends.
-    ends: Vec<Option<[usize; 2]>>,
-    /// Their stretches.
-    stretches: Vec<usize>,
+    /// Where each element is that is drawn, in the order of [`drawings`].
+    sites: Vec<SitePoints>,
     gravity: Option<usize>,
 }
 
@@ -237,13 +236,13 @@ impl Points {
             ]
         });
         let circles = circles.collect();
-        let mut ends = Vec::new();
-        let mut stretches = Vec::new();
-        for element in model.springs.iter().chain(&model.dampers) {
-            let points = element.ends.as_ref();
-            ends.push(points.map(|[from, to]| [places.of(from), places.of(to)]));
-            stretches.push(places.of(&[element.stretch]));
-        }
+        let sites = drawings(model).map(|(_, drawing)| match &drawing.site {
+            Site::Between([from, to]) => SitePoints::Between([places.of(from), places.of(to)]),
+            Site::Stretch(stretch) => SitePoints::Stretch(places.of(&[*stretch])),
+            Site::Twist(_) => SitePoints::Twist,
+            Site::At(point) => SitePoints::At(places.of(point)),
+        });
+        let sites = sites.collect();
         Points {
             dimension,
             origins,
@@ -251,9 +250,8 @@ impl Points {
             bodies,
             body_axes: turned,
             circles,
-            ends,
-            stretches,
-            gravity: model.gravity.as_ref().map(|gravity| places.of(gravity)),
+            sites,
+            gravity: model.gravity().map(|gravity| places.of(gravity)),
         }
     }
 
@@ -268,6 +266,26 @@ impl Points {
         });
         drawn.collect()
     }
+}
+
+/// Where an element is drawn, by places.
+enum SitePoints {
+    /// Between two points.
+    Between([usize; 2]),
+    /// Where this stretch is found to be.
+    Stretch(usize),
+    /// At a hinge that is still to be found.
+    Twist,
+    /// About a point.
+    At(usize),
+}
+
+/// The elements that are drawn.
+fn drawings<'m, 'd>(
+    model: &'m Model<'d>,
+) -> impl Iterator<Item = (&'m Element<'d>, &'m Drawing<'d>)> {
+    let all = model.elements.iter();
+    all.filter_map(|element| Some((element, element.drawing.as_ref()?)))
 }
 
 /// The body that a circle is fixed to, or whose frame it is fixed to.
@@ -483,30 +501,28 @@ impl<'d> Finder<'_, 'd> {
         links.into_iter().filter(|link| !covered(link)).collect()
     }
 
-    /// Springs and dampers with their places, and the names of those that have none.
+    /// Springs, dampers and the like with their places, and the names of those that have none.
     fn elements(&self) -> (Vec<ElementDrawn>, Vec<String>) {
-        let springs = self.model.springs.iter().map(|spring| (spring, false));
-        let dampers = self.model.dampers.iter().map(|damper| (damper, true));
-        let given = self.points.ends.iter().zip(&self.points.stretches);
         let mut candidates = self.references(self.model.bodies.len());
-        if candidates.len().pow(2) / 2 * self.points.ends.len() > MOST_PAIRS {
+        if candidates.len().pow(2) / 2 * self.points.sites.len() > MOST_PAIRS {
             candidates.clear();
         }
         let mut sketches: Vec<(usize, [f64; 2])> = Vec::new();
         let (mut drawn, mut omitted) = (Vec::new(), Vec::new());
-        for ((element, damper), (ends, &stretch)) in springs.chain(dampers).zip(given) {
+        for ((element, drawing), site) in drawings(self.model).zip(&self.points.sites) {
             let between = |ends| Placed::Between { ends };
-            let found = match *ends {
-                _ if element.torsional => self.twist(element),
-                Some(ends) => Some(between(ends)),
-                None => {
-                    let pair = self.pair(stretch, &candidates);
-                    pair.map(between).or_else(|| self.sketch(element))
+            let found = match (site, &drawing.site) {
+                (&SitePoints::Between(ends), _) => Some(between(ends)),
+                (&SitePoints::At(about), _) => Some(Placed::Twist { about }),
+                (&SitePoints::Stretch(place), &Site::Stretch(stretch)) => {
+                    let pair = self.pair(place, &candidates);
+                    pair.map(between).or_else(|| self.sketch(stretch))
                 }
+                (_, &Site::Twist(twist)) => self.twist(twist),
+                (SitePoints::Stretch(_) | SitePoints::Twist, _) => None,
             };
             let Some(mut place) = found else {
-                let kind = if damper { "damper" } else { "spring" };
-                omitted.push(format!("{kind} {}", element.name));
+                omitted.push(format!("{} {}", element.section.noun, element.name));
                 continue;
             };
             // Where several act on one body along one direction, they stand on opposite sides by turns.
@@ -524,7 +540,7 @@ impl<'d> Finder<'_, 'd> {
             }
             drawn.push(ElementDrawn {
                 name: element.name.to_string(),
-                damper,
+                damper: drawing.shape == Shape::Dashpot,
                 place,
             });
         }
@@ -548,7 +564,7 @@ impl<'d> Finder<'_, 'd> {
 
     /// The line of action of a force that works on the stretch alone, as a force on one body of a plane machine: `w` with
     /// `∂stretch/∂q = wᵀ ∂(x, y, angle)/∂q` at the start.
-    fn sketch(&self, element: &Elastic<'d>) -> Option<Placed> {
+    fn sketch(&self, stretch: Expr<'d>) -> Option<Placed> {
         if self.dimension() != 2 {
             return None;
         }
@@ -564,7 +580,7 @@ impl<'d> Finder<'_, 'd> {
         let numbers =
             |slopes: &[Expr<'d>]| evaluate(self.model.dag, slopes, |symbol| (self.value)(symbol));
         // The line of action of a stretch that is not linear would move about.
-        let linear = slopes(element.stretch);
+        let linear = slopes(stretch);
         if linear.iter().any(|slope| slope.stage() > stage::PARAMETER) {
             return None;
         }
@@ -603,9 +619,9 @@ impl<'d> Finder<'_, 'd> {
     }
 
     /// A torsion spring is shown at the first body whose angle is its twist, up to a constant.
-    fn twist(&self, element: &Elastic<'d>) -> Option<Placed> {
+    fn twist(&self, twist: Expr<'d>) -> Option<Placed> {
         let same = |angle: Expr<'d>| {
-            let rest = [element.stretch - angle];
+            let rest = [twist - angle];
             Experiment::new(self.model, &rest).keeps(0)
         };
         let turned = self

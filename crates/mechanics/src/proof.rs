@@ -303,7 +303,7 @@ fn validate<'d>(
     };
     let work = work(program, nodes.len());
     let in_field = Prover::<Residue>::new(parts).run(POINTS, most, work);
-    if in_field == Found::Equal && smooth && model.sliding.is_empty() {
+    if in_field == Found::Equal && smooth && model.sliding().is_empty() {
         return Ok(());
     }
     let at_states = Prover::<Ball>::new(parts).run(STATES, MOST_STATES, work);
@@ -726,7 +726,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
     ) -> Result<(), Verdict> {
         let model = self.parts.machine.model;
         let n = at.q.len();
-        let damped = !model.dampers.is_empty() || !model.dissipations.is_empty();
+        let damped = model.dissipated().next().is_some();
         let lost = match damped {
             true => self.parts.machine.damping(at, &at.v),
             false => R::ZERO,

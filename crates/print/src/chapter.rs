@@ -18,7 +18,7 @@ use lagrangian_symbolic::{Expr, Math, Names, math};
 
 use super::document::{Block, Row, Run, Section, Words};
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::equations::groups::{self, Contribution};
+use lagrangian_mechanics::equations::groups::{self, Share};
 use lagrangian_mechanics::equations::integrals::Facts;
 use lagrangian_spec::model::{Model, Name};
 
@@ -35,7 +35,7 @@ const FIRST_MEMBERS: usize = 2;
 struct Chapter<'a, 'd> {
     compiled: &'a Compiled<'d>,
     model: &'a Model<'d>,
-    contributions: Vec<Contribution<'d>>,
+    shares: Vec<Share<'d>>,
     facts: Facts<'d>,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
     let chapter = Chapter {
         compiled,
         model: &compiled.model,
-        contributions: groups::contributions(&compiled.model),
+        shares: groups::shares(&compiled.model),
         facts: Facts::of(&compiled.model, &compiled.equations),
     };
     let sections = [

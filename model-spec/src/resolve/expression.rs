@@ -1133,7 +1133,7 @@ fn with_factors(why: &str, found: Unit, expected: Unit) -> String {
 }
 
 /// A unit as a message calls it.
-pub(super) fn unit_text(unit: Unit) -> String {
+pub(crate) fn unit_text(unit: Unit) -> String {
     match unit.to_string() {
         one if one == "1" => "a pure number".to_owned(),
         text => text,

@@ -49,7 +49,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
     }
 
-    fn pose(&self, id: PoseId) -> &Pose<'d> {
+    /// A pose that was made.
+    pub fn pose(&self, id: PoseId) -> &Pose<'d> {
         &self.poses[id.0 as usize]
     }
 
@@ -58,9 +59,9 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             return known;
         }
         let mut pose = make(self);
-        self.relax_pose(&mut pose);
         // There are fewer poses than steps of evaluation, which are limited.
         let id = PoseId(u32::try_from(self.poses.len()).unwrap_or(u32::MAX));
+        self.relax_pose(id, &mut pose);
         self.poses.push(pose);
         self.pose_of.insert(key, id);
         id

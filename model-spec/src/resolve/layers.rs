@@ -2,7 +2,8 @@
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::{Files, Sources, Span};
-use crate::syntax::Spec;
+use crate::syntax::{SectionKind, Spec};
+use crate::token;
 
 /// The longest chain of `extends`: a family of machines is a few variants deep.
 const DEEPEST: usize = 32;
@@ -19,6 +20,7 @@ impl Layers {
     /// Reads what a spec extends, and what that extends, and so on.
     pub fn load(
         spec: Spec,
+        sections: &[SectionKind],
         files: &mut dyn Files,
         sources: &mut Sources,
         report: &mut Report,
@@ -38,7 +40,11 @@ impl Layers {
                 Ok(found) => Ok(found),
             };
             match failure {
-                Ok((name, text)) => specs.push(crate::parse(sources, &name, &text, report)),
+                Ok((name, text)) => {
+                    let source = sources.add(&name, &text);
+                    let tokens = token::lex(source, &text, report);
+                    specs.push(Spec::read(&tokens, source, sections, report));
+                }
                 Err(diagnostic) => {
                     report.push(diagnostic);
                     incomplete = true;

@@ -11,8 +11,9 @@ use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
-    Approximation, Declared, Equation, Expression, Ident, Index, Item, Quantity, Range, Record,
-    Reference, Remove, SectionKind, Spanned, Spec, coordinate_of_rate, rate_name,
+    Approximation, Declared, ElementContent, Equation, Expression, Form, Ident, Index, Item,
+    Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec, coordinate_of_rate,
+    rate_name,
 };
 use crate::unit::{Measure, Unit};
 
@@ -151,8 +152,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for (section, items) in [
             (Define, &spec.define),
             (Frames, &spec.frames),
-            (Potentials, &spec.potentials),
-            (Dissipations, &spec.dissipations),
             (Brachistochrone, &spec.brachistochrone),
         ] {
             self.declare_section(layer, section, items, |content| {
@@ -161,21 +160,22 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         for (section, items) in [
             (Bodies, &spec.bodies),
-            (Springs, &spec.springs),
-            (TorsionSprings, &spec.torsion_springs),
-            (Dampers, &spec.dampers),
-            (Forces, &spec.forces),
-            (Torques, &spec.torques),
-            (Sliding, &spec.sliding),
             (Circles, &spec.circles),
-            (Rolling, &spec.rolling),
             (Contacts, &spec.contacts),
         ] {
             self.declare_section(layer, section, items, Content::Record);
         }
-        self.declare_section(layer, Constraints, &spec.constraints, |content| {
-            Content::Equation(content)
-        });
+        for row in self.language.elements {
+            let items = spec.elements.iter();
+            let items = items.filter(|element| element.section == row.section);
+            let items = items.map(|element| &element.item);
+            let section = SectionKind::Element(row.section);
+            self.declare_section(layer, section, items, |content| match content {
+                ElementContent::Record(record) => Content::Record(record),
+                ElementContent::Expression(expression) => Content::Expression(expression),
+                ElementContent::Equation(equation) => Content::Equation(equation),
+            });
+        }
         self.declare_section(layer, Approximations, &spec.approximations, |content| {
             Content::Approximation(content)
         });
@@ -188,9 +188,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         &mut self,
         layer: usize,
         section: SectionKind,
-        items: &'a [Item<C>],
+        items: impl IntoIterator<Item = &'a Item<C>>,
         content: impl Fn(&'a C) -> Content<'a>,
-    ) {
+    ) where
+        C: 'a,
+    {
         for item in items {
             let base = &item.name.base;
             if base.text.is_empty() {
@@ -311,7 +313,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// What is declared under a name.
-    pub fn find_group(&self, namespace: Namespace, base: &str) -> Option<usize> {
+    pub(super) fn find_group(&self, namespace: Namespace, base: &str) -> Option<usize> {
         self.group_of.get(&(namespace, base)).copied()
     }
 
@@ -546,7 +548,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The declaration that a member comes from.
-    pub fn declaration(&self, member: MemberId) -> Declaration<'a> {
+    pub(super) fn declaration(&self, member: MemberId) -> Declaration<'a> {
         self.declarations[self.members[member].declaration]
     }
 
@@ -717,19 +719,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// Reports a name that is not declared.
-    pub fn unknown_name(&mut self, what: &str, name: &'a Ident, namespaces: &[Namespace]) {
+    pub(super) fn unknown_name(&mut self, what: &str, name: &'a Ident, namespaces: &[Namespace]) {
         if self.incomplete || name.text.is_empty() {
             return;
         }
-        let elsewhere = [
-            SectionKind::Outputs,
-            SectionKind::Potentials,
-            SectionKind::Dissipations,
-        ]
-        .into_iter()
-        .find(|&section| {
-            self.find_group(Namespace::of(section), &name.text)
-                .is_some()
+        let is_formula = |section: &SectionKind| match section {
+            SectionKind::Element(section) => matches!(section.form, Form::Expressions),
+            section => *section == SectionKind::Outputs,
+        };
+        let mut formulas = self.language.sections.iter().copied().filter(is_formula);
+        let elsewhere = formulas.find(|&section| {
+            let group = self.find_group(Namespace::of(section), &name.text);
+            group.is_some()
         });
         let candidates = self
             .groups
@@ -802,7 +803,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The group that a reference names, reporting what is unknown.
-    pub fn known_group(
+    pub(super) fn known_group(
         &mut self,
         namespace: Namespace,
         what: &str,
@@ -816,7 +817,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     /// The member that a plain name, `x` or `q[i]`, means in a namespace.
-    pub fn named_member(
+    pub(super) fn named_member(
         &mut self,
         namespace: Namespace,
         what: &str,

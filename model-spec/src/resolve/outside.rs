@@ -2,10 +2,10 @@
 
 use lagrangian_symbolic::{Dag, nearest};
 
-use super::Resolver;
 use super::layers::Layers;
 use super::names::declared_measure;
 use super::value::{Scope, limits};
+use super::{Language, Resolver};
 use crate::diagnostic::Report;
 use crate::source::Sources;
 use crate::syntax::Quantity;
@@ -43,7 +43,7 @@ pub fn value_in(text: &str, unit: &str, sources: &mut Sources, report: &mut Repo
         incomplete: false,
     };
     let dag = Dag::new();
-    let mut resolver = Resolver::new(&layers, &dag, &[], report);
+    let mut resolver = Resolver::new(&layers, Language::WITHOUT_SECTIONS, &dag, &[], report);
     let scope = Scope {
         index: None,
         limit: &limits::DEFAULT,

@@ -10,7 +10,8 @@ use rustc_hash::FxHashMap;
 
 use super::Resolver;
 use super::value::{MemberId, Vector};
-use crate::model::{Coordinate, Model, Name, Pose, PoseId, Rotation, Sliding, stage};
+use crate::model::element::Sliding;
+use crate::model::{Coordinate, Model, Name, Pose, PoseId, Rotation, stage};
 use crate::source::Span;
 use crate::unit::Unit;
 
@@ -29,7 +30,8 @@ pub(super) struct Guide<'d> {
 
 /// The guides of a machine, in the order of its contacts.
 pub(super) fn guides<'d>(model: &Model<'d>) -> Vec<Guide<'d>> {
-    model.sliding.iter().map(|one| guide(model, one)).collect()
+    let sliding = model.sliding().into_iter();
+    sliding.map(|one| guide(model, one)).collect()
 }
 
 fn guide<'d>(model: &Model<'d>, sliding: &Sliding<'d>) -> Guide<'d> {
@@ -90,13 +92,21 @@ impl<'d> Resolver<'_, 'd, '_> {
 
     /// Moves a new pose off by the guides of what it is the frame of. Poses are numbered as they are
     /// made, and they are made in the same order again.
-    pub(super) fn relax_pose(&self, pose: &mut Pose<'d>) {
-        let own = |guide: &&Guide<'d>| guide.frame.is_some_and(|f| f.index() == self.poses.len());
-        for guide in self.guides.iter().filter(own) {
-            for (x, &[by, ..]) in pose.origin.iter_mut().zip(&guide.by) {
+    pub(super) fn relax_pose(&self, id: PoseId, pose: &mut Pose<'d>) {
+        for by in self.relaxed_by(id) {
+            for (x, by) in pose.origin.iter_mut().zip(by) {
                 *x = *x + by;
             }
         }
+    }
+
+    /// By how much the guides of what a pose is the frame of move it off its parent, in ground axes.
+    pub fn relaxed_by(&self, id: PoseId) -> impl Iterator<Item = Vec<Expr<'d>>> {
+        let own = self
+            .guides
+            .iter()
+            .filter(move |guide| guide.frame == Some(id));
+        own.map(|guide| guide.by.iter().map(|&[by, ..]| by).collect())
     }
 
     /// The mass centre of a body, moved off by the guides of a body that has no frame.

@@ -8,7 +8,7 @@ use crate::unit::Unit;
 
 /// The worth of an expression.
 #[derive(Clone, Debug)]
-pub(super) enum Value<'d> {
+pub(crate) enum Value<'d> {
     /// Not known: an error has been reported, or what it needs is still to be resolved.
     Unknown,
     /// A number.
@@ -22,11 +22,11 @@ pub(super) enum Value<'d> {
 }
 
 /// The index of a member in the resolver's list.
-pub(super) type MemberId = usize;
+pub(crate) type MemberId = usize;
 
 /// A number with its unit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Scalar<'d> {
+pub(crate) struct Scalar<'d> {
     pub expr: Expr<'d>,
     /// `None` for what is made of bare numbers: it takes any unit in a sum, and is dimensionless as
     /// a factor.
@@ -37,7 +37,7 @@ pub(super) struct Scalar<'d> {
 
 /// A vector in ground axes with its unit.
 #[derive(Clone, Debug)]
-pub(super) struct Vector<'d> {
+pub(crate) struct Vector<'d> {
     pub components: Vec<Expr<'d>>,
     /// `None` for what is made of bare numbers.
     pub unit: Option<Unit>,
@@ -90,7 +90,7 @@ impl<'d> Vector<'d> {
 
 /// Where an expression stands.
 #[derive(Clone, Copy)]
-pub(super) struct Scope<'a> {
+pub(crate) struct Scope<'a> {
     /// The index of the family that is being unrolled.
     pub index: Option<(&'a str, i64)>,
     /// What may occur here.
@@ -117,7 +117,7 @@ impl Scope<'_> {
 }
 
 /// What an expression may depend on, by the place where it stands.
-pub(super) struct Limit {
+pub(crate) struct Limit {
     /// The latest stage.
     pub stage: Stage,
     /// What stands there, to begin a sentence with.
@@ -128,7 +128,8 @@ pub(super) struct Limit {
     pub help: &'static str,
 }
 
-const fn limit(stage: Stage, what: &'static str, help: &'static str) -> Limit {
+/// What may stand in a place: nothing later than a stage.
+pub(crate) const fn limit(stage: Stage, what: &'static str, help: &'static str) -> Limit {
     let code = Code::ForbiddenDependence;
     Limit {
         stage,
@@ -148,12 +149,14 @@ const fn constant_mass(what: &'static str) -> Limit {
     }
 }
 
-/// The limits, one for each kind of place.
-pub(super) mod limits {
-    use super::{Limit, constant_mass, limit, stage};
+/// What helps where only positions may stand.
+pub(crate) const POSITIONS: &str = "only coordinates, parameters and `t` can stand here";
+
+/// The limits of places that several sections have, and of all that is no element.
+pub(crate) mod limits {
+    use super::{Limit, POSITIONS, constant_mass, limit, stage};
 
     const FOLDED: &str = "it is a number that is known when the machine is derived";
-    const POSITIONS: &str = "only coordinates, parameters and `t` can stand here";
 
     pub static INDEX: Limit = limit(stage::CONSTANT, "an index", FOLDED);
     pub static CONSTANT: Limit = limit(stage::CONSTANT, "a constant", FOLDED);
@@ -185,53 +188,10 @@ pub(super) mod limits {
     pub static POINT: Limit = limit(stage::POSITION, "a point", POSITIONS);
     pub static MASS: Limit = constant_mass("a mass");
     pub static INERTIA: Limit = constant_mass("an inertia");
-    pub static GRAVITY: Limit = limit(
-        stage::TIME,
-        "gravity",
-        "it is uniform; a field that depends on the place is a potential",
-    );
-    pub static STIFFNESS: Limit = limit(
-        stage::TIME,
-        "a stiffness",
-        "a spring that is not linear is an energy under `potentials`",
-    );
-    pub static DAMPING: Limit = limit(
-        stage::TIME,
-        "a damping coefficient",
-        "a damper that is not linear is a function under `dissipations`",
-    );
-    pub static STRETCH: Limit = limit(stage::POSITION, "a stretch", POSITIONS);
-    pub static POTENTIAL: Limit = limit(
-        stage::POSITION,
-        "a potential",
-        "only coordinates, parameters and `t` can stand here; what depends on velocities is a force \
-         or a dissipation",
-    );
-    pub static DISSIPATION: Limit = limit(
-        stage::VELOCITY,
-        "a dissipation",
-        "only velocities, coordinates, parameters and `t` can stand here",
-    );
-    pub static FORCE: Limit = limit(
-        stage::INPUT,
-        "a force",
-        "what is proportional to accelerations is a mass: give it as a body",
-    );
-    pub static CONSTRAINT: Limit = limit(
-        stage::VELOCITY,
-        "a constraint",
-        "only coordinates, velocities, parameters and `t` can stand here",
-    );
-    pub static DIRECTION: Limit = limit(stage::POSITION, "a direction", POSITIONS);
     pub static FRICTION: Limit = limit(
         stage::VELOCITY,
         "a coefficient of friction",
         "only velocities, coordinates, parameters and `t` can stand here",
-    );
-    pub static FRICTION_OF_ROLLING: Limit = limit(
-        stage::PARAMETER,
-        "the friction that rolling may need",
-        "only parameters can stand here",
     );
     pub static RESTITUTION: Limit = limit(
         stage::PARAMETER,
@@ -254,7 +214,7 @@ pub(super) mod limits {
 }
 
 /// What a value depends on that makes it as late as it is.
-pub(super) fn dependence(stage: Stage) -> &'static str {
+pub(crate) fn dependence(stage: Stage) -> &'static str {
     match stage {
         stage::CONSTANT => "constants",
         stage::PARAMETER => "parameters",
@@ -267,7 +227,7 @@ pub(super) fn dependence(stage: Stage) -> &'static str {
 }
 
 /// As a message calls it.
-pub(super) fn dimension_text(space: Space) -> &'static str {
+pub(crate) fn dimension_text(space: Space) -> &'static str {
     match space {
         Space::Plane => "two components in the plane",
         Space::Space => "three components in space",

@@ -6,9 +6,13 @@ use super::Resolver;
 use super::names::Namespace;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::identity;
-use crate::model::{Action, Model, Space, stage};
+use crate::model::element::{Contribution, Deformation, Energy, Load};
+use crate::model::{Model, Space, stage};
 use crate::syntax::{SectionKind, Spec};
 use crate::unit::Unit;
+
+/// The section that gives bodies their weight.
+const GRAVITY: &str = "gravity";
 
 /// The most heights and coordinates, multiplied, that are looked at: a machine of more has its
 /// gravity or is a test of something else.
@@ -18,7 +22,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Reports parameters, constants, inputs, definitions and frames that nothing uses. A name that
     /// begins with an underscore is meant to be unused.
     pub fn notice_unused(&mut self, layers: &'a [Spec]) {
-        let has_gravity = layers.iter().any(|spec| spec.gravity.is_some());
+        let has_gravity = layers.iter().any(|spec| spec.statement(GRAVITY).is_some());
         let mut unused = Vec::new();
         for (index, group) in self.groups.iter().enumerate() {
             let is_checked = matches!(group.namespace, Namespace::Values | Namespace::FRAMES);
@@ -59,13 +63,16 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     pub fn notice_weight(&mut self, model: &Model<'d>, layers: &'a [Spec]) {
         let says = |spec: &Spec| {
             let mut removed = spec.remove.iter().map(|remove| remove.section.value);
-            spec.gravity.is_some() || removed.any(|section| section == SectionKind::Gravity)
+            spec.statement(GRAVITY).is_some() || removed.any(|section| section.as_str() == GRAVITY)
         };
-        let is_weight = |action: &Action<'_>| matches!(action, Action::Point { .. });
-        if layers.iter().any(says)
-            || !model.potentials.is_empty()
-            || model.forces.iter().any(|force| is_weight(&force.action))
-        {
+        // A potential or a force at a point may be the weight.
+        let is_weight = |one: &Contribution<'_>| {
+            matches!(
+                one,
+                Contribution::Stored(Energy::Given(_)) | Contribution::Load(Load::Point { .. })
+            )
+        };
+        if layers.iter().any(says) || model.contributions().any(|(_, one)| is_weight(one)) {
             return;
         }
         let Some((span, what)) = hanging(model).or_else(|| carried(model)) else {
@@ -141,10 +148,14 @@ fn carried(model: &Model<'_>) -> Option<(crate::source::Span, String)> {
     });
     let mut bodies = model.bodies.iter();
     let body = bodies.find(|body| height(&body.at).is_some_and(|(height, _)| moves(height)))?;
-    let spring = model.springs.iter().find(|spring| !spring.torsional)?;
+    let carries = |one: &Contribution<'_>| {
+        let length = |of: &Deformation<'_>| !of.torsional;
+        matches!(one, Contribution::Stored(Energy::Quadratic(of)) if length(of))
+    };
+    let (element, _) = model.contributions().find(|(_, one)| carries(one))?;
     let what = format!(
-        "the spring `{}` carries the body `{}`",
-        spring.name, body.name
+        "the {} `{}` carries the body `{}`",
+        element.section.noun, element.name, body.name
     );
     rests.then_some((body.span, what))
 }

@@ -35,7 +35,7 @@ const LISTED: usize = 6;
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// Notes that something is needed where `span` says it.
-    pub fn need(&mut self, need: Need, span: Span) {
+    pub(super) fn need(&mut self, need: Need, span: Span) {
         self.needs.push((need, span));
     }
 

@@ -7,6 +7,7 @@
 use std::fmt;
 
 use crate::source::Span;
+use crate::syntax::section::Section;
 
 /// One machine, as written.
 ///
@@ -42,34 +43,19 @@ pub struct Spec {
     pub define: Vec<Item<Expression>>,
     /// `name = frame`
     pub frames: Vec<Item<Expression>>,
-    /// `name: expression`
-    pub potentials: Vec<Item<Expression>>,
-    /// `name: expression`
-    pub dissipations: Vec<Item<Expression>>,
 
     /// `name { mass, inertia, at, angle, frame }`
     pub bodies: Vec<Item<Record>>,
-    /// `name { stiffness, stretch }` or `name { stiffness, from, to, length }`
-    pub springs: Vec<Item<Record>>,
-    /// `name { stiffness, twist }`
-    pub torsion_springs: Vec<Item<Record>>,
-    /// `name { damping, stretch }` or `name { damping, from, to }`
-    pub dampers: Vec<Item<Record>>,
-    /// `name { at, force }` or `name { on, value }`
-    pub forces: Vec<Item<Record>>,
-    /// `name { on, torque }`
-    pub torques: Vec<Item<Record>>,
-    /// `name { body, on, direction, friction }`
-    pub sliding: Vec<Item<Record>>,
     /// `name { on, center, radius }`
     pub circles: Vec<Item<Record>>,
-    /// `name { circle, inside or outside or along }`
-    pub rolling: Vec<Item<Record>>,
     /// `name { circle, inside or outside or along, restitution, friction }` or `name { gap, slip, … }`
     pub contacts: Vec<Item<Record>>,
 
-    /// `name: left = right`
-    pub constraints: Vec<Item<Equation>>,
+    /// The items of all sections of elements: springs, forces, constraints, …
+    pub elements: Vec<ElementItem>,
+    /// The sections of elements that are a single statement: `gravity (0, -g);`
+    pub statements: Vec<SectionStatement>,
+
     /// `coordinate: frozen` or `coordinate: small`
     pub approximations: Vec<Item<Spanned<Approximation>>>,
     /// `coordinates`, `rates`, `inputs`, `parameters`, or the name of a parameter
@@ -82,8 +68,6 @@ pub struct Spec {
     pub brachistochrone: Vec<Item<Expression>>,
     /// `left > right`
     pub assume: Vec<Relation>,
-    /// `gravity (0, -g);`
-    pub gravity: Option<Gravity>,
     /// `published "title" { … }`
     pub published: Vec<Published>,
     /// `remove section.name;`
@@ -103,6 +87,38 @@ impl Spec {
             .iter()
             .find(|section| section.value == kind)
             .map(|section| section.span)
+    }
+
+    /// Adds items of a section of elements.
+    pub(super) fn add_elements<C>(
+        &mut self,
+        section: &'static Section,
+        items: Vec<Item<C>>,
+        content: impl Fn(C) -> ElementContent,
+    ) {
+        let items = items.into_iter().map(|item| ElementItem {
+            section,
+            item: Item {
+                docs: item.docs,
+                name: item.name,
+                content: content(item.content),
+                span: item.span,
+            },
+        });
+        self.elements.extend(items);
+    }
+
+    /// The items of the section of elements that a word heads.
+    pub fn elements_of(&self, word: &str) -> impl Iterator<Item = &Item<ElementContent>> {
+        let all = self.elements.iter();
+        all.filter(move |element| element.section.word == word)
+            .map(|element| &element.item)
+    }
+
+    /// The section of a single statement that a word heads.
+    pub fn statement(&self, word: &str) -> Option<&SectionStatement> {
+        let mut all = self.statements.iter();
+        all.find(|statement| statement.section.word == word)
     }
 }
 
@@ -138,15 +154,22 @@ macro_rules! sections {
         /// The sections that a machine can have.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[expect(missing_docs, reason = "each is named as the language names it")]
-        pub enum SectionKind { $($kind,)+ }
+        pub enum SectionKind {
+            $($kind,)+
+            /// A section of elements.
+            Element(&'static Section),
+        }
 
         impl SectionKind {
-            /// All of them, in the order of the reference.
-            pub const ALL: &[SectionKind] = &[$(SectionKind::$kind,)+];
+            /// All but those of elements, in the order of the reference.
+            pub(crate) const OF_OTHERS: &[SectionKind] = &[$(SectionKind::$kind,)+];
 
             /// The word that heads the section.
             pub fn as_str(self) -> &'static str {
-                match self { $(SectionKind::$kind => $name,)+ }
+                match self {
+                    $(SectionKind::$kind => $name,)+
+                    SectionKind::Element(section) => section.word,
+                }
             }
         }
     };
@@ -161,18 +184,7 @@ sections! {
     Assume => "assume",
     Frames => "frames",
     Bodies => "bodies",
-    Gravity => "gravity",
-    Springs => "springs",
-    TorsionSprings => "torsion_springs",
-    Dampers => "dampers",
-    Potentials => "potentials",
-    Dissipations => "dissipations",
-    Forces => "forces",
-    Torques => "torques",
-    Constraints => "constraints",
-    Sliding => "sliding",
     Circles => "circles",
-    Rolling => "rolling",
     Contacts => "contacts",
     Approximations => "approximations",
     Outputs => "outputs",
@@ -196,12 +208,9 @@ impl SectionKind {
         })
     }
 
-    /// The section that a word heads.
-    pub fn named(word: &str) -> Option<SectionKind> {
-        SectionKind::ALL
-            .iter()
-            .copied()
-            .find(|kind| kind.as_str() == word)
+    /// The section among some that a word heads.
+    pub(crate) fn named_among(all: &[SectionKind], word: &str) -> Option<SectionKind> {
+        all.iter().copied().find(|kind| kind.as_str() == word)
     }
 
     /// The fields that an item of this section can have; none where its items are no records.
@@ -211,21 +220,8 @@ impl SectionKind {
     pub fn fields(self) -> &'static [&'static str] {
         match self {
             SectionKind::Bodies => &["mass", "inertia", "at", "angle", "frame"],
-            SectionKind::Springs => &["stiffness", "stretch", "from", "to", "length"],
-            SectionKind::TorsionSprings => &["stiffness", "twist"],
-            SectionKind::Dampers => &["damping", "stretch", "from", "to"],
-            SectionKind::Forces => &["at", "force", "on", "value"],
-            SectionKind::Torques => &["on", "torque"],
-            SectionKind::Sliding => &[
-                "body",
-                "on",
-                "direction",
-                "normal",
-                "friction",
-                "static_friction",
-            ],
+            SectionKind::Element(section) => section.fields(),
             SectionKind::Circles => &["on", "center", "radius"],
-            SectionKind::Rolling => &["circle", "inside", "outside", "along", "friction"],
             SectionKind::Contacts => &[
                 "circle",
                 "inside",
@@ -251,18 +247,8 @@ impl SectionKind {
             SectionKind::Assume => "a fact",
             SectionKind::Frames => "a frame",
             SectionKind::Bodies => "a body",
-            SectionKind::Gravity => "gravity",
-            SectionKind::Springs => "a spring",
-            SectionKind::TorsionSprings => "a torsion spring",
-            SectionKind::Dampers => "a damper",
-            SectionKind::Potentials => "a potential",
-            SectionKind::Dissipations => "a dissipation",
-            SectionKind::Forces => "a force",
-            SectionKind::Torques => "a torque",
-            SectionKind::Constraints => "a constraint",
-            SectionKind::Sliding => "a sliding contact",
+            SectionKind::Element(section) => section.item,
             SectionKind::Circles => "a circle",
-            SectionKind::Rolling => "a rolling contact",
             SectionKind::Contacts => "a contact",
             SectionKind::Approximations => "an approximated coordinate",
             SectionKind::Outputs => "an output",
@@ -455,14 +441,46 @@ pub enum Comparison {
     LessOrEqual,
 }
 
-/// `gravity (0, -g);`
+/// One item of a section of elements.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gravity {
+pub struct ElementItem {
+    /// The section.
+    pub section: &'static Section,
+    /// The item.
+    pub item: Item<ElementContent>,
+}
+
+/// What an item of a section of elements says, by the [`Form`](crate::syntax::Form) of the section.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ElementContent {
+    /// `{ field: value, … }`
+    Record(Record),
+    /// `expression`
+    Expression(Expression),
+    /// `left = right`
+    Equation(Equation),
+}
+
+impl ElementContent {
+    /// The value of a field, where it is a record that gives it.
+    pub fn get(&self, name: &str) -> Option<&Expression> {
+        match self {
+            ElementContent::Record(record) => record.get(name),
+            ElementContent::Expression(_) | ElementContent::Equation(_) => None,
+        }
+    }
+}
+
+/// `gravity (0, -g);`: a section of elements that is a single statement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionStatement {
+    /// The section.
+    pub section: &'static Section,
     /// Documentation.
     pub docs: String,
-    /// The acceleration of gravity, a vector in the ground frame; none where the spec says `none`.
+    /// What it says; none where the spec says `none`.
     pub value: Option<Expression>,
-    /// From the keyword to the vector.
+    /// From the heading to what it says.
     pub span: Span,
 }
 

@@ -6,7 +6,8 @@
 
 use crate::diagnostic::{Code, Diagnostic, Report};
 use crate::source::Span;
-use crate::syntax::SectionKind;
+use crate::syntax::ast::SectionKind;
+use crate::syntax::section::{Form, Section};
 use crate::token::{Delimiter, Token, TokenKind};
 
 /// A token among balanced brackets.
@@ -26,13 +27,20 @@ pub(crate) struct Word<'t> {
 const SHOWN: usize = 4;
 
 /// The tokens with every bracket closed by its partner; what had to be mended is reported.
-pub(crate) fn balance<'t>(tokens: &'t [Token], report: &mut Report) -> Vec<Word<'t>> {
+///
+/// `sections` are those of the language: they do not nest.
+pub(crate) fn balance<'t>(
+    tokens: &'t [Token],
+    sections: &'t [SectionKind],
+    report: &mut Report,
+) -> Vec<Word<'t>> {
     // A comment or a raw string without an end swallows closing brackets, which are not to blame.
     let swallowed = tokens
         .first()
         .is_some_and(|token| report.has(token.span.source, Code::Unterminated));
     let mut balance = Balance {
         tokens,
+        sections,
         words: Vec::with_capacity(tokens.len()),
         open: Vec::new(),
         count: [0; 3],
@@ -57,6 +65,7 @@ fn is_balanced(tokens: &[Token]) -> bool {
 
 struct Balance<'t> {
     tokens: &'t [Token],
+    sections: &'t [SectionKind],
     words: Vec<Word<'t>>,
     /// The brackets that are open: where they stand in `words`.
     open: Vec<(usize, Delimiter)>,
@@ -222,14 +231,18 @@ impl<'t> Balance<'t> {
                     | TokenKind::Doc
             );
         let kind = match word.kind {
-            TokenKind::Ident if begins_item => SectionKind::named(&word.text),
+            TokenKind::Ident if begins_item => SectionKind::named_among(self.sections, &word.text),
             _ => None,
         };
+        let opens = |delimiter| next.kind == TokenKind::Open(delimiter);
         match kind {
             None => false,
-            Some(SectionKind::Gravity) => next.kind == TokenKind::Open(Delimiter::Parenthesis),
+            Some(SectionKind::Element(Section {
+                form: Form::Statement,
+                ..
+            })) => opens(Delimiter::Parenthesis),
             Some(SectionKind::Published) => next.kind == TokenKind::Text,
-            Some(_) => next.kind == TokenKind::Open(Delimiter::Brace),
+            Some(_) => opens(Delimiter::Brace),
         }
     }
 

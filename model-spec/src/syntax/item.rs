@@ -6,6 +6,7 @@ use crate::syntax::ast::*;
 use crate::syntax::brackets::Word;
 use crate::syntax::parse::{Group, Parser};
 use crate::syntax::rate_name;
+use crate::syntax::section::{Form, Section};
 use crate::token::{Delimiter, TokenKind, shown};
 use crate::unit::Measure;
 
@@ -345,9 +346,32 @@ impl Parser<'_> {
         }
     }
 
+    /// The items of a section of elements.
+    pub(super) fn elements(&mut self, section: &'static Section, spec: &mut Spec) {
+        let kind = SectionKind::Element(section);
+        match section.form {
+            Form::Records(_) => {
+                let mut items = Vec::new();
+                self.records(kind, &mut items);
+                spec.add_elements(section, items, ElementContent::Record);
+            }
+            Form::Expressions => {
+                let mut items = Vec::new();
+                self.values(kind, &mut items, ':');
+                spec.add_elements(section, items, ElementContent::Expression);
+            }
+            Form::Equations => {
+                let mut items = Vec::new();
+                self.equations(kind, &mut items);
+                spec.add_elements(section, items, ElementContent::Equation);
+            }
+            // What is a statement has no items.
+            Form::Statement => {}
+        }
+    }
+
     /// Items `name: left = right`.
-    pub(super) fn constraints(&mut self, items: &mut Vec<Item<Equation>>) {
-        let kind = SectionKind::Constraints;
+    fn equations(&mut self, kind: SectionKind, items: &mut Vec<Item<Equation>>) {
         self.items(kind, items, |parser, _| {
             parser.expect_mark(':');
             Some(parser.equation())

@@ -4,6 +4,7 @@ use crate::diagnostic::{Code, Diagnostic, nearest, one_of};
 use crate::source::Span;
 use crate::syntax::ast::*;
 use crate::syntax::parse::Parser;
+use crate::syntax::section::{Form, Section};
 use crate::token::{Delimiter, TokenKind, shown};
 
 impl Parser<'_> {
@@ -188,7 +189,9 @@ impl Parser<'_> {
             self.fail(inner.help("one text holds one machine; a variant `extends` a file"));
             return self.skip_to_heading(close);
         }
-        match SectionKind::named(&heading.text).or_else(|| self.unknown_section(&heading)) {
+        match SectionKind::named_among(self.sections, &heading.text)
+            .or_else(|| self.unknown_section(&heading))
+        {
             Some(kind) => {
                 spec.sections.push(Spanned {
                     value: kind,
@@ -207,7 +210,8 @@ impl Parser<'_> {
     fn unknown_section(&mut self, heading: &Ident) -> Option<SectionKind> {
         let message = format!("there is no section {}", shown(&heading.text));
         let mut unknown = Diagnostic::new(Code::UnknownSection, heading.span, message);
-        let names = || SectionKind::ALL.iter().map(|kind| kind.as_str());
+        let sections = self.sections;
+        let names = || sections.iter().map(|kind| kind.as_str());
         let meant = SectionKind::meant_by(&heading.text).map(SectionKind::as_str);
         let near = meant.or_else(|| nearest(&heading.text, names().chain(["remove"])));
         unknown.help = Some(match near {
@@ -215,7 +219,7 @@ impl Parser<'_> {
             None => format!("the sections are {}", one_of(names())),
         });
         self.complain(unknown);
-        near.and_then(SectionKind::named)
+        near.and_then(|near| SectionKind::named_among(sections, near))
     }
 
     /// Goes on at the next heading, or behind the next section.
@@ -229,7 +233,8 @@ impl Parser<'_> {
                 break;
             }
             let next = self.peek().filter(|word| word.kind == TokenKind::Ident);
-            if next.is_some_and(|word| SectionKind::named(word.text).is_some()) {
+            if next.is_some_and(|word| SectionKind::named_among(self.sections, word.text).is_some())
+            {
                 break;
             }
         }
@@ -247,33 +252,32 @@ impl Parser<'_> {
             SectionKind::Outputs => self.quantities(kind, &mut spec.outputs),
             SectionKind::Define => self.values(kind, &mut spec.define, '='),
             SectionKind::Frames => self.values(kind, &mut spec.frames, '='),
-            SectionKind::Potentials => self.values(kind, &mut spec.potentials, ':'),
-            SectionKind::Dissipations => self.values(kind, &mut spec.dissipations, ':'),
             SectionKind::Bodies => self.records(kind, &mut spec.bodies),
-            SectionKind::Springs => self.records(kind, &mut spec.springs),
-            SectionKind::TorsionSprings => self.records(kind, &mut spec.torsion_springs),
-            SectionKind::Dampers => self.records(kind, &mut spec.dampers),
-            SectionKind::Forces => self.records(kind, &mut spec.forces),
-            SectionKind::Torques => self.records(kind, &mut spec.torques),
-            SectionKind::Sliding => self.records(kind, &mut spec.sliding),
             SectionKind::Circles => self.records(kind, &mut spec.circles),
-            SectionKind::Rolling => self.records(kind, &mut spec.rolling),
             SectionKind::Contacts => self.records(kind, &mut spec.contacts),
-            SectionKind::Constraints => self.constraints(&mut spec.constraints),
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),
             SectionKind::Stages => self.words(kind, &mut spec.stages),
             SectionKind::Keep => self.kept(&mut spec.keep),
             SectionKind::Brachistochrone => self.values(kind, &mut spec.brachistochrone, '='),
             SectionKind::Assume => self.assume(&mut spec.assume),
-            SectionKind::Gravity => self.gravity(spec, heading, docs),
+            SectionKind::Element(section) => match section.form {
+                Form::Statement => self.statement(spec, section, heading, docs),
+                _ => self.elements(section, spec),
+            },
             SectionKind::Published => self.published(spec, heading, docs),
         }
     }
 
     /// `gravity (0, -g);`
-    fn gravity(&mut self, spec: &mut Spec, heading: Span, docs: String) {
-        let help = "write `gravity (0, -g);`";
+    fn statement(
+        &mut self,
+        spec: &mut Spec,
+        section: &'static Section,
+        heading: Span,
+        docs: String,
+    ) {
+        let help = section.help;
         if !self.is_open(Delimiter::Parenthesis) && !self.is(TokenKind::Ident) {
             self.unexpected_because("a vector", Some(help.to_owned()));
             return;
@@ -283,10 +287,14 @@ impl Parser<'_> {
             false => Some(self.expression()),
         };
         let span = heading.to(self.before());
-        let gravity = Gravity { docs, value, span };
-        match &spec.gravity {
-            Some(first) => self.complain_twice(heading, "gravity", first.span),
-            None => spec.gravity = Some(gravity),
+        match spec.statement(section.word) {
+            Some(first) => self.complain_twice(heading, section.item, first.span),
+            None => spec.statements.push(SectionStatement {
+                section,
+                docs,
+                value,
+                span,
+            }),
         }
         self.end_of_statement(help);
     }
@@ -313,8 +321,8 @@ impl Parser<'_> {
             );
         }
         let section = self.ident("a section").and_then(|heading| {
-            let value =
-                SectionKind::named(&heading.text).or_else(|| self.unknown_section(&heading))?;
+            let value = SectionKind::named_among(self.sections, &heading.text)
+                .or_else(|| self.unknown_section(&heading))?;
             Some(Spanned {
                 value,
                 span: heading.span,
@@ -323,7 +331,10 @@ impl Parser<'_> {
         let mut name = None;
         match section.map(|section| section.value) {
             None => self.failed = true,
-            Some(SectionKind::Gravity) => {}
+            Some(SectionKind::Element(Section {
+                form: Form::Statement,
+                ..
+            })) => {}
             Some(kind @ (SectionKind::Assume | SectionKind::Published)) => {
                 let message = format!("what stands in `{kind}` has no names, and stays");
                 self.fail(Diagnostic::new(

@@ -12,9 +12,15 @@ use crate::syntax::brackets::{Word, balance, opening};
 use crate::token::{Delimiter, Token, TokenKind, shown};
 
 impl Spec {
-    /// Reads the tokens of `source`. Whatever is wrong is reported, all at once.
-    pub fn parse(tokens: &[Token], source: SourceId, report: &mut Report) -> Spec {
-        let mut parser = Parser::new(tokens, source, report);
+    /// Reads the tokens of `source` in a language of these `sections`. Whatever is wrong is reported, all
+    /// at once.
+    pub(crate) fn read(
+        tokens: &[Token],
+        source: SourceId,
+        sections: &[SectionKind],
+        report: &mut Report,
+    ) -> Spec {
+        let mut parser = Parser::new(tokens, source, sections, report);
         let mut spec = parser.source();
         spec.incomplete |= parser.skipped_names;
         spec
@@ -25,10 +31,10 @@ impl Quantity {
     /// Reads the value of a quantity, and its unit, from two texts that hold nothing else. Whatever is wrong
     /// is reported.
     pub(crate) fn parse([unit, value]: [(SourceId, &[Token]); 2], report: &mut Report) -> Quantity {
-        let mut parser = Parser::new(unit.1, unit.0, report);
+        let mut parser = Parser::new(unit.1, unit.0, &[], report);
         let unit = parser.unit();
         parser.expect_end();
-        let mut parser = Parser::new(value.1, value.0, report);
+        let mut parser = Parser::new(value.1, value.0, &[], report);
         let value = parser.expression();
         parser.expect_end();
         let value = Some(value);
@@ -38,6 +44,8 @@ impl Quantity {
 
 pub(super) struct Parser<'t> {
     pub(super) words: Vec<Word<'t>>,
+    /// The sections of the language.
+    pub(super) sections: &'t [SectionKind],
     /// The next word.
     pub(super) at: usize,
     /// The empty span behind the last word.
@@ -63,13 +71,19 @@ pub(super) struct Group {
 
 /// Words, and what is done about those that do not fit.
 impl<'t> Parser<'t> {
-    fn new(tokens: &'t [Token], source: SourceId, report: &'t mut Report) -> Parser<'t> {
-        let words = balance(tokens, report);
+    fn new(
+        tokens: &'t [Token],
+        source: SourceId,
+        sections: &'t [SectionKind],
+        report: &'t mut Report,
+    ) -> Parser<'t> {
+        let words = balance(tokens, sections, report);
         let end = words
             .last()
             .map_or(Span::new(source, 0, 0), |word| word.span.after());
         Parser {
             words,
+            sections,
             at: 0,
             end,
             depth: 0,

@@ -39,7 +39,8 @@ use super::sliding;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::planar_angle;
-use lagrangian_spec::model::{Action, Inertia, Model, Place, PoseId, Rotation, Sliding};
+use lagrangian_spec::model::element::{Contribution, Element, Energy, Load, Sliding};
+use lagrangian_spec::model::{Inertia, Model, Place, PoseId, Rotation};
 use lagrangian_spec::source::Span;
 
 /// Points of the prime field that are tried until all expressions have a value at one of them: each
@@ -272,14 +273,14 @@ impl<T: Number> Motion<T> {
 
     /// How everything moves at the first of some points where it has values.
     fn among(model: &Model<'_>, mut points: std::ops::Range<u64>) -> Option<Motion<T>> {
-        if model.sliding.is_empty() {
+        if model.sliding().is_empty() {
             return None;
         }
         let relaxed = Relaxed::of(model)?;
         let (parts, expressions) = parts(relaxed.model);
         let directions: Vec<Expr<'_>> = model
-            .sliding
-            .iter()
+            .sliding()
+            .into_iter()
             .flat_map(|s| s.direction.iter().copied())
             .collect();
         let all: Vec<Expr<'_>> = expressions.iter().chain(&directions).copied().collect();
@@ -402,7 +403,7 @@ impl<T: Number> Motion<T> {
     }
 
     fn carrying(&self, model: &Model<'_>) -> Carrying {
-        let guides = 0..model.sliding.len();
+        let guides = 0..model.sliding().len();
         let rows = self.rows(|_| true);
         let is_in = |x: T| x.size_beside(self.size) != 0.0;
         Carrying {
@@ -479,7 +480,7 @@ impl<T: Number> Motion<T> {
         };
         let rows = self.rows(|_| true);
         let mut alongs = Vec::new();
-        for (guide, sliding) in model.sliding.iter().enumerate() {
+        for (guide, sliding) in model.sliding().into_iter().enumerate() {
             match self.along(guide, &rows) {
                 Some(along) => alongs.push((guide, along)),
                 None if self.work() > WORK => {
@@ -536,12 +537,13 @@ impl<T: Number> Motion<T> {
     /// Bodies that are free along a guide, are written by its coordinate, and are held across it by
     /// nothing that the spec names.
     fn loose(&self, model: &Model<'_>) -> Vec<Diagnostic> {
-        let guides: Vec<usize> = (0..model.sliding.len()).collect();
+        let sliding = model.sliding();
+        let guides: Vec<usize> = (0..sliding.len()).collect();
         let slides: Vec<Vec<bool>> = guides.iter().map(|&k| slides_by(model, k)).collect();
         let is_carried = |part: &Part, guide: usize| self.moves(part, &self.own(guide));
         let base_moves = |guide: usize, i: usize| {
             let base = self.parts.iter().find(|part| match part.what {
-                What::Body(body) => model.sliding[guide].on == Place::Body(body),
+                What::Body(body) => sliding[guide].on == Place::Body(body),
                 What::Base(of) => of == guide,
             });
             base.is_some_and(|base| self.moves(base, &[i]))
@@ -615,7 +617,7 @@ impl<T: Number> Motion<T> {
 
 /// The message for a part that moves with the body of a guide, and is tied to it by nothing.
 fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
-    let sliding = &model.sliding[guide];
+    let sliding = model.sliding()[guide];
     let (body, name) = (&model.bodies[sliding.body].name, &sliding.name);
     let message = |what: &str| {
         format!(
@@ -632,7 +634,7 @@ fn untied(model: &Model<'_>, guide: usize, what: What) -> Diagnostic {
             ))
         }
         What::Base(other) => {
-            let other = &model.sliding[other];
+            let other = model.sliding()[other];
             let message = message(&format!("what `{}` is on", other.name));
             Diagnostic::new(Code::Untied, other.span, message).help(format!(
                 "say `on: {body}`, or build that frame on the frame of `{body}`"
@@ -680,52 +682,61 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             }
             number += 1;
         };
-        let (model, relaxed) = (self.model, self.relaxed.model);
+        let relaxed = self.relaxed.model;
         let equations = constraints::constraints(relaxed);
-        let spans = model.constraints.iter().map(|c| c.span);
-        let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
-        for (equation, span) in equations.iter().zip(spans.chain(rolling)) {
+        for (equation, span) in equations.iter().zip(constraints::spans(self.model)) {
             look(&|| self.constraint(equation, span));
         }
-        let kinds = [("spring", &relaxed.springs), ("damper", &relaxed.dampers)];
-        for (kind, elastics) in kinds {
-            for elastic in elastics.iter().filter(|elastic| !elastic.torsional) {
-                let what = format!("the stretch of the {kind} `{}`", elastic.name);
-                look(&|| self.stretch(elastic.stretch, &what, elastic.span));
-            }
-        }
-        let by_place = &self.relaxed.x.q;
-        for force in &relaxed.forces {
-            let name = &force.name;
-            match &force.action {
-                Action::Point { at, force: value } => {
-                    look(&|| self.force(name.to_string(), (at, value), force.span));
-                }
-                Action::Coordinate { coordinate, .. } => {
-                    let what = format!("the force `{name}`");
-                    let on = relaxed.coordinates[*coordinate].q;
-                    look(&|| self.acting((on, by_place), &what, force.span));
-                }
-            }
-        }
-        let twists = relaxed.springs.iter().chain(&relaxed.dampers);
-        for elastic in twists.filter(|elastic| elastic.torsional) {
-            let what = format!("the twist of `{}`", elastic.name);
-            look(&|| self.acting((elastic.stretch, by_place), &what, elastic.span));
-        }
-        let potentials = relaxed
-            .potentials
-            .iter()
-            .map(|v| ("potential", by_place, v));
-        let dissipations = relaxed.dissipations.iter();
-        let dissipations = dissipations.map(|d| ("dissipation", &self.relaxed.x.v, d));
-        for (kind, by, term) in potentials.chain(dissipations) {
-            let what = format!("the {kind} `{}`", term.name);
-            for part in addends(term.value) {
-                look(&|| self.acting((part, by), &what, term.span));
-            }
+        for (element, one) in relaxed.contributions() {
+            self.look_at(element, one, &mut look);
         }
         found
+    }
+
+    /// Looks at what an element contributes beside constraints.
+    fn look_at(
+        &self,
+        element: &Element<'d>,
+        contribution: &Contribution<'d>,
+        look: &mut impl FnMut(&dyn Fn() -> Looked),
+    ) {
+        let Element { name, span, .. } = element;
+        let by_place = &self.relaxed.x.q;
+        let what = format!("the {} `{name}`", element.section.noun);
+        let mut acting = |expression, by, what: &str| {
+            look(&|| self.acting((expression, by), what, *span));
+        };
+        match contribution {
+            Contribution::Stored(Energy::Quadratic(of))
+            | Contribution::Dissipated(Energy::Quadratic(of)) => match of.torsional {
+                true => acting(of.measure, by_place, &format!("the twist of `{name}`")),
+                false => {
+                    let what = format!("the stretch of {what}");
+                    look(&|| self.stretch(of.measure, &what, *span));
+                }
+            },
+            Contribution::Stored(Energy::Given(value)) => {
+                let parts = addends(*value).into_iter();
+                parts.for_each(|part| acting(part, by_place, &what));
+            }
+            Contribution::Dissipated(Energy::Given(value)) => {
+                let parts = addends(*value).into_iter();
+                parts.for_each(|part| acting(part, &self.relaxed.x.v, &what));
+            }
+            Contribution::Load(Load::Point { at, force }) => {
+                look(&|| self.force(&what, (at, force), *span));
+            }
+            Contribution::Load(Load::Coordinate { coordinate, .. }) => {
+                let on = self.relaxed.model.coordinates[*coordinate].q;
+                acting(on, by_place, &what);
+            }
+            // A torque acts on a body that is known to turn; the rest acts on bodies by itself.
+            Contribution::Load(Load::Torque { .. })
+            | Contribution::Gravity(_)
+            | Contribution::Constraint(_)
+            | Contribution::Rolling(_)
+            | Contribution::Sliding(_) => {}
+        }
     }
 
     fn is_zero(&self, x: T) -> bool {
@@ -791,7 +802,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     }
 
     fn diagnostic(&self, guide: usize, span: Span, what: &str, help: &str) -> Diagnostic {
-        let sliding = &self.model.sliding[guide];
+        let sliding = self.model.sliding()[guide];
         let body = &self.model.bodies[sliding.body].name;
         let message = format!(
             "{what} moves with `{body}` and is not said by where `{body}` is: how it pulls across the guide `{}` is not determined",
@@ -852,7 +863,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
     }
 
     /// A force at a point in coordinates is right where it acts along the guide.
-    fn force(&self, name: String, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
+    fn force(&self, what: &str, (at, value): (&[Expr<'d>], &[Expr<'d>]), span: Span) -> Looked {
         let slopes: Vec<Vec<T>> = at
             .iter()
             .map(|&x| self.slopes(x, &self.relaxed.x.q))
@@ -871,7 +882,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
             let [x, y] = self.motion.directions[*guide];
             moves && !self.is_zero(value[1] * x - value[0] * y)
         });
-        let what = format!("the point of the force `{name}`");
+        let what = format!("the point of {what}");
         let help = "write it by where the body is, as `body.at`, or by a point of its frame";
         Some(across.map(|(guide, _)| self.diagnostic(*guide, span, &what, help)))
     }
@@ -880,7 +891,7 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 /// The coordinates whose rates are in the slip of a guide.
 fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
     let x = Variables::of(model);
-    let sliding = &model.sliding[guide];
+    let sliding = model.sliding()[guide];
     let directions = sliding::guide(model, sliding);
     let [slip, _] = sliding::relative(model, sliding, &directions, &mut x.coasting(model));
     let row = gradient(model.dag, slip, &x.v);
@@ -895,7 +906,7 @@ fn is_a_base(model: &Model<'_>, body: usize) -> bool {
         Rotation::Frame(pose) if pose != PoseId::GROUND => Some(pose),
         _ => None,
     };
-    model.sliding.iter().any(|sliding| match sliding.on {
+    model.sliding().iter().any(|sliding| match sliding.on {
         Place::Body(on) => on == body,
         Place::Frame(mut pose) => loop {
             if Some(pose) == own {
@@ -926,7 +937,7 @@ fn parts<'d>(model: &Model<'d>) -> (Vec<Part>, Vec<Expr<'d>>) {
         };
         add(What::Body(index), &body.at, angle);
     }
-    for (index, sliding) in model.sliding.iter().enumerate() {
+    for (index, sliding) in model.sliding().into_iter().enumerate() {
         if let Place::Frame(pose) = sliding.on {
             let pose = &model.poses[pose.index()];
             add(What::Base(index), &pose.origin, Some(pose.angle));

@@ -17,7 +17,9 @@ use super::kinematics::Variables;
 use super::lagrange::gradient;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
-use lagrangian_spec::model::{Model, Rolling, stage};
+use lagrangian_spec::model::element::Rolling;
+use lagrangian_spec::model::{Model, stage};
+use lagrangian_spec::source::Span;
 use lagrangian_spec::unit::Unit;
 
 /// The most terms of a constraint that is multiplied out, to see what cancels: the distance of two
@@ -72,7 +74,7 @@ impl<'d> ConstraintEquation<'d> {
 /// The constraints of a machine, those of `constraints` first.
 pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
     let x = Variables::of(model);
-    let said = model.constraints.iter().map(|constraint| {
+    let said = model.constraints().into_iter().map(|constraint| {
         let mut said = constraint.expression;
         let standing = |said: Expr<'d>| {
             let rates = x.v.iter().copied().filter(|&v| said.depends_on(v));
@@ -92,10 +94,18 @@ pub fn constraints<'d>(model: &Model<'d>) -> Vec<ConstraintEquation<'d>> {
         equation(model, &x, name, statement, constraint.unit)
     });
     let mut all: Vec<_> = said.collect();
-    for rolling in &model.rolling {
+    for rolling in model.rolling() {
         all.extend(of_rolling(model, &x, rolling));
     }
     all
+}
+
+/// Where the spec says each of the [`constraints`].
+pub(super) fn spans(model: &Model<'_>) -> Vec<Span> {
+    let rolling = model.rolling();
+    let rolling = rolling.iter().flat_map(|r| [r.span, r.span]);
+    let said = model.constraints();
+    said.iter().map(|c| c.span).chain(rolling).collect()
 }
 
 /// The rates `φ` of constraints where nothing moves: 0 but for those that move by themselves.

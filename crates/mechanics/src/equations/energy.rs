@@ -3,6 +3,7 @@
 use lagrangian_symbolic::{Expr, Tangent};
 
 use super::kinematics::{Motion, apply_tensor, vector};
+use lagrangian_spec::model::element::Energy;
 use lagrangian_spec::model::{Body, Inertia, Model};
 
 /// Kinetic energy of one body, eq. (E1): `T = ½ m ẋ·ẋ + ½ ωᵀI ω`, where `m` and `I` are constant
@@ -31,34 +32,43 @@ fn dot<'d>(u: &[Expr<'d>], w: &[Expr<'d>], body: &Body<'d>) -> Expr<'d> {
         .sum(u.iter().zip(w).map(|(&u_k, &w_k)| u_k * w_k))
 }
 
-/// Potential energy, eq. (E2): `V = Σ ½ c s² + Σ U − Σ m g·x`, over springs of stretch (or twist)
-/// `s`, given potentials, and bodies under gravity.
+/// Potential energy, eq. (E2): `V = Σ ½ c s² + Σ U − Σ m g·x`, over deformations `s` (a stretch or a
+/// twist), given potentials, and bodies under gravity.
 pub(super) fn potential_energy<'d>(model: &Model<'d>) -> Expr<'d> {
-    let springs = model
-        .springs
-        .iter()
-        .map(|spring| spring.coefficient * spring.stretch.square() / 2);
-    let potentials = model.potentials.iter().map(|potential| potential.value);
-    let gravity = model.gravity.iter().flat_map(|g| {
-        let weight = |body: &Body<'d>| -body.mass * dot(g, &body.at, body);
-        model.bodies.iter().map(weight)
-    });
-    model.dag.sum(springs.chain(potentials).chain(gravity))
+    let stored = model.stored().map(stored);
+    model.dag.sum(stored.chain(weights(model)))
 }
 
-/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over dampers and given
-/// functions.
+/// One share of the potential energy.
+pub(super) fn stored<'d>(energy: &Energy<'d>) -> Expr<'d> {
+    match energy {
+        Energy::Quadratic(deformation) => deformation.energy(),
+        Energy::Given(value) => *value,
+    }
+}
+
+/// `−m g·x` of each body; none without gravity.
+pub(super) fn weights<'d>(model: &Model<'d>) -> impl Iterator<Item = Expr<'d>> {
+    model.gravity().into_iter().flat_map(|g| {
+        let weight = |body: &Body<'d>| -body.mass * dot(g, &body.at, body);
+        model.bodies.iter().map(weight)
+    })
+}
+
+/// Rayleigh's dissipation function, eq. (E3): `D = Σ ½ b ṡ² + Σ R`, over deformations that are damped
+/// and given functions.
 ///
 /// `rate` is the total derivative.
 pub(super) fn dissipation<'d>(model: &Model<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
-    let dampers: Vec<Expr<'d>> = model
-        .dampers
-        .iter()
-        .map(|damper| damper.coefficient * rate.of(damper.stretch).square() / 2)
-        .collect();
-    let given = model
-        .dissipations
-        .iter()
-        .map(|dissipation| dissipation.value);
-    model.dag.sum(dampers.into_iter().chain(given))
+    model
+        .dag
+        .sum(model.dissipated().map(|energy| dissipated(energy, rate)))
+}
+
+/// One share of the dissipation function.
+pub(super) fn dissipated<'d>(energy: &Energy<'d>, rate: &mut Tangent<'d>) -> Expr<'d> {
+    match energy {
+        Energy::Quadratic(damped) => damped.coefficient * rate.of(damped.measure).square() / 2,
+        Energy::Given(value) => *value,
+    }
 }

@@ -13,117 +13,118 @@ use super::projected::{Loads, Projection};
 use super::{Equations, energy, lagrange};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
+use lagrangian_spec::model::element::{Contribution, Energy};
 
 /// The most terms of a velocity term multiplied out, to see by which rates it goes.
 const VELOCITY_TERMS: usize = 1000;
 
-/// What makes an applied force, by its index in the list of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// The weight of all bodies.
-    Gravity,
-    /// A spring or torsion spring.
-    Spring(usize),
-    /// A given potential.
-    Potential(usize),
-    /// A damper.
-    Damper(usize),
-    /// A given dissipation function.
-    Dissipation(usize),
-    /// An applied or generalized force.
-    Force(usize),
-    /// An applied torque.
-    Torque(usize),
-}
-
-/// What one source contributes.
+/// What one element does by one of its means: what it stores, what it dissipates, or what it applies.
 #[derive(Clone, Debug)]
-pub struct Contribution<'d> {
-    /// What it comes from.
-    pub source: Source,
+pub struct Share<'d> {
+    /// The element, by its index in [`Model::elements`].
+    pub element: usize,
+    /// With what it stands in an equation.
+    pub kind: Kind,
     /// Its share of the potential energy or of the dissipation function; a force has none.
     pub energy: Option<Expr<'d>>,
     /// Its share of the applied forces `Q`, one for each coordinate.
     pub forces: Vec<Expr<'d>>,
 }
 
-/// The applied forces by their sources: their sum is `Q`, eq. (E6).
-pub fn contributions<'d>(model: &Model<'d>) -> Vec<Contribution<'d>> {
+/// The applied forces by their elements: their sum is `Q`, eq. (E6).
+pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     let dag = model.dag;
     let x = Variables::of(model);
     let approximations = Approximations::of(model);
-    let mut contributions = Vec::new();
-
-    // Energies, each as if it were the only one: −∂V/∂q.
-    let mut alone = model.clone();
-    (alone.springs, alone.potentials) = (Vec::new(), Vec::new());
-    let weight = model
-        .gravity
-        .as_ref()
-        .map(|_| energy::potential_energy(&alone));
-    let springs = model.springs.iter().enumerate();
-    let springs = springs.map(|(k, s)| (Source::Spring(k), s.coefficient * s.stretch.square() / 2));
-    let potentials = model.potentials.iter().enumerate();
-    let potentials = potentials.map(|(k, potential)| (Source::Potential(k), potential.value));
-    let weight = weight.map(|weight| (Source::Gravity, weight));
-    for (source, value) in weight.into_iter().chain(springs).chain(potentials) {
+    let mut shares = Vec::new();
+    let elements = || model.elements.iter().enumerate();
+    let share = |element, kind, value, by: &[Symbol]| {
         let value = approximations.energy(value);
-        let slopes = lagrange::gradient(dag, value, &x.q);
-        contributions.push(Contribution {
-            source,
+        let slopes = lagrange::gradient(dag, value, by);
+        Share {
+            element,
+            kind,
             energy: Some(value),
             forces: slopes.into_iter().map(|slope| -slope).collect(),
-        });
+        }
+    };
+
+    // Energies, each as if it were the only one: −∂V/∂q.
+    for (index, element) in elements() {
+        let all = element.contributions.iter();
+        if all
+            .clone()
+            .any(|one| matches!(one, Contribution::Gravity(_)))
+        {
+            let weight = dag.sum(energy::weights(model));
+            shares.push(share(index, Kind::Gravity, weight, &x.q));
+        }
+    }
+    for (index, element) in elements() {
+        let stored = element
+            .contributions
+            .iter()
+            .filter_map(Contribution::stored);
+        let stored: Vec<&Energy<'d>> = stored.collect();
+        if !stored.is_empty() {
+            let is_deformed = stored.iter().any(|e| matches!(e, Energy::Quadratic(_)));
+            let kind = if is_deformed {
+                Kind::Springs
+            } else {
+                Kind::Potentials
+            };
+            let value = dag.sum(stored.into_iter().map(energy::stored));
+            shares.push(share(index, kind, value, &x.q));
+        }
     }
 
     // Dissipation functions: −∂D/∂v.
     let rate = &mut x.coasting(model);
     let mut dissipations = Vec::new();
-    for (k, damper) in model.dampers.iter().enumerate() {
-        let value = damper.coefficient * rate.of(damper.stretch).square() / 2;
-        dissipations.push((Source::Damper(k), value));
+    for (index, element) in elements() {
+        let dissipated = element
+            .contributions
+            .iter()
+            .filter_map(Contribution::dissipated);
+        let values: Vec<_> = dissipated.map(|e| energy::dissipated(e, rate)).collect();
+        if !values.is_empty() {
+            dissipations.push((index, dag.sum(values)));
+        }
     }
-    let given = model.dissipations.iter().enumerate();
-    dissipations.extend(given.map(|(k, term)| (Source::Dissipation(k), term.value)));
-    for (source, value) in dissipations {
-        let value = approximations.energy(value);
-        let slopes = lagrange::gradient(dag, value, &x.v);
-        contributions.push(Contribution {
-            source,
-            energy: Some(value),
-            forces: slopes.into_iter().map(|slope| -slope).collect(),
-        });
+    for (index, value) in dissipations {
+        shares.push(share(index, Kind::Dissipation, value, &x.v));
     }
 
     // Forces: their virtual work.
     let projection = Projection::of(model, &x);
-    let mut add = |source: Source, loads: Loads<'d>| {
-        contributions.push(Contribution {
-            source,
+    for (element, said) in elements() {
+        let acting: Vec<_> = said
+            .contributions
+            .iter()
+            .filter_map(Contribution::load)
+            .collect();
+        if acting.is_empty() {
+            continue;
+        }
+        let mut loads = Loads::default();
+        projection.add_loads(acting.into_iter(), &mut loads);
+        shares.push(Share {
+            element,
+            kind: Kind::Applied,
             energy: None,
             forces: projection.project(&loads, 0..x.q.len()),
         });
-    };
-    for (k, force) in model.forces.iter().enumerate() {
-        let mut loads = Loads::default();
-        loads.on_force(force);
-        add(Source::Force(k), loads);
     }
-    for (k, torque) in model.torques.iter().enumerate() {
-        let mut loads = Loads::default();
-        projection.add_torques(std::slice::from_ref(torque), &mut loads);
-        add(Source::Torque(k), loads);
-    }
-    settle(model, &mut contributions);
-    contributions
+    settle(model, &mut shares);
+    shares
 }
 
 /// What is zero becomes 0.
-fn settle<'d>(model: &Model<'d>, contributions: &mut [Contribution<'d>]) {
-    let forces = contributions.iter().flat_map(|c| c.forces.iter().copied());
+fn settle<'d>(model: &Model<'d>, shares: &mut [Share<'d>]) {
+    let forces = shares.iter().flat_map(|c| c.forces.iter().copied());
     let mut forces: Vec<Expr<'d>> = forces.collect();
     identity::settle(model.dag, &mut forces);
-    let places = contributions.iter_mut().flat_map(|c| c.forces.iter_mut());
+    let places = shares.iter_mut().flat_map(|c| c.forces.iter_mut());
     places.zip(forces).for_each(|(place, force)| *place = force);
 }
 
@@ -179,12 +180,12 @@ impl<'d> Term<'d> {
 
 /// The equation of motion of coordinate `i` in groups, in the order of their kinds; empty groups are left out.
 ///
-/// `contributions` are those of the same model. On the left `M a + h` and what potentials and dampers do, on the right what
+/// `shares` are those of the same model. On the left `M a + h` and what potentials and dampers do, on the right what
 /// is applied.
 pub fn equation<'d>(
     model: &Model<'d>,
     equations: &Equations<'d>,
-    contributions: &[Contribution<'d>],
+    shares: &[Share<'d>],
     i: usize,
 ) -> Vec<Group<'d>> {
     let dag = model.dag;
@@ -221,8 +222,8 @@ pub fn equation<'d>(
         Kind::Dissipation,
         Kind::Applied,
     ] {
-        let of_kind = contributions.iter().filter(|c| kind_of(c.source) == kind);
-        let sum = dag.sum(of_kind.map(|contribution| contribution.forces[i]));
+        let of_kind = shares.iter().filter(|share| share.kind == kind);
+        let sum = dag.sum(of_kind.map(|share| share.forces[i]));
         let side = if kind == Kind::Applied { sum } else { -sum };
         add(
             kind,
@@ -234,16 +235,6 @@ pub fn equation<'d>(
     }
     groups.sort_by_key(|group| group.kind);
     groups
-}
-
-fn kind_of(source: Source) -> Kind {
-    match source {
-        Source::Gravity => Kind::Gravity,
-        Source::Spring(_) => Kind::Springs,
-        Source::Potential(_) => Kind::Potentials,
-        Source::Damper(_) | Source::Dissipation(_) => Kind::Dissipation,
-        Source::Force(_) | Source::Torque(_) => Kind::Applied,
-    }
 }
 
 /// The bias by the rates in it. It is a polynomial of second degree in `v`; without explicit time it has no terms of a lower

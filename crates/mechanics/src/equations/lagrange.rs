@@ -18,7 +18,8 @@ use super::refusal;
 use super::sliding::{guide, relative};
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_angle;
-use lagrangian_spec::model::{Action, Model, Rotation, Space};
+use lagrangian_spec::model::element::Load;
+use lagrangian_spec::model::{Model, Rotation, Space};
 
 /// The literal Lagrange equations of a machine. Slow to derive and long; never shipped.
 pub struct Oracle<'d> {
@@ -148,8 +149,9 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
         .collect();
     let closed = |e: Expr<'d>| substitute(dag, &[e], &shut)[0];
     let oracle = Oracle::derive(relaxed);
-    let guides: Vec<_> = model.sliding.iter().map(|s| guide(model, s)).collect();
-    let pairs = || relaxed.sliding.iter().zip(&guides);
+    let sliding = model.sliding();
+    let guides: Vec<_> = sliding.iter().map(|s| guide(model, s)).collect();
+    let pairs = || relaxed.sliding().into_iter().zip(&guides);
     let mut coasting = x.coasting(relaxed);
     let rates: Vec<_> = pairs()
         .map(|(sliding, guide)| relative(relaxed, sliding, guide, &mut coasting))
@@ -168,7 +170,7 @@ fn sliding<'d>(model: &Model<'d>) -> Vec<OracleSliding<'d>> {
             .iter()
             .zip(&model.coordinates)
             .map(|(&tau, c)| tau * c.a);
-        let sliding = &model.sliding[k];
+        let sliding = sliding[k];
         OracleSliding {
             slip,
             slip_rate: dag.sum(accelerating.chain([drift])),
@@ -215,37 +217,48 @@ fn applied<'d>(
     let force = |i: usize| {
         let rate = &mut x.partial(model, i);
         let mut terms = vec![-potential_energy.diff(x.q[i]), -dissipation.diff(x.v[i])];
-        for force in &model.forces {
-            match &force.action {
-                Action::Point { at, force } => {
+        for load in model.loads() {
+            match load {
+                Load::Point { at, force } => {
                     terms.extend(at.iter().zip(force).map(|(&x, &f)| f * rate.of(x)));
                 }
-                Action::Coordinate { coordinate, value } if *coordinate == i => terms.push(*value),
-                Action::Coordinate { .. } => {}
-            }
-        }
-        for torque in &model.torques {
-            let body = &model.bodies[torque.body];
-            match (model.space, &body.rotation) {
-                (Space::Plane, _) => {
-                    let angle = planar_angle(model, body);
-                    terms.extend(angle.map(|angle| torque.torque[0] * rate.of(angle)));
-                }
-                (Space::Space, &Rotation::Frame(pose)) => {
-                    // The torque along the body's axes, against the rate of turning about them.
-                    let turning = kinematics::angular_velocity_of_axes(model, pose, rate);
-                    let axes = &model.poses[pose.0 as usize].axes;
-                    for (axis, turning) in axes.iter().zip(turning) {
-                        let along = axis.iter().zip(&torque.torque).map(|(&e, &m)| e * m);
-                        terms.push(model.dag.sum(along) * turning);
-                    }
-                }
-                (Space::Space, _) => {}
+                Load::Coordinate { coordinate, value } if *coordinate == i => terms.push(*value),
+                Load::Coordinate { .. } => {}
+                Load::Torque { body, torque } => terms.extend(power(model, *body, torque, rate)),
             }
         }
         model.dag.sum(terms)
     };
     (0..x.q.len()).map(force).collect()
+}
+
+/// The power of a torque on a body that turns as the rate says, as terms of a sum.
+fn power<'d>(
+    model: &Model<'d>,
+    body: usize,
+    torque: &[Expr<'d>],
+    rate: &mut Tangent<'d>,
+) -> Vec<Expr<'d>> {
+    let body = &model.bodies[body];
+    match (model.space, &body.rotation) {
+        (Space::Plane, _) => {
+            let angle = planar_angle(model, body).into_iter();
+            angle.map(|angle| torque[0] * rate.of(angle)).collect()
+        }
+        (Space::Space, &Rotation::Frame(pose)) => {
+            // The torque along the body's axes, against the rate of turning about them.
+            let turning = kinematics::angular_velocity_of_axes(model, pose, rate);
+            let axes = model.poses[pose.index()].axes.iter();
+            let along = |axis: &Vec<Expr<'d>>| {
+                let terms = axis.iter().zip(torque).map(|(&e, &m)| e * m);
+                model.dag.sum(terms)
+            };
+            axes.zip(turning)
+                .map(|(axis, turning)| along(axis) * turning)
+                .collect()
+        }
+        (Space::Space, _) => Vec::new(),
+    }
 }
 
 /// `M`, `h` from any kinetic energy, eqs. (E4) and (E5), in as few sweeps as there are: `p = ∂T/∂v`

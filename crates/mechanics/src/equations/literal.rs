@@ -40,9 +40,9 @@ use lagrangian_symbolic::{Expr, Id, Symbol, evaluate};
 use rustc_hash::FxHashMap;
 
 use frozen::Frozen;
+use lagrangian_spec::model::element::{Energy, Load, Sliding};
 use lagrangian_spec::model::{
-    Action, ApproximationKind, Body, Circle, Inertia, Model, Place, PoseId, Rotation, Sliding,
-    Space, Surface,
+    ApproximationKind, Body, Circle, Inertia, Model, Place, PoseId, Rotation, Space, Surface,
 };
 
 /// Where a machine is, how it moves, and what acts on it.
@@ -198,7 +198,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             roots,
             kinetic,
             energies,
-            holonomic: (0..model.constraints.len()).map(holonomic).collect(),
+            holonomic: (0..model.constraints().len()).map(holonomic).collect(),
             small: kinds(ApproximationKind::Small),
             frozen: kinds(ApproximationKind::Frozen),
         }
@@ -261,7 +261,11 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             inertia: t.derivative.derivative,
             applied: v.derivative.derivative - d.value.derivative + force,
             constraints: self.constraints(&x),
-            sliding: model.sliding.iter().map(|s| self.sliding(s, &x)).collect(),
+            sliding: model
+                .sliding()
+                .into_iter()
+                .map(|s| self.sliding(s, &x))
+                .collect(),
         }
     }
 
@@ -372,26 +376,12 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         let here = |e: Expr<'d>| x(e).value.value.value;
         // How w moves something: q has −w before τε.
         let moved = |e: Expr<'d>| -x(e).value.derivative.derivative;
-        let mut work = R::ZERO;
-        for force in &model.forces {
-            match &force.action {
-                Action::Point { at, force } => {
-                    for (&at, &force) in at.iter().zip(force) {
-                        work = work + here(force) * moved(at);
-                    }
-                }
-                &Action::Coordinate { coordinate, value } => {
-                    let q = model.coordinates[coordinate].q;
-                    work = work + here(value) * moved(q);
-                }
-            }
-        }
-        for torque in &model.torques {
-            let body = &model.bodies[torque.body];
+        let of_torque = |body: &Body<'d>, torque: &[Expr<'d>]| {
+            let mut work = R::ZERO;
             match (model.space, &body.rotation) {
                 (Space::Plane, _) => {
                     if let Some(angle) = angle(model, body) {
-                        work = work + here(torque.torque[0]) * moved(angle);
+                        work = here(torque[0]) * moved(angle);
                     }
                 }
                 (Space::Space, &Rotation::Frame(pose)) => {
@@ -401,14 +391,25 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
                             let turn =
                                 here(e[next]) * moved(e[last]) - here(e[last]) * moved(e[next]);
-                            work = work + here(torque.torque[k]) * turn * R::from_ratio(1, 2);
+                            work = work + here(torque[k]) * turn * R::from_ratio(1, 2);
                         }
                     }
                 }
                 (Space::Space, _) => {}
             }
-        }
-        work
+            work
+        };
+        let of_load = |load: &Load<'d>| match load {
+            Load::Point { at, force } => {
+                let pairs = at.iter().zip(force);
+                sum(pairs.map(|(&at, &force)| here(force) * moved(at)))
+            }
+            &Load::Coordinate { coordinate, value } => {
+                here(value) * moved(model.coordinates[coordinate].q)
+            }
+            Load::Torque { body, torque } => of_torque(&model.bodies[*body], torque),
+        };
+        sum(model.loads().map(of_load))
     }
 
     fn constraints<R: Scalar>(
@@ -417,15 +418,15 @@ impl<'m, 'd> Lagrange<'m, 'd> {
     ) -> Vec<LiteralConstraint<R>> {
         let model = self.model;
         let mut all: Vec<LiteralConstraint<R>> = model
-            .constraints
-            .iter()
+            .constraints()
+            .into_iter()
             .zip(&self.holonomic)
             .map(|(constraint, holonomic)| match holonomic {
                 true => of_position(x(constraint.expression)),
                 false => of_rate(x(constraint.expression).value),
             })
             .collect();
-        for rolling in &model.rolling {
+        for rolling in model.rolling() {
             let circle = &model.circles[rolling.circles.circle];
             let [gap, slip] = match rolling.circles.surface {
                 Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
@@ -615,11 +616,14 @@ fn kinetic<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
 
 /// What potential energy and dissipation are made from.
 fn energies<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
-    let elements = model.springs.iter().chain(&model.dampers);
-    let mut roots: Vec<Expr<'d>> = elements.flat_map(|e| [e.coefficient, e.stretch]).collect();
-    let terms = model.potentials.iter().chain(&model.dissipations);
-    roots.extend(terms.map(|term| term.value));
-    if let Some(gravity) = &model.gravity {
+    let mut roots: Vec<Expr<'d>> = Vec::new();
+    for energy in model.stored().chain(model.dissipated()) {
+        match energy {
+            Energy::Quadratic(of) => roots.extend([of.coefficient, of.measure]),
+            Energy::Given(value) => roots.push(*value),
+        }
+    }
+    if let Some(gravity) = model.gravity() {
         roots.extend(gravity);
         for body in &model.bodies {
             roots.push(body.mass);
@@ -650,32 +654,32 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
         Place::Frame(frame) => pose(frame, roots),
         Place::Body(index) => body(index, roots),
     };
-    for force in &model.forces {
-        match &force.action {
-            Action::Point { at, force } => roots.extend(at.iter().chain(force)),
-            Action::Coordinate { coordinate, value } => {
+    for load in model.loads() {
+        match load {
+            Load::Point { at, force } => roots.extend(at.iter().chain(force)),
+            Load::Coordinate { coordinate, value } => {
                 roots.extend([model.coordinates[*coordinate].q, *value]);
+            }
+            Load::Torque { body: on, torque } => {
+                roots.extend(torque);
+                body(*on, &mut roots);
             }
         }
     }
-    for torque in &model.torques {
-        roots.extend(&torque.torque);
-        body(torque.body, &mut roots);
-    }
-    roots.extend(model.constraints.iter().map(|c| c.expression));
-    if !model.rolling.is_empty() {
+    roots.extend(model.constraints().into_iter().map(|c| c.expression));
+    if !model.rolling().is_empty() {
         for circle in &model.circles {
             roots.extend(&circle.center);
             roots.push(circle.radius);
             place(circle.on, &mut roots);
         }
     }
-    for rolling in &model.rolling {
+    for rolling in model.rolling() {
         if let Surface::Along(frame) = rolling.circles.surface {
             pose(frame, &mut roots);
         }
     }
-    for sliding in &model.sliding {
+    for sliding in model.sliding() {
         body(sliding.body, &mut roots);
         place(sliding.on, &mut roots);
         roots.extend(
@@ -746,29 +750,32 @@ fn kinetic_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) ->
 fn potential_energy<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
     let here = |e: Expr<'d>| x(e).here();
     let half = P::Base::from_ratio(1, 2);
-    let springs = model.springs.iter().map(|spring| {
-        let stretch = here(spring.stretch);
-        half * here(spring.coefficient) * stretch * stretch
+    let stored = model.stored().map(|energy| match energy {
+        Energy::Quadratic(of) => {
+            let deformation = here(of.measure);
+            half * here(of.coefficient) * deformation * deformation
+        }
+        Energy::Given(value) => here(*value),
     });
-    let potentials = model.potentials.iter().map(|term| here(term.value));
-    let weights = model.gravity.iter().flat_map(|gravity| {
+    let weights = model.gravity().into_iter().flat_map(|gravity| {
         model.bodies.iter().map(|body| {
             let along = gravity.iter().zip(&body.at);
             -(here(body.mass) * sum(along.map(|(&g, &at)| here(g) * here(at))))
         })
     });
-    sum(springs.chain(potentials).chain(weights))
+    sum(stored.chain(weights))
 }
 
 /// `Σ ½ b ṡ² + Σ R`.
 fn dissipation<'d, P: Path>(model: &Model<'d>, x: &impl Fn(Expr<'d>) -> P) -> P::Base {
     let half = P::Base::from_ratio(1, 2);
-    let dampers = model.dampers.iter().map(|damper| {
-        let rate = x(damper.stretch).rate();
-        half * x(damper.coefficient).here() * rate * rate
-    });
-    let given = model.dissipations.iter().map(|term| x(term.value).here());
-    sum(dampers.chain(given))
+    sum(model.dissipated().map(|energy| match energy {
+        Energy::Quadratic(of) => {
+            let rate = x(of.measure).rate();
+            half * x(of.coefficient).here() * rate * rate
+        }
+        Energy::Given(value) => x(*value).here(),
+    }))
 }
 
 /// The centre of a circle, and how fast what it is fixed to turns.

@@ -38,9 +38,8 @@ use super::lumps::{self, Lump};
 use super::refusal;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_angle;
-use lagrangian_spec::model::{
-    Action, Body, Force, Inertia, Model, PoseId, Rotation, Space, Torque,
-};
+use lagrangian_spec::model::element::{Energy, Load};
+use lagrangian_spec::model::{Body, Inertia, Model, PoseId, Rotation, Space};
 
 /// What carries a machine's inertia, in the form that is cheapest to differentiate.
 pub(super) struct Projection<'a, 'd> {
@@ -97,10 +96,10 @@ impl<'a, 'd> Projection<'a, 'd> {
         let turning = bodies
             .iter()
             .filter_map(|body| body.tensor.map(|(_, pose)| pose));
-        let twisted = model
-            .torques
-            .iter()
-            .filter_map(|t| frame_of(&model.bodies[t.body]));
+        let twisted = model.loads().filter_map(|load| match load {
+            Load::Torque { body, .. } => frame_of(&model.bodies[*body]),
+            Load::Point { .. } | Load::Coordinate { .. } => None,
+        });
         let moving = bodies
             .iter()
             .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
@@ -186,34 +185,38 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds what is applied, gravity apart, eq. (E14): `Qᵢ = Σ F·∂x/∂qᵢ`, which is (E6).
     ///
-    /// Springs pull with `−k s` along their stretch, dampers with `−b ṡ`; forces and torques act
-    /// where they act. A coefficient that depends on coordinates or rates gives its own term.
+    /// What is deformed pulls with `−c s` along its deformation, what is damped with `−b ṡ`; forces and
+    /// torques act where they act. A coefficient that depends on coordinates or rates gives its own term.
     pub fn add_applied(&self, loads: &mut Loads<'d>) {
         let (model, rate) = (self.model, &mut self.x.coasting(self.model));
-        for spring in &model.springs {
-            let (k, s) = (spring.coefficient, spring.stretch);
-            loads.on_positions.push((s, -k * s));
-            loads.on_positions.push((k, -s.square() / 2));
+        for energy in model.stored() {
+            match energy {
+                Energy::Quadratic(deformed) => {
+                    let (c, s) = (deformed.coefficient, deformed.measure);
+                    loads.on_positions.push((s, -c * s));
+                    loads.on_positions.push((c, -s.square() / 2));
+                }
+                Energy::Given(value) => loads.on_positions.push((*value, model.dag.int(-1))),
+            }
         }
-        for potential in &model.potentials {
-            loads
-                .on_positions
-                .push((potential.value, model.dag.int(-1)));
-        }
-        for damper in &model.dampers {
-            let (b, s_rate) = (damper.coefficient, rate.of(damper.stretch));
-            loads.on_positions.push((damper.stretch, -b * s_rate));
-            loads.on_rates.push((b, -s_rate.square() / 2));
-        }
-        for dissipation in &model.dissipations {
-            loads.on_rates.push((dissipation.value, model.dag.int(-1)));
+        for energy in model.dissipated() {
+            match energy {
+                Energy::Quadratic(damped) => {
+                    let (b, s_rate) = (damped.coefficient, rate.of(damped.measure));
+                    loads.on_positions.push((damped.measure, -b * s_rate));
+                    loads.on_rates.push((b, -s_rate.square() / 2));
+                }
+                Energy::Given(value) => loads.on_rates.push((*value, model.dag.int(-1))),
+            }
         }
         self.add_forces(loads);
     }
 
     /// Adds `Σ m g·∂x/∂qᵢ`, on the nodes that inertia acts on.
     pub fn add_gravity(&self, loads: &mut Loads<'d>) {
-        let Some(g) = &self.model.gravity else { return };
+        let Some(g) = self.model.gravity() else {
+            return;
+        };
         let coasting = &mut self.x.coasting(self.model);
         let velocities = self.velocities_of(&self.inertial, coasting);
         let along = match self.model.space {
@@ -243,37 +246,54 @@ impl<'a, 'd> Projection<'a, 'd> {
 
     /// Adds `Σ F·∂x/∂qᵢ + Σ M·∂ω/∂vᵢ + Fᵢ`: the virtual work of applied forces and torques.
     pub fn add_forces(&self, loads: &mut Loads<'d>) {
-        let forces = self.model.forces.iter();
-        forces.for_each(|force| loads.on_force(force));
-        self.add_torques(&self.model.torques, loads);
+        self.add_loads(self.model.loads(), loads);
     }
 
-    /// Adds `Σ M·∂ω/∂vᵢ` of some torques.
-    pub fn add_torques(&self, torques: &[Torque<'d>], loads: &mut Loads<'d>) {
-        if torques.is_empty() {
-            return;
-        }
-        let twists = match self.model.space {
-            Space::Plane => Vec::new(),
-            Space::Space => self
-                .chains
-                .velocities(self.model, &mut self.x.coasting(self.model)),
-        };
-        for torque in torques {
-            let body = &self.model.bodies[torque.body];
-            match self.model.space {
-                Space::Plane => {
-                    let angle = planar_angle(self.model, body);
-                    loads
-                        .on_positions
-                        .extend(angle.map(|angle| (angle, torque.torque[0])));
+    /// Adds the virtual work of some forces and torques.
+    pub fn add_loads<'l>(&self, acting: impl Iterator<Item = &'l Load<'d>>, loads: &mut Loads<'d>)
+    where
+        'd: 'l,
+    {
+        let mut twists = None;
+        for load in acting {
+            match load {
+                Load::Point { at, force } => {
+                    let components = at.iter().copied().zip(force.iter().copied());
+                    loads.on_positions.extend(components);
                 }
-                Space::Space => {
-                    if let Some(pose) = frame_of(body) {
-                        let turning = twists[pose.index()].angular;
-                        let along = kinematics::along_axes(self.model, pose, &torque.torque);
-                        loads.on_rates.extend(turning.into_iter().zip(along));
-                    }
+                Load::Coordinate { coordinate, value } => {
+                    loads.on_coordinates.push((*coordinate, *value));
+                }
+                Load::Torque { body, torque } => {
+                    self.add_torque(*body, torque, &mut twists, loads);
+                }
+            }
+        }
+    }
+
+    /// Adds `M·∂ω/∂vᵢ` of a torque. `twists` are how all frames in space move, once it has been needed.
+    fn add_torque(
+        &self,
+        body: usize,
+        torque: &[Expr<'d>],
+        twists: &mut Option<Vec<Twist<'d>>>,
+        loads: &mut Loads<'d>,
+    ) {
+        let body = &self.model.bodies[body];
+        match self.model.space {
+            Space::Plane => {
+                let angle = planar_angle(self.model, body);
+                loads
+                    .on_positions
+                    .extend(angle.map(|angle| (angle, torque[0])));
+            }
+            Space::Space => {
+                let twists =
+                    twists.get_or_insert_with(|| self.twists(&mut self.x.coasting(self.model)));
+                if let Some(pose) = frame_of(body) {
+                    let turning = twists[pose.index()].angular;
+                    let along = kinematics::along_axes(self.model, pose, torque);
+                    loads.on_rates.extend(turning.into_iter().zip(along));
                 }
             }
         }
@@ -459,7 +479,7 @@ impl<'a, 'd> Projection<'a, 'd> {
     /// The same, and how they accelerate; with `gravity` the ground accelerates by `−g`.
     fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
         let model = self.model;
-        let gravity = model.gravity.as_ref().filter(|_| gravity);
+        let gravity = model.gravity().filter(|_| gravity);
         match model.space {
             Space::Plane => (Vec::new(), Vec::new()),
             Space::Space => {
@@ -480,7 +500,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         gravity: bool,
     ) -> Vec<Carried<'d>> {
         let (twists, accelerations) = self.motion(rate, gravity);
-        let gravity = self.model.gravity.as_ref().filter(|_| gravity);
+        let gravity = self.model.gravity().filter(|_| gravity);
         let mut load = |body: &Carrier<'d>| {
             let points = body.points.iter().map(|point| {
                 let (acceleration, weight) =
@@ -585,19 +605,6 @@ impl<'d> Loads<'d> {
         self.on_rates.extend(twist.angular.into_iter().zip(moment));
     }
 
-    /// An applied force.
-    pub fn on_force(&mut self, force: &Force<'d>) {
-        match &force.action {
-            Action::Point { at, force } => {
-                let components = at.iter().copied().zip(force.iter().copied());
-                self.on_positions.extend(components);
-            }
-            Action::Coordinate { coordinate, value } => {
-                self.on_coordinates.push((*coordinate, *value));
-            }
-        }
-    }
-
     /// Loads that derive from a potential and a dissipation function.
     pub fn of_energies(dag: &'d Dag, potential: Expr<'d>, dissipation: Expr<'d>) -> Loads<'d> {
         Loads {
@@ -620,7 +627,7 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
         .map(|(k, &position)| Weighted {
             position,
             weight: body.mass,
-            gravity: model.gravity.as_ref().map(|g| g[k]),
+            gravity: model.gravity().map(|g| g[k]),
         })
         .collect();
     let tensor = match body.inertia {

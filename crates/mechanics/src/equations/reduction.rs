@@ -20,7 +20,8 @@ use super::constraints::ConstraintEquation;
 use super::kinematics::Variables;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::identity;
-use lagrangian_spec::model::{Action, Force, Inertia, Model, Rotation, Step, stage};
+use lagrangian_spec::model::element::{Contribution, Load};
+use lagrangian_spec::model::{Inertia, Model, Rotation, Step, stage};
 
 /// A machine without the coordinates that constraints settle.
 #[derive(Clone, Debug)]
@@ -227,23 +228,9 @@ fn expressions<'m, 'd>(model: &'m mut Model<'d>) -> Vec<&'m mut Expr<'d>> {
             all.push(angle);
         }
     }
-    all.extend(model.gravity.iter_mut().flatten());
-    for element in model.springs.iter_mut().chain(&mut model.dampers) {
-        all.push(&mut element.coefficient);
-        all.push(&mut element.stretch);
-        all.extend(element.ends.iter_mut().flatten().flatten());
-    }
-    let terms = model.potentials.iter_mut().chain(&mut model.dissipations);
-    all.extend(terms.map(|term| &mut term.value));
-    for force in &mut model.forces {
-        match &mut force.action {
-            Action::Point { at, force } => all.extend(at.iter_mut().chain(force)),
-            Action::Coordinate { value, .. } => all.push(value),
-        }
-    }
-    all.extend(model.torques.iter_mut().flat_map(|t| &mut t.torque));
+    let elements = model.elements.iter_mut();
+    all.extend(elements.flat_map(|element| element.expressions_mut()));
     all.extend(model.assumptions.iter_mut().map(|fact| &mut fact.excess));
-    all.extend(model.constraints.iter_mut().map(|c| &mut c.expression));
     for circle in &mut model.circles {
         all.extend(&mut circle.center);
         all.push(&mut circle.radius);
@@ -261,7 +248,7 @@ pub(super) fn reduction<'d>(
     // Derivatives, and what stages leave, are about all of the state.
     // So is friction.
     let is_whole = !model.derivatives.is_empty() || !model.stages.is_empty();
-    if dependents.is_empty() || is_whole || !model.sliding.is_empty() {
+    if dependents.is_empty() || is_whole || !model.sliding().is_empty() {
         return None;
     }
     let x = Variables::of(model);
@@ -272,15 +259,17 @@ pub(super) fn reduction<'d>(
     let left: Vec<usize> = (0..constraints.len()).filter(|k| !is_settled(k)).collect();
 
     let mut reduced = model.clone();
-    reduced.forces = forces(model, &x, &coordinates, &dependents);
+    for element in &mut reduced.elements {
+        let all = std::mem::take(&mut element.contributions).into_iter();
+        let reduced = all.flat_map(|one| contribution(one, &x, &coordinates, &dependents));
+        element.contributions = reduced.collect();
+    }
     reduced.coordinates = coordinates
         .iter()
         .map(|&i| model.coordinates[i].clone())
         .collect();
     reduced.outputs.clear();
     reduced.published.clear();
-    reduced.constraints.clear();
-    reduced.rolling.clear();
     let mut places = expressions(&mut reduced);
     let before: Vec<Expr<'d>> = places.iter().map(|place| **place).collect();
     let after = substitute(model.dag, &before, &map);
@@ -308,35 +297,27 @@ pub(super) fn reduction<'d>(
     }))
 }
 
-/// The forces on what is left: one on a coordinate that depends on others acts on these.
-fn forces<'d>(
-    model: &Model<'d>,
+/// What is left of a contribution. Constraints are counted apart, and a force on a coordinate that
+/// depends on others acts on these.
+fn contribution<'d>(
+    contribution: Contribution<'d>,
     x: &Variables<'d>,
     coordinates: &[usize],
     dependents: &[Dependent<'d>],
-) -> Vec<Force<'d>> {
-    let mut forces = Vec::new();
-    for force in &model.forces {
-        let Action::Coordinate { coordinate, value } = force.action else {
-            forces.push(force.clone());
-            continue;
-        };
-        let on = |place: usize, value: Expr<'d>| Force {
-            action: Action::Coordinate {
-                coordinate: place,
-                value,
-            },
-            ..force.clone()
-        };
-        if let Some(place) = coordinates.iter().position(|i| *i == coordinate) {
-            forces.push(on(place, value));
-        }
-        let dependent = dependents.iter().find(|d| d.coordinate == coordinate);
-        for (place, &i) in coordinates.iter().enumerate() {
-            let share = dependent.map(|d| d.rate.diff(x.v[i]));
-            let share = share.filter(|share| !share.is_zero());
-            forces.extend(share.map(|share| on(place, value * share)));
-        }
+) -> Vec<Contribution<'d>> {
+    let (coordinate, value) = match contribution {
+        Contribution::Constraint(_) | Contribution::Rolling(_) => return Vec::new(),
+        Contribution::Load(Load::Coordinate { coordinate, value }) => (coordinate, value),
+        other => return vec![other],
+    };
+    let on = |coordinate, value| Contribution::Load(Load::Coordinate { coordinate, value });
+    let own = coordinates.iter().position(|i| *i == coordinate);
+    let mut acting: Vec<_> = own.into_iter().map(|place| on(place, value)).collect();
+    let dependent = dependents.iter().find(|d| d.coordinate == coordinate);
+    for (place, &i) in coordinates.iter().enumerate() {
+        let share = dependent.map(|d| d.rate.diff(x.v[i]));
+        let share = share.filter(|share| !share.is_zero());
+        acting.extend(share.map(|share| on(place, value * share)));
     }
-    forces
+    acting
 }

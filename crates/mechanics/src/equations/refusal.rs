@@ -4,7 +4,7 @@ use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::Expr;
 
 use super::Equations;
-use super::constraints::ConstraintEquation;
+use super::constraints::{self, ConstraintEquation};
 use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
@@ -31,7 +31,8 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
 
 /// Refuses what goes with friction not yet. True if anything is refused.
 fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
-    let Some(first) = model.sliding.first() else {
+    let sliding = model.sliding();
+    let Some(first) = sliding.first() else {
         return false;
     };
     let mut refused = false;
@@ -55,8 +56,8 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
         let help = format!("without `{section}`, or without `sliding`, it can be derived");
         refuse(Code::NotSupported, span, message, help);
     }
-    if let Some(contact) = model.sliding.get(MOST_CONTACTS) {
-        let count = model.sliding.len();
+    if let Some(contact) = sliding.get(MOST_CONTACTS) {
+        let count = sliding.len();
         let message = format!("{count} contacts that stick or slide are too many");
         let help = format!("a machine may have {MOST_CONTACTS} of them");
         refuse(Code::TooLarge, contact.span, message, help);
@@ -77,7 +78,7 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
 /// Refuses what rolls without a word on how it turns. True if anything is refused.
 pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
-    for rolling in &model.rolling {
+    for rolling in model.rolling() {
         let Touching { circle, surface } = rolling.circles;
         let other = match surface {
             Surface::Inside(other) | Surface::Outside(other) => Some(other),
@@ -131,12 +132,11 @@ const MOST_CONSTRAINTS: usize = 256;
 /// Refuses machines of more than [`MOST_CONSTRAINTS`] constraints, at the first one too many. True
 /// if refused.
 pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) -> bool {
-    let rolling = model.rolling.iter().flat_map(|r| [r.span, r.span]);
-    let spans = model.constraints.iter().map(|c| c.span).chain(rolling);
-    let Some(span) = spans.clone().nth(MOST_CONSTRAINTS) else {
+    let spans = constraints::spans(model);
+    let Some(&span) = spans.get(MOST_CONSTRAINTS) else {
         return false;
     };
-    let message = format!("{} equations of constraints are too many", spans.count());
+    let message = format!("{} equations of constraints are too many", spans.len());
     let help = format!("a machine may have {MOST_CONSTRAINTS} of them");
     report.push(Diagnostic::new(Code::TooLarge, span, message).help(help));
     true

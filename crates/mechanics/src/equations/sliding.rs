@@ -27,7 +27,8 @@ use super::projected::Projection;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::planar_angle;
-use lagrangian_spec::model::{Model, Place, Rotation, Sliding, stage};
+use lagrangian_spec::model::element::Sliding;
+use lagrangian_spec::model::{Model, Place, Rotation, stage};
 
 /// The most contacts of a machine: at a stop, every way in which they may stick or slide is looked at,
 /// and of six contacts there are 46 656.
@@ -142,12 +143,13 @@ pub(super) fn sliding<'d>(
     model: &Model<'d>,
     report: &mut Report,
 ) -> Option<Vec<SlidingEquation<'d>>> {
-    if model.sliding.is_empty() {
+    let all = model.sliding();
+    if all.is_empty() {
         return Some(Vec::new());
     }
-    let guides: Vec<Guide<'d>> = model.sliding.iter().map(|s| guide(model, s)).collect();
+    let guides: Vec<Guide<'d>> = all.iter().map(|s| guide(model, s)).collect();
     let mut refused = false;
-    for (sliding, guide) in model.sliding.iter().zip(&guides) {
+    for (sliding, guide) in all.iter().zip(&guides) {
         if let Some(diagnostic) = what_is_wrong(model, sliding, guide) {
             report.push(diagnostic);
             refused = true;
@@ -160,10 +162,10 @@ pub(super) fn sliding<'d>(
     let relaxed = model.relaxed.as_deref()?;
     let reactions = Reactions::of(model, relaxed, &guides);
     let Some(solved) = reactions.solved() else {
-        let names = model.sliding.iter().map(|s| format!("`{}`", s.name));
+        let names = all.iter().map(|s| format!("`{}`", s.name));
         let names = names.collect::<Vec<_>>().join(", ");
         let message = format!("what each of {names} carries is not determined");
-        let diagnostic = Diagnostic::new(Code::NoGuide, model.sliding[0].span, message);
+        let diagnostic = Diagnostic::new(Code::NoGuide, all[0].span, message);
         report.push(diagnostic.help("guides that hold a body in the same direction share its load in unknown parts: say it of one of them"));
         return None;
     };
@@ -172,7 +174,7 @@ pub(super) fn sliding<'d>(
     }
     let mut coasting = x.coasting(model);
     let mut equations = Vec::with_capacity(guides.len());
-    for ((sliding, guide), normal) in model.sliding.iter().zip(&guides).zip(solved) {
+    for ((sliding, guide), normal) in all.iter().zip(&guides).zip(solved) {
         let [slip, _] = relative(model, sliding, guide, &mut coasting);
         let (slip, row) = settled(model, &x, slip);
         equations.push(SlidingEquation {
@@ -252,7 +254,7 @@ fn what_is_wrong<'d>(
         );
     }
     let alone = model
-        .sliding
+        .sliding()
         .iter()
         .filter(|s| s.body == sliding.body)
         .count()
@@ -324,8 +326,8 @@ impl<'d> Reactions<'d> {
         let constraints = constraints::constraints(relaxed);
         let mut coasting = x.coasting(relaxed);
         let moved: Vec<[Vec<Expr<'d>>; 2]> = relaxed
-            .sliding
-            .iter()
+            .sliding()
+            .into_iter()
             .zip(guides)
             .map(|(sliding, guide)| {
                 relative(relaxed, sliding, guide, &mut coasting)

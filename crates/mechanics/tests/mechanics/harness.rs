@@ -59,7 +59,7 @@ pub fn all_machines() -> Vec<(String, String)> {
 }
 
 fn all_files() -> Vec<PathBuf> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/mechanics/machines");
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("../mechanics/tests/mechanics/machines");
     let entries =
         [library(), here].map(|folder| std::fs::read_dir(folder).expect("a folder of machines"));
     let paths = entries

@@ -98,7 +98,7 @@ impl<'d> Chapter<'_, 'd> {
             let rate = Math::letter('p').dotted().with_index(q());
             // By its sources, of which those that cancel are 0.
             let forces = self
-                .contributions
+                .shares
                 .iter()
                 .map(|part| part.forces[cyclic.coordinate]);
             let reactions = self.compiled.equations.constraints.iter();
@@ -217,7 +217,7 @@ impl<'d> Chapter<'_, 'd> {
         if equations.dissipation.is_zero() {
             items.push(words!["Dissipation: there is none."]);
         }
-        if model.forces.is_empty() && model.torques.is_empty() {
+        if model.loads().next().is_none() {
             items.push(words!["Applied forces and torques: there are none."]);
         }
         let particles = particles(&model.bodies);

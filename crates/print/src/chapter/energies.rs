@@ -5,7 +5,8 @@ use lagrangian_symbolic::{Expr, Math};
 
 use super::{Chapter, Shown, code, label, listed, paragraph, shown, words};
 use crate::document::{Block, Row, Words};
-use lagrangian_mechanics::equations::groups::{Contribution, Source};
+use lagrangian_mechanics::equations::groups::{Kind, Share};
+use lagrangian_spec::model::element::Element;
 use lagrangian_spec::model::{Name, Space};
 
 /// A sum of energies longer than this is not written out: its terms stand above it.
@@ -14,14 +15,9 @@ const LONGEST_SUM: u64 = 400;
 impl<'d> Chapter<'_, 'd> {
     pub(super) fn energies(&self) -> Vec<Block> {
         let mut blocks = self.kinetic_energy();
-        let is_potential = |source: Source| {
-            matches!(
-                source,
-                Source::Gravity | Source::Spring(_) | Source::Potential(_)
-            )
-        };
-        let is_dissipation =
-            |source: Source| matches!(source, Source::Damper(_) | Source::Dissipation(_));
+        let is_potential =
+            |kind: Kind| matches!(kind, Kind::Gravity | Kind::Springs | Kind::Potentials);
+        let is_dissipation = |kind: Kind| kind == Kind::Dissipation;
         let equations = &self.compiled.equations;
         blocks.extend(self.energy(
             'V',
@@ -100,29 +96,26 @@ impl<'d> Chapter<'_, 'd> {
         &self,
         letter: char,
         title: &str,
-        is_part: impl Fn(Source) -> bool,
+        is_part: impl Fn(Kind) -> bool,
         total: Expr<'d>,
     ) -> Vec<Block> {
-        let parts = self
-            .contributions
-            .iter()
-            .filter(|part| is_part(part.source));
-        let parts: Vec<(Name, &Contribution<'d>, Expr<'d>)> = parts
-            .filter_map(|part| Some((self.name_of(part.source), part, part.energy?)))
+        let parts = self.shares.iter().filter(|part| is_part(part.kind));
+        let parts: Vec<(&Element<'d>, Expr<'d>)> = parts
+            .filter_map(|part| Some((self.element(part), part.energy?)))
             .collect();
         if parts.is_empty() {
             return Vec::new();
         }
         let mut rows = Vec::new();
-        for shown in shown(parts.iter().map(|(name, ..)| name)) {
+        for shown in shown(parts.iter().map(|(element, _)| &element.name)) {
             match shown {
                 Shown::Item(index) => {
-                    let (name, part, energy) = &parts[index];
-                    let left = Math::letter(letter).with_index(label(name));
-                    rows.extend(self.equality(left, *energy, kind_of(part.source)));
+                    let (element, energy) = parts[index];
+                    let left = Math::letter(letter).with_index(label(&element.name));
+                    rows.extend(self.equality(left, energy, element.section.noun));
                 }
                 Shown::LeftOut(from, count) => {
-                    let text = format!("and {count} more of {}", parts[from].0.base);
+                    let text = format!("and {count} more of {}", parts[from].0.name.base);
                     rows.extend(Row::lines(&Math::text(text), 0, ""));
                 }
             }
@@ -139,26 +132,25 @@ impl<'d> Chapter<'_, 'd> {
 
     /// Applied forces and torques: what each does along the coordinates.
     fn forces(&self) -> Vec<Block> {
-        let parts = self.contributions.iter();
-        let parts = parts.filter(|part| part.energy.is_none());
-        let parts: Vec<(Name, &Contribution<'d>)> = parts
-            .map(|part| (self.name_of(part.source), part))
-            .collect();
+        let parts = self.shares.iter().filter(|part| part.energy.is_none());
+        let parts: Vec<(&Element<'d>, &Share<'d>)> =
+            parts.map(|part| (self.element(part), part)).collect();
         if parts.is_empty() {
             return Vec::new();
         }
         let mut rows = Vec::new();
         let mut idle: Vec<Words> = Vec::new();
-        for shown in shown(parts.iter().map(|(name, _)| name)) {
+        for shown in shown(parts.iter().map(|(element, _)| &element.name)) {
             match shown {
                 Shown::Item(index) => {
-                    let (name, part) = &parts[index];
+                    let (element, part) = parts[index];
+                    let name = &element.name;
                     let acting = part.forces.iter().zip(&self.model.coordinates);
                     let acting: Vec<_> = acting.filter(|(force, _)| !force.is_zero()).collect();
                     if acting.is_empty() {
                         idle.push(words![code(name)]);
                     }
-                    let note = format!("{} {name}", kind_of(part.source));
+                    let note = format!("{} {name}", element.section.noun);
                     for (position, (force, coordinate)) in acting.into_iter().enumerate() {
                         let left = Math::letter('Q').with_index(self.name(coordinate.q));
                         let note = if position == 0 { note.as_str() } else { "" };
@@ -166,7 +158,7 @@ impl<'d> Chapter<'_, 'd> {
                     }
                 }
                 Shown::LeftOut(from, count) => {
-                    let text = format!("and {count} more of {}", parts[from].0.base);
+                    let text = format!("and {count} more of {}", parts[from].0.name.base);
                     rows.extend(Row::lines(&Math::text(text), 0, ""));
                 }
             }
@@ -184,32 +176,8 @@ impl<'d> Chapter<'_, 'd> {
         blocks
     }
 
-    /// What the spec calls a source.
-    fn name_of(&self, source: Source) -> Name {
-        let model = self.model;
-        match source {
-            Source::Gravity => Name {
-                base: "gravity".into(),
-                index: None,
-            },
-            Source::Spring(k) => model.springs[k].name.clone(),
-            Source::Potential(k) => model.potentials[k].name.clone(),
-            Source::Damper(k) => model.dampers[k].name.clone(),
-            Source::Dissipation(k) => model.dissipations[k].name.clone(),
-            Source::Force(k) => model.forces[k].name.clone(),
-            Source::Torque(k) => model.torques[k].name.clone(),
-        }
-    }
-}
-
-fn kind_of(source: Source) -> &'static str {
-    match source {
-        Source::Gravity => "",
-        Source::Spring(_) => "spring",
-        Source::Potential(_) => "potential",
-        Source::Damper(_) => "damper",
-        Source::Dissipation(_) => "dissipation",
-        Source::Force(_) => "force",
-        Source::Torque(_) => "torque",
+    /// Whose share it is.
+    fn element(&self, share: &Share<'d>) -> &Element<'d> {
+        &self.model.elements[share.element]
     }
 }

@@ -87,21 +87,16 @@ impl<'d> Chapter<'_, 'd> {
         if !self.compiled.equations.dissipation.is_zero() {
             left = left + partial('D', v());
         }
-        left.equals(match self.model.forces.len() + self.model.torques.len() {
-            0 => Math::number(0),
-            _ => letter('F').with_index(i()),
+        left.equals(match self.model.loads().next() {
+            None => Math::number(0),
+            Some(_) => letter('F').with_index(i()),
         })
     }
 
     fn equation(&self, index: usize) -> Vec<Block> {
         let coordinate = &self.model.coordinates[index];
         let heading = Block::Heading(words!["Equation of ", self.name(coordinate.q)]);
-        let groups = groups::equation(
-            self.model,
-            &self.compiled.equations,
-            &self.contributions,
-            index,
-        );
+        let groups = groups::equation(self.model, &self.compiled.equations, &self.shares, index);
         let size = groups
             .iter()
             .fold(0, |size: u64, group| size.saturating_add(size_of(group)));

@@ -9,7 +9,7 @@ mod markup;
 
 use harness::{all_machines, residues, resolved};
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::equations::groups::{self, Kind, Source};
+use lagrangian_mechanics::equations::groups::{self, Kind};
 use lagrangian_print::document::{Block, Document, columns};
 use lagrangian_print::{html, latex, markdown};
 use lagrangian_scalar::{Residue, Scalar};
@@ -38,14 +38,14 @@ fn groups_add_up_to_the_equations() {
          Compiled {
              model, equations, ..
          }| {
-            let contributions = groups::contributions(model);
+            let shares = groups::shares(model);
             let mut differences = Vec::new();
             for i in 0..model.coordinates.len() {
                 let inertia = model.coordinates.iter().enumerate();
                 let inertia = inertia.map(|(j, c)| *equations.mass_matrix.get(i, j) * c.a);
                 let others = [equations.bias[i], -equations.applied[i]];
                 let whole = model.dag.sum(inertia.chain(others));
-                let groups = groups::equation(model, equations, &contributions, i);
+                let groups = groups::equation(model, equations, &shares, i);
                 let terms = groups.iter().flat_map(|group| {
                     let sign = if group.kind == Kind::Applied { -1 } else { 1 };
                     group.terms.iter().map(move |term| sign * term.value())
@@ -69,20 +69,22 @@ fn sources_add_up_to_energies_and_forces() {
          Compiled {
              model, equations, ..
          }| {
-            let contributions = groups::contributions(model);
+            let shares = groups::shares(model);
             let dag = model.dag;
-            let energy = |is_part: &dyn Fn(Source) -> bool| {
-                let parts = contributions.iter().filter(|part| is_part(part.source));
+            let energy = |is_part: &dyn Fn(Kind) -> bool| {
+                let parts = shares.iter().filter(|part| is_part(part.kind));
                 dag.sum(parts.filter_map(|part| part.energy))
             };
-            let damps = |source| matches!(source, Source::Damper(_) | Source::Dissipation(_));
+            let damps = |kind| kind == Kind::Dissipation;
             let mut differences = vec![
-                energy(&|source| !damps(source)) - equations.potential_energy,
+                energy(&|kind| !damps(kind)) - equations.potential_energy,
                 energy(&damps) - equations.dissipation,
             ];
-            differences.extend((0..model.coordinates.len()).map(|i| {
-                dag.sum(contributions.iter().map(|part| part.forces[i])) - equations.applied[i]
-            }));
+            differences.extend(
+                (0..model.coordinates.len()).map(|i| {
+                    dag.sum(shares.iter().map(|part| part.forces[i])) - equations.applied[i]
+                }),
+            );
             for values in residues(model, equations, &differences, false) {
                 assert!(
                     values.iter().all(|&value| value == Residue::ZERO),
@@ -100,11 +102,11 @@ fn velocity_terms_are_what_their_notes_say() {
          Compiled {
              model, equations, ..
          }| {
-            let contributions = groups::contributions(model);
+            let shares = groups::shares(model);
             // Squares grow fourfold when all rates double and keep their sign when one turns round; products of two too, but
             // change it; what is driven does neither.
             for i in 0..model.coordinates.len() {
-                for group in groups::equation(model, equations, &contributions, i) {
+                for group in groups::equation(model, equations, &shares, i) {
                     let degree = |term: &groups::Term<'_>| -> Vec<usize> {
                         let rates = model.coordinates.iter().filter_map(|c| c.v.as_symbol());
                         let powers = rates.map(|v| {

@@ -1,0 +1,107 @@
+//! The elements of the language: what may stand in a machine beside its bodies, and contributes to the
+//! equations.
+//!
+//! Each is one file with all that is known of it: how its section is written, units and stages of its
+//! fields, what it contributes, how it is called and drawn, what can be wrong with it. A new one is a
+//! file more, and a row of [`ROWS`]. The parser and the resolver are given this list and name none of
+//! it; behind them an element is what [`element`](crate::model::element) says, a few contributions that
+//! mechanics knows.
+
+mod constraint;
+mod damper;
+mod dissipation;
+mod elastic;
+mod force;
+mod gravity;
+mod potential;
+mod rolling;
+mod sliding;
+mod spring;
+mod torque;
+mod torsion_spring;
+
+use lagrangian_symbolic::{Dag, Rational};
+
+use crate::diagnostic::Report;
+use crate::model::Model;
+use crate::resolve::element::Row;
+use crate::resolve::{self, Language};
+use crate::source::{Files, SourceId, Sources};
+use crate::syntax::{SectionKind, Spec};
+use crate::token::Token;
+
+/// The sections of elements, in the order in which their items are worked out and listed.
+const ROWS: &[Row] = &[
+    spring::ROW,
+    torsion_spring::ROW,
+    gravity::ROW,
+    damper::ROW,
+    potential::ROW,
+    dissipation::ROW,
+    force::ROW,
+    torque::ROW,
+    constraint::ROW,
+    sliding::ROW,
+    rolling::ROW,
+];
+
+/// All sections.
+const SECTIONS: &[SectionKind] = &sections::<{ ROWS.len() + SectionKind::OF_OTHERS.len() }>();
+
+/// Those of elements stand behind the bodies.
+const fn sections<const COUNT: usize>() -> [SectionKind; COUNT] {
+    let mut all = [SectionKind::Bodies; COUNT];
+    let (mut from, mut to) = (0, 0);
+    while from < SectionKind::OF_OTHERS.len() {
+        all[to] = SectionKind::OF_OTHERS[from];
+        to += 1;
+        if matches!(SectionKind::OF_OTHERS[from], SectionKind::Bodies) {
+            let mut row = 0;
+            while row < ROWS.len() {
+                all[to] = SectionKind::Element(ROWS[row].section);
+                to += 1;
+                row += 1;
+            }
+        }
+        from += 1;
+    }
+    all
+}
+
+impl SectionKind {
+    /// All sections, in the order of the reference.
+    pub const ALL: &[SectionKind] = SECTIONS;
+
+    /// The section that a word heads.
+    pub fn named(word: &str) -> Option<SectionKind> {
+        SectionKind::named_among(SectionKind::ALL, word)
+    }
+}
+
+impl Spec {
+    /// Reads the tokens of `source`. Whatever is wrong is reported, all at once.
+    pub fn parse(tokens: &[Token], source: SourceId, report: &mut Report) -> Spec {
+        Spec::read(tokens, source, SectionKind::ALL, report)
+    }
+}
+
+impl<'d> Model<'d> {
+    /// Finds out what a spec means.
+    ///
+    /// `constants` replaces the values of constants, by name: `N = 64`. `files` is where `extends`
+    /// finds the base. There is a model only if the report has no errors.
+    pub fn resolve(
+        spec: Spec,
+        dag: &'d Dag,
+        constants: &[(String, Rational)],
+        files: &mut dyn Files,
+        sources: &mut Sources,
+        report: &mut Report,
+    ) -> Option<Model<'d>> {
+        let language = Language {
+            sections: SectionKind::ALL,
+            elements: ROWS,
+        };
+        resolve::resolve(spec, language, dag, constants, (files, sources), report)
+    }
+}

@@ -1,0 +1,47 @@
+//! Dampers: dissipation ½ b ṡ² of the rate of a stretch s.
+
+use super::elastic::Elastic;
+use crate::model::bounds::BoundKind;
+use crate::model::element::{Contribution, Energy, Shape};
+use crate::model::stage;
+use crate::resolve::Resolver;
+use crate::resolve::element::{Meaning, Resolved, Row};
+use crate::resolve::value::{Limit, MemberId, limit};
+use crate::syntax::{Form, Section};
+use crate::unit::Unit;
+
+pub(super) const ROW: Row = Row {
+    section: &SECTION,
+    meaning: Meaning::Items(resolve),
+};
+
+const SECTION: Section = Section {
+    word: "dampers",
+    item: "a damper",
+    noun: "damper",
+    form: Form::Records(&["damping", "stretch", "from", "to"]),
+    help: "a damper is `name { damping: …, stretch: … }` or \
+           `name { damping: …, from: …, to: … }`",
+};
+
+/// What a damping coefficient may depend on.
+pub(super) static DAMPING: Limit = limit(
+    stage::TIME,
+    "a damping coefficient",
+    "a damper that is not linear is a function under `dissipations`",
+);
+
+const DAMPER: Elastic = Elastic {
+    coefficient: "damping",
+    linear: Unit::base(1, 0, -1),
+    product: Unit::base(1, 2, -1),
+    limit: &DAMPING,
+    bound: BoundKind::Damping,
+    shape: Shape::Dashpot,
+};
+
+fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
+    let (deformation, drawing) = DAMPER.resolve(resolver, member)?;
+    let dissipated = Contribution::Dissipated(Energy::Quadratic(deformation));
+    Some(Resolved::of([dissipated]).drawn(drawing))
+}

@@ -1,0 +1,305 @@
+//! Elements: whatever a machine has beside its bodies, and what it contributes to the equations.
+//!
+//! A section of the language says what an element is in the words of an engineer. Here it has become
+//! what mechanics knows, a small closed set: energies, dissipation, loads, gravity, constraints, rolling
+//! and sliding. Equations, their proof, the printed chapter and the report are made from these, and
+//! none of them knows sections. So a new section that is made of these needs nothing outside its file.
+
+use lagrangian_symbolic::Expr;
+
+use super::{Model, Name, Place, Touching};
+use crate::source::Span;
+use crate::syntax::Section;
+use crate::unit::Unit;
+
+/// One item of a section that contributes to the equations: a spring, a force, a constraint.
+#[derive(Clone, Debug)]
+pub struct Element<'d> {
+    /// The section that it stands in, and what one is called.
+    pub section: &'static Section,
+    /// Its name.
+    pub name: Name,
+    /// What the spec says about it.
+    pub docs: String,
+    /// What it contributes to the equations.
+    pub contributions: Vec<Contribution<'d>>,
+    /// How a report draws it; none where there is nothing to be seen.
+    pub drawing: Option<Drawing<'d>>,
+    /// Its name in the spec.
+    pub span: Span,
+}
+
+/// What an element contributes: the closed set of what mechanics knows.
+#[derive(Clone, Debug)]
+pub enum Contribution<'d> {
+    /// Potential energy, eq. (E2), in J.
+    Stored(Energy<'d>),
+    /// Rayleigh's dissipation function, eq. (E3), in W.
+    Dissipated(Energy<'d>),
+    /// Applied forces and torques by their virtual work, eq. (E6).
+    Load(Load<'d>),
+    /// The acceleration of gravity, which acts on all bodies: a vector in ground axes, in m/s².
+    Gravity(Vec<Expr<'d>>),
+    /// An equation that holds throughout.
+    Constraint(Constraint<'d>),
+    /// Circles that touch and roll.
+    Rolling(Rolling<'d>),
+    /// A guided contact with Coulomb friction.
+    Sliding(Sliding<'d>),
+}
+
+/// A share of the potential energy, or of the dissipation function.
+#[derive(Clone, Debug)]
+pub enum Energy<'d> {
+    /// `½ c x²` of a deformation `x`; as a dissipation `½ c ẋ²` of its rate.
+    Quadratic(Deformation<'d>),
+    /// A function that the spec gives: of positions and time, or, as a dissipation, of velocities too.
+    Given(Expr<'d>),
+}
+
+/// What is deformed, and by which coefficient it resists.
+#[derive(Clone, Copy, Debug)]
+pub struct Deformation<'d> {
+    /// Stiffness or damping coefficient; no later than a parameter or time.
+    pub coefficient: Expr<'d>,
+    /// The deformation, of positions and time.
+    pub measure: Expr<'d>,
+    /// Whether it is an angle of twist and not a length.
+    pub torsional: bool,
+}
+
+/// What acts, and where.
+#[derive(Clone, Debug)]
+pub enum Load<'d> {
+    /// A force at a point of the machine.
+    Point {
+        /// The point.
+        at: Vec<Expr<'d>>,
+        /// The force, in ground axes.
+        force: Vec<Expr<'d>>,
+    },
+    /// A generalized force on a coordinate.
+    Coordinate {
+        /// The index of the coordinate.
+        coordinate: usize,
+        /// The generalized force.
+        value: Expr<'d>,
+    },
+    /// A torque on a body.
+    Torque {
+        /// The index of the body, which has an angle or a frame.
+        body: usize,
+        /// One component in the plane, three in ground axes in space.
+        torque: Vec<Expr<'d>>,
+    },
+}
+
+/// A bilateral constraint, `expression = 0`.
+#[derive(Clone, Debug)]
+pub struct Constraint<'d> {
+    /// The name of its multiplier.
+    pub name: Name,
+    /// Left side less right side; with velocities it is nonholonomic.
+    pub expression: Expr<'d>,
+    /// The unit of both sides.
+    pub unit: Unit,
+    /// Its name in the spec.
+    pub span: Span,
+}
+
+/// A circle that touches something and rolls on it.
+#[derive(Clone, Debug)]
+pub struct Rolling<'d> {
+    /// What its two constraints are named after.
+    pub name: Name,
+    /// Which circle, and on what.
+    pub circles: Touching,
+    /// The coefficient of friction that there is, of parameters. The motion does not depend on it: it
+    /// says how far rolling may be believed.
+    pub friction: Option<Expr<'d>>,
+    /// Its name in the spec.
+    pub span: Span,
+}
+
+/// A guided contact whose normal reaction makes Coulomb friction.
+#[derive(Clone, Debug)]
+pub struct Sliding<'d> {
+    /// The name of its reaction and friction.
+    pub name: Name,
+    /// The body that slides, by its index.
+    pub body: usize,
+    /// What it slides on.
+    pub on: Place,
+    /// The direction of sliding, as given.
+    pub direction: Vec<Expr<'d>>,
+    /// The side on which the body is, as given; the direction turned left where nothing is said.
+    pub normal: Option<Vec<Expr<'d>>>,
+    /// The coefficient of friction.
+    pub friction: Expr<'d>,
+    /// The coefficient of friction of what sticks, where it is another.
+    pub static_friction: Option<Expr<'d>>,
+    /// Its name in the spec.
+    pub span: Span,
+}
+
+/// How a report draws an element.
+#[derive(Clone, Debug)]
+pub struct Drawing<'d> {
+    /// What is drawn.
+    pub shape: Shape,
+    /// Where.
+    pub site: Site<'d>,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// The zigzag of a spring.
+    Coil,
+    /// The cylinder and piston of a damper.
+    Dashpot,
+}
+
+/// Where an element is drawn.
+#[derive(Clone, Debug)]
+pub enum Site<'d> {
+    /// From one point to the other, in ground axes.
+    Between([Vec<Expr<'d>>; 2]),
+    /// Wherever this stretch is found to be: between two points, or along the line of action on a body.
+    Stretch(Expr<'d>),
+    /// About the hinge that turns by this angle.
+    Twist(Expr<'d>),
+    /// About a point, in ground axes.
+    At(Vec<Expr<'d>>),
+}
+
+impl<'d> Deformation<'d> {
+    /// `½ c x²`.
+    pub fn energy(&self) -> Expr<'d> {
+        self.coefficient * self.measure.square() / 2
+    }
+}
+
+impl<'d> Model<'d> {
+    /// Everything that elements contribute, with whose it is: element by element, each in the order of
+    /// its own list.
+    pub fn contributions(&self) -> impl Iterator<Item = (&Element<'d>, &Contribution<'d>)> {
+        let all = self.elements.iter();
+        all.flat_map(|element| element.contributions.iter().map(move |one| (element, one)))
+    }
+
+    /// What stores energy, gravity apart.
+    pub fn stored(&self) -> impl Iterator<Item = &Energy<'d>> {
+        self.contributions().filter_map(|(_, one)| one.stored())
+    }
+
+    /// What dissipates energy, friction apart.
+    pub fn dissipated(&self) -> impl Iterator<Item = &Energy<'d>> {
+        self.contributions().filter_map(|(_, one)| one.dissipated())
+    }
+
+    /// Applied forces and torques.
+    pub fn loads(&self) -> impl Iterator<Item = &Load<'d>> {
+        self.contributions().filter_map(|(_, one)| one.load())
+    }
+
+    /// The acceleration of gravity, in ground axes.
+    pub fn gravity(&self) -> Option<&[Expr<'d>]> {
+        self.contributions().find_map(|(_, one)| match one {
+            Contribution::Gravity(gravity) => Some(&gravity[..]),
+            _ => None,
+        })
+    }
+
+    /// Bilateral constraints.
+    pub fn constraints(&self) -> Vec<&Constraint<'d>> {
+        let all = self.contributions().filter_map(|(_, one)| match one {
+            Contribution::Constraint(constraint) => Some(constraint),
+            _ => None,
+        });
+        all.collect()
+    }
+
+    /// Circles that touch and roll.
+    pub fn rolling(&self) -> Vec<&Rolling<'d>> {
+        let all = self.contributions().filter_map(|(_, one)| match one {
+            Contribution::Rolling(rolling) => Some(rolling),
+            _ => None,
+        });
+        all.collect()
+    }
+
+    /// Guided contacts with Coulomb friction.
+    pub fn sliding(&self) -> Vec<&Sliding<'d>> {
+        let all = self.contributions().filter_map(|(_, one)| match one {
+            Contribution::Sliding(sliding) => Some(sliding),
+            _ => None,
+        });
+        all.collect()
+    }
+}
+
+impl<'d> Element<'d> {
+    /// Every expression in what it contributes and in its drawing, in one order.
+    pub fn expressions_mut(&mut self) -> Vec<&mut Expr<'d>> {
+        let contributions = self.contributions.iter_mut();
+        let mut all: Vec<_> = contributions
+            .flat_map(Contribution::expressions_mut)
+            .collect();
+        match self.drawing.as_mut().map(|drawing| &mut drawing.site) {
+            None => {}
+            Some(Site::Between(ends)) => all.extend(ends.iter_mut().flatten()),
+            Some(Site::Stretch(measure) | Site::Twist(measure)) => all.push(measure),
+            Some(Site::At(point)) => all.extend(point),
+        }
+        all
+    }
+}
+
+impl<'d> Contribution<'d> {
+    /// What it stores, if it is that.
+    pub fn stored(&self) -> Option<&Energy<'d>> {
+        match self {
+            Contribution::Stored(energy) => Some(energy),
+            _ => None,
+        }
+    }
+
+    /// What it dissipates, if it is that.
+    pub fn dissipated(&self) -> Option<&Energy<'d>> {
+        match self {
+            Contribution::Dissipated(energy) => Some(energy),
+            _ => None,
+        }
+    }
+
+    /// What it applies, if it is that.
+    pub fn load(&self) -> Option<&Load<'d>> {
+        match self {
+            Contribution::Load(load) => Some(load),
+            _ => None,
+        }
+    }
+
+    fn expressions_mut(&mut self) -> Vec<&mut Expr<'d>> {
+        match self {
+            Contribution::Stored(energy) | Contribution::Dissipated(energy) => match energy {
+                Energy::Quadratic(one) => vec![&mut one.coefficient, &mut one.measure],
+                Energy::Given(value) => vec![value],
+            },
+            Contribution::Load(Load::Point { at, force }) => at.iter_mut().chain(force).collect(),
+            Contribution::Load(Load::Coordinate { value, .. }) => vec![value],
+            Contribution::Load(Load::Torque { torque, .. }) => torque.iter_mut().collect(),
+            Contribution::Gravity(gravity) => gravity.iter_mut().collect(),
+            Contribution::Constraint(constraint) => vec![&mut constraint.expression],
+            Contribution::Rolling(rolling) => rolling.friction.iter_mut().collect(),
+            Contribution::Sliding(sliding) => {
+                let vectors = sliding.direction.iter_mut();
+                let vectors = vectors.chain(sliding.normal.iter_mut().flatten());
+                let coefficients = sliding.static_friction.iter_mut();
+                let coefficients = std::iter::once(&mut sliding.friction).chain(coefficients);
+                vectors.chain(coefficients).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What the items of a section of elements mean, by a list that knows them.
+
+use super::Resolver;
+use super::value::MemberId;
+use crate::model::Name;
+use crate::model::element::{Contribution, Drawing, Element};
+use crate::syntax::{Expression, Section, SectionKind, Spec};
+
+/// A section of elements: how it is written, and what its items mean.
+#[derive(Clone, Copy)]
+pub(crate) struct Row {
+    /// How it is written, and what its items are called.
+    pub section: &'static Section,
+    /// What it means.
+    pub meaning: Meaning,
+}
+
+/// How the meaning of a section is found; none where an error has been reported.
+#[derive(Clone, Copy)]
+pub(crate) enum Meaning {
+    /// Item by item.
+    Items(for<'a, 'd, 'r> fn(&mut Resolver<'a, 'd, 'r>, MemberId) -> Option<Resolved<'d>>),
+    /// Of the expression of its statement.
+    Statement(
+        for<'a, 'd, 'r> fn(&mut Resolver<'a, 'd, 'r>, &'a Expression) -> Option<Resolved<'d>>,
+    ),
+}
+
+/// What an element was found to contribute, and how it is drawn.
+pub(crate) struct Resolved<'d> {
+    contributions: Vec<Contribution<'d>>,
+    drawing: Option<Drawing<'d>>,
+}
+
+impl<'d> Resolved<'d> {
+    /// An element that nobody sees.
+    pub fn of(contributions: impl IntoIterator<Item = Contribution<'d>>) -> Resolved<'d> {
+        Resolved {
+            contributions: contributions.into_iter().collect(),
+            drawing: None,
+        }
+    }
+
+    /// The same, drawn.
+    pub fn drawn(self, drawing: Drawing<'d>) -> Resolved<'d> {
+        Resolved {
+            drawing: Some(drawing),
+            ..self
+        }
+    }
+}
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// All elements of the machine, in the order of the list.
+    pub fn elements(&mut self, layers: &'a [Spec]) -> Vec<Element<'d>> {
+        let mut elements = Vec::new();
+        for row in self.language.elements {
+            match row.meaning {
+                Meaning::Items(resolve) => {
+                    let section = SectionKind::Element(row.section);
+                    elements.extend(self.each(section, |resolver, member| {
+                        let Resolved {
+                            contributions,
+                            drawing,
+                        } = resolve(resolver, member)?;
+                        Some(Element {
+                            section: row.section,
+                            name: resolver.name(member),
+                            docs: resolver.docs(member),
+                            contributions,
+                            drawing,
+                            span: resolver.span(member),
+                        })
+                    }));
+                }
+                Meaning::Statement(resolve) => {
+                    elements.extend(self.statement(layers, row.section, resolve));
+                }
+            }
+        }
+        elements
+    }
+
+    /// The element of a section that is a single statement, as the last variant says it.
+    fn statement(
+        &mut self,
+        layers: &'a [Spec],
+        section: &'static Section,
+        resolve: impl Fn(&mut Self, &'a Expression) -> Option<Resolved<'d>>,
+    ) -> Option<Element<'d>> {
+        let mut said = None;
+        for spec in layers {
+            let mut removed = spec.remove.iter().map(|remove| remove.section.value);
+            if removed.any(|kind| kind == SectionKind::Element(section)) {
+                said = None;
+            }
+            said = spec.statement(section.word).or(said);
+        }
+        let said = said?;
+        let value = said.value.as_ref()?;
+        let resolved = self.settle(|resolver| resolve(resolver, value))?;
+        Some(Element {
+            section,
+            name: Name {
+                base: section.word.to_owned(),
+                index: None,
+            },
+            docs: said.docs.clone(),
+            contributions: resolved.contributions,
+            drawing: resolved.drawing,
+            span: said.span,
+        })
+    }
+}

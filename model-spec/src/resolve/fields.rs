@@ -1,0 +1,361 @@
+//! Fields of records, and the names of things in them.
+
+use lagrangian_symbolic::Expr;
+
+use super::Resolver;
+use super::names::{Content, Namespace, declared_unit, suggestion, with_help};
+use super::value::{Limit, MemberId, Scope, Value, limits};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::bounds::BoundKind;
+use crate::model::{Place, Surface, Touching, circles};
+use crate::source::Span;
+use crate::syntax::{self, Equation, Expression, ExpressionKind, Quantity, Record, SectionKind};
+use crate::unit::Unit;
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// What the spec says about an item.
+    pub fn docs(&self, member: MemberId) -> String {
+        self.declaration(member).docs.to_owned()
+    }
+
+    /// The name of an item, where it is declared.
+    pub fn span(&self, member: MemberId) -> Span {
+        self.declaration(member).name.span
+    }
+
+    /// The name of an item without its index.
+    pub fn base_name(&self, member: MemberId) -> &'a str {
+        &self.declaration(member).name.base.text
+    }
+
+    /// An item as a message calls it: `a spring`.
+    pub fn item(&self, member: MemberId) -> &'static str {
+        self.declaration(member).section.item()
+    }
+
+    /// The fields of an item, where it has any.
+    pub fn record(&self, member: MemberId) -> Option<&'a Record> {
+        match self.declaration(member).content {
+            Content::Record(record) => Some(record),
+            _ => None,
+        }
+    }
+
+    /// The expression that an item is, where it is one.
+    pub fn expression(&self, member: MemberId) -> Option<&'a Expression> {
+        match self.declaration(member).content {
+            Content::Expression(expression) => Some(expression),
+            _ => None,
+        }
+    }
+
+    /// The equation that an item is, where it is one.
+    pub fn equation(&self, member: MemberId) -> Option<&'a Equation> {
+        match self.declaration(member).content {
+            Content::Equation(equation) => Some(equation),
+            _ => None,
+        }
+    }
+
+    /// The unit and value of an item, where it is a quantity.
+    pub fn quantity(&self, member: MemberId) -> Option<&'a Quantity> {
+        match self.declaration(member).content {
+            Content::Quantity(quantity) => Some(quantity),
+            _ => None,
+        }
+    }
+
+    /// A field that must be there.
+    pub fn field(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        field: &str,
+    ) -> Option<&'a Expression> {
+        let found = record.get(field);
+        if found.is_none() {
+            let item = self.item(member);
+            let base = self.base_name(member);
+            self.missing_field(
+                member,
+                format!("{item} needs `{field}`, and `{base}` has none"),
+            );
+        }
+        found
+    }
+
+    /// Reports an item that lacks a field, and shows how one is written.
+    pub fn missing_field(&mut self, member: MemberId, message: String) {
+        let diagnostic = Diagnostic::new(Code::MissingField, self.span(member), message);
+        let help = match self.declaration(member).section {
+            SectionKind::Element(section) => section.help,
+            SectionKind::Bodies => "a body is `name { mass: …, at: … }`",
+            SectionKind::Circles => "a circle is `name { on: …, center: …, radius: … }`",
+            _ => {
+                "a contact is `name { circle: …, inside: …, restitution: …, friction: … }`, \
+                 with `outside`, or with `gap` and `slip` in their place"
+            }
+        };
+        self.push(diagnostic.help(help));
+    }
+
+    /// Reports a field that does not go with another.
+    pub fn conflict(&mut self, record: &'a Record, field: &str, with: &str) {
+        if let Some(field) = record.field(field) {
+            let message = format!("`{}` does not go with `{with}`", field.name.text);
+            let diagnostic = Diagnostic::new(Code::ConflictingFields, field.name.span, message);
+            self.push(diagnostic.help("give one of them"));
+        }
+    }
+
+    /// A point of the machine, in m.
+    pub fn point(&mut self, member: MemberId, point: &'a Expression) -> Option<Vec<Expr<'d>>> {
+        let scope = self.scope(member, &limits::POINT);
+        let point = self.vector_in(point, "a point", Unit::METRE, "a point is in m", scope)?;
+        Some(point.components)
+    }
+
+    /// The unit of a coordinate.
+    pub fn unit_of(&self, coordinate: MemberId) -> Option<Unit> {
+        declared_unit(self.quantity(coordinate)?)
+    }
+
+    /// The coordinate that an expression names.
+    pub fn coordinate_at(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
+        let scope = self.scope(member, &limits::DEFINITION);
+        let ExpressionKind::Name(reference) = &on.kind else {
+            if on.kind != ExpressionKind::Error {
+                let message = "the name of a coordinate is expected here";
+                self.error(Code::WrongKind, on.span, message);
+            }
+            return None;
+        };
+        self.coordinate_named(&reference.base, reference.index.as_deref(), scope)
+    }
+
+    /// The coordinate with a name.
+    pub fn coordinate_named(
+        &mut self,
+        name: &'a syntax::Ident,
+        index: Option<&'a Expression>,
+        scope: Scope<'a>,
+    ) -> Option<MemberId> {
+        let namespace = Namespace::Values;
+        let Some(group) = self.find_group(namespace, &name.text) else {
+            if self.find_group(Namespace::BODIES, &name.text).is_some() {
+                let message = format!(
+                    "a coordinate is expected here, and `{}` is a body",
+                    name.text
+                );
+                let diagnostic = Diagnostic::new(Code::WrongKind, name.span, message);
+                self.push(diagnostic.help("a torque on a body stands under `torques`"));
+            } else {
+                self.unknown_coordinate(name);
+            }
+            return None;
+        };
+        let member = self.member(group, name, index, scope)?;
+        let section = self.declaration(member).section;
+        if section == SectionKind::Coordinates {
+            return Some(member);
+        }
+        let found = section.item();
+        let message = format!(
+            "a coordinate is expected here, and `{}` is {found}",
+            name.text
+        );
+        self.error(Code::WrongKind, name.span, message);
+        None
+    }
+
+    /// Reports a name that is that of no coordinate.
+    pub fn unknown_coordinate(&mut self, name: &syntax::Ident) {
+        if self.incomplete || name.text.is_empty() {
+            return;
+        }
+        let coordinates = self
+            .declarations
+            .iter()
+            .filter(|declaration| declaration.section == SectionKind::Coordinates)
+            .map(|declaration| declaration.name.base.text.as_str());
+        let help = suggestion(&name.text, coordinates);
+        let message = format!("no coordinate is named `{}`", name.text);
+        self.push(with_help(
+            Diagnostic::new(Code::UnknownName, name.span, message),
+            help,
+        ));
+    }
+
+    /// The body that an expression names.
+    pub fn body_at(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
+        let scope = self.scope(member, &limits::DEFINITION);
+        match &on.kind {
+            ExpressionKind::Name(reference) => {
+                self.named_member(Namespace::BODIES, "no body is", reference, scope)
+            }
+            ExpressionKind::Error => None,
+            _ => {
+                self.error(
+                    Code::WrongKind,
+                    on.span,
+                    "the name of a body is expected here",
+                );
+                None
+            }
+        }
+    }
+
+    /// The body that an expression names, which must be known to turn.
+    pub fn turning_body(&mut self, member: MemberId, on: &'a Expression) -> Option<MemberId> {
+        let body = self.body_at(member, on)?;
+        let turns = self.record(body).is_some_and(|record| {
+            record.field("frame").is_some() || record.field("angle").is_some()
+        });
+        if !turns {
+            let name = self.name(body);
+            let message = format!("nothing says how the body `{name}` turns");
+            let diagnostic = Diagnostic::new(Code::MissingRotation, on.span, message);
+            self.push(diagnostic.help("give it an `angle` or a `frame`"));
+        }
+        Some(body)
+    }
+
+    /// A frame or a body: what something slides on, or a circle is fixed to.
+    pub fn place(&mut self, member: MemberId, on: &'a Expression) -> Option<Place> {
+        let scope = self.scope(member, &limits::POINT);
+        let value = match &on.kind {
+            ExpressionKind::Name(reference) => {
+                self.frame_or_body(reference, on.span, "origin", scope)
+            }
+            _ => self.value(on, scope),
+        };
+        match value {
+            Value::Frame(pose) => Some(Place::Frame(pose)),
+            Value::Body(body) => Some(Place::Body(self.ordinal(body)?)),
+            Value::Unknown => None,
+            other => {
+                self.wrong_kind("a frame or a body", &other, on);
+                None
+            }
+        }
+    }
+
+    /// How far apart two points are: √(u·u), or what is assumed not to be negative and has that square.
+    pub fn distance(&self, line: &[Expr<'d>]) -> Expr<'d> {
+        circles::distance(line, &self.facts)
+    }
+
+    /// Left side less right side, of one unit.
+    pub fn difference(
+        &mut self,
+        left: &'a Expression,
+        right: &'a Expression,
+        scope: Scope<'a>,
+    ) -> Option<Expr<'d>> {
+        let ([left, right], _) = self.sides(left, right, scope)?;
+        Some(left - right)
+    }
+
+    /// Both sides of a relation, and their unit; of bare numbers it is 1.
+    pub fn sides(
+        &mut self,
+        left: &'a Expression,
+        right: &'a Expression,
+        scope: Scope<'a>,
+    ) -> Option<([Expr<'d>; 2], Unit)> {
+        let first = self.scalar(left, scope);
+        let hint = first.and_then(|first| first.unit);
+        let second = self.scalar(right, scope.hinting(hint));
+        let (first, second) = (first?, second?);
+        if let Some(unit) = first.unit {
+            self.demand(second.unit, unit, right.span, "both sides have one unit");
+        }
+        let scaled = [first, second].into_iter().filter_map(|side| side.unit);
+        let scaled = scaled.into_iter().find(|unit| unit.is_scaled());
+        let sides = [(first.is_bare(), left.span), (second.is_bare(), right.span)];
+        self.no_bare_number(sides.into_iter(), scaled);
+        let unit = first.unit.or(second.unit).unwrap_or(Unit::ONE);
+        Some(([first.expr, second.expr], unit))
+    }
+
+    /// A coefficient of friction, which may depend on velocities.
+    pub fn friction(&mut self, member: MemberId, friction: &'a Expression) -> Option<Expr<'d>> {
+        self.coefficient_of_friction(member, friction, &limits::FRICTION)
+    }
+
+    /// A coefficient of friction that may depend on what its place allows.
+    pub fn coefficient_of_friction(
+        &mut self,
+        member: MemberId,
+        friction: &'a Expression,
+        limit: &'static Limit,
+    ) -> Option<Expr<'d>> {
+        let scope = self.scope(member, limit);
+        let why = "a coefficient of friction has no unit";
+        let scalar = self.scalar_in(friction, Unit::ONE, why, scope)?;
+        self.bound(BoundKind::Friction, scalar.expr, friction.span);
+        Some(scalar.expr)
+    }
+
+    /// `circle` with `inside`, `outside` or `along`: what touches what.
+    pub fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
+        let circle = self.field(member, record, "circle");
+        let inside = record.get("inside");
+        if inside.is_some() {
+            self.conflict(record, "outside", "inside");
+            self.conflict(record, "along", "inside");
+        } else if record.get("outside").is_some() {
+            self.conflict(record, "along", "outside");
+        }
+        let other = inside.or(record.get("outside"));
+        if let (None, Some(along)) = (other, record.get("along")) {
+            let circle = circle.and_then(|circle| self.circle_at(member, circle));
+            let scope = self.scope(member, &limits::POINT);
+            let pose = self.frame(along, scope);
+            return Some(Touching {
+                circle: self.ordinal(circle?)?,
+                surface: Surface::Along(pose?),
+            });
+        }
+        if other.is_none() {
+            let base = self.base_name(member);
+            let message = format!(
+                "`{base}` needs the circle that it is `inside` or `outside`, or the frame `along` which it moves"
+            );
+            self.missing_field(member, message);
+        }
+        let circle_member = circle.and_then(|circle| self.circle_at(member, circle));
+        let other_member = other.and_then(|other| self.circle_at(member, other));
+        let (circle_member, other_member) = (circle_member?, other_member?);
+        if circle_member == other_member {
+            let message = "a circle does not touch itself";
+            self.error(Code::ConflictingFields, other?.span, message);
+        }
+        Some(Touching {
+            circle: self.ordinal(circle_member)?,
+            surface: {
+                let other = self.ordinal(other_member)?;
+                match inside {
+                    Some(_) => Surface::Inside(other),
+                    None => Surface::Outside(other),
+                }
+            },
+        })
+    }
+
+    /// The circle that an expression names.
+    pub fn circle_at(&mut self, member: MemberId, circle: &'a Expression) -> Option<MemberId> {
+        let scope = self.scope(member, &limits::DEFINITION);
+        match &circle.kind {
+            ExpressionKind::Name(reference) => {
+                self.named_member(Namespace::CIRCLES, "no circle is", reference, scope)
+            }
+            ExpressionKind::Error => None,
+            _ => {
+                let message = "the name of a circle is expected here";
+                self.error(Code::WrongKind, circle.span, message);
+                None
+            }
+        }
+    }
+}
