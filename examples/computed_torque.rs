@@ -27,7 +27,7 @@ const GOAL: [f64; 2] = [0.5, 1.0];
 /// How fast the arm reaches its goal, in 1/s.
 const RATE: f64 = 4.0;
 
-/// What is left of each joint's way to the goal after `t` seconds, relative to the whole way.
+/// The distance of each joint to the goal after `t` seconds, relative to the whole way.
 pub fn left(t: f64) -> Result<[f64; 2], Error> {
     let arm = Arm::default();
     let system = arm.prepare();

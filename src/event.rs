@@ -219,7 +219,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let before = (watch.side, watch.leave);
         let mut suspected = false;
         let look = |watch: &mut Watch<'_, M>, theta: f64| {
-            watch.value(&state(system, glance_at(stepper, theta)))
+            watch.value(&state(system, interpolated_at(stepper, theta)))
         };
         watch.changes(roundoff, look, |_, _, _| {
             suspected = true;
@@ -321,7 +321,7 @@ fn slope(
 pub(crate) type Triple<V> = (f64, V, V);
 
 /// Time and state at a fraction of the last step, good enough to see an event.
-pub(crate) fn glance_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
+pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(
     stepper: &Stepper<'_, S, L, A>,
     theta: f64,
 ) -> Triple<S::Vector> {

@@ -128,7 +128,7 @@ pub(crate) enum Cause {
 ///
 /// # Errors
 /// Beside what makes the machine itself singular, where no motion has these contacts, or several have
-/// ([`Pivot::Contact`]), or the machine lends no workspace ([`Pivot::NoWorkspace`]).
+/// ([`Pivot::Contact`]), or the machine has no workspace ([`Pivot::NoWorkspace`]).
 pub fn contact_forces<S: System>(
     system: &S,
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
@@ -198,7 +198,7 @@ fn with_parts<S: System, R>(
     };
     let length = contact_workspace(layout.n, layout.m, layout.k);
     system.with_workspace(length, |workspace| {
-        // Without an allocator a machine that lends nothing, or too little, has none.
+        // Without an allocator a machine with none, or too small a one, has no answer.
         let workspace = workspace.filter(|workspace| workspace.len() >= length);
         let Some((values, rest)) =
             workspace.and_then(|workspace| workspace.split_at_mut_checked(layout.len()))

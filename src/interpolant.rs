@@ -65,7 +65,7 @@ impl<V: Vector> Interpolant<V> {
 
         for stage in tableau.stages + 1..scheme.length {
             let c = tableau.c[stage];
-            // Coefficients not yet set lend their room.
+            // The stages are kept where coefficients are not yet set.
             let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
             stage_state((&scheme.rows[stage], c, h), [q0, v0], k, [q, v]);
             accelerations(start.high + (start.low + c * h), q, v, &mut k[stage])?;

@@ -307,7 +307,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut theta_before = 0.0;
         let theta_roundoff = event::theta_roundoff(stepper);
         for theta in event::LOOKS {
-            let ended = contacts.seem_ended(&margins(&event::glance_at(stepper, theta))?);
+            let ended = contacts.seem_ended(&margins(&event::interpolated_at(stepper, theta))?);
             for (change, kind) in ended.into_iter().flatten() {
                 let interpolant = made(interpolant, stepper, model.system)?;
                 let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
@@ -422,7 +422,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             return Ok(None);
         }
         for theta in event::LOOKS {
-            let Some((index, text)) = model.ended_assumption(event::glance_at(stepper, theta))
+            let Some((index, text)) =
+                model.ended_assumption(event::interpolated_at(stepper, theta))
             else {
                 continue;
             };

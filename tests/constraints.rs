@@ -644,7 +644,7 @@ fn a_million_periods_leave_nothing_of_the_constraint() {
 #[test]
 fn a_machine_that_lends_no_room_is_told_so() {
     let machine = Constrained {
-        lends: false,
+        on_stack: false,
         ..circle::<1>()
     };
     let refused = Simulation::new(&machine).until(1.0).run(machine.start());

@@ -87,8 +87,8 @@ where
         let v = states.each_ref().map(|at| vector::<M::System>(&at.v));
         let t = Lanes::splat(0.0);
         let (q, v) = (several.vectors(q.each_ref()), several.vectors(v.each_ref()));
-        let mut abreast = q;
-        let computed = several.accelerations(t, &q, &v, &u, &mut abreast);
+        let mut batch = q;
+        let computed = several.accelerations(t, &q, &v, &u, &mut batch);
         computed.expect("every link has inertia");
         for (lane, state) in states.iter().enumerate() {
             let parameters: Vec<f64> = machines[lane].parameters().map(|(_, x)| x).collect();
@@ -97,7 +97,7 @@ where
             let alone =
                 compiled::<M>(&systems[lane], &state.q, &state.v).expect("every link has inertia");
             assert_eq!(bits(&alone), bits(&expected), "{state:?}");
-            let lane: Vec<f64> = abreast.as_ref().iter().map(|number| number[lane]).collect();
+            let lane: Vec<f64> = batch.as_ref().iter().map(|number| number[lane]).collect();
             assert_eq!(bits(&lane), bits(&expected), "in lanes: {state:?}");
         }
     }

@@ -617,13 +617,13 @@ fn stiffness_is_told_while_the_run_is_under_way() {
     assert_eq!(implicit.statistics().stiff_since, None);
 }
 
-/// Of a machine with contacts that lends no room for them nothing is known; that is no matter of friction.
+/// Of a machine with contacts that has no workspace for them nothing is known; that is no matter of friction.
 #[test]
 fn contacts_without_room_are_told_so() {
-    for lent in [None, Some(0), Some(1)] {
+    for length in [None, Some(0), Some(1)] {
         let tight = Tampered {
             machine: circle::<0>(),
-            slip: Slip::Room(lent),
+            slip: Slip::Workspace(length),
         };
         let start = tight.start();
         let mut a = [0.0; 2];

@@ -382,7 +382,7 @@ fn shaft(k: f64, start: f64) -> Constrained<4, 2, 16> {
             ]
         },
         potential_energy: |_, _| 0.0,
-        lends: true,
+        on_stack: true,
     }
 }
 

@@ -9,6 +9,8 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use lagrangian::native::text::{LANES, REGISTER, SINCOS, VECTOR, X86};
+use lagrangian::scalar::text::{KERNEL, LIB, REAL};
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Slot};
@@ -100,14 +102,6 @@ fn file_name(path: &Path) -> String {
 
 /// The exports, and what stands beside them.
 const EXPORT: &str = include_str!("library/export.rs");
-const SCALAR: &str = include_str!("../../crates/scalar/src/lib.rs");
-const KERNEL: &str = include_str!("../../crates/scalar/src/kernel.rs");
-const REAL: &str = include_str!("../../crates/scalar/src/real.rs");
-const LANES: &str = include_str!("../../crates/native/src/lanes.rs");
-const REGISTER: &str = include_str!("../../crates/native/src/register.rs");
-const SINCOS: &str = include_str!("../../crates/native/src/sincos.rs");
-const VECTOR: &str = include_str!("../../crates/native/src/vector.rs");
-const X86: &str = include_str!("../../crates/native/src/x86.rs");
 
 /// The whole library as one file of Rust.
 fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, Failure> {
@@ -129,7 +123,7 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
     // functions of the C library.
     let after = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[at..]);
     let before = |text: &'static str, mark: &str| text.find(mark).map_or(text, |at| &text[..at]);
-    let scalar = after(SCALAR, "use core::fmt::Debug;");
+    let scalar = after(LIB, "use core::fmt::Debug;");
     let real = before(REAL, "scalar_by_libm!(\n    f32").replacen(
         "use crate::Scalar;",
         "use crate::{Scalar, libm};",

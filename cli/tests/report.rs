@@ -393,6 +393,32 @@ fn bodies_without_outlines_are_discs_of_their_inertia() {
     }
 }
 
+/// Two discs on two bobs, a rope of constant length between the bobs said by its length, by its square, and doubled.
+#[test]
+fn what_keeps_its_distance_by_a_constraint_is_joined_by_a_rope() {
+    let rope = |said: &str| {
+        let text = format!(
+            "machine Roped in plane {{ parameters {{ l: m = 2 }} coordinates {{ x: m = 0, y: m = 1, u: m = 2, w: m = 1 }} \
+             bodies {{ one {{ mass: 1, at: (x, y) }}, other {{ mass: 1, at: (u, w) }} }} gravity (0, -10); \
+             constraints {{ rope: {said}, flat: x = 0 }} }}"
+        );
+        spec(&text, &[])
+    };
+    for said in [
+        "sqrt((u - x)^2 + (w - y)^2) = l",
+        "(u - x)^2 + (w - y)^2 = l^2",
+        "2*l^2 = 2*(x - u)^2 + 2*(y - w)^2",
+    ] {
+        let page = rope(said);
+        let picture = page.picture();
+        let links = picture["links"].as_array().expect("links");
+        assert_eq!(links.len(), 1, "{said}");
+        let bodies = [0, 1].map(|body| picture["bodies"][body]["at"].clone());
+        assert_eq!(links[0]["ends"], Value::from(bodies.to_vec()), "{said}");
+        assert_eq!(links[0]["rope"], true);
+    }
+}
+
 #[test]
 fn an_arm_is_links_between_its_joints() {
     let page = library("six_joint_arm", &[]);

@@ -1,4 +1,4 @@
-//! What is equal, and what equations do not depend on although it stands in them: by experiment in
+//! What is equal, and what equations do not depend on although it stands in them: tested at points of
 //! a prime field.
 //!
 //! Sines and cosines cancel in ways that no local rule sees: how far a top has spun about its own
@@ -19,17 +19,17 @@ use lagrangian_symbolic::{
 
 use crate::model::stage;
 
-/// Experiments that have to agree.
-const EXPERIMENTS: usize = 3;
+/// How many points have to agree.
+const POINTS: usize = 3;
 
-/// The same where signs stand in an expression: a sign has two values, so that each experiment
+/// The same where signs stand in an expression: a sign has two values, so that each point
 /// leaves a chance of ½.
-const EXPERIMENTS_WITH_SIGNS: usize = 64;
+const POINTS_WITH_SIGNS: usize = 64;
 
-/// Experiments that are tried for each one that counts: a square root exists at every second point.
+/// How many points are tried for each one that counts: a square root exists at every second point.
 const TRIALS: usize = 16;
 
-/// The [work](evaluation_work) that experiments on one machine may take: some seconds. What is left
+/// The [work](evaluation_work) that the tests of one machine may take: some seconds. What is
 /// open then stays as it is.
 const WORK: usize = 30_000_000;
 
@@ -37,7 +37,7 @@ const WORK: usize = 30_000_000;
 /// at any point.
 pub fn equal(a: Expr<'_>, b: Expr<'_>) -> Option<bool> {
     let dag = a.dag();
-    let needed = experiments(dag, &[a, b]);
+    let needed = needed_points(dag, &[a, b]);
     let mut agreeing = 0;
     for seed in 0..(TRIALS * needed) as u64 {
         let values = evaluate(dag, &[a, b], |symbol| random(seed, symbol));
@@ -139,7 +139,7 @@ fn subtract(row: &mut [Residue], factor: Residue, other: &[Residue]) {
 pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
     let dag = expression.dag();
     let mut signs = Vec::new();
-    for seed in 0..(TRIALS * EXPERIMENTS_WITH_SIGNS) as u64 {
+    for seed in 0..(TRIALS * POINTS_WITH_SIGNS) as u64 {
         let value = evaluate(dag, &[expression], |symbol| random(seed, symbol))[0];
         if value.is_finite() && value != Residue::ZERO {
             signs.push(value.sign());
@@ -148,11 +148,11 @@ pub fn steady_sign(expression: Expr<'_>) -> Option<bool> {
         if signs.iter().any(is_other) {
             return None;
         }
-        if signs.len() == EXPERIMENTS_WITH_SIGNS {
+        if signs.len() == POINTS_WITH_SIGNS {
             break;
         }
     }
-    if signs.len() < EXPERIMENTS_WITH_SIGNS {
+    if signs.len() < POINTS_WITH_SIGNS {
         return None;
     }
     /// Far above any rounding.
@@ -235,7 +235,7 @@ pub fn irrelevant<'d>(
     expressions: &[Expr<'d>],
     mut cyclic: Vec<Symbol>,
 ) -> Vec<Symbol> {
-    let needed = experiments(dag, expressions);
+    let needed = needed_points(dag, expressions);
     if evaluation_work(dag, expressions).saturating_mul(needed * cyclic.len()) > WORK {
         return Vec::new();
     }
@@ -291,7 +291,7 @@ pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
 /// the same for all.
 fn constants(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<Option<Residue>> {
     // One more: the first has nothing to agree with.
-    let needed = experiments(dag, expressions) + 1;
+    let needed = needed_points(dag, expressions) + 1;
     let mut trials: Vec<Trial> = varying(dag, expressions)
         .into_iter()
         .map(|varies| Trial {
@@ -344,7 +344,7 @@ pub fn number(point: u32, symbol: Symbol) -> f64 {
     0.5 + (f64::from(point + 1) * root).fract()
 }
 
-/// What is known of an expression after some experiments in which parameters stay the same.
+/// What is known of an expression after some points at which parameters stay the same.
 #[derive(Clone, Default)]
 struct Trial {
     first: Option<Residue>,
@@ -366,7 +366,7 @@ pub fn random(seed: u64, symbol: Symbol) -> Residue {
     Residue::random(seed, symbol.index() as u64)
 }
 
-/// Parameters always the same, everything else new in every experiment.
+/// Parameters always the same, everything else new at every point.
 fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
     let seed = if dag.stage_of(symbol) > stage::PARAMETER {
         seed
@@ -376,14 +376,10 @@ fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
     random(seed, symbol)
 }
 
-/// How many experiments prove something about the expressions.
-fn experiments(dag: &Dag, expressions: &[Expr<'_>]) -> usize {
+/// How many points prove something about the expressions.
+fn needed_points(dag: &Dag, expressions: &[Expr<'_>]) -> usize {
     use Function::{Abs, Max, Min, Sign};
     let is_sign = |id| matches!(dag.node(id), Node::Function(Abs | Max | Min | Sign, _));
     let signs = reachable(dag, expressions).into_iter().any(is_sign);
-    if signs {
-        EXPERIMENTS_WITH_SIGNS
-    } else {
-        EXPERIMENTS
-    }
+    if signs { POINTS_WITH_SIGNS } else { POINTS }
 }

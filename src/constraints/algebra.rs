@@ -7,7 +7,7 @@
 use crate::Singular;
 use crate::math::sqrt;
 
-/// Cholesky's factorization `L Lᵀ`, to the lower triangle; and to `shares` what is left of each
+/// Cholesky's factorization `L Lᵀ`, to the lower triangle; and to `shares` the remainder of each
 /// diagonal element, `Lᵢᵢ / √aᵢᵢ`.
 pub(super) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
     let n = root(a.len());

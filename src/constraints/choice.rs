@@ -50,11 +50,11 @@ impl<V: Vector> Choice<V> {
         (0..self.rank).any(|j| self.row(j) == k)
     }
 
-    /// Chooses rows at a pose, one after the other, by what is left of each beside those before it: the
+    /// Chooses rows at a pose, one after the other, by the component of each across those before it: the
     /// first of those that leave half of the most, and before these a row that was chosen until now and
     /// leaves a quarter, so that rows do not change from one evaluation to the next for nothing.
     ///
-    /// What is left is taken relative to the row's own length where it is asked *whether* a row is
+    /// That component is taken relative to the row's own length where it is asked *whether* a row is
     /// independent, and relative to the greatest that its terms have been in the run where it is asked
     /// *which* is the better one: a row that vanishes in a pose is not lost there, but rounding holds more
     /// of it. This is Gram and Schmidt's process with choice of the column, in the metric of inertia
@@ -110,7 +110,7 @@ impl<V: Vector> Choice<V> {
         })
     }
 
-    /// The row to be chosen next, if any is independent by more than `least`, and what is left of it,
+    /// The row to be chosen next, if any is independent by more than `least`, and its component across the others,
     /// relative to the greatest that it has been.
     fn best<S: System<Vector = V>>(
         &self,

@@ -33,7 +33,7 @@ impl<V: Vector> Constraints<V> {
         })
     }
 
-    /// The row that has lost most of its hold on the way from one pose to another, and what is left of
+    /// The row that has lost most of its hold on the way from one pose to another, and the remainder of
     /// it beside the others, relative to what it had; none where it had nothing.
     ///
     /// Where it is 0, rows depend on each other that did not before: more directions are free there than

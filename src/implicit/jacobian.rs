@@ -50,8 +50,8 @@ impl Jacobian {
     /// Finds the derivatives at a state in a step of length `h`, by `1 + 2 n` evaluations; leaves the
     /// accelerations in `here`. `there` is room.
     ///
-    /// A difference of `√ε` times the size of a number halves its digits: what is left of roundoff and
-    /// what is left of the second derivative are alike. Rates differ by at least what moves coordinates as
+    /// A difference of `√ε` times the size of a number halves its digits: the errors of rounding and
+    /// of the second derivative are then alike. Rates differ by at least what moves coordinates as
     /// much within a step, or the roundoff of a stiff spring would hide what a damper does.
     pub fn find<V: Vector>(
         &mut self,

@@ -25,8 +25,8 @@ pub struct Constrained<const N: usize, const M: usize, const NN: usize> {
     pub drift: fn(f64, &[f64; N], &[f64; N], f64) -> [f64; M],
     /// `V` at `(q, p)`.
     pub potential_energy: fn(&[f64; N], f64) -> f64,
-    /// Whether the machine lends an array, and not what is allocated.
-    pub lends: bool,
+    /// Whether the workspace is an array on the stack, and not allocated.
+    pub on_stack: bool,
 }
 
 impl<const N: usize, const M: usize, const NN: usize> Constrained<N, M, NN> {
@@ -245,7 +245,7 @@ impl<const N: usize, const M: usize, const NN: usize> System for Constrained<N, 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         assert!(length <= constraint_workspace(N, M));
         let mut room = [0.0; 512];
-        work(self.lends.then(|| &mut room[..length]))
+        work(self.on_stack.then(|| &mut room[..length]))
     }
 }
 
@@ -270,7 +270,7 @@ pub fn circle<const M: usize>() -> Constrained<2, M, 4> {
             core::array::from_fn(|k| -((k + 1) as f64) * (vx * vx + vy * vy))
         },
         potential_energy: |[_, y], g| g * y,
-        lends: true,
+        on_stack: true,
     }
 }
 
@@ -298,7 +298,7 @@ pub fn double_pendulum(theta: [f64; 2]) -> Constrained<4, 2, 16> {
             [-2.0 * (x1 * x1 + y1 * y1), -2.0 * (dx * dx + dy * dy)]
         },
         potential_energy: |q, g| g * (q[1] + q[3]),
-        lends: true,
+        on_stack: true,
     }
 }
 
@@ -318,7 +318,7 @@ pub fn sleigh() -> Constrained<3, 1, 9> {
         by_time: |_, _, _| [0.0],
         drift: |_, [_, _, phi], [vx, vy, omega], _| [omega * (phi.cos() * vx + phi.sin() * vy)],
         potential_energy: |_, _| 0.0,
-        lends: true,
+        on_stack: true,
     }
 }
 
@@ -341,7 +341,7 @@ pub fn winch() -> Constrained<2, 1, 4> {
             [2.0 * (dl * dl + l * ddl) - 2.0 * (vx * vx + vy * vy)]
         },
         potential_energy: |[_, y], g| g * y,
-        lends: true,
+        on_stack: true,
     }
 }
 
@@ -368,7 +368,7 @@ pub fn bead() -> Constrained<2, 1, 4> {
             [2.0 * w * (vy * s + vx * c) + w * w * (y * c - x * s)]
         },
         potential_energy: |_, _| 0.0,
-        lends: true,
+        on_stack: true,
     }
 }
 
@@ -417,6 +417,6 @@ pub fn parallelogram(theta: f64) -> Constrained<4, 4, 16> {
             ]
         },
         potential_energy: |q, g| g * (q[1] + q[3]),
-        lends: true,
+        on_stack: true,
     }
 }

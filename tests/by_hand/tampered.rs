@@ -16,8 +16,8 @@ pub enum Slip {
     Multiplier(usize, f64),
     /// The drift `γ` of a constraint, by this much, in one of two functions.
     Drift(usize, f64),
-    /// It has a contact, and lends no room to find out what that does, or room for so many numbers.
-    Room(Option<usize>),
+    /// It has a contact, and no workspace to find out what that does, or one of so many numbers.
+    Workspace(Option<usize>),
 }
 
 /// A machine by hand with a slip in one of its functions.
@@ -74,7 +74,7 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
         u: &(),
         a: &mut [f64; N],
     ) -> Result<(), Singular> {
-        if let Slip::Room(_) = self.slip {
+        if let Slip::Workspace(_) = self.slip {
             return accelerations_with_friction(self, t, q, v, u, a);
         }
         self.machine.accelerations(t, q, v, u, a)?;
@@ -181,14 +181,14 @@ impl<const N: usize, const M: usize, const NN: usize> System for Tampered<N, M, 
     }
 
     fn contacts(&self) -> impl ExactSizeIterator<Item = &str> {
-        let has = matches!(self.slip, Slip::Room(_));
+        let has = matches!(self.slip, Slip::Workspace(_));
         has.then_some("pad").into_iter()
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
         let mut room = vec![0.0; length];
         match self.slip {
-            Slip::Room(lent) => work(lent.map(|lent| &mut room[..lent])),
+            Slip::Workspace(length) => work(length.map(|length| &mut room[..length])),
             _ => work(Some(&mut room)),
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! What costs digits is taken out first: coordinates that have nothing to do with one another go separate ways; time and
 //! coordinates are scaled; directions in which nothing pulls back, `K z = 0`, are eigenvectors of 0 and leave the matrix, in
-//! which they would stand as Jordan blocks whose eigenvalues come out as ±√ε. The eigenvalues of what is left are found in
+//! which they would stand as Jordan blocks whose eigenvalues come out as ±√ε. The eigenvalues of the remaining matrix are found in
 //! twice the digits, so that a slow decay is as good as a fast one. Each gets a bound on what the digits of K and C leave of
 //! it, by its left and right vectors (G. H. Golub and C. F. Van Loan, *Matrix Computations*, 4th ed. 2013, section 7.2.2).
 

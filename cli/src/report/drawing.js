@@ -567,7 +567,8 @@ class Drawing {
     };
     for (const link of picture.links) {
       const colour = link.body === null ? palette.muted : this.colours[link.body];
-      join(link.ends[0], link.ends[1], colour, picture.dimension === 2 ? 4 : 5);
+      const width = picture.dimension === 2 ? 4 : 5;
+      join(link.ends[0], link.ends[1], colour, link.rope ? 1.6 : width);
     }
     picture.bodies.forEach((body, index) => {
       if (body.rod !== null) join(body.rod, body.at, this.colours[index], 2.4);

@@ -101,13 +101,7 @@ impl Experiment {
 
     /// Whether two points of so many components keep their distance.
     pub fn keeps_distance(&self, a: usize, b: usize, dimension: usize) -> bool {
-        self.is_constant(|x| {
-            let square = |k| {
-                let d = x[a + k] - x[b + k];
-                d * d
-            };
-            (1..dimension).fold(square(0), |sum, k| sum + square(k))
-        })
+        self.is_constant(|x| square(x, [a, b], dimension))
     }
 
     /// Whether a point rests in the frame with this origin and these axes, components of one axis after the other.
@@ -141,33 +135,51 @@ impl Experiment {
     /// Without roots: with `e = |a − b|² − stretch²` that is `e = 2 c · stretch + c²`, so the pairs (stretch, e) lie on a
     /// line whose slope and intercept agree. Returns whether `c` is 0.
     pub fn is_stretch(&self, a: usize, b: usize, stretch: usize, dimension: usize) -> Option<bool> {
+        let (slope, intercept) = self.line(stretch, |x| {
+            square(x, [a, b], dimension) - x[stretch] * x[stretch]
+        })?;
+        let c = slope / (Residue::ONE + Residue::ONE);
+        (intercept == c * c).then_some(c == Residue::ZERO)
+    }
+
+    /// Whether a constraint keeps the distance of two points: where `g` is 0, so is `|a − b| − c` or `|a − b|² − c`.
+    pub fn is_kept(&self, a: usize, b: usize, g: usize, dimension: usize) -> bool {
+        let of_square = self.line(g, |x| square(x, [a, b], dimension));
+        of_square.is_some_and(|(slope, _)| slope != Residue::ZERO)
+            || self.is_stretch(a, b, g, dimension).is_some()
+    }
+
+    /// Slope and intercept of a function of the values that is linear in one of them; none where it is not, or where that
+    /// value does not change.
+    fn line(&self, by: usize, f: impl Fn(&[Residue]) -> Residue) -> Option<(Residue, Residue)> {
         for states in &self.worlds {
             let pairs: Vec<(Residue, Residue)> = states
                 .iter()
-                .map(|x| {
-                    let square = |k| {
-                        let d = x[a + k] - x[b + k];
-                        d * d
-                    };
-                    let distance = (1..dimension).fold(square(0), |sum, k| sum + square(k));
-                    (x[stretch], distance - x[stretch] * x[stretch])
-                })
-                .filter(|(s, e)| s.is_finite() && e.is_finite())
+                .map(|x| (x[by], f(x)))
+                .filter(|(x, y)| x.is_finite() && y.is_finite())
                 .collect();
-            let [(s0, e0), (s1, e1), rest @ ..] = pairs.as_slice() else {
+            let [(x0, y0), (x1, y1), rest @ ..] = pairs.as_slice() else {
                 continue;
             };
-            if rest.len() + 2 < NEEDED || s0 == s1 {
+            if rest.len() + 2 < NEEDED || x0 == x1 {
                 continue;
             }
-            let (ds, de) = (*s1 - *s0, *e1 - *e0);
-            if !rest.iter().all(|(s, e)| de * (*s - *s0) == (*e - *e0) * ds) {
+            let (dx, dy) = (*x1 - *x0, *y1 - *y0);
+            if !rest.iter().all(|(x, y)| dy * (*x - *x0) == (*y - *y0) * dx) {
                 return None;
             }
-            let c = de / (ds + ds);
-            let agrees = *e0 == (c + c) * *s0 + c * c;
-            return agrees.then_some(c == Residue::ZERO);
+            let slope = dy / dx;
+            return Some((slope, *y0 - slope * *x0));
         }
         None
     }
+}
+
+/// The square of the distance of two points of so many components.
+fn square(x: &[Residue], [a, b]: [usize; 2], dimension: usize) -> Residue {
+    let square = |k| {
+        let d = x[a + k] - x[b + k];
+        d * d
+    };
+    (1..dimension).fold(square(0), |sum, k| sum + square(k))
 }

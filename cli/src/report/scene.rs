@@ -1,6 +1,7 @@
 //! What is drawn of a machine. A spec says nothing about drawing: what is joined is found in the model.
 //!
-//! * A shift of constant length, from one frame to the next, is a link.
+//! * A shift of constant length, from one frame to the next, is a link; two points whose distance a constraint keeps are joined
+//!   by a rope.
 //! * A body is joined by a rod to the nearest point before it (the ground, origins of frames, earlier bodies) from which
 //!   it keeps its distance. If there is none, to a point that its own position is built on: the pivot of a driven
 //!   pendulum, the axle of a debalance.
@@ -98,6 +99,8 @@ pub struct Link {
     pub ends: [usize; 2],
     /// The first body that is fixed to it.
     pub body: Option<usize>,
+    /// Whether a constraint keeps its length: a rope, or a rod without mass.
+    pub rope: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -202,6 +205,8 @@ struct Points {
     body_axes: Vec<Option<usize>>,
     /// Centre, radius, axes of each circle.
     circles: Vec<[usize; 3]>,
+    /// What each constraint of positions says is 0.
+    constraints: Vec<usize>,
     /// Where each element is that is drawn, in the order of [`drawings`].
     sites: Vec<SitePoints>,
     gravity: Option<usize>,
@@ -236,6 +241,11 @@ impl Points {
             ]
         });
         let circles = circles.collect();
+        let constraints = model.constraints();
+        let constraints = constraints.iter().map(|constraint| constraint.expression);
+        let of_positions = constraints.filter(|expression| expression.stage() <= stage::POSITION);
+        let constraints = of_positions.map(|expression| places.of(&[expression]));
+        let constraints = constraints.collect();
         let sites = drawings(model).map(|(_, drawing)| match &drawing.site {
             Site::Between([from, to]) => SitePoints::Between([places.of(from), places.of(to)]),
             Site::Stretch(stretch) => SitePoints::Stretch(places.of(&[*stretch])),
@@ -250,6 +260,7 @@ impl Points {
             bodies,
             body_axes: turned,
             circles,
+            constraints,
             sites,
             gravity: model.gravity().map(|gravity| places.of(gravity)),
         }
@@ -334,9 +345,14 @@ impl<'d> Finder<'_, 'd> {
             let origin = |pose: PoseId| self.points.origins[pose.index()];
             let ends = [origin(pose.parent), self.points.origins[index]];
             if self.joined(ends[0], ends[1]) && !links.iter().any(|link| link.ends == ends) {
-                links.push(Link { ends, body: None });
+                links.push(Link {
+                    ends,
+                    body: None,
+                    rope: false,
+                });
             }
         }
+        links.extend(self.ropes());
         for link in &mut links {
             link.body = (0..self.model.bodies.len()).find(|&body| {
                 let rests = |end: &usize| self.rests(*end, body);
@@ -344,6 +360,30 @@ impl<'d> Finder<'_, 'd> {
             });
         }
         links
+    }
+
+    /// Two points for each constraint that keeps their distance.
+    fn ropes(&self) -> Vec<Link> {
+        let candidates = self.references(self.model.bodies.len());
+        if candidates.len().pow(2) / 2 * self.points.constraints.len() > MOST_PAIRS {
+            return Vec::new();
+        }
+        let mut ropes = Vec::new();
+        for &constraint in &self.points.constraints {
+            let pairs = candidates.iter().enumerate();
+            let mut pairs =
+                pairs.flat_map(|(k, &a)| candidates[k + 1..].iter().map(move |&b| [a, b]));
+            let is_kept = |&[a, b]: &[usize; 2]| {
+                let experiment = self.experiment;
+                experiment.is_kept(a, b, constraint, self.dimension())
+            };
+            ropes.extend(pairs.find(is_kept).map(|ends| Link {
+                ends,
+                body: None,
+                rope: true,
+            }));
+        }
+        ropes
     }
 
     /// Whether a point is fixed in a body.

@@ -3,7 +3,7 @@
 /// A square matrix by rows.
 pub(super) type Matrix = Vec<Vec<f64>>;
 
-/// What is left of a diagonal entry in an elimination, relative to the entry, may be roundoff below this.
+/// A pivot that is smaller than this, relative to the diagonal entry it comes from, may be rounding error.
 const SMALLEST_PIVOT: f64 = 1e-14;
 
 /// `x·y`.
@@ -26,7 +26,7 @@ impl Cholesky {
     /// Factors a symmetric matrix.
     ///
     /// # Errors
-    /// The row at which it is not positive definite, and what is left there of the diagonal, relative to it.
+    /// The row at which it is not positive definite, and its pivot relative to the diagonal entry.
     pub(super) fn new(matrix: &Matrix) -> Result<Cholesky, (usize, f64)> {
         let n = matrix.len();
         let mut lower = std::vec![std::vec![0.0; n]; n];

@@ -309,7 +309,7 @@ mod tests {
             let widest = PI - 2.0 * kappa.abs().atan();
             for part in [0.1, 0.3, 0.5, 0.7, 0.9, 0.97] {
                 let delta = widest * part;
-                // What is left of the way, in the frame of the first direction, and V e^{κu}, with S = 1.
+                // The rest of the way, in the frame of the first direction, and V e^{κu}, with S = 1.
                 let state = |delta: f64, u: f64| {
                     let arc = Arc::new(Gauss::new(), kappa, delta);
                     let (whole, so_far) = (arc.whole(), arc.so_far(u));

@@ -266,7 +266,7 @@ impl Frame {
                         .for_each(|(x, down)| *x -= along * down);
                 }
                 let length = dot(&across, &times(&inertia, &across)).sqrt();
-                // What is left of a way straight down is rounding, and no direction.
+                // The horizontal part of a way straight down is rounding error, and no direction.
                 let scale = if length > 8.0 * f64::EPSILON * ahead.abs() {
                     1.0 / length
                 } else {

@@ -200,7 +200,7 @@ pub fn statements(
     body.results()
 }
 
-/// What is left to check after the statements of a function.
+/// The guards that are checked after the statements of a function.
 pub struct Unchecked {
     /// The results.
     pub results: Vec<Expression>,

@@ -18,6 +18,7 @@
 mod approximation;
 mod brachistochrone;
 mod carrying;
+mod composite;
 mod constraints;
 mod derivatives;
 mod energy;
@@ -27,7 +28,7 @@ pub mod integrals;
 mod kinematics;
 mod lagrange;
 pub(crate) mod literal;
-mod lumps;
+
 mod power;
 mod projected;
 mod reduction;

@@ -59,6 +59,8 @@ mod x86;
     not(feature = "strict-libm")
 ))]
 mod tests;
+#[doc(hidden)]
+pub mod text;
 
 pub use lanes::Lanes;
 

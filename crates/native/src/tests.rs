@@ -342,7 +342,7 @@ fn a_question_to_lanes_is_answered_by_all_of_them() {
     ask::<8>(&mut random);
 }
 
-/// The polynomials, evaluated in 106 bits: what is left is their own error.
+/// The polynomials, evaluated in 106 bits, so that the error is their own.
 #[test]
 fn the_polynomials_are_as_near_as_their_bounds() {
     let horner = |c: [f64; 6], z: DoubleDouble| {

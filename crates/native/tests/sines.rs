@@ -91,7 +91,7 @@ fn the_bound_holds_within_a_turn() {
     worst("a turn", &angles);
 }
 
-/// Sines are small here, and angles have lost most of their places: what is left must be right all
+/// Sines are small here, and angles have lost most of their places: those that remain must be right all
 /// the same.
 #[test]
 fn the_bound_holds_next_to_every_multiple_of_a_right_angle() {

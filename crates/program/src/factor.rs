@@ -1,7 +1,7 @@
 //! Factors that terms of a sum have in common, taken out: `x·y + x·z·w + u` becomes `x·(y + z·w) +
 //! u`.
 //!
-//! Greedy: the factor that most terms have is taken out of these, and so on with what is left
+//! Greedy: the factor that most terms have is taken out of these, and so on with the remaining terms
 //! inside and outside. Among factors that occur equally often, the one known last is taken, so
 //! that what remains inside is known early. Products that something else uses too are left alone:
 //! they would have to be computed twice.

@@ -34,7 +34,7 @@ use super::{Shape, Source};
 
 /// How many times n·2⁻⁵² of its diagonal entry a pivot must exceed.
 ///
-/// What is left of Mᵢᵢ in the pivot dᵢ carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the
+/// The pivot dᵢ, from which the elimination has taken the rest of Mᵢᵢ, carries an error of at most (n + 1)·2⁻⁵³·Mᵢᵢ from the
 /// elimination (theorem 10.3), half of n·2⁻⁵²·Mᵢᵢ and a little; the rest allows for entries of M
 /// that are wrong by 7n·2⁻⁵³ of themselves, more than the roundings on the way from the ground to a
 /// body of any machine seen. A pivot below that may be nothing but error: there, accelerations
@@ -225,7 +225,7 @@ pub fn solve(graph: &mut Graph, system: &System, elimination: Elimination) -> So
                 scale: total(graph, &compliance[k - coordinates]),
             },
         });
-        // Column k of what is left of M: u, of which l = u/d.
+        // Column k of the Schur complement: u, of which l = u/d.
         let mut column = Vec::new();
         let matters = |i: &usize| !eliminated[*i] && !elimination.dependent.contains(i);
         for i in (0..n).filter(matters) {
@@ -291,7 +291,7 @@ fn total(graph: &mut Graph, terms: &[Scaled]) -> Scaled {
     graph.whole(sum)
 }
 
-/// What is left of M while it is eliminated: for each entry of the lower triangle its terms.
+/// The Schur complement of M while it is eliminated: for each entry of the lower triangle its terms.
 struct Entries {
     n: usize,
     terms: Vec<Vec<Scaled>>,

@@ -1,4 +1,4 @@
-//! The accelerations in stages: what time decides, what coordinates decide, and what is left to do
+//! The accelerations in stages: what time decides, what coordinates decide, and what remains to be done
 //! where only rates change.
 //!
 //! ```text

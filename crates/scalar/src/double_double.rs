@@ -64,7 +64,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// What is left: self − hi.
+    /// The lower half: self − hi.
     pub fn lo(self) -> f64 {
         self.lo
     }

@@ -13,6 +13,8 @@ pub mod interval;
 mod kernel;
 mod real;
 pub mod residue;
+#[doc(hidden)]
+pub mod text;
 
 pub use ball::Ball;
 pub use double_double::DoubleDouble;

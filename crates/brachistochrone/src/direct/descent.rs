@@ -14,7 +14,7 @@
 //! It is approached by the method of Broyden, Fletcher, Goldfarb and Shanno, J. Nocedal and S. J. Wright, *Numerical
 //! Optimization* (2006), alg. 7.4, from the Hessian that would be right if neither masses nor speeds changed with the place.
 //!
-//! A way that the machine cannot go from rest is lent a speed at the start, which is taken away while the way gets better.
+//! A way that the machine cannot go from rest is given a speed at the start, which is taken away while the way gets better.
 
 use lagrangian_scalar::{Dual, Scalar};
 
@@ -31,10 +31,10 @@ const REACH: f64 = 0.2;
 /// The most halvings of a step.
 const HALVINGS: usize = 25;
 
-/// The most times that the lent energy is made less.
+/// The most times that the added energy is made less.
 const ROUNDS: usize = 40;
 
-/// Parts of the lent energy that are tried next, the boldest first.
+/// Parts of the added energy that are tried next, the boldest first.
 const LESS: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 0.9, 0.97];
 
 /// Less energy may make the time greater, by this factor of its square at once.
@@ -55,7 +55,7 @@ pub struct Way {
 pub struct Walk {
     /// The time of each piece, in s.
     pub times: Vec<f64>,
-    /// The energy of motion at the end of each piece, in J, with the lent one.
+    /// The energy of motion at the end of each piece, in J, with the added one.
     energies: Vec<f64>,
 }
 
@@ -186,12 +186,12 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// How the way is gone with this energy at the start; `None` where it is not.
-    fn walk(&self, way: &Way, lent: f64) -> Option<Walk> {
+    fn walk(&self, way: &Way, added: f64) -> Option<Walk> {
         let mut walk = Walk {
             times: Vec::new(),
             energies: Vec::new(),
         };
-        let mut kinetic = Some(lent).filter(|lent| *lent > 0.0);
+        let mut kinetic = Some(added).filter(|added| *added > 0.0);
         for (k, pair) in way.places.windows(2).enumerate() {
             let before = k.checked_sub(1).map(|k| way.places[k].as_slice());
             let [time, after] = self.piece(kinetic, before, &pair[0], &pair[1]);
@@ -206,7 +206,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
     }
 
     /// Derivatives of the objective by the places between the ends.
-    fn slopes(&self, way: &Way, lent: f64, walk: &Walk) -> Vec<f64> {
+    fn slopes(&self, way: &Way, added: f64, walk: &Walk) -> Vec<f64> {
         let n = way.places[0].len();
         let count = walk.times.len();
         let mut slopes = std::vec![0.0; (count + 1) * n];
@@ -219,7 +219,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
                 numbers.extend(place.iter().map(|x| Dual::constant(*x)));
             }
             let (energy, moves) = match k {
-                0 => (lent, false),
+                0 => (added, false),
                 _ => (walk.energies[k - 1], true),
             };
             let weight = 2.0 * count as f64 * walk.times[k];
@@ -306,7 +306,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         &self,
         way: &mut Way,
         walk: &mut Walk,
-        lent: f64,
+        added: f64,
         part: f64,
         steps: usize,
     ) -> Result<(), Stop> {
@@ -314,7 +314,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
         if way.places.len() < 3 {
             return Ok(());
         }
-        let mut slopes = self.slopes(way, lent, walk);
+        let mut slopes = self.slopes(way, added, walk);
         for _ in 0..steps {
             if self.terrain.budget.is_spent() {
                 return Err(Stop::Spent);
@@ -331,7 +331,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
             let mut found = None;
             for _ in 0..HALVINGS {
                 let next = way.moved(&step, share);
-                let walk_there = self.walk(&next, lent);
+                let walk_there = self.walk(&next, added);
                 let least = walk.objective() - ENOUGH * share * gain;
                 if let Some(there) = walk_there.filter(|there| there.objective() <= least) {
                     found = Some((next, there));
@@ -347,7 +347,7 @@ impl<'a, T: Terrain> Descent<'a, T> {
                 continue;
             };
             (*way, *walk) = (next, there);
-            let after = self.slopes(way, lent, walk);
+            let after = self.slopes(way, added, walk);
             let moved: Vec<f64> = step.iter().map(|d| share * d).collect();
             let change: Vec<f64> = after.iter().zip(&slopes).map(|(a, b)| a - b).collect();
             if dot(&moved, &change) > 1e-8 * share * gain {
@@ -378,52 +378,52 @@ impl<'a, T: Terrain> Descent<'a, T> {
         if !(scale > 0.0 && scale.is_finite()) {
             return Err(Stop::Lacks(f64::INFINITY));
         }
-        let mut lent = 0.0;
-        let mut walk = self.walk(way, lent);
+        let mut added = 0.0;
+        let mut walk = self.walk(way, added);
         while walk.is_none() {
-            lent = if lent == 0.0 {
+            added = if added == 0.0 {
                 scale / 16.0
             } else {
-                2.0 * lent
+                2.0 * added
             };
-            if lent > 1e6 * scale {
+            if added > 1e6 * scale {
                 return Err(Stop::Lacks(f64::INFINITY));
             }
-            walk = self.walk(way, lent);
+            walk = self.walk(way, added);
         }
         let Some(mut walk) = walk else {
-            return Err(Stop::Lacks(lent));
+            return Err(Stop::Lacks(added));
         };
         for round in 0..=ROUNDS {
-            if lent == 0.0 {
+            if added == 0.0 {
                 return Ok(walk);
             }
             if round == ROUNDS {
                 break;
             }
-            self.improve(way, &mut walk, lent, 1e-3, 15)?;
+            self.improve(way, &mut walk, added, 1e-3, 15)?;
             let bound = WORSE * walk.objective();
             let borne = |part: &f64| {
-                let there = self.walk(way, part * lent)?;
-                (there.objective() < bound).then_some((part * lent, there))
+                let there = self.walk(way, part * added)?;
+                (there.objective() < bound).then_some((part * added, there))
             };
             match LESS.iter().find_map(borne) {
-                Some(less) => (lent, walk) = less,
+                Some(less) => (added, walk) = less,
                 None => break,
             }
         }
-        Err(Stop::Lacks(self.lacking(way, lent)))
+        Err(Stop::Lacks(self.lacking(way, added)))
     }
 
     /// The energy without which the way cannot be gone, as far as it is known not to be enough. Long pieces leap over what is in
     /// between, so it is looked at in short ones.
-    fn lacking(&self, way: &Way, lent: f64) -> f64 {
+    fn lacking(&self, way: &Way, added: f64) -> f64 {
         let fine = (0..FINE).fold(way.clone(), |way, _| way.halved());
-        let lents = (0..10).map(|k| lent * f64::from(1 << k));
-        let walks = lents.map(|lent| (lent, self.walk(&fine, lent)));
-        for (lent, walk) in walks {
+        let energies = (0..10).map(|k| added * f64::from(1 << k));
+        let walks = energies.map(|added| (added, self.walk(&fine, added)));
+        for (added, walk) in walks {
             if let Some(walk) = walk {
-                return lent
+                return added
                     - walk
                         .energies
                         .iter()

@@ -5,7 +5,7 @@ use super::Emitter;
 use crate::layout::Layout;
 use lagrangian_program::{FrictionLayout, Role};
 
-/// About how many numbers a machine lends from the stack: a quarter of a megabyte.
+/// About how many numbers a workspace may have on the stack: a quarter of a megabyte.
 const MOST_LENT: usize = 1 << 15;
 
 impl Emitter<'_> {

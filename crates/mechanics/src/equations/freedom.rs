@@ -247,7 +247,7 @@ fn free_part(rows: &[Row], mut vector: Row) -> Row {
 }
 
 /// Orthonormal rows that span the same, as many as are independent. The longest is taken first, by
-/// what is left of its own length.
+/// the remainder of its own length.
 fn orthogonal(rows: &[Row]) -> Vec<Row> {
     pivoted(rows).into_iter().map(|(_, row)| row).collect()
 }

@@ -30,11 +30,11 @@
 use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, reverse};
 
 use super::InertialPair;
+use super::composite::{self, Composite};
 use super::energy;
 use super::kinematics::{
     self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
 };
-use super::lumps::{self, Lump};
 use super::refusal;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_angle;
@@ -49,7 +49,7 @@ pub(super) struct Projection<'a, 'd> {
     bodies: Vec<Carrier<'d>>,
     /// The inertia of the same bodies, by where it is: on points, or fixed to frames.
     inertial: Vec<Carrier<'d>>,
-    lumps: Vec<(PoseId, Lump<'d>)>,
+    composites: Vec<(PoseId, Composite<'d>)>,
 }
 
 /// What carries the inertia of one body.
@@ -103,18 +103,22 @@ impl<'a, 'd> Projection<'a, 'd> {
         let moving = bodies
             .iter()
             .filter_map(|body| body.centre.map(|(_, pose, _)| pose));
-        let (inertial, lumps) = gather(model, &bodies);
-        let lumped = lumps.iter().map(|(pose, _)| *pose);
-        let carried = lumps.iter().filter(|(_, lump)| lump.moves());
+        let (inertial, composites) = gather(model, &bodies);
+        let carried_by_frames = composites.iter().map(|(pose, _)| *pose);
+        let carried = composites.iter().filter(|(_, composite)| composite.moves());
         let moving = moving.chain(carried.map(|(pose, _)| *pose));
-        let chains = Chains::to(model, turning.chain(twisted).chain(lumped), moving);
+        let chains = Chains::to(
+            model,
+            turning.chain(twisted).chain(carried_by_frames),
+            moving,
+        );
         Projection {
             model,
             x,
             chains,
             bodies,
             inertial,
-            lumps,
+            composites,
         }
     }
 
@@ -141,8 +145,11 @@ impl<'a, 'd> Projection<'a, 'd> {
                 momenta.on_body(body, actual, body.momentum(motion));
             }
             let moving = self.twists(rate);
-            for (pose, lump) in &self.lumps {
-                momenta.on_frame(&twists[pose.index()], lump.momentum(&moving[pose.index()]));
+            for (pose, composite) in &self.composites {
+                momenta.on_frame(
+                    &twists[pose.index()],
+                    composite.momentum(&moving[pose.index()]),
+                );
             }
             columns.push(self.project(&momenta, j..n));
         }
@@ -157,7 +164,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         self.inertia_loads(&mut self.x.coasting(self.model), sign, gravity)
     }
 
-    /// What is left of the forces where the accelerations are given, `f − M a`, eq. (E25): inertia
+    /// The residual of the equations of motion where the accelerations are given, `f − M a`, eq. (E25): inertia
     /// and gravity reversed, and what is applied, by one sweep. This is recursive Newton–Euler,
     /// linear in the number of links.
     pub fn unbalanced(&self) -> Vec<Expr<'d>> {
@@ -174,10 +181,10 @@ impl<'a, 'd> Projection<'a, 'd> {
             loads.on_body(body, velocity, load.scaled(sign));
         }
         let (twists, accelerations) = self.motion(rate, gravity);
-        for (pose, lump) in &self.lumps {
+        for (pose, composite) in &self.composites {
             let (twist, here) = (&twists[pose.index()], &accelerations[pose.index()]);
             let turning = Turning::of(&twist.angular, &here.angular);
-            let demand = lump.demand(&turning, &here.linear);
+            let demand = composite.demand(&turning, &here.linear);
             loads.on_frame(twist, demand.map(|vector| vector.map(|x| sign * x)));
         }
         loads
@@ -224,9 +231,12 @@ impl<'a, 'd> Projection<'a, 'd> {
             Space::Space => self.chains.carried(self.model, vector(g)),
         };
         let twists = self.twists(coasting);
-        for (pose, lump) in &self.lumps {
+        for (pose, composite) in &self.composites {
             let g = &along[pose.index()];
-            let loads_here = [g.map(|g_k| lump.mass * g_k), cross(&lump.moment, g)];
+            let loads_here = [
+                g.map(|g_k| composite.mass * g_k),
+                cross(&composite.moment, g),
+            ];
             loads.on_frame(&twists[pose.index()], loads_here);
         }
         for (body, velocity) in self.inertial.iter().zip(velocities) {
@@ -358,8 +368,8 @@ impl<'a, 'd> Projection<'a, 'd> {
             }
         }
         let twists = self.twists(rate);
-        for (pose, lump) in &self.lumps {
-            let pairs = lump.pairs(&twists[pose.index()]).into_iter();
+        for (pose, composite) in &self.composites {
+            let pairs = composite.pairs(&twists[pose.index()]).into_iter();
             inertia.extend(pairs.map(|[u, w, weight]| InertialPair::weightless(u, w, weight)));
         }
         let mut acting = Vec::new();
@@ -655,19 +665,20 @@ fn carrier<'d>(model: &Model<'d>, body: &Body<'d>) -> Carrier<'d> {
 fn gather<'d>(
     model: &Model<'d>,
     bodies: &[Carrier<'d>],
-) -> (Vec<Carrier<'d>>, Vec<(PoseId, Lump<'d>)>) {
+) -> (Vec<Carrier<'d>>, Vec<(PoseId, Composite<'d>)>) {
     let zero = model.dag.zero();
     let mut others = Vec::new();
     let mut fixed = Vec::new();
     for body in bodies {
         let centre = body
             .centre
-            .map(|(mass, pose, r)| (pose, Lump::of_body(mass, &r, &[zero; 6])));
+            .map(|(mass, pose, r)| (pose, Composite::of_body(mass, &r, &[zero; 6])));
         let tensor = body
             .tensor
-            .map(|(tensor, pose)| (pose, Lump::of_body(zero, &[zero; 3], &tensor)));
-        let constant = |part: &Option<(PoseId, Lump<'d>)>| {
-            part.as_ref().is_some_and(|(_, lump)| lump.is_constant())
+            .map(|(tensor, pose)| (pose, Composite::of_body(zero, &[zero; 3], &tensor)));
+        let constant = |part: &Option<(PoseId, Composite<'d>)>| {
+            part.as_ref()
+                .is_some_and(|(_, composite)| composite.is_constant())
         };
         let is_constant = [constant(&centre), constant(&tensor)];
         others.push(Carrier {
@@ -681,11 +692,13 @@ fn gather<'d>(
     if fixed.is_empty() {
         return (others, Vec::new());
     }
-    let lumps = lumps::gathered(model, fixed.into_iter());
-    let lumps = (0..).map(PoseId).zip(lumps);
+    let composites = composite::gathered(model, fixed.into_iter());
+    let composites = (0..).map(PoseId).zip(composites);
     (
         others,
-        lumps.filter(|(_, lump)| !lump.is_nothing()).collect(),
+        composites
+            .filter(|(_, composite)| !composite.is_nothing())
+            .collect(),
     )
 }
 

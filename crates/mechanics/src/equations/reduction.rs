@@ -297,7 +297,7 @@ pub(super) fn reduction<'d>(
     }))
 }
 
-/// What is left of a contribution. Constraints are counted apart, and a force on a coordinate that
+/// A contribution without the part that constraints take over. Constraints are counted apart, and a force on a coordinate that
 /// depends on others acts on these.
 fn contribution<'d>(
     contribution: Contribution<'d>,

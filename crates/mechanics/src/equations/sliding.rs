@@ -386,7 +386,7 @@ impl<'d> Reactions<'d> {
 
     /// The reactions, by elimination; none where a row is a combination of others.
     ///
-    /// No rows are exchanged: every diagonal entry is 1, and what is left of it is 0 only where two
+    /// No rows are exchanged: every diagonal entry is 1, and its pivot is 0 only where two
     /// guides hold the same.
     fn solved(mut self) -> Option<Vec<Normal<'d>>> {
         let count = self.rows.len();

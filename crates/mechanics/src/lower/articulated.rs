@@ -144,7 +144,7 @@ fn eliminated<'d>(
 
 /// The mass matrix by the same way, nothing eliminated: the lower triangle, row by row.
 ///
-/// What is left of the form once every velocity has given way to those of coordinates is `M`. A body
+/// Once every velocity has given way to those of coordinates, the form is that of `M`. A body
 /// adds its inertia to that of what it hangs on before it is handed on, so that each entry takes one
 /// link's work: the composite rigid body algorithm (M. W. Walker and D. E. Orin, *Efficient dynamic
 /// computer simulation of robotic mechanisms*, J. Dyn. Syst. Meas. Control 104 (1982) 205–211).
@@ -1238,7 +1238,7 @@ impl Reach {
     ];
 }
 
-/// Adds up what is left of entries and loads.
+/// Adds up the remaining entries and loads.
 struct Totals<'d> {
     dag: &'d Dag,
     /// The sums made here.
@@ -1339,7 +1339,7 @@ impl<'d> Totals<'d> {
         Some(done)
     }
 
-    /// A sum whose terms have factors in common, as the product of these and what is left.
+    /// A sum whose terms have factors in common, as the product of these and the remaining sum.
     fn without_content(&mut self, total: Expr<'d>) -> Expr<'d> {
         let terms = terms_of(total);
         let mut common: BTreeMap<Id, i32> = factors_of(terms[0]).1.into_iter().collect();

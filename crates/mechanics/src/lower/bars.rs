@@ -8,7 +8,7 @@
 //! m u² = (1 − λ) m u_H² + λ m u_T² − λ (1 − λ) m l² ω²
 //! ```
 //!
-//! So two masses and what is left of the inertia stand for the body in every motion: work of the
+//! So two masses and the remaining inertia stand for the body in every motion: work of the
 //! parameter stage, after which `H` and `T` alone are in the equations. Where bars hang on bars each
 //! joint has one mass. Of the ten operations that a centre of mass between the joints costs a link of
 //! a chain, none is left.
@@ -19,7 +19,7 @@
 //! a far centre of mass the masses are large and of opposite signs, and as many digits of the turning
 //! are lost; without any length it is a machine still, that a quotient would deny.
 //!
-//! The same substitution in space is that of [`lumps`](crate), from where the idea is:
+//! The same substitution in space is that of `equations/composite.rs`, from where the idea is:
 //! W. Khalil and J.-F. Bennis, *Symbolic calculation of the base inertial parameters of closed-loop
 //! robots*, Int. J. Robotics Res. 14 (1995) 112–128.
 

@@ -3,7 +3,7 @@
 //!
 //! Velocities are central differences with step 10⁻³⁰ (error 10⁻⁶⁰, rounding 10⁻⁹⁰). T is quadratic in the speeds, so its
 //! differences there are exact for any step. The outer differences, in time and along the coordinates, have step 10⁻²⁰:
-//! error 10⁻⁴⁰, and 10⁻⁶⁰/10⁻²⁰ = 10⁻⁴⁰ from the inner ones. What is left is true to 38 digits times derivatives of order one.
+//! error 10⁻⁴⁰, and 10⁻⁶⁰/10⁻²⁰ = 10⁻⁴⁰ from the inner ones. The result is true to 38 digits times derivatives of order one.
 
 #![expect(
     clippy::needless_range_loop,

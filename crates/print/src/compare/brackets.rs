@@ -13,7 +13,7 @@ use lagrangian_symbolic::{Expr, Id, Node, Rational};
 use super::changes;
 use lagrangian_spec::model::stage;
 
-/// The most terms in a bracket that is told as such: more nobody takes in at a glance.
+/// The most terms in a bracket that is told as such: nobody reads more.
 const BRACKET: usize = 3;
 
 /// The most brackets that are considered: each costs multiplying out once more.

@@ -79,7 +79,7 @@ impl Polynomial {
         self.0.keys().map(|monomial| 1 + monomial.len()).sum()
     }
 
-    /// The terms by those of their factors for which `outer` holds; what is left of them in the
+    /// The terms by those of their factors for which `outer` holds; the remaining factors in the
     /// polynomials.
     pub(super) fn grouped(&self, outer: impl Fn(Id) -> bool) -> BTreeMap<Monomial, Polynomial> {
         let mut groups: BTreeMap<Monomial, Polynomial> = BTreeMap::new();

@@ -1,6 +1,6 @@
 //! The inertia that a frame in space carries, eq. (E27): all that is fixed to it, as one.
 //!
-//! Three things make one lump of what a link consists of, and a small one. What is fixed to frames
+//! Three things make one composite body of what a link consists of, and one with few parameters. What is fixed to frames
 //! that are a constant shift apart is added up. Of that, what is symmetric about the axis of the
 //! link's hinge moves as if it were fixed to what carries the hinge, whatever the angle: the mass as
 //! if it were on the axis, the first moment along it, and as much inertia as both directions across
@@ -20,7 +20,7 @@ use lagrangian_spec::model::{Model, PoseId, Step};
 /// A part's inertia about the origin of a frame, along its axes:
 /// `T = ½ m u² + u·(ω×s) + ½ ω·J ω`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lump<'d> {
+pub(super) struct Composite<'d> {
     /// `m`.
     pub mass: Expr<'d>,
     /// First moment `s`: the mass times its centre.
@@ -29,10 +29,10 @@ pub(super) struct Lump<'d> {
     pub tensor: [Expr<'d>; 6],
 }
 
-impl<'d> Lump<'d> {
-    fn nothing(dag: &'d Dag) -> Lump<'d> {
+impl<'d> Composite<'d> {
+    fn nothing(dag: &'d Dag) -> Composite<'d> {
         let zero = dag.zero();
-        Lump {
+        Composite {
             mass: zero,
             moment: [zero; 3],
             tensor: [zero; 6],
@@ -40,10 +40,10 @@ impl<'d> Lump<'d> {
     }
 
     /// A body: its mass, its centre, and its inertia about the centre.
-    pub fn of_body(mass: Expr<'d>, centre: &Vector<'d>, tensor: &[Expr<'d>; 6]) -> Lump<'d> {
-        let at_centre = Lump {
+    pub fn of_body(mass: Expr<'d>, centre: &Vector<'d>, tensor: &[Expr<'d>; 6]) -> Composite<'d> {
+        let at_centre = Composite {
             mass,
-            moment: Lump::nothing(mass.dag()).moment,
+            moment: Composite::nothing(mass.dag()).moment,
             tensor: *tensor,
         };
         at_centre.shifted(centre)
@@ -73,8 +73,8 @@ impl<'d> Lump<'d> {
         self.components().all(|x| x.is_zero())
     }
 
-    fn plus(&self, other: &Lump<'d>) -> Lump<'d> {
-        Lump {
+    fn plus(&self, other: &Composite<'d>) -> Composite<'d> {
+        Composite {
             mass: self.mass + other.mass,
             moment: add(&[&self.moment, &other.moment]),
             tensor: std::array::from_fn(|k| self.tensor[k] + other.tensor[k]),
@@ -83,8 +83,8 @@ impl<'d> Lump<'d> {
 
     /// The same about the origin of a frame that sees this one's at `r`: `s + m r`, and `J` with
     /// `(2 r·s + m r²) 1 − (r sᵀ + s rᵀ + m r rᵀ)` more.
-    fn shifted(&self, r: &Vector<'d>) -> Lump<'d> {
-        let Lump {
+    fn shifted(&self, r: &Vector<'d>) -> Composite<'d> {
+        let Composite {
             mass: m,
             moment: s,
             tensor,
@@ -99,7 +99,7 @@ impl<'d> Lump<'d> {
             -product(0, 2),
             -product(1, 2),
         ];
-        Lump {
+        Composite {
             mass: m,
             moment: [0, 1, 2].map(|k| s[k] + m * r[k]),
             tensor: std::array::from_fn(|k| tensor[k] + more[k]),
@@ -107,10 +107,10 @@ impl<'d> Lump<'d> {
     }
 
     /// What is symmetric about an axis, and the rest.
-    fn split(&self, axis: usize) -> [Lump<'d>; 2] {
+    fn split(&self, axis: usize) -> [Composite<'d>; 2] {
         let (next, last) = others(axis);
         let zero = self.mass.dag().zero();
-        let mut symmetric = Lump::nothing(zero.dag());
+        let mut symmetric = Composite::nothing(zero.dag());
         let mut rest = *self;
         (symmetric.mass, rest.mass) = (self.mass, zero);
         (symmetric.moment[axis], rest.moment[axis]) = (self.moment[axis], zero);
@@ -164,29 +164,29 @@ impl<'d> Lump<'d> {
     }
 }
 
-/// Gathers lumps, by pose: adds up what is fixed together, and hands on what is symmetric about a
+/// Gathers composites, by pose: adds up what is fixed together, and hands on what is symmetric about a
 /// hinge wherever something else is there to take it, or it is gone.
 pub(super) fn gathered<'d>(
     model: &Model<'d>,
-    bodies: impl Iterator<Item = (PoseId, Lump<'d>)>,
-) -> Vec<Lump<'d>> {
-    let mut lumps = vec![Lump::nothing(model.dag); model.poses.len()];
-    for (pose, lump) in bodies {
-        lumps[pose.index()] = lumps[pose.index()].plus(&lump);
+    bodies: impl Iterator<Item = (PoseId, Composite<'d>)>,
+) -> Vec<Composite<'d>> {
+    let mut composites = vec![Composite::nothing(model.dag); model.poses.len()];
+    for (pose, composite) in bodies {
+        composites[pose.index()] = composites[pose.index()].plus(&composite);
     }
     let fixed = |r: &[Expr<'d>]| r.iter().all(|x| x.stage() <= Stage::PARAMETER);
     // Children come after their parents.
-    for index in (1..lumps.len()).rev() {
+    for index in (1..composites.len()).rev() {
         let pose = &model.poses[index];
         if let Step::Shift(r) = &pose.step
             && fixed(r)
         {
             let parent = pose.parent.index();
-            lumps[parent] = lumps[parent].plus(&lumps[index].shifted(&vector(r)));
-            lumps[index] = Lump::nothing(model.dag);
+            composites[parent] = composites[parent].plus(&composites[index].shifted(&vector(r)));
+            composites[index] = Composite::nothing(model.dag);
         }
     }
-    for index in (1..lumps.len()).rev() {
+    for index in (1..composites.len()).rev() {
         let Step::Turn { axis, .. } = &model.poses[index].step else {
             continue;
         };
@@ -199,16 +199,16 @@ pub(super) fn gathered<'d>(
             shifts.push(r);
             carrier = model.poses[carrier.index()].parent;
         }
-        let takes = carrier == PoseId::GROUND || !lumps[carrier.index()].is_nothing();
-        if takes && !lumps[index].is_nothing() {
-            let [symmetric, rest] = lumps[index].split(*axis);
+        let takes = carrier == PoseId::GROUND || !composites[carrier.index()].is_nothing();
+        if takes && !composites[index].is_nothing() {
+            let [symmetric, rest] = composites[index].split(*axis);
             let handed = shifts
                 .iter()
-                .fold(symmetric, |lump, r| lump.shifted(&vector(r)));
-            lumps[index] = rest;
-            lumps[carrier.index()] = lumps[carrier.index()].plus(&handed);
+                .fold(symmetric, |composite, r| composite.shifted(&vector(r)));
+            composites[index] = rest;
+            composites[carrier.index()] = composites[carrier.index()].plus(&handed);
         }
     }
-    lumps[PoseId::GROUND.index()] = Lump::nothing(model.dag);
-    lumps
+    composites[PoseId::GROUND.index()] = Composite::nothing(model.dag);
+    composites
 }

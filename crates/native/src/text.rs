@@ -1,0 +1,12 @@
+//! The text of modules of this crate, for libraries that are written as one file.
+
+/// Numbers side by side.
+pub const LANES: &str = include_str!("lanes.rs");
+/// Registers.
+pub const REGISTER: &str = include_str!("register.rs");
+/// Sine and cosine.
+pub const SINCOS: &str = include_str!("sincos.rs");
+/// Vectors of registers.
+pub const VECTOR: &str = include_str!("vector.rs");
+/// Instructions of x86-64.
+pub const X86: &str = include_str!("x86.rs");
