@@ -137,6 +137,11 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// The method is [`TAYLOR`](crate::TAYLOR), and the motion has no series.
+    NoSeries {
+        /// Why not.
+        reason: String,
+    },
     /// The machine gives no workspace for the work on its constraints ([`System::with_workspace`]).
     NoWorkspaceForConstraints {
         /// Time, in s.
@@ -302,6 +307,15 @@ impl Error {
                 residual,
                 t,
             },
+            StepError::NoSeries { inputs: true, .. } => Self::NoSeries {
+                reason: "its inputs are functions, which a series does not follow".into(),
+            },
+            StepError::NoSeries { inputs: false, .. } => Self::NoSeries {
+                reason: match system.check_series() {
+                    Ok(()) => String::new(),
+                    Err(reason) => reason.into(),
+                },
+            },
             StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
             StepError::StepTooSmall {
@@ -389,7 +403,7 @@ impl Display for Error {
             ),
             Self::UnknownMethod { name } => {
                 write!(f, "no method of integration is named `{name}`; there are")?;
-                for (i, method) in crate::METHODS.iter().enumerate() {
+                for (i, method) in crate::Method::all().enumerate() {
                     write!(
                         f,
                         "{} `{}`",
@@ -399,6 +413,10 @@ impl Display for Error {
                 }
                 Ok(())
             }
+            Self::NoSeries { reason } => write!(
+                f,
+                "the motion has no Taylor series here: {reason}; take another method, such as `dop853`"
+            ),
             Self::ParameterNotFinite { parameter, value } => {
                 write!(
                     f,

@@ -6,6 +6,9 @@
 //! function is 0 at the *end of the step*, to rounding. So the end of the run is the state of the event,
 //! and as exact as the end of every other step.
 //!
+//! In a step by Taylor series, where that polynomial is as exact as the step and long, all roots of the function are
+//! isolated ([`roots`]), and none is missed.
+//!
 //! A function that is 0 at the start of a run, to rounding, has no sign there: whoever goes on from an
 //! event is at its zero, or beside it by rounding. Its sign is the one that it has just after, looked for at
 //! fractions of the first step that grow from the rounding of time on, each four times the one before it. So
@@ -17,6 +20,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::interpolant::Interpolant;
+use crate::roots;
 use crate::run::made;
 use crate::stepper::{InputLaw, Stepper};
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
@@ -167,6 +171,7 @@ impl<M: Machine> Watch<'_, M> {
     /// step.
     fn changes(
         &mut self,
+        looks: &[f64],
         roundoff: f64,
         mut value_at: impl FnMut(&mut Self, f64) -> Result<f64, Error>,
         mut found: impl FnMut(&mut Self, f64, f64) -> Result<(), Error>,
@@ -177,11 +182,11 @@ impl<M: Machine> Watch<'_, M> {
         // Where it starts from zero, it may leave it and be back long before a quarter of the step.
         let least = match side == 0.0 {
             true => 16.0 * roundoff,
-            false => LOOKS[0],
+            false => looks[0],
         };
         let small = core::iter::successors(Some(least), |theta| Some(4.0 * theta));
-        let small = small.take_while(|theta| *theta < LOOKS[0]);
-        for theta in small.chain(LOOKS) {
+        let small = small.take_while(|theta| *theta < looks[0]);
+        for theta in small.chain(looks.iter().copied()) {
             let value = value_at(self, theta)?;
             let now = if side == 0.0 && value.abs() <= leave {
                 0.0
@@ -221,12 +226,15 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let look = |watch: &mut Watch<'_, M>, theta: f64| {
             watch.value(&state(system, interpolated_at(stepper, theta)))
         };
-        watch.changes(roundoff, look, |_, _, _| {
-            suspected = true;
-            Ok(())
-        })?;
-        if !suspected {
-            continue;
+        let is_series = stepper.coefficients().is_some();
+        if !is_series {
+            watch.changes(&LOOKS, roundoff, look, |_, _, _| {
+                suspected = true;
+                Ok(())
+            })?;
+            if !suspected {
+                continue;
+            }
         }
 
         // There may be something: look again, exactly.
@@ -238,7 +246,11 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 state_at(system, stepper, interpolant, theta)?,
             ))
         };
-        watch.changes(roundoff, exact, |watch, from, to| {
+        let looks = match is_series {
+            true => &*roots::looks(|theta| exact(watch, theta))?,
+            false => &LOOKS,
+        };
+        watch.changes(looks, roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
             let theta = root([from, to], roundoff, |theta| exact(watch, theta))?;
             found.push(Found {

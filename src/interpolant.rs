@@ -16,13 +16,33 @@ const MAX_COEFFICIENTS: usize = 8;
 /// y(θ) = c₀ + θ (c₁ + ϑ (c₂ + θ (c₃ + ϑ (c₄ + θ (c₅ + …)))))
 /// ```
 ///
-/// where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ
+/// in steps of Runge–Kutta methods, where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ
 /// kⱼ` belong to the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
-/// Equations I*, 2nd ed., 1993, section II.6.
+/// Equations I*, 2nd ed., 1993, section II.6. In steps by Taylor series it is the polynomial of the step itself.
 #[derive(Clone, Debug)]
 pub struct Interpolant<V> {
     start: Sum,
     h: f64,
+    curve: Curve<V>,
+}
+
+/// The polynomials of a step.
+#[derive(Clone, Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and the core has no allocator"
+)]
+enum Curve<V> {
+    /// Of a Runge–Kutta method.
+    Stages(Stages<V>),
+    /// The Taylor coefficients of the coordinates.
+    #[cfg(feature = "std")]
+    Series(std::vec::Vec<V>),
+}
+
+/// `c₀ … ` of coordinates and rates.
+#[derive(Clone, Debug)]
+struct Stages<V> {
     length: usize,
     q: [V; MAX_COEFFICIENTS],
     v: [V; MAX_COEFFICIENTS],
@@ -55,9 +75,7 @@ impl<V: Vector> Interpolant<V> {
         } = ends;
         let n = q0.as_slice().len();
         let zeros = q0.zeros_like();
-        let mut interpolant = Self {
-            start,
-            h,
+        let mut interpolant = Stages {
             length: 4 + scheme.dense_length,
             q: core::array::from_fn(|_| zeros.clone()),
             v: core::array::from_fn(|_| zeros.clone()),
@@ -86,7 +104,21 @@ impl<V: Vector> Interpolant<V> {
                 interpolant.v[power].as_mut_slice()[i] = h * velocity;
             }
         }
-        Ok(interpolant)
+        Ok(Self {
+            start,
+            h,
+            curve: Curve::Stages(interpolant),
+        })
+    }
+
+    /// The motion in a step of length `h`, by its Taylor coefficients.
+    #[cfg(feature = "std")]
+    pub(crate) fn of_series(start: Sum, h: f64, coefficients: &[V]) -> Self {
+        Self {
+            start,
+            h,
+            curve: Curve::Series(coefficients.to_vec()),
+        }
     }
 
     /// Coordinates and rates at time `t`, which should be in the step.
@@ -96,10 +128,14 @@ impl<V: Vector> Interpolant<V> {
 
     /// Coordinates and rates at the fraction `theta` of the step.
     pub fn state_at(&self, theta: f64) -> (V, V) {
-        (
-            evaluate(&self.q[..self.length], theta),
-            evaluate(&self.v[..self.length], theta),
-        )
+        match &self.curve {
+            Curve::Stages(stages) => (
+                evaluate(&stages.q[..stages.length], theta),
+                evaluate(&stages.v[..stages.length], theta),
+            ),
+            #[cfg(feature = "std")]
+            Curve::Series(coefficients) => crate::taylor::state(coefficients, theta * self.h),
+        }
     }
 
     /// Time at the fraction `theta` of the step, in s.

@@ -11,7 +11,9 @@ use std::vec;
 use std::vec::Vec;
 
 use lagrangian_mechanics::Proved;
+use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_program as program;
+use lagrangian_program::series::{Expander, NoSeries, Series};
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
@@ -29,6 +31,7 @@ pub struct InterpretedMachine {
     names: Arc<Names>,
     parameters: Vec<f64>,
     inputs: Vec<f64>,
+    series: Result<Arc<Series>, String>,
 }
 
 /// Numbers under the names of coordinates, inputs or outputs; a member of a family is called
@@ -67,6 +70,8 @@ pub struct InterpretedSystem {
     /// contacts.
     parameters: Vec<f64>,
     enclosing: RefCell<Option<Interpreter<Interval>>>,
+    series: Result<Arc<Series>, String>,
+    expander: RefCell<Option<Expander<f64>>>,
 }
 
 /// No parameter, coordinate or input has this name.
@@ -114,7 +119,44 @@ impl InterpretedMachine {
                 .collect(),
             names: Arc::new(names),
             program: Arc::new(program),
+            series: Err("its series was not derived".into()),
         }
+    }
+
+    /// The same with the Taylor series of its motion, or with the reason why it has none: what
+    /// [`TAYLOR`](crate::TAYLOR) needs.
+    ///
+    /// ```
+    /// use lagrangian::interpreted::InterpretedMachine;
+    /// use lagrangian::{Machine, Simulation, TAYLOR};
+    /// use lagrangian_mechanics::{Compiled, series::ProvedSeries};
+    /// use lagrangian_spec::{diagnostic::Report, source::{InMemory, Sources}};
+    ///
+    /// let text = "machine Swing in plane {
+    ///     parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+    ///     coordinates { theta: rad = 0.5 }
+    ///     bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) } }
+    ///     gravity (0, -g);
+    /// }";
+    /// let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
+    /// let files = &mut InMemory::new();
+    /// let model = lagrangian_spec::model(&dag, "swing", text, &[], files, &mut sources, &mut report);
+    /// let Some(swing) = model.and_then(|model| Compiled::new(model, &mut report)) else {
+    ///     panic!("{}", report.render_short(&sources));
+    /// };
+    /// let machine = InterpretedMachine::new(swing.program.clone())
+    ///     .with_series(ProvedSeries::derive(&swing.model));
+    /// let run = Simulation::new(&machine).tolerance(1e-14).method(&TAYLOR).until(10.0);
+    /// let run = run.run(machine.start())?;
+    /// assert!(run.statistics().steps < 60);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn with_series(mut self, series: Result<ProvedSeries, NoSeries>) -> InterpretedMachine {
+        self.series = match series {
+            Ok(series) => Ok(series.series().clone()),
+            Err(reason) => Err(reason.to_string()),
+        };
+        self
     }
 
     /// Sets a parameter, or the value that an input has while nobody sets it. The name of a family
@@ -186,6 +228,8 @@ impl Machine for InterpretedMachine {
                 false => self.parameters.clone(),
             },
             enclosing: RefCell::new(None),
+            series: self.series.clone(),
+            expander: RefCell::new(None),
         }
     }
 
@@ -270,6 +314,22 @@ impl Kernel<f64> for Call<'_> {
     }
 }
 
+/// The expansion of a series, to be run with whatever instructions the processor has.
+struct Expand<'a> {
+    expander: &'a mut Expander<f64>,
+    at: ([f64; 2], &'a [f64], &'a [f64], &'a [f64]),
+}
+
+impl Kernel<f64> for Expand<'_> {
+    type Output = Result<(), program::Singular>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> Self::Output {
+        let (t, q, v, u) = self.at;
+        self.expander.expand::<N>(t, q, v, u)
+    }
+}
+
 impl System for InterpretedSystem {
     type Vector = Vec<f64>;
     type Matrix = Vec<f64>;
@@ -304,6 +364,43 @@ impl System for InterpretedSystem {
             return accelerations_with_friction(self, t, q, v, u, a);
         }
         self.call(Role::Accelerations, at(t, q, v, &u.values), a)
+    }
+
+    fn check_series(&self) -> Result<(), &str> {
+        match &self.series {
+            Ok(_) => Ok(()),
+            Err(reason) => Err(reason),
+        }
+    }
+
+    fn series(
+        &self,
+        t: [f64; 2],
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        u: &Named,
+        coefficients: &mut [Vec<f64>],
+    ) -> Result<(), Singular> {
+        let (Ok(series), Some(order)) = (&self.series, coefficients.len().checked_sub(2)) else {
+            return Ok(());
+        };
+        let mut expander = self.expander.borrow_mut();
+        let known = expander.take().filter(|known| known.order() == order);
+        let expander = expander.insert(known.unwrap_or_else(|| {
+            let parameters = self.interpreter.borrow();
+            Expander::new(series.clone(), parameters.parameters(), order)
+        }));
+        let expanded = f64::run(Expand {
+            expander,
+            at: (t, q, v, &u.values),
+        });
+        expanded.map_err(|singular| where_it_stopped(&self.program, singular))?;
+        for i in 0..q.len() {
+            for (row, c) in coefficients.iter_mut().zip(expander.of_coordinate(i)) {
+                row[i] = *c;
+            }
+        }
+        Ok(())
     }
 
     fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {

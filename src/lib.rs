@@ -64,6 +64,8 @@ pub mod methods;
 mod stages;
 mod stepper;
 mod system;
+#[cfg(feature = "std")]
+mod taylor;
 mod vector;
 
 #[cfg(feature = "interpreter")]
@@ -78,6 +80,8 @@ mod equations;
 mod error;
 #[cfg(feature = "std")]
 mod event;
+#[cfg(feature = "std")]
+mod roots;
 #[cfg(feature = "std")]
 mod run;
 #[cfg(feature = "std")]
@@ -95,7 +99,7 @@ pub use friction::{
 };
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
-pub use methods::{METHODS, Method};
+pub use methods::{METHODS, Method, TAYLOR};
 pub use stepper::{
     DefaultInputs, InputFunction, InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper,
     Tolerance, Work,

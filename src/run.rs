@@ -11,6 +11,7 @@ use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::interpolant::Interpolant;
+use crate::roots;
 use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
@@ -421,7 +422,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if model.plainly_holds(stepper) {
             return Ok(None);
         }
-        for theta in event::LOOKS {
+        let looks = match stepper.coefficients() {
+            None => event::LOOKS.to_vec(),
+            Some(_) => {
+                let interpolant = made(interpolant, stepper, model.system)?;
+                let at = |theta| event::state_at(model.system, stepper, interpolant, theta);
+                model.looks_at_assumptions(stepper.inputs(), at)?
+            }
+        };
+        for theta in looks {
             let Some((index, text)) =
                 model.ended_assumption(event::interpolated_at(stepper, theta))
             else {
@@ -655,8 +664,29 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if self.system.assumptions(t, q, v, stepper.inputs()).len() == 0 {
             return true;
         }
+        // A step by series is bent more than a cubic.
+        if stepper.coefficients().is_some() {
+            return false;
+        }
         let points = stepper.control_points();
         holds(t, q, v) && points.iter().all(|(t, q, v)| holds(*t, q, v))
+    }
+
+    /// Where in a step by series to look at the assumptions: between two looks none of them fails and holds again.
+    fn looks_at_assumptions(
+        &self,
+        inputs: &S::Inputs,
+        at: impl Fn(f64) -> Result<Triple<S::Vector>, Error>,
+    ) -> Result<Vec<f64>, Error> {
+        let (t, q, v) = at(1.0)?;
+        let count = self.system.assumptions(t, &q, &v, inputs).len();
+        let mut looks = Vec::new();
+        for index in 0..count {
+            looks.extend(roots::looks(|theta| Ok(self.margin(index, at(theta)?)))?);
+        }
+        looks.sort_by(f64::total_cmp);
+        looks.dedup();
+        Ok(looks)
     }
 
     /// The first assumption that does not hold: its number and text.

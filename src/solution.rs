@@ -466,9 +466,12 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             potential: run.system.potential_energy(t, &q, &u),
             ..*before
         };
-        let half = 0.5 * (t - before.t);
-        for (node, weight) in GAUSS {
-            let t = before.t + half * (1.0 + node);
+        // In parts, where the motion within a step is of a higher degree.
+        let parts = if run.method.by_series { 4 } else { 1 };
+        let half = 0.5 * (t - before.t) / f64::from(parts);
+        let nodes = (0..parts).flat_map(|part| GAUSS.map(|(x, weight)| (part, x, weight)));
+        for (part, node, weight) in nodes {
+            let t = before.t + half * (f64::from(2 * part) + 1.0 + node);
             let (q, v) = run.project(t, interpolant.state(t))?;
             let mut a = q.zeros_like();
             let u = run
@@ -541,6 +544,9 @@ pub(crate) struct Steps<V> {
     vectors: Vec<V>,
     /// The stages whose accelerations are kept; the first is the beginning.
     kept: Vec<usize>,
+    /// In steps by series their coefficients, so many for each.
+    coefficients: Vec<V>,
+    of_step: usize,
 }
 
 impl<V: Vector> Steps<V> {
@@ -555,6 +561,8 @@ impl<V: Vector> Steps<V> {
             times: Vec::new(),
             vectors: Vec::new(),
             kept: kept.collect(),
+            coefficients: Vec::new(),
+            of_step: 0,
         }
     }
 
@@ -565,6 +573,10 @@ impl<V: Vector> Steps<V> {
     ) {
         self.vectors.truncate(self.times.len() * self.stride());
         self.times.push((stepper.beginning(), stepper.last_step()));
+        if let Some(coefficients) = stepper.coefficients() {
+            self.of_step = coefficients.len();
+            self.coefficients.extend_from_slice(coefficients);
+        }
         self.vectors.push(stepper.q_before().clone());
         self.vectors.push(stepper.v_before().clone());
         for &stage in &self.kept {
@@ -626,6 +638,10 @@ impl<V: Vector> Steps<V> {
         accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Interpolant<V>, StepError> {
         let (start, h) = self.times[step];
+        if self.of_step != 0 {
+            let coefficients = &self.coefficients[step * self.of_step..][..self.of_step];
+            return Ok(Interpolant::of_series(start, h, coefficients));
+        }
         let stride = self.stride();
         let [q0, v0, stages @ ..] = &self.vectors[step * stride..][..stride] else {
             unreachable!("a step has at least three vectors");

@@ -3,6 +3,8 @@
 
 #[cfg(feature = "std")]
 mod implicitly;
+#[cfg(feature = "std")]
+mod in_series;
 
 use core::fmt::{self, Display};
 
@@ -20,6 +22,8 @@ use crate::math::{power, rough_power, sqrt};
 use crate::methods::Tableau;
 use crate::methods::{MAX_STAGES, Method, Row};
 use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
+#[cfg(feature = "std")]
+use crate::taylor::Taylor;
 use crate::{Singular, System, Vector};
 #[cfg(feature = "std")]
 use std::boxed::Box;
@@ -48,12 +52,22 @@ pub trait InputLaw<S: System> {
     /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
     /// before.
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
+
+    /// Whether the inputs are the same at all times and states: then the motion may be expanded in a series. False by
+    /// default.
+    fn is_constant(&self) -> bool {
+        false
+    }
 }
 
 impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
     #[inline(always)]
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
         (**self).set(system, t, q, v, inputs);
+    }
+
+    fn is_constant(&self) -> bool {
+        (**self).is_constant()
     }
 }
 
@@ -64,6 +78,10 @@ pub struct DefaultInputs;
 impl<S: System> InputLaw<S> for DefaultInputs {
     #[inline(always)]
     fn set(&self, _: &S, _: f64, _: &S::Vector, _: &S::Vector, _: &mut S::Inputs) {}
+
+    fn is_constant(&self) -> bool {
+        true
+    }
 }
 
 /// The inputs are what a function makes of time and state: `|t, q, v, u| u.torque = -k * q.theta`.
@@ -128,8 +146,16 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
-    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit, and there
-    /// is no allocator (feature `std`).
+    /// The method is [`TAYLOR`](crate::TAYLOR), and the machine does not know the series of its motion
+    /// ([`System::check_series`]), or it has inputs that change while it runs.
+    NoSeries {
+        /// Whether it is because of the inputs.
+        inputs: bool,
+        /// Time, in s.
+        t: f64,
+    },
+    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit or by
+    /// series, and there is no allocator (feature `std`).
     NoWorkspace {
         /// Time, in s.
         t: f64,
@@ -170,9 +196,16 @@ impl Display for StepError {
                  the size of its terms",
                 constraint + 1
             ),
+            Self::NoSeries { inputs: true, t } => write!(
+                f,
+                "inputs that change while the machine runs have no Taylor series, at t = {t:e} s"
+            ),
+            Self::NoSeries { inputs: false, t } => {
+                write!(f, "the machine has no Taylor series, at t = {t:e} s")
+            }
             Self::NoWorkspace { t } => write!(
                 f,
-                "there is no workspace for the constraints, or for an implicit method, at t = {t:e} s"
+                "there is no workspace for the constraints, or for a method that needs some, at t = {t:e} s"
             ),
             Self::Changed { t } => write!(
                 f,
@@ -201,7 +234,7 @@ pub struct Work {
     pub steps: usize,
     /// Steps tried and given up, since their error was too great.
     pub rejected: usize,
-    /// Evaluations of the accelerations.
+    /// Evaluations of the accelerations, or of their series.
     pub evaluations: usize,
 }
 
@@ -241,6 +274,9 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// None in explicit methods.
     #[cfg(feature = "std")]
     implicit: Option<Box<Implicit>>,
+    /// None in methods that are not by series.
+    #[cfg(feature = "std")]
+    taylor: Option<Box<Taylor<S::Vector>>>,
 }
 
 /// The equations of motion with their inputs.
@@ -284,8 +320,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)))
         };
         #[cfg(not(feature = "std"))]
-        if method.tableau.spectrum.is_some() {
+        if method.tableau.spectrum.is_some() || method.by_series {
             return Err(StepError::NoWorkspace { t });
+        }
+        #[cfg(feature = "std")]
+        if method.by_series {
+            let inputs = !law.is_constant();
+            if inputs || system.check_series().is_err() {
+                return Err(StepError::NoSeries { inputs, t });
+            }
         }
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
@@ -323,7 +366,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             changed: false,
             #[cfg(feature = "std")]
             implicit,
+            #[cfg(feature = "std")]
+            taylor: None,
         };
+        #[cfg(feature = "std")]
+        if method.by_series {
+            stepper.taylor = Some(Box::new(Taylor::new(&stepper.tolerance)));
+            stepper.expand()?;
+        }
         let Self {
             model,
             now,
@@ -404,7 +454,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good
     /// enough to look for events with. It costs no evaluation, where [`interpolant`](Self::interpolant) may.
+    ///
+    /// In a step by Taylor series it is the polynomial of the step, of its order.
     pub fn hermite(&self, theta: f64) -> (S::Vector, S::Vector) {
+        #[cfg(feature = "std")]
+        if let Some(taylor) = &self.taylor {
+            return crate::taylor::state(taylor.of_step(), theta * self.last_step);
+        }
         hermite(
             self.last_step,
             [&self.before.q, &self.now.q],
@@ -619,6 +675,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.newest == stages {
             self.newest = 0;
             self.now.copy_from(&self.before);
+            #[cfg(feature = "std")]
+            if let Some(taylor) = &mut self.taylor {
+                taylor.retreat();
+            }
             self.quadratures.retreat(self.method.tableau.a[stages]);
             self.work.steps -= 1;
             // It was short enough.
@@ -654,6 +714,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             implicit.forget();
         }
         self.changed = false;
+        #[cfg(feature = "std")]
+        if self.taylor.is_some() {
+            return self.expand();
+        }
         Ok(())
     }
 
@@ -664,6 +728,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         }
         if self.changed {
             self.look_again()?;
+        }
+        #[cfg(feature = "std")]
+        if self.taylor.is_some() {
+            self.choose_length()?;
         }
         if self.work.steps == 0 && self.step == 0.0 {
             self.step = self.first_step();
@@ -687,9 +755,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             self.last_step = h;
 
             #[cfg(feature = "std")]
-            let tried = match self.implicit {
-                None => self.attempt(h, last),
-                Some(_) => self.attempt_implicitly(h, last, given_up),
+            let tried = match (&self.implicit, &self.taylor) {
+                (None, None) => self.attempt(h, last),
+                (Some(_), _) => self.attempt_implicitly(h, last, given_up),
+                (None, Some(_)) => self.attempt_in_series(h, last),
             };
             #[cfg(not(feature = "std"))]
             let tried = self.attempt(h, last);
@@ -735,6 +804,15 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// others. The polynomials are on constraints at the ends of the step, and between them as
     /// exactly as the method is; [`project`](Self::project) does the rest.
     pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector>, StepError> {
+        #[cfg(feature = "std")]
+        if let Some(taylor) = &self.taylor {
+            let of_step = taylor.of_step();
+            return Ok(Interpolant::of_series(
+                self.beginning(),
+                self.last_step,
+                of_step,
+            ));
+        }
         let needs_evaluations = self.method.scheme.length > self.method.tableau.stages + 1;
         if self.changed && needs_evaluations {
             return Err(StepError::Changed { t: self.now.t });
@@ -766,6 +844,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.k.swap(0, self.newest);
         self.newest = 0;
         self.before.copy_from(&self.now);
+        #[cfg(feature = "std")]
+        if let Some(taylor) = &mut self.taylor {
+            taylor.begin();
+        }
     }
 
     /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just
@@ -865,6 +947,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     fn accept(&mut self, h: f64) {
         let stages = self.method.tableau.stages;
         self.newest = stages;
+        #[cfg(feature = "std")]
+        if let Some(taylor) = &mut self.taylor {
+            taylor.accept();
+            // Where nothing moves any more, or there are no numbers, it says nothing.
+            let length = taylor.length(&self.tolerance);
+            self.step = if length.is_finite() { length } else { h.abs() }.copysign(h);
+        }
         self.model.accept(&self.now);
         self.quadratures.advance(h, self.method.tableau.a[stages]);
         self.work.steps += 1;

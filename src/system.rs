@@ -302,6 +302,35 @@ pub trait System {
         core::iter::empty()
     }
 
+    /// Whether the machine knows the Taylor series of its motion, [`series`](Self::series); by default it does
+    /// not.
+    ///
+    /// # Errors
+    /// Why not, as the end of a sentence that begins with the machine: `it has constraints`.
+    #[inline(always)]
+    fn check_series(&self) -> Result<(), &str> {
+        Err("its equations of motion were made without one")
+    }
+
+    /// The Taylor series of the motion through a state: row `j` of `coefficients` is to be `q⁽ʲ⁾/j!`, in SI units, for as many
+    /// rows as there are; at least three. The time is the sum of two numbers, the second of which is what rounding took from
+    /// the first. The first two rows are `q` and `v`, and twice the third is the acceleration.
+    ///
+    /// Asked for only where [`check_series`](Self::check_series) is fine.
+    ///
+    /// An error where the mass matrix cannot be inverted.
+    #[inline(always)]
+    fn series(
+        &self,
+        _t: [f64; 2],
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+        _coefficients: &mut [Self::Vector],
+    ) -> Result<(), Singular> {
+        Ok(())
+    }
+
     /// Hands `length` numbers to `work`, whatever they are: the workspace in which a state is projected
     /// onto the constraints, `None` if there is none.
     ///

@@ -244,7 +244,7 @@ pub struct Simulate {
     /// Relative and absolute tolerance of each step.
     #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
     pub tolerance: f64,
-    /// The integration method: dop853, dopri5, bs32, or radau5 for stiff machines.
+    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
     #[arg(long, value_name = "NAME", default_value = "dop853")]
     pub method: String,
     /// How many steps the run may take.

@@ -3,8 +3,9 @@
 use std::cell::Cell;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
-use lagrangian::methods::{METHODS, Method};
+use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Ending, Energies, Error, Machine, Simulation, Solution, System, Warning};
+use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
@@ -97,11 +98,23 @@ impl Trouble<'_> {
 /// # Errors
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
-    let method = method(&call.method)?;
+    let mut method = method(&call.method)?;
     let files = Files::new(call)?;
     let dag = Dag::new();
     let compiled = Reading::open(&call.spec)?.compile_beside(&dag, files.all())?;
-    let machine = reading::machine(&compiled, &call.start)?;
+    let mut machine = reading::machine(&compiled, &call.start)?;
+    if std::ptr::eq(method, &TAYLOR) {
+        progress::now("deriving the series");
+        let series = ProvedSeries::derive(&compiled.model);
+        if let Err(reason) = &series {
+            method = <&Method>::default();
+            output::complain(format_args!(
+                "warning: no Taylor series: {reason}; {} is used",
+                method.tableau.name
+            ));
+        }
+        machine = machine.with_series(series);
+    }
     machine.check_parameters().map_err(|missing| {
         Failure::Run(format!(
             "{missing}; set them with --set {}=…",
@@ -249,7 +262,7 @@ fn overflow(run: &Run) -> Option<String> {
 
 fn method(name: &str) -> Result<&'static Method, Failure> {
     Method::named(name).ok_or_else(|| {
-        let names = || METHODS.iter().map(|method| method.tableau.name);
+        let names = || Method::all().map(|method| method.tableau.name);
         let help = match nearest(name, names()) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),

@@ -14,6 +14,7 @@ pub mod equations;
 pub mod formulas;
 pub mod lower;
 pub mod proof;
+pub mod series;
 
 pub use compile::Compiled;
 pub use equations::{

@@ -46,6 +46,7 @@ mod repeats;
 mod restrict;
 pub mod rounding;
 pub mod schedule;
+pub mod series;
 pub mod solve;
 pub mod stages;
 mod verify;

@@ -2,7 +2,8 @@
 //!
 //! One trait, [`Scalar`], is all that generated code, the interpreter and the evaluator of expressions ask of a number.
 //! A number type decides by itself how exact it is: `f64` rounds, [`DoubleDouble`] rounds far later, [`Interval`] encloses,
-//! [`Ball`] bounds its error, [`Dual`] carries a derivative, [`Residue`] is exact in a prime field and so proves identities.
+//! [`Ball`] bounds its error, [`Dual`] carries a derivative, [`Jet`] a
+//! truncated power series, [`Residue`] is exact in a prime field and so proves identities.
 #![no_std]
 
 pub mod ball;
@@ -10,6 +11,7 @@ pub mod double_double;
 pub mod dual;
 mod exact;
 pub mod interval;
+pub mod jet;
 mod kernel;
 mod real;
 pub mod residue;
@@ -20,6 +22,7 @@ pub use ball::Ball;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 pub use interval::Interval;
+pub use jet::Jet;
 pub use kernel::{Kernel, Piece};
 pub use residue::Residue;
 

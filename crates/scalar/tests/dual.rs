@@ -4,7 +4,7 @@
 mod common;
 
 use common::Random;
-use lagrangian_scalar::{DoubleDouble, Dual, Residue, Scalar};
+use lagrangian_scalar::{DoubleDouble, Dual, Jet, Residue, Scalar};
 
 type Function<S> = fn(S) -> S;
 
@@ -118,4 +118,48 @@ fn what_is_undefined_shows() {
     assert!(Dual::variable(2.0).exceeds(Dual::ONE));
     assert_eq!(Dual::<f64>::pi().to_f64(), core::f64::consts::PI);
     assert!(Dual::variable(1.5).powi(i32::MIN).is_finite());
+}
+
+/// The coefficients of a jet are derivatives over factorials: those of nested dual numbers, which know nothing of
+/// series, exactly in the prime field where it has the function, and to 32 digits elsewhere.
+#[test]
+fn jets_are_derivatives_over_factorials() {
+    type Third<S> = Dual<Dual<Dual<S>>>;
+    fn third<S: Scalar>(x: S) -> Third<S> {
+        let inner = Dual::variable(x);
+        let middle = Dual {
+            value: inner,
+            derivative: Dual::constant(S::ONE),
+        };
+        Dual {
+            value: middle,
+            derivative: Dual::constant(Dual::constant(S::ONE)),
+        }
+    }
+    fn coefficients<S: Scalar>(of: Third<S>) -> [S; 4] {
+        [
+            of.value.value.value,
+            of.value.value.derivative,
+            of.value.derivative.derivative * S::from_ratio(1, 2),
+            of.derivative.derivative.derivative * S::from_ratio(1, 6),
+        ]
+    }
+    let mut random = Random(17);
+    let jets = functions::<Jet<DoubleDouble, 4>>();
+    let duals = functions::<Third<DoubleDouble>>();
+    for ((name, jet, low, high), (_, dual, ..)) in jets.into_iter().zip(duals) {
+        for _ in 0..20 {
+            let x = DoubleDouble::from(random.between(low, high));
+            let found = jet(Jet::variable(x)).0;
+            for (k, exact) in coefficients(dual(third(x))).into_iter().enumerate() {
+                let difference = (found[k] - exact).to_f64().abs();
+                let size = 1.0 + exact.to_f64().abs();
+                assert!(difference < 1e-25 * size, "{name} at {x:?}: order {k}");
+            }
+        }
+    }
+    let x = Residue::random(3, 1);
+    let function = |x: Jet<Residue, 4>| x.sin() * x.cos() / (x * x + Scalar::from_ratio(1, 3));
+    let dual = |x: Third<Residue>| x.sin() * x.cos() / (x * x + Scalar::from_ratio(1, 3));
+    assert_eq!(function(Jet::variable(x)).0, coefficients(dual(third(x))));
 }

@@ -8,7 +8,7 @@ use lagrangian_program::rounding::SplitMix;
 
 /// What is seen of a number that ought to be 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sight {
+pub(crate) enum Sight {
     Zero,
     NotZero,
     /// Rounding hides it.
@@ -16,7 +16,7 @@ pub(super) enum Sight {
 }
 
 /// A number in which values can be compared.
-pub(super) trait Number: Scalar<Stored = Self> {
+pub(crate) trait Number: Scalar<Stored = Self> {
     /// Whether there are positive and negative numbers. A field has two roots of everything, and
     /// cannot say which of them is meant.
     const IS_ORDERED: bool;

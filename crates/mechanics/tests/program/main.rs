@@ -12,4 +12,5 @@ mod lowering;
 mod machines;
 mod proved;
 mod running;
+mod series;
 mod stages;

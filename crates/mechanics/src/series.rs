@@ -1,0 +1,166 @@
+//! The Taylor series of a machine's motion, proved.
+//!
+//! The equations of motion in the form of `residual.rs` become the rows of a [`Series`]. Its first coefficients are put into
+//! Lagrange's equations, evaluated literally over [`Jet`]s: truncated power series in time. What these equations leave,
+//! along one direction drawn at random, must vanish in every coefficient. The numbers are those of the prime field first;
+//! where the machine has functions of which the field knows no laws, and wherever it objects, `Ball`s, as for
+//! [programs](crate::Proved).
+
+mod lower;
+mod residual;
+
+use std::ops::Deref;
+use std::sync::Arc;
+
+use lagrangian_program::series::{Expander, NoSeries, Series};
+use lagrangian_scalar::{Ball, Jet, Residue};
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Function as Call, Node, reachable};
+
+use crate::equations::literal::{Lagrange, State};
+use crate::proof::number::{Number, Sight};
+use crate::{POINTS, STATES};
+
+/// How many coefficients of the equations are compared. A recurrence is one rule for all orders; five see both
+/// halves of every square, and every term of a sum that leaves out its ends.
+const ORDERS: usize = 5;
+
+/// The most states to try.
+const MOST_STATES: u64 = 96;
+
+/// A series of which it is known that it obeys the equations of motion of its machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProvedSeries(Arc<Series>);
+
+impl ProvedSeries {
+    /// Derives the series of a machine's motion, and proves it.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn derive(model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
+        ProvedSeries::new(lower::series(model)?, model)
+    }
+
+    /// Proves a series of a machine's motion.
+    ///
+    /// # Errors
+    /// If it does not obey the equations of motion, or no state was found to tell by.
+    pub fn new(series: Series, model: &Model<'_>) -> Result<ProvedSeries, NoSeries> {
+        let series = Arc::new(series);
+        match is_proved(&series, model) {
+            true => Ok(ProvedSeries(series)),
+            false => Err(NoSeries::Unproved),
+        }
+    }
+
+    /// The series.
+    pub fn series(&self) -> &Arc<Series> {
+        &self.0
+    }
+}
+
+impl Deref for ProvedSeries {
+    type Target = Series;
+    fn deref(&self) -> &Series {
+        &self.0
+    }
+}
+
+/// Whether a series obeys the equations of motion of its machine.
+fn is_proved(series: &Arc<Series>, model: &Model<'_>) -> bool {
+    // A machine with constraints of velocities has no series.
+    let machine = Lagrange::of(model, |_| true);
+    let nodes = reachable(model.dag, &machine.roots);
+    let is_smooth = nodes.iter().all(|&id| match model.dag.node(id) {
+        Node::Function(call, _) => matches!(call, Call::Sin | Call::Cos),
+        _ => true,
+    });
+    match compare::<Residue>(series, &machine, POINTS) {
+        Some(true) if is_smooth => true,
+        _ => compare::<Ball>(series, &machine, STATES) == Some(true),
+    }
+}
+
+/// Whether the equations hold at so many states; nothing where there are not so many at which they have a value.
+fn compare<R: Number>(
+    series: &Arc<Series>,
+    machine: &Lagrange<'_, '_>,
+    states: usize,
+) -> Option<bool> {
+    let mut good = 0;
+    for number in 0..MOST_STATES {
+        let at = R::state(number, machine);
+        let w = (0..at.q.len() as u64).map(|i| R::random(number + 7919, i));
+        let w: Vec<R> = w.collect();
+        match holds(series, machine, &at, &w) {
+            Some(false) => return Some(false),
+            Some(true) => good += 1,
+            None => {}
+        }
+        if good == states {
+            return Some(true);
+        }
+    }
+    None
+}
+
+/// Whether the equations hold at a state along a direction; nothing where they have no value.
+fn holds<R: Number>(
+    series: &Arc<Series>,
+    machine: &Lagrange<'_, '_>,
+    at: &State<R>,
+    w: &[R],
+) -> Option<bool> {
+    let mut expander = Expander::new(series.clone(), &at.parameters, ORDERS);
+    let t = [at.t, R::ZERO];
+    expander.expand::<R>(t, &at.q, &at.v, &at.u).ok()?;
+    let number = |j: usize| R::from_ratio(j as i64, 1);
+    let jets = |derivative: usize| -> Vec<Jet<R, ORDERS>> {
+        let of = |i: usize| {
+            let q = expander.of_coordinate(i);
+            Jet(std::array::from_fn(|k| match derivative {
+                0 => q[k],
+                1 => number(k + 1) * q[k + 1],
+                _ => number(k + 1) * number(k + 2) * q[k + 2],
+            }))
+        };
+        (0..at.q.len()).map(of).collect()
+    };
+    let constants =
+        |list: &[R]| -> Vec<Jet<R, ORDERS>> { list.iter().map(|&x| Jet::constant(x)).collect() };
+    let moving = State {
+        t: Jet::variable(at.t),
+        q: jets(0),
+        v: jets(1),
+        a: jets(2),
+        u: constants(&at.u),
+        parameters: constants(&at.parameters),
+    };
+    let literal = machine.at(&moving, &constants(w));
+    let mut pairs: Vec<(R, R, f64)> = Vec::new();
+    let mut held = literal.applied;
+    for (k, constraint) in literal.constraints.iter().enumerate() {
+        let series = expander.of_multiplier(k);
+        held = held + Jet(std::array::from_fn(|order| series[order])) * constraint.along;
+        // Accelerations and velocity products cancel in it: these are its size.
+        for (order, rate) in constraint.acceleration.0.into_iter().enumerate() {
+            let sizes = moving.a.iter().map(|a| a.0[order].size());
+            pairs.push((rate, R::ZERO, 1.0 + sizes.sum::<f64>()));
+        }
+    }
+    for (inertia, held) in std::iter::zip(literal.inertia.0, held.0) {
+        pairs.push((inertia, held, inertia.size() + held.size()));
+    }
+    for (found, expected, size) in pairs {
+        let left = found - expected;
+        if !left.is_finite() {
+            return None;
+        }
+        match left.look(size) {
+            Sight::Zero => {}
+            Sight::NotZero => return Some(false),
+            Sight::Hidden => return None,
+        }
+    }
+    Some(true)
+}

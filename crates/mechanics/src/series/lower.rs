@@ -1,0 +1,368 @@
+//! From expressions to rows.
+
+use lagrangian_program::series::{Level, MOST_ROWS, NoSeries, Row, RowId, Series};
+use lagrangian_spec::model::Model;
+use lagrangian_symbolic::{Dag, Expr, Function as Call, Id, Node, Rational, Symbol, reachable};
+use rustc_hash::FxHashMap;
+
+use super::residual::{Derivative, residual, split};
+
+/// The series of a machine's motion, not yet proved.
+pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
+    let residual = residual(model)?;
+    let mut lowering = Lowering::of(model, &residual.derivatives);
+    for (k, multiplier) in (model.coordinates.len() as u32..).zip(&residual.multipliers) {
+        lowering.sources.insert(*multiplier, Row::Acceleration(k));
+    }
+    let mut residuals = Vec::new();
+    for &row in &residual.rows {
+        residuals.push(lowering.expression(row)?);
+    }
+    let Lowering { rows, levels, .. } = lowering;
+    let series = Series {
+        depends: vec![Vec::new(); rows.len()],
+        rows,
+        levels,
+        residuals,
+        coordinates: model.coordinates.len(),
+        parameters: model.parameters.len(),
+        inputs: model.inputs.len(),
+    };
+    series.pruned().with_dependences()
+}
+
+/// Expressions on their way to rows.
+struct Lowering<'m, 'd> {
+    dag: &'d Dag,
+    derivatives: &'m FxHashMap<Symbol, Derivative<'d>>,
+    sources: FxHashMap<Symbol, Row>,
+    rows: Vec<Row>,
+    levels: Vec<Level>,
+    /// The rows by what they are: nothing is computed twice.
+    known: FxHashMap<Row, RowId>,
+    of_node: FxHashMap<Id, RowId>,
+}
+
+impl<'m, 'd> Lowering<'m, 'd> {
+    fn of(
+        model: &Model<'d>,
+        derivatives: &'m FxHashMap<Symbol, Derivative<'d>>,
+    ) -> Lowering<'m, 'd> {
+        let mut sources = FxHashMap::default();
+        let mut set = |e: Expr<'d>, row: Row| sources.extend(e.as_symbol().map(|key| (key, row)));
+        set(model.time, Row::Time);
+        for (i, parameter) in (0..).zip(&model.parameters) {
+            set(parameter.symbol, Row::Parameter(i));
+        }
+        for (i, input) in (0..).zip(&model.inputs) {
+            set(input.symbol, Row::Input(i));
+        }
+        for (i, coordinate) in (0..).zip(&model.coordinates) {
+            set(coordinate.q, Row::Coordinate(i));
+            set(coordinate.v, Row::Rate(i));
+            set(coordinate.a, Row::Acceleration(i));
+        }
+        Lowering {
+            dag: model.dag,
+            derivatives,
+            sources,
+            rows: Vec::new(),
+            levels: Vec::new(),
+            known: FxHashMap::default(),
+            of_node: FxHashMap::default(),
+        }
+    }
+
+    /// The row of an expression; those of all its parts first.
+    fn expression(&mut self, e: Expr<'d>) -> Result<RowId, NoSeries> {
+        for id in reachable(self.dag, &[e]) {
+            if !self.of_node.contains_key(&id) {
+                let row = self.node(id)?;
+                self.of_node.insert(id, row);
+            }
+        }
+        Ok(self.of_node[&e.id()])
+    }
+
+    fn node(&mut self, id: Id) -> Result<RowId, NoSeries> {
+        match self.dag.node(id) {
+            Node::Constant(value) => self.push(Row::Number(value)),
+            Node::Pi => self.push(Row::Pi),
+            Node::Symbol(symbol) => match self.derivatives.get(&symbol) {
+                // Positions hold no derivatives: this goes one level deep.
+                Some(&Derivative { of, twice }) => {
+                    let of = self.expression(of)?;
+                    self.push(if twice {
+                        Row::Second(of)
+                    } else {
+                        Row::First(of)
+                    })
+                }
+                None => match self.sources.get(&symbol) {
+                    Some(row) => self.push(row.clone()),
+                    None => Err(NoSeries::NotLinear),
+                },
+            },
+            Node::Sum(terms) => {
+                let mut sum = Vec::new();
+                for (term, coefficient) in terms.iter() {
+                    let coefficient = match coefficient.is_one() {
+                        true => None,
+                        false => Some(self.push(Row::Number(coefficient.clone()))?),
+                    };
+                    self.add_term(&mut sum, coefficient, *term)?;
+                }
+                self.sum(sum)
+            }
+            Node::Product(factors) => match split(self.dag, &factors) {
+                (Some(constant), varying) if !varying.is_one() => {
+                    let mut sum = Vec::new();
+                    let constant = self.expression(constant)?;
+                    let varying = self.expression(varying)?;
+                    self.add_row(&mut sum, Some(constant), varying)?;
+                    self.sum(sum)
+                }
+                _ => self.product(&factors),
+            },
+            Node::Function(call, arguments) => {
+                let arguments: Vec<RowId> = arguments.iter().map(|id| self.of_node[id]).collect();
+                self.function(
+                    call,
+                    arguments[0],
+                    *arguments.last().unwrap_or(&arguments[0]),
+                )
+            }
+        }
+    }
+
+    /// Adds `coefficient·term` to a sum, factors that do not change being taken out of the term.
+    fn add_term(
+        &mut self,
+        sum: &mut Vec<(Option<RowId>, RowId)>,
+        coefficient: Option<RowId>,
+        term: Id,
+    ) -> Result<(), NoSeries> {
+        let row = self.of_node[&term];
+        self.add_row(sum, coefficient, row)
+    }
+
+    /// The same of a row; a row that is a multiple of another, or a sum, adds its terms.
+    fn add_row(
+        &mut self,
+        sum: &mut Vec<(Option<RowId>, RowId)>,
+        coefficient: Option<RowId>,
+        row: RowId,
+    ) -> Result<(), NoSeries> {
+        let varies = self.levels[row.index()] > Level::Constant;
+        let terms = match &self.rows[row.index()] {
+            Row::Sum(terms) if varies && terms.len() == 1 => terms.clone(),
+            _ => vec![(None, row)],
+        };
+        for (inner, row) in terms {
+            let coefficient = match (coefficient, inner) {
+                (Some(a), Some(b)) => Some(self.push(Row::Product(a, b))?),
+                (a, b) => a.or(b),
+            };
+            sum.push((coefficient, row));
+        }
+        Ok(())
+    }
+
+    /// A sum in which each row stands once.
+    fn sum(&mut self, terms: Vec<(Option<RowId>, RowId)>) -> Result<RowId, NoSeries> {
+        let mut gathered: Vec<(RowId, Vec<Option<RowId>>)> = Vec::new();
+        let mut place: FxHashMap<RowId, usize> = FxHashMap::default();
+        for (coefficient, row) in terms {
+            let at = *place.entry(row).or_insert_with(|| {
+                gathered.push((row, Vec::new()));
+                gathered.len() - 1
+            });
+            gathered[at].1.push(coefficient);
+        }
+        let mut sum = Vec::new();
+        for (row, coefficients) in gathered {
+            let coefficient = match coefficients[..] {
+                [one] => one,
+                _ => {
+                    let one = self.push(Row::Number(Rational::ONE))?;
+                    let terms = coefficients.into_iter().map(|c| (None, c.unwrap_or(one)));
+                    Some(self.push(Row::Sum(terms.collect()))?)
+                }
+            };
+            sum.push((coefficient, row));
+        }
+        match sum[..] {
+            [(None, row)] => Ok(row),
+            _ => self.push(Row::Sum(sum)),
+        }
+    }
+
+    /// Powers of rows, multiplied; what depends on less first, so that more is shared and no order waits long.
+    fn product(&mut self, factors: &[(Id, i32)]) -> Result<RowId, NoSeries> {
+        let mut above = Vec::new();
+        let mut below = Vec::new();
+        for &(id, power) in factors {
+            let row = self.power(self.of_node[&id], power.unsigned_abs())?;
+            if power > 0 { &mut above } else { &mut below }.push(row);
+        }
+        let above = self.multiplied(above)?;
+        match self.multiplied(below)? {
+            None => match above {
+                Some(row) => Ok(row),
+                None => self.push(Row::Number(Rational::ONE)),
+            },
+            Some(under) => {
+                let over = match above {
+                    Some(row) => row,
+                    None => self.push(Row::Number(Rational::ONE))?,
+                };
+                self.push(Row::Quotient(over, under))
+            }
+        }
+    }
+
+    fn multiplied(&mut self, mut rows: Vec<RowId>) -> Result<Option<RowId>, NoSeries> {
+        rows.sort_by_key(|row| (self.levels[row.index()], *row));
+        let mut rows = rows.into_iter();
+        let Some(mut product) = rows.next() else {
+            return Ok(None);
+        };
+        for row in rows {
+            product = match row == product {
+                true => self.push(Row::Square(row))?,
+                false => self.push(Row::Product(product, row))?,
+            };
+        }
+        Ok(Some(product))
+    }
+
+    /// A positive power, by squaring.
+    fn power(&mut self, row: RowId, exponent: u32) -> Result<RowId, NoSeries> {
+        let (mut square, mut left) = (row, exponent);
+        let mut product = None;
+        loop {
+            if left & 1 == 1 {
+                product = Some(match product {
+                    None => square,
+                    Some(product) => self.push(Row::Product(product, square))?,
+                });
+            }
+            left >>= 1;
+            match (left, product) {
+                (0, Some(product)) => return Ok(product),
+                (0, None) => return self.push(Row::Number(Rational::ONE)),
+                _ => square = self.push(Row::Square(square))?,
+            }
+        }
+    }
+
+    fn function(&mut self, call: Call, a: RowId, b: RowId) -> Result<RowId, NoSeries> {
+        let [level_a, level_b] = [a, b].map(|row| self.levels[row.index()]);
+        if level_a.max(level_b) == Level::Constant {
+            return self.push(Row::Constant(call, a, b));
+        }
+        let one = Row::Number(Rational::ONE);
+        match call {
+            Call::Sin => Ok(self.pair(a, Row::Sin, Row::Cos)?[0]),
+            Call::Cos => Ok(self.pair(a, Row::Sin, Row::Cos)?[1]),
+            Call::Sinh => Ok(self.pair(a, Row::Sinh, Row::Cosh)?[0]),
+            Call::Cosh => Ok(self.pair(a, Row::Sinh, Row::Cosh)?[1]),
+            Call::Tanh => {
+                let next = RowId(self.rows.len() as u32 + 1);
+                let candidate = Row::Tanh(a, next);
+                if let Some(known) = self.tanh_of(a) {
+                    return Ok(known);
+                }
+                let tanh = self.push(candidate)?;
+                self.push(Row::TanhSlope(tanh))?;
+                Ok(tanh)
+            }
+            Call::Exp => self.push(Row::Exp(a)),
+            Call::Sqrt => self.push(Row::Sqrt(a)),
+            Call::Ln => self.push(Row::Primitive(call, a, a)),
+            Call::Atan => {
+                let (one, square) = (self.push(one)?, self.push(Row::Square(a))?);
+                let slope = self.push(Row::Sum(vec![(None, one), (None, square)]))?;
+                self.push(Row::Primitive(call, a, slope))
+            }
+            Call::Asin | Call::Acos => {
+                let minus = self.push(Row::Number(Rational::MINUS_ONE))?;
+                let (one, square) = (self.push(one)?, self.push(Row::Square(a))?);
+                let inside = self.push(Row::Sum(vec![(None, one), (Some(minus), square)]))?;
+                let mut slope = self.push(Row::Sqrt(inside))?;
+                if call == Call::Acos {
+                    slope = self.push(Row::Sum(vec![(Some(minus), slope)]))?;
+                }
+                self.push(Row::Primitive(call, a, slope))
+            }
+            Call::Atan2 => {
+                let squares = [self.push(Row::Square(a))?, self.push(Row::Square(b))?];
+                let over = self.push(Row::Sum(squares.map(|square| (None, square)).to_vec()))?;
+                self.push(Row::Atan2(a, b, over))
+            }
+            Call::Pow if level_b == Level::Constant => self.push(Row::Power(a, b)),
+            Call::Pow => {
+                let ln = match level_a {
+                    Level::Constant => self.push(Row::Constant(Call::Ln, a, a))?,
+                    _ => self.push(Row::Primitive(Call::Ln, a, a))?,
+                };
+                let exponent = self.push(Row::Product(ln, b))?;
+                self.push(Row::Exp(exponent))
+            }
+            Call::Tan | Call::Abs | Call::Sign | Call::Min | Call::Max => {
+                Err(NoSeries::Function(call))
+            }
+        }
+    }
+
+    fn tanh_of(&self, a: RowId) -> Option<RowId> {
+        let is = |row: &Row| matches!(row, Row::Tanh(of, _) if *of == a);
+        let found = self.rows.iter().position(is);
+        found.map(|index| RowId(index as u32))
+    }
+
+    /// Two rows that are each other's derivatives.
+    fn pair(
+        &mut self,
+        a: RowId,
+        first: fn(RowId, RowId) -> Row,
+        second: fn(RowId, RowId) -> Row,
+    ) -> Result<[RowId; 2], NoSeries> {
+        // The first of a pair is known by its argument and a partner that is the row behind it.
+        let next = self.rows.len() as u32;
+        let places = [RowId(next), RowId(next + 1)];
+        let key = first(a, a);
+        if let Some(&known) = self.known.get(&key) {
+            return Ok([known, RowId(known.0 + 1)]);
+        }
+        self.push(first(a, places[1]))?;
+        self.push(second(a, places[0]))?;
+        self.known.insert(key, places[0]);
+        Ok(places)
+    }
+
+    fn push(&mut self, row: Row) -> Result<RowId, NoSeries> {
+        if let Some(&known) = self.known.get(&row) {
+            return Ok(known);
+        }
+        if self.rows.len() == MOST_ROWS {
+            return Err(NoSeries::TooLarge);
+        }
+        let mut level = match row {
+            Row::Time | Row::Coordinate(_) | Row::Input(_) => Level::Position,
+            Row::Rate(_) | Row::First(_) => Level::Rate,
+            Row::Acceleration(_) | Row::Second(_) => Level::Acceleration,
+            _ => Level::Constant,
+        };
+        row.for_each_operand(|operand| {
+            if let Some(&of) = self.levels.get(operand.index()) {
+                level = level.max(of);
+            }
+        });
+        let id = RowId(self.rows.len() as u32);
+        self.known.insert(row.clone(), id);
+        self.rows.push(row);
+        self.levels.push(level);
+        Ok(id)
+    }
+}

@@ -1,0 +1,265 @@
+//! From a model to its equations of motion in the form that series need.
+//!
+//! ```text
+//! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ − Σ λ ∂g/∂qᵢ
+//! ```
+//!
+//! over scalar positions `p(q, t)` of constant weights `w`: coordinates of mass centres, angles in the plane, and in space
+//! the components of a body's axes, weighted by its pseudo-inertia `J = ½ tr(I) 1 − I`: `½ ωᵀI ω = ½ Σ Jₖₗ ėₖ·ėₗ`. Second
+//! derivatives stand as symbols of their own and are not expanded: in a series `p̈` follows from `p` without a product.
+//! That the sum is Lagrange's equation is shown in `equations/projected.rs`; J. M. Hollerbach, *A recursive
+//! Lagrangian formulation of manipulator dynamics*, IEEE Trans. SMC 10 (1980) 730–736, has it with the matrices of the poses.
+
+use lagrangian_symbolic::{Dag, Expr, Id, Node, Symbol, reverse};
+use rustc_hash::FxHashMap;
+
+use lagrangian_program::series::NoSeries;
+use lagrangian_spec::model::element::{Constraint, Energy, Load};
+use lagrangian_spec::model::{Body, Inertia, Model, Rotation, Space, stage};
+
+/// The residuals of the equations of motion, and what the symbols in them stand for.
+pub(super) struct Residual<'d> {
+    /// One for each coordinate, then one for each constraint: linear in accelerations and multipliers.
+    pub rows: Vec<Expr<'d>>,
+    /// The symbols of the multipliers.
+    pub multipliers: Vec<Symbol>,
+    /// Symbols that stand for the first or second derivative of an expression of coordinates and time.
+    pub derivatives: FxHashMap<Symbol, Derivative<'d>>,
+}
+
+/// A derivative with respect to time.
+#[derive(Clone, Copy)]
+pub(super) struct Derivative<'d> {
+    pub of: Expr<'d>,
+    pub twice: bool,
+}
+
+/// The residuals of a machine's equations of motion.
+pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> {
+    if !model.approximations.is_empty() {
+        return Err(NoSeries::Approximations);
+    }
+    if !model.sliding().is_empty() {
+        return Err(NoSeries::Friction);
+    }
+    let constraints = model.constraints();
+    let of_velocities = |c: &&Constraint<'d>| c.expression.stage() > stage::POSITION;
+    if !model.rolling().is_empty() || constraints.iter().any(of_velocities) {
+        return Err(NoSeries::Constraints);
+    }
+    let dag = model.dag;
+    let mut rates = Rates::of(model);
+    // What acts on functions of positions: load·∂node/∂qᵢ; and of rates: load·∂node/∂vᵢ.
+    let (mut on_positions, mut on_rates) = (Vec::new(), Vec::new());
+    for body in &model.bodies {
+        for (k, &at) in body.at.iter().enumerate() {
+            let fall = model.gravity().map_or(dag.zero(), |g| g[k]);
+            on_positions.push((at, body.mass * (rates.second(at) - fall)));
+        }
+        turning(model, body, &mut rates, &mut on_positions);
+    }
+    for energy in model.stored() {
+        match energy {
+            Energy::Quadratic(deformation) => {
+                let (k, s) = (deformation.coefficient, deformation.measure);
+                on_positions.push((s, k * s));
+                on_positions.push((k, s.square() / 2));
+            }
+            Energy::Given(value) => on_positions.push((*value, dag.one())),
+        }
+    }
+    for energy in model.dissipated() {
+        match energy {
+            Energy::Quadratic(deformation) => {
+                let (b, s) = (deformation.coefficient, deformation.measure);
+                let rate = rates.first(s);
+                on_positions.push((s, b * rate));
+                on_rates.push((b, rate.square() / 2));
+            }
+            Energy::Given(value) => on_rates.push((*value, dag.one())),
+        }
+    }
+    let mut direct = vec![Vec::new(); model.coordinates.len()];
+    for load in model.loads() {
+        match load {
+            Load::Point { at, force } => {
+                let components = at.iter().zip(force);
+                on_positions.extend(components.map(|(&at, &force)| (at, -force)));
+            }
+            Load::Coordinate { coordinate, value } => direct[*coordinate].push(-*value),
+            Load::Torque { body, torque } => {
+                let body = &model.bodies[*body];
+                match (model.space, &body.rotation) {
+                    (Space::Plane, _) => {
+                        let angle = planar_angle(model, body);
+                        on_positions.extend(angle.map(|angle| (angle, -torque[0])));
+                    }
+                    // The turn is ½ Σ e × δe, along the ground's axes.
+                    (Space::Space, &Rotation::Frame(pose)) => {
+                        for e in &model.poses[pose.index()].axes {
+                            for k in 0..3 {
+                                let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+                                on_positions.push((e[last], -torque[k] * e[next] / 2));
+                                on_positions.push((e[next], torque[k] * e[last] / 2));
+                            }
+                        }
+                    }
+                    (Space::Space, _) => {}
+                }
+            }
+        }
+    }
+    // M a = f + Gᵀ λ, and with the other sign, for the matrix to be symmetric, −d²g/dt² = 0.
+    let (mut multipliers, mut held) = (Vec::new(), Vec::new());
+    for (k, constraint) in constraints.iter().enumerate() {
+        let multiplier = dag.symbol(&format!("multiplier {k}"), stage::ACCELERATION);
+        multipliers.extend(multiplier.as_symbol());
+        on_positions.push((constraint.expression, -multiplier));
+        held.push(-rates.second(constraint.expression));
+    }
+    let symbols = |of: fn(&lagrangian_spec::model::Coordinate<'d>) -> Expr<'d>| -> Vec<Symbol> {
+        let coordinates = model.coordinates.iter();
+        coordinates.filter_map(|c| of(c).as_symbol()).collect()
+    };
+    let acts = |(_, load): &(Expr<'d>, Expr<'d>)| !load.is_zero();
+    on_positions.retain(acts);
+    on_rates.retain(acts);
+    let by_positions = reverse(dag, &on_positions, &symbols(|c| c.q));
+    let by_rates = reverse(dag, &on_rates, &symbols(|c| c.v));
+    let all = by_positions.into_iter().zip(by_rates).zip(direct);
+    let rows = all.map(|((q, v), direct)| dag.sum([q, v].into_iter().chain(direct)));
+    Ok(Residual {
+        rows: rows.chain(held).collect(),
+        derivatives: rates.derivatives,
+        multipliers,
+    })
+}
+
+/// The loads that resist the turning of a body.
+fn turning<'d>(
+    model: &Model<'d>,
+    body: &Body<'d>,
+    rates: &mut Rates<'_, 'd>,
+    loads: &mut Vec<(Expr<'d>, Expr<'d>)>,
+) {
+    match (&body.inertia, &body.rotation) {
+        (&Inertia::Planar(inertia), _) => {
+            if let Some(angle) = planar_angle(model, body) {
+                loads.push((angle, inertia * rates.second(angle)));
+            }
+        }
+        (&Inertia::Tensor([xx, yy, zz, xy, xz, yz]), &Rotation::Frame(pose)) => {
+            let axes = &model.poses[pose.index()].axes;
+            let half = |a: Expr<'d>, b: Expr<'d>, c: Expr<'d>| (a + b - c) / 2;
+            let pseudo = [
+                [half(yy, zz, xx), -xy, -xz],
+                [-xy, half(zz, xx, yy), -yz],
+                [-xz, -yz, half(xx, yy, zz)],
+            ];
+            for (k, row) in pseudo.iter().enumerate() {
+                for component in 0..3 {
+                    let terms = row.iter().zip(axes);
+                    let terms = terms.map(|(&j, axis)| match j.is_zero() {
+                        true => j,
+                        false => j * rates.second(axis[component]),
+                    });
+                    let terms: Vec<Expr<'d>> = terms.collect();
+                    loads.push((axes[k][component], model.dag.sum(terms)));
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn planar_angle<'d>(model: &Model<'d>, body: &Body<'d>) -> Option<Expr<'d>> {
+    match body.rotation {
+        Rotation::Unspecified => None,
+        Rotation::Angle(angle) => Some(angle),
+        Rotation::Frame(pose) => Some(model.poses[pose.index()].angle),
+    }
+}
+
+/// Derivatives of positions with respect to time, as linear sums over symbols that stand for derivatives.
+struct Rates<'m, 'd> {
+    model: &'m Model<'d>,
+    /// The first and second derivatives of coordinates and time.
+    known: FxHashMap<Id, [Expr<'d>; 2]>,
+    derivatives: FxHashMap<Symbol, Derivative<'d>>,
+}
+
+impl<'m, 'd> Rates<'m, 'd> {
+    fn of(model: &'m Model<'d>) -> Rates<'m, 'd> {
+        let dag = model.dag;
+        let coordinates = model.coordinates.iter().map(|c| (c.q.id(), [c.v, c.a]));
+        let time = (model.time.id(), [dag.one(), dag.zero()]);
+        Rates {
+            model,
+            known: coordinates.chain([time]).collect(),
+            derivatives: FxHashMap::default(),
+        }
+    }
+
+    fn first(&mut self, position: Expr<'d>) -> Expr<'d> {
+        self.linear(position, false)
+    }
+
+    fn second(&mut self, position: Expr<'d>) -> Expr<'d> {
+        self.linear(position, true)
+    }
+
+    /// The derivative of a sum, with factors that do not change taken out. No call on a child: text may nest as deep
+    /// as it likes.
+    fn linear(&mut self, position: Expr<'d>, twice: bool) -> Expr<'d> {
+        let dag = self.model.dag;
+        let mut terms = Vec::new();
+        let mut open = vec![(dag.one(), position)];
+        while let Some((coefficient, e)) = open.pop() {
+            if e.stage() <= stage::PARAMETER {
+                continue;
+            }
+            if let Some(known) = self.known.get(&e.id()) {
+                terms.push(coefficient * known[usize::from(twice)]);
+                continue;
+            }
+            match e.node() {
+                Node::Sum(parts) => {
+                    for (part, c) in parts.iter() {
+                        open.push((coefficient * dag.constant(c.clone()), dag.expr(*part)));
+                    }
+                }
+                Node::Product(factors) => match split(dag, &factors) {
+                    (Some(constant), varying) => open.push((coefficient * constant, varying)),
+                    (None, _) => terms.push(coefficient * self.symbol(e, twice)),
+                },
+                _ => terms.push(coefficient * self.symbol(e, twice)),
+            }
+        }
+        dag.sum(terms)
+    }
+
+    /// The symbol that stands for a derivative.
+    fn symbol(&mut self, of: Expr<'d>, twice: bool) -> Expr<'d> {
+        let (mark, stage) = match twice {
+            false => ("d", stage::VELOCITY),
+            true => ("dd", stage::ACCELERATION),
+        };
+        // No name of a spec has a space in it.
+        let name = format!("{mark} of {}", of.id().index());
+        let symbol = self.model.dag.symbol(&name, stage);
+        if let Some(key) = symbol.as_symbol() {
+            self.derivatives.insert(key, Derivative { of, twice });
+        }
+        symbol
+    }
+}
+
+/// The factors that do not change, if there are any, and the others.
+pub(super) fn split<'d>(dag: &'d Dag, factors: &[(Id, i32)]) -> (Option<Expr<'d>>, Expr<'d>) {
+    let power = |&(id, n): &(Id, i32)| dag.expr(id).powi(n);
+    let is_constant = |(id, _): &&(Id, i32)| dag.expr(*id).stage() <= stage::PARAMETER;
+    let (constant, varying): (Vec<_>, Vec<_>) = factors.iter().partition(is_constant);
+    let product = |factors: &[&(Id, i32)]| dag.product(factors.iter().map(|&f| power(f)));
+    let found = (!constant.is_empty()).then(|| product(&constant));
+    (found, product(&varying))
+}

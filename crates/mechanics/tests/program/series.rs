@@ -1,0 +1,155 @@
+//! Taylor series: that they obey the literal equations, that a wrong one is found out, and how many products they take.
+
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_program::series::{NoSeries, Row, Series};
+
+use super::harness::{all_machines, compiled, machine};
+
+/// The series of a machine of the library.
+fn of(name: &str, constants: &[(&str, i64)]) -> Result<ProvedSeries, NoSeries> {
+    machine(name, constants, |machine| {
+        ProvedSeries::derive(&machine.model)
+    })
+}
+
+/// A ball on a line that a force pushes.
+fn pushed(force: &str) -> String {
+    format!(
+        "machine Pushed in plane {{
+            parameters {{ m: kg = 1.25, c: 1 = 0.75, k: N = 1, w: 1/s = 3, l: m = 1, beat: s = 1 }}
+            inputs {{ u: 1 = 0.5 }}
+            coordinates {{ x: rad = 0.5, y: rad = 0.25 }}
+            bodies {{ ball {{ mass: m, at: l*(x, sin(y)) }}, other {{ mass: m, at: l*(0, y) }} }}
+            forces {{ push {{ at: l*(x, y), force: k*({force}, 1) }} }}
+        }}"
+    )
+}
+
+/// Every machine of the library has a series, proved over the prime field or over balls, or is known to have
+/// none.
+#[test]
+fn every_machine_has_a_proved_series_or_a_reason() {
+    let mut found = 0;
+    for name in all_machines() {
+        match of(&name, &[]) {
+            Ok(series) => {
+                found += 1;
+                println!(
+                    "{name}: {} products, {} rows",
+                    series.products(),
+                    series.rows.len()
+                );
+            }
+            Err(
+                reason @ (NoSeries::Constraints | NoSeries::Approximations | NoSeries::Friction),
+            ) => println!("{name}: none, since {reason}"),
+            Err(reason @ NoSeries::Function(_)) => println!("{name}: none, since {reason}"),
+            Err(reason) => panic!("{name}: {reason}"),
+        }
+    }
+    assert!(found >= 25, "{found}");
+}
+
+/// As counted by hand: for each link a sine and a cosine and two projections; the crusher's nine coordinates turn four
+/// bodies and carry forces of springs, linear in the rest.
+#[test]
+fn products_are_those_counted_by_hand() {
+    assert_eq!(of("double_pendulum", &[]).unwrap().products(), 8.0);
+    for links in [2, 3, 8] {
+        let series = of("chain", &[("N", links)]).unwrap();
+        assert_eq!(series.products(), 4.0 * links as f64, "{links} links");
+    }
+    // Angles from link to link cost no more.
+    let series = of("chain_relative", &[("N", 8)]).unwrap();
+    assert!(series.products() <= 32.0, "{}", series.products());
+}
+
+/// Every function of the language that is smooth, of positions and of rates.
+#[test]
+fn every_smooth_function_has_a_recurrence() {
+    let forces = [
+        "sin(x)*cos(x + c*y)",
+        "tan(x)",
+        "asin(c*sin(x))",
+        "acos(c*sin(x))",
+        "atan(x*y)",
+        "atan2(y + 2, cos(x))",
+        "sinh(x) - cosh(y)^3",
+        "tanh(x + y) + tanh(c)",
+        "exp(-x)*x",
+        "ln(2 + sin(x))",
+        "sqrt(2 + x^2)",
+        "(2 + cos(x))^c",
+        "(2 + cos(x))^(sin(y) + 2)",
+        "1/(2 + x^2)^3 + u",
+        "sin(w*t)*x + abs(c)*min(c, 1)",
+        "(beat*der(x))^2*sin(x)",
+        "tanh(beat*der(x))*u",
+        "sqrt(1 + (beat*der(x) - beat*w)^2)",
+    ];
+    for force in forces {
+        let text = pushed(force);
+        let series = compiled(&text, &[], |machine| ProvedSeries::derive(&machine.model));
+        assert!(series.is_ok(), "{force}: {series:?}");
+    }
+}
+
+/// What has a kink is refused, with its name.
+#[test]
+fn what_has_a_kink_is_refused_by_name() {
+    for function in ["abs(x)", "sign(x)", "min(x, y)", "max(x, 2*y)"] {
+        let series = compiled(&pushed(function), &[], |m| ProvedSeries::derive(&m.model));
+        let name = function.split('(').next().unwrap();
+        let message = series.unwrap_err().to_string();
+        assert!(message.contains(&format!("`{name}`")), "{message}");
+    }
+}
+
+/// A series with one wrong row is not proved: a term or a sign lost, one operand taken for another, a sine for a
+/// cosine.
+#[test]
+fn damaged_series_are_not_proved() {
+    let texts = [
+        "tanh(beat*der(x))*sqrt(2 + x^2)",
+        "atan2(y + 2, cos(x))/(2 + exp(x))",
+        "(2 + cos(x))^c*sin(w*t)",
+    ];
+    let mut count = 0;
+    let mut damage = |model: &lagrangian_spec::model::Model<'_>| {
+        let good: Series = (**ProvedSeries::derive(model).unwrap().series()).clone();
+        for index in 0..good.rows.len() {
+            let mut wrong = good.clone();
+            let row = &mut wrong.rows[index];
+            *row = match row.clone() {
+                Row::Sum(mut terms) if terms.len() > 1 => {
+                    terms.pop();
+                    Row::Sum(terms)
+                }
+                Row::Product(a, b) if a != b => Row::Square(a),
+                Row::Square(_) | Row::Number(_) => continue,
+                Row::Quotient(a, b) => Row::Product(a, b),
+                Row::Sin(a, b) => Row::Cos(a, b),
+                Row::Cos(a, b) => Row::Sin(a, b),
+                Row::Sqrt(a) | Row::Exp(a) => Row::Square(a),
+                Row::Power(a, _) => Row::Sqrt(a),
+                Row::Tanh(a, b) => Row::Sinh(a, b),
+                Row::TanhSlope(a) => Row::Square(a),
+                Row::Second(_) => Row::Number(2.into()),
+                Row::Atan2(y, x, over) => Row::Atan2(x, y, over),
+                _ => continue,
+            };
+            count += 1;
+            let name = format!("{:?} for {:?}", wrong.rows[index], good.rows[index]);
+            assert_eq!(
+                ProvedSeries::new(wrong, model),
+                Err(NoSeries::Unproved),
+                "{name}"
+            );
+        }
+    };
+    machine("double_pendulum", &[], |machine| damage(&machine.model));
+    for force in texts {
+        compiled(&pushed(force), &[], |machine| damage(&machine.model));
+    }
+    assert!(count > 40, "{count}");
+}

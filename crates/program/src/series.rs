@@ -1,0 +1,204 @@
+//! Taylor series of the motion, as arithmetic on series.
+//!
+//! A [`Series`] is a list of [`Row`]s, each a quantity along the motion: a coordinate, a sine, a force. A row is known by
+//! its Taylor coefficients in time at the start of a step, and each operation has a recurrence that makes one
+//! coefficient from those before it. The last rows are residuals of the equations of motion,
+//!
+//! ```text
+//! Rᵢ = Σ w ∂p/∂qᵢ p̈ − Qᵢ
+//! ```
+//!
+//! in which the coefficient of order k of the accelerations stands linearly and with the same matrix at every order: the
+//! mass matrix at the start of the step. So the accelerations follow order by order from one factored matrix, and
+//! velocity products, which come out of the series, are never written down. [`Expander`] computes the coefficients over any
+//! number; the rows come from a machine, and are proved to obey its equations, in `lagrangian-mechanics`.
+//!
+//! Sources of the recurrences: R. E. Moore, *Interval Analysis*, 1966, ch. 11; A. Griewank and A. Walther, *Evaluating
+//! Derivatives*, 2nd ed., 2008, ch. 13.
+
+mod expand;
+mod rows;
+
+use std::fmt;
+
+use lagrangian_symbolic::{Function as Call, Rational};
+
+pub use expand::Expander;
+
+/// The index of a row in [`Series::rows`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RowId(pub u32);
+
+impl RowId {
+    /// Its place in the list.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A quantity along the motion. Operands are earlier rows, but for the partner of a pair, which may follow.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Row {
+    /// A rational number.
+    Number(Rational),
+    /// π.
+    Pi,
+    /// A parameter.
+    Parameter(u32),
+    /// A function of constants, computed once for a set of parameters.
+    Constant(Call, RowId, RowId),
+    /// An input, which stays during a step.
+    Input(u32),
+    /// The time.
+    Time,
+    /// A coordinate.
+    Coordinate(u32),
+    /// The rate of a coordinate.
+    Rate(u32),
+    /// What is solved for: the acceleration of a coordinate; behind all coordinates the multiplier of a constraint.
+    Acceleration(u32),
+    /// The derivative with respect to time of a row of positions.
+    First(RowId),
+    /// The second derivative.
+    Second(RowId),
+    /// Σ coefficient·row, the coefficients constant, 1 where there is none.
+    Sum(Vec<(Option<RowId>, RowId)>),
+    /// a·b.
+    Product(RowId, RowId),
+    /// a².
+    Square(RowId),
+    /// a/b.
+    Quotient(RowId, RowId),
+    /// √a.
+    Sqrt(RowId),
+    /// sin a, with the row of cos a.
+    Sin(RowId, RowId),
+    /// cos a, with the row of sin a.
+    Cos(RowId, RowId),
+    /// sinh a, with the row of cosh a.
+    Sinh(RowId, RowId),
+    /// cosh a, with the row of sinh a.
+    Cosh(RowId, RowId),
+    /// tanh a, with the row of 1 − tanh² a, which follows.
+    Tanh(RowId, RowId),
+    /// 1 − y² of the row of a hyperbolic tangent.
+    TanhSlope(RowId),
+    /// e to a power.
+    Exp(RowId),
+    /// a to a constant power.
+    Power(RowId, RowId),
+    /// A function `f` of the first row whose derivative is 1 over the second: ln, asin, acos, atan.
+    Primitive(Call, RowId, RowId),
+    /// atan2(y, x), with the row of x² + y².
+    Atan2(RowId, RowId, RowId),
+}
+
+/// What a row depends on, the latest of all its operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Level {
+    /// Parameters.
+    Constant,
+    /// Time, coordinates, inputs.
+    Position,
+    /// Rates.
+    Rate,
+    /// Accelerations.
+    Acceleration,
+}
+
+/// The Taylor series of a machine's motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The rows, operands before those that use them.
+    pub rows: Vec<Row>,
+    /// For each row what it depends on.
+    pub levels: Vec<Level>,
+    /// For each row the coordinates by which it changes at its own level: positions by coordinates, what depends on
+    /// accelerations by these.
+    pub depends: Vec<Vec<u32>>,
+    /// The rows of the residuals, one for each coordinate and one for each constraint, in the order of what is solved for.
+    pub residuals: Vec<RowId>,
+    /// The number of coordinates.
+    pub coordinates: usize,
+    /// The number of parameters.
+    pub parameters: usize,
+    /// The number of inputs.
+    pub inputs: usize,
+}
+
+impl Series {
+    /// The number of coordinates.
+    pub fn dimension(&self) -> usize {
+        self.coordinates
+    }
+
+    /// How many numbers are solved for at each order: accelerations, and multipliers of constraints.
+    pub fn unknowns(&self) -> usize {
+        self.residuals.len()
+    }
+
+    /// How many products of series one order takes: a square counts half, a sine with its cosine two.
+    pub fn products(&self) -> f64 {
+        let of_row = |row: &Row| match row {
+            Row::Product(a, b) | Row::Quotient(a, b) => {
+                let varies = |row: &RowId| self.levels[row.index()] > Level::Constant;
+                f64::from(varies(a) && varies(b))
+            }
+            Row::Square(_) | Row::Sqrt(_) | Row::TanhSlope(_) => 0.5,
+            Row::Sin(..) | Row::Cos(..) | Row::Sinh(..) | Row::Cosh(..) => 1.0,
+            Row::Tanh(..) | Row::Exp(_) | Row::Primitive(..) => 1.0,
+            Row::Power(..) => 2.0,
+            Row::Atan2(..) => 3.0,
+            _ => 0.0,
+        };
+        let varying = self.rows.iter().zip(&self.levels);
+        let varying = varying.filter(|(_, level)| **level > Level::Constant);
+        varying.map(|(row, _)| of_row(row)).sum()
+    }
+}
+
+/// Why the motion of a machine has no Taylor series here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoSeries {
+    /// A function that has no recurrence, or none that holds on either side of its kink.
+    Function(Call),
+    /// Coordinates that are not treated exactly.
+    Approximations,
+    /// Constraints of velocities.
+    Constraints,
+    /// Contacts with friction.
+    Friction,
+    /// Accelerations that do not stand linearly in the forces.
+    NotLinear,
+    /// More rows than may be.
+    TooLarge,
+    /// The series was not proved to obey the equations of motion.
+    Unproved,
+}
+
+impl fmt::Display for NoSeries {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoSeries::Function(call) => {
+                write!(
+                    f,
+                    "`{}` of the motion has no Taylor series here",
+                    call.name()
+                )
+            }
+            NoSeries::Approximations => f.write_str("it has coordinates that are approximated"),
+            NoSeries::Constraints => f.write_str("it has constraints of velocities"),
+            NoSeries::Friction => f.write_str("it has contacts with friction"),
+            NoSeries::NotLinear => f.write_str("its forces depend on accelerations"),
+            NoSeries::TooLarge => write!(f, "its series has more than {MOST_ROWS} rows"),
+            NoSeries::Unproved => {
+                f.write_str("its series could not be proved to obey the equations of motion")
+            }
+        }
+    }
+}
+
+impl std::error::Error for NoSeries {}
+
+/// The most rows of a series.
+pub const MOST_ROWS: usize = 100_000;

@@ -1,0 +1,146 @@
+//! What rows are made from, and what they depend on.
+
+use super::{Level, NoSeries, Row, RowId, Series};
+
+impl Series {
+    /// Without rows that nobody needs.
+    pub fn pruned(self) -> Series {
+        let mut needed = vec![false; self.rows.len()];
+        let mut open: Vec<RowId> = self.residuals.clone();
+        while let Some(row) = open.pop() {
+            if !std::mem::replace(&mut needed[row.index()], true) {
+                self.rows[row.index()].for_each_operand(|operand| open.push(operand));
+            }
+        }
+        let mut place = vec![RowId(0); self.rows.len()];
+        let mut count = 0;
+        for (place, _) in place.iter_mut().zip(&needed).filter(|(_, needed)| **needed) {
+            *place = RowId(count);
+            count += 1;
+        }
+        let kept = |index: &usize| needed[*index];
+        let rows = self.rows.into_iter().enumerate();
+        let rows = rows.filter(|(index, _)| kept(index));
+        Series {
+            rows: rows.map(|(_, row)| row.moved(&place)).collect(),
+            levels: (0..self.levels.len())
+                .filter(kept)
+                .map(|index| self.levels[index])
+                .collect(),
+            residuals: self.residuals.iter().map(|r| place[r.index()]).collect(),
+            depends: vec![Vec::new(); count as usize],
+            ..self
+        }
+    }
+
+    /// With the coordinates by which each row changes.
+    ///
+    /// # Errors
+    /// Where accelerations do not stand linearly.
+    pub fn with_dependences(mut self) -> Result<Series, NoSeries> {
+        for index in 0..self.rows.len() {
+            let level = self.levels[index];
+            let row = &self.rows[index];
+            let mut found: Vec<u32> = match *row {
+                Row::Coordinate(i) | Row::Acceleration(i) => vec![i],
+                Row::Second(of) => self.depends[of.index()].clone(),
+                _ if level == Level::Position || level == Level::Acceleration => {
+                    let mut found = Vec::new();
+                    let mut varying = 0;
+                    row.for_each_operand(|operand| {
+                        // The partner of a pair has the same argument.
+                        if self.levels[operand.index()] == level && operand.index() < index {
+                            found.extend(&self.depends[operand.index()]);
+                            varying += 1;
+                        }
+                    });
+                    let is_linear = match row {
+                        Row::Sum(_) => true,
+                        Row::Product(..) => varying <= 1,
+                        Row::Quotient(_, under) => self.levels[under.index()] < level,
+                        _ => false,
+                    };
+                    if level == Level::Acceleration && !is_linear {
+                        return Err(NoSeries::NotLinear);
+                    }
+                    found
+                }
+                _ => Vec::new(),
+            };
+            found.sort_unstable();
+            found.dedup();
+            self.depends[index] = found;
+        }
+        Ok(self)
+    }
+}
+
+impl Row {
+    /// The rows that it is made from.
+    pub fn for_each_operand(&self, mut visit: impl FnMut(RowId)) {
+        match self {
+            Row::Number(_)
+            | Row::Pi
+            | Row::Parameter(_)
+            | Row::Input(_)
+            | Row::Time
+            | Row::Coordinate(_)
+            | Row::Rate(_)
+            | Row::Acceleration(_) => {}
+            Row::First(a) | Row::Second(a) | Row::Square(a) | Row::Sqrt(a) => visit(*a),
+            Row::TanhSlope(a) | Row::Exp(a) => visit(*a),
+            Row::Sum(terms) => {
+                for (coefficient, row) in terms {
+                    coefficient.iter().for_each(|c| visit(*c));
+                    visit(*row);
+                }
+            }
+            Row::Constant(_, a, b) | Row::Primitive(_, a, b) => {
+                [*a, *b].into_iter().for_each(visit)
+            }
+            Row::Product(a, b) | Row::Quotient(a, b) | Row::Power(a, b) => {
+                [*a, *b].into_iter().for_each(visit)
+            }
+            Row::Sin(a, b) | Row::Cos(a, b) | Row::Sinh(a, b) | Row::Cosh(a, b) => {
+                [*a, *b].into_iter().for_each(visit)
+            }
+            Row::Tanh(a, b) => [*a, *b].into_iter().for_each(visit),
+            Row::Atan2(a, b, c) => [*a, *b, *c].into_iter().for_each(visit),
+        }
+    }
+
+    /// The same with its operands at other places.
+    fn moved(mut self, place: &[RowId]) -> Row {
+        let to = |row: &mut RowId| *row = place[row.index()];
+        match &mut self {
+            Row::Number(_)
+            | Row::Pi
+            | Row::Parameter(_)
+            | Row::Input(_)
+            | Row::Time
+            | Row::Coordinate(_)
+            | Row::Rate(_)
+            | Row::Acceleration(_) => {}
+            Row::First(a) | Row::Second(a) | Row::Square(a) | Row::Sqrt(a) => to(a),
+            Row::TanhSlope(a) | Row::Exp(a) => to(a),
+            Row::Sum(terms) => {
+                for (coefficient, row) in terms {
+                    coefficient.iter_mut().for_each(to);
+                    to(row);
+                }
+            }
+            Row::Constant(_, a, b)
+            | Row::Primitive(_, a, b)
+            | Row::Product(a, b)
+            | Row::Quotient(a, b)
+            | Row::Power(a, b)
+            | Row::Sin(a, b)
+            | Row::Cos(a, b)
+            | Row::Sinh(a, b)
+            | Row::Cosh(a, b)
+            | Row::Tanh(a, b) => [a, b].into_iter().for_each(to),
+            Row::Atan2(a, b, c) => [a, b, c].into_iter().for_each(to),
+        }
+        self
+    }
+}

@@ -1,0 +1,259 @@
+//! Where the roots of a smooth function are, none missed.
+//!
+//! A step by Taylor series is long: a function of the state may come to zero several times within it. It is as smooth as
+//! the motion, so its interpolant in Chebyshev's polynomials is as good as the function itself, to rounding; and the
+//! coefficients bound it: `|c₀| > Σ |cⱼ|` leaves no root, and the same of the derivative no more than one. Where neither
+//! holds, the interval is halved. L. N. Trefethen, *Approximation Theory and Approximation Practice*, 2013, ch. 3, 8
+//! and 18. Sines of angles that are multiples of one are all that it takes: no table and no allocation beyond a few
+//! vectors.
+
+use std::vec::Vec;
+
+use lagrangian_scalar::Scalar;
+
+use crate::Error;
+
+/// Degrees of interpolants, tried in this order.
+const DEGREES: [usize; 3] = [16, 32, 64];
+
+/// The degree of an interpolant that is only asked whether the function is far from zero.
+const COARSE: usize = 8;
+
+/// An interpolant has all of a function where its last coefficients are below this share of the greatest.
+const CONVERGED: f64 = 1e-12;
+
+/// Rounding of the coefficients, as a share of the greatest.
+const ROUNDING: f64 = 1e-14;
+
+/// How often an interval is halved whose function no interpolant has: what has a kink there is looked at in all nodes.
+const HALVINGS: u32 = 2;
+
+/// Roots nearer to each other than this, as a share of the step, are one that does not change the sign.
+const NARROWEST: f64 = 1.0 / (1u64 << 40) as f64;
+
+/// Fractions of a step at which to look at a function, the last of which is 1: between two of them, and between 0 and the
+/// first, it changes its sign no more than once.
+pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<f64>, Error> {
+    let mut looks = Vec::new();
+    interpolate(&mut f, [0.0, 1.0], HALVINGS, &mut looks)?;
+    looks.retain(|theta| *theta > 0.0);
+    if looks.last() != Some(&1.0) {
+        looks.push(1.0);
+    }
+    looks.dedup();
+    Ok(looks)
+}
+
+/// Interpolates a function between two fractions, and isolates its roots there.
+fn interpolate(
+    f: &mut impl FnMut(f64) -> Result<f64, Error>,
+    [a, b]: [f64; 2],
+    halvings: u32,
+    looks: &mut Vec<f64>,
+) -> Result<(), Error> {
+    let mut values = Vec::new();
+    for node in 0..=COARSE {
+        values.push(f(at(node, COARSE, [a, b]))?);
+    }
+    if is_far_from_zero(&coefficients(&values)) {
+        return Ok(());
+    }
+    for degree in DEGREES {
+        values.clear();
+        for node in 0..=degree {
+            values.push(f(at(node, degree, [a, b]))?);
+        }
+        let coefficients = coefficients(&values);
+        let greatest = greatest(&coefficients);
+        let tail = &coefficients[degree - 2..];
+        if greatest <= CONVERGED * f64::MAX && tail.iter().all(|c| c.abs() <= CONVERGED * greatest)
+        {
+            isolate(&coefficients, [a, b], looks);
+            return Ok(());
+        }
+    }
+    if halvings == 0 {
+        let degree = values.len() - 1;
+        // Nodes go from the end to the beginning.
+        looks.extend((0..degree).rev().map(|node| at(node, degree, [a, b])));
+        return Ok(());
+    }
+    let middle = 0.5 * (a + b);
+    interpolate(f, [a, middle], halvings - 1, looks)?;
+    looks.push(middle);
+    interpolate(f, [middle, b], halvings - 1, looks)
+}
+
+/// Whether a function is certainly not zero by an interpolant that may not have all of it. The coefficients of a smooth
+/// function fall like powers of the last two: what is left out is some times these.
+fn is_far_from_zero(c: &[f64]) -> bool {
+    let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
+    let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());
+    c[0].abs() > rest + 4.0 * c.len() as f64 * last
+}
+
+/// Node number `node` of so many between two fractions: the first is at the end, the last at the beginning.
+fn at(node: usize, degree: usize, [a, b]: [f64; 2]) -> f64 {
+    match node {
+        0 => b,
+        _ if node == degree => a,
+        _ => a + (b - a) * 0.5 * (1.0 + cosine(node, degree)),
+    }
+}
+
+/// `cos(π m/n)`.
+fn cosine(m: usize, n: usize) -> f64 {
+    Scalar::cos(core::f64::consts::PI * (m % (2 * n)) as f64 / n as f64)
+}
+
+/// Coefficients of the interpolant through values at the nodes.
+fn coefficients(values: &[f64]) -> Vec<f64> {
+    let n = values.len() - 1;
+    if n == 0 {
+        return values.to_vec();
+    }
+    let cosines: Vec<f64> = (0..2 * n).map(|m| cosine(m, n)).collect();
+    let half_ends = |j: usize| if j == 0 || j == n { 0.5 } else { 1.0 };
+    let coefficient = |k: usize| {
+        let terms = values.iter().enumerate();
+        let sum: f64 = terms
+            .map(|(j, value)| half_ends(j) * value * cosines[j * k % (2 * n)])
+            .sum();
+        2.0 / n as f64 * half_ends(k) * sum
+    };
+    (0..=n).map(coefficient).collect()
+}
+
+fn greatest(coefficients: &[f64]) -> f64 {
+    let sizes = coefficients.iter().map(|c| c.abs());
+    sizes.fold(0.0, |most, size| {
+        if size > most || size.is_nan() {
+            size
+        } else {
+            most
+        }
+    })
+}
+
+/// Adds the ends of intervals with a root.
+fn isolate(coefficients: &[f64], whole: [f64; 2], looks: &mut Vec<f64>) {
+    let noise = ROUNDING * greatest(coefficients);
+    let mut open = Vec::from([(coefficients.to_vec(), whole)]);
+    while let Some((mut c, [a, b])) = open.pop() {
+        while c.len() > 1 && c.last().is_some_and(|c| c.abs() <= noise) {
+            c.pop();
+        }
+        let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
+        if c[0].abs() > rest + noise || rest + c[0].abs() <= noise {
+            continue;
+        }
+        let slopes = derivative(&c);
+        let bends: f64 = slopes.iter().skip(1).map(|c| c.abs()).sum();
+        let is_monotone = slopes.first().is_none_or(|slope| slope.abs() > bends);
+        if is_monotone || b - a <= NARROWEST {
+            looks.extend([a, b]);
+            continue;
+        }
+        let middle = 0.5 * (a + b);
+        let half = |from: f64, to: f64| {
+            let degree = c.len() - 1;
+            let values: Vec<f64> = (0..=degree)
+                .map(|node| evaluate(&c, at(node, degree, [from, to])))
+                .collect();
+            self::coefficients(&values)
+        };
+        // The first half is looked at first.
+        open.push((half(0.0, 1.0), [middle, b]));
+        open.push((half(-1.0, 0.0), [a, middle]));
+    }
+}
+
+/// The coefficients of the derivative.
+fn derivative(c: &[f64]) -> Vec<f64> {
+    let n = c.len() - 1;
+    let mut slopes = std::vec![0.0; n + 2];
+    for k in (1..=n).rev() {
+        slopes[k - 1] = slopes[k + 1] + 2.0 * k as f64 * c[k];
+    }
+    slopes[0] *= 0.5;
+    slopes.truncate(n);
+    slopes
+}
+
+/// The value at `x` between −1 and 1, by Clenshaw's recurrence.
+fn evaluate(c: &[f64], x: f64) -> f64 {
+    let (mut one, mut two) = (0.0, 0.0);
+    for c in c[1..].iter().rev() {
+        (one, two) = (c + 2.0 * x * one - two, one);
+    }
+    c[0] + x * one - two
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The roots between looks, by bisection.
+    fn roots(f: fn(f64) -> f64) -> Vec<f64> {
+        let looks = looks(|theta| Ok(f(theta))).unwrap();
+        let ends = core::iter::once(0.0).chain(looks.iter().copied());
+        let pairs = ends.zip(looks.iter().copied());
+        let crossing = pairs.filter(|(a, b)| (f(*a) < 0.0) != (f(*b) < 0.0));
+        let root = |(mut a, mut b): (f64, f64)| {
+            for _ in 0..60 {
+                let middle = 0.5 * (a + b);
+                if (f(middle) < 0.0) == (f(a) < 0.0) {
+                    a = middle;
+                } else {
+                    b = middle;
+                }
+            }
+            b
+        };
+        crossing.map(root).collect()
+    }
+
+    #[track_caller]
+    fn are_near(found: &[f64], expected: &[f64]) {
+        assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
+        for (found, expected) in found.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
+    }
+
+    #[test]
+    fn none_is_missed_between_the_ends() {
+        // Between two equal signs at the ends and in the middle.
+        are_near(&roots(|x| (x - 0.30) * (x - 0.31)), &[0.30, 0.31]);
+        are_near(&roots(|x| (x - 0.3) * (x - 0.3 - 1e-6)), &[0.3, 0.3 + 1e-6]);
+        let many: Vec<f64> = (1..8).map(|k| f64::from(k) / 8.0).collect();
+        are_near(
+            &roots(|x| (8.0 * core::f64::consts::PI * x).sin() + 0.0 * x),
+            &many,
+        );
+        are_near(&roots(|x| (40.0 * x).exp() - 1e10), &[1e10_f64.ln() / 40.0]);
+    }
+
+    #[test]
+    fn a_touch_is_no_crossing() {
+        are_near(&roots(|x| (x - 0.3) * (x - 0.3)), &[]);
+        are_near(&roots(|x| (x - 0.3) * (x - 0.3) + 1e-9), &[]);
+        are_near(&roots(|_| 0.0), &[]);
+        are_near(&roots(|_| 1.0), &[]);
+    }
+
+    #[test]
+    fn a_triple_root_is_one_crossing() {
+        let found = roots(|x| (x - 0.625).powi(3));
+        assert_eq!(found.len(), 1);
+        assert!((found[0] - 0.625).abs() < 1e-5, "{found:?}");
+    }
+
+    #[test]
+    fn kinks_are_looked_at_closely() {
+        let found = roots(|x| (x - 0.37).abs() - 0.01);
+        are_near(&found, &[0.36, 0.38]);
+        let found = roots(|x| if x < 0.7 { -1.0 } else { 1.0 });
+        are_near(&found, &[0.7]);
+    }
+}

@@ -1,0 +1,120 @@
+//! A step by the Taylor series of the motion.
+
+use super::{Stepper, not_finite};
+use crate::balance::Quadratures;
+use crate::compensated::two_sum;
+use crate::{InputLaw, StepError, System, Vector};
+
+impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
+    /// Expands the motion through now, for the first step or where what it depends on has changed.
+    pub(super) fn expand(&mut self) -> Result<(), StepError> {
+        let Self {
+            model, now, taylor, ..
+        } = self;
+        let Some(taylor) = taylor else { return Ok(()) };
+        model.set_inputs(now.t, &now.q, &now.v);
+        taylor
+            .expand(model.system, now, &model.inputs, false)
+            .map_err(|singular| StepError::Singular { singular, t: now.t })
+    }
+
+    /// The coefficients of the last step: of coordinates, in powers of the time since its beginning. None where the method
+    /// is not by series.
+    pub(crate) fn coefficients(&self) -> Option<&[S::Vector]> {
+        self.taylor.as_ref().map(|taylor| taylor.of_step())
+    }
+
+    /// Chooses the length of the next step. A first step that was asked for is not exceeded.
+    pub(super) fn choose_length(&mut self) -> Result<(), StepError> {
+        let Self {
+            now,
+            taylor,
+            tolerance,
+            step,
+            work,
+            end,
+            longest,
+            ..
+        } = self;
+        let Some(taylor) = taylor else { return Ok(()) };
+        let left = *end - now.t;
+        let mut length = taylor.length(tolerance).min(*longest);
+        if length.is_nan() {
+            let worst = not_finite_among(taylor.of_now_rows());
+            return Err(StepError::NotFinite {
+                coordinate: worst,
+                t: now.t,
+            });
+        }
+        if work.steps == 0 && *step != 0.0 {
+            length = length.min(step.abs());
+        }
+        // Where nothing moves, a step is as long as the run.
+        *step = length.min(left.abs()).copysign(left);
+        Ok(())
+    }
+
+    /// Takes a step of length `h` from `before`, to `now`. It needs no estimate of its error: its length was chosen so that
+    /// there is none to speak of.
+    pub(super) fn attempt_in_series(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
+        let Self {
+            method,
+            model,
+            quadratures,
+            before,
+            now,
+            k,
+            stage,
+            work,
+            taylor,
+            end,
+            ..
+        } = self;
+        let Some(taylor) = taylor else {
+            return Ok(f64::INFINITY);
+        };
+        let stages = method.tableau.stages;
+        taylor.advance(h, before, now);
+        (now.t, now.t_low) = if last {
+            (*end, 0.0)
+        } else {
+            two_sum(before.t, before.t_low + h)
+        };
+        if let Some(coordinate) = not_finite(&now.q, &now.v) {
+            return Err(StepError::NotFinite {
+                coordinate,
+                t: now.t,
+            });
+        }
+        // By no more than what the series has left out, and rounding.
+        model.project(now)?;
+        if quadratures.integrals().is_some() {
+            for i in 1..stages {
+                let tau = method.tableau.c[i] * h;
+                (stage.0, stage.1) = crate::taylor::state(taylor.of_step(), tau);
+                crate::taylor::accelerations(taylor.of_step(), tau, &mut k[i]);
+                let t = before.t + (before.t_low + tau);
+                model.take_rates(quadratures, i, (t, &stage.0, &stage.1, &k[i]));
+            }
+        }
+        work.evaluations += 1;
+        taylor
+            .expand(model.system, now, &model.inputs, true)
+            .map_err(|singular| StepError::Singular { singular, t: now.t })?;
+        taylor.accelerations(true, &mut k[stages]);
+        if let Some(coordinate) = not_finite(&k[stages], &k[stages]) {
+            return Err(StepError::NotFinite {
+                coordinate,
+                t: now.t,
+            });
+        }
+        model.take_rates(quadratures, stages, (now.t, &now.q, &now.v, &k[stages]));
+        Ok(0.0)
+    }
+}
+
+/// The first coordinate of which some coefficient is not finite.
+fn not_finite_among<V: Vector>(rows: &[V]) -> usize {
+    let found = rows.iter().find_map(|row| not_finite(row, row));
+    found.unwrap_or(0)
+}

@@ -1,0 +1,197 @@
+//! Steps by Taylor series.
+//!
+//! The motion through the beginning of a step is a polynomial `q(τ) = Σ cⱼ τʲ`, whose coefficients a machine computes
+//! ([`System::series`]). A step evaluates it at its end, dense output and events between its ends, so neither costs
+//! anything of the machine. Its length follows from the last two coefficients before it is taken, and none is rejected.
+//!
+//! State and time are compensated sums: what is added to the state is rounded once, and what rounding takes from it is kept
+//! (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., 2002, section 4.3).
+
+use std::vec::Vec;
+
+use crate::compensated::two_sum;
+use crate::math::power;
+use crate::stages::Point;
+use crate::stepper::Tolerance;
+use crate::{Singular, System, Vector};
+
+/// Coefficients of the accelerations for tolerances down to [`FINE`], and below.
+const ORDERS: [usize; 2] = [12, 20];
+
+/// Below this tolerance the higher order takes less time: products of series grow with the square of the order, the rest of a step
+/// with the order itself, and steps of fine tolerances are longer by more than that.
+const FINE: f64 = 1e-5;
+
+/// The coefficients of the motion through the beginning of the last step and through its end.
+#[derive(Clone, Debug)]
+pub(crate) struct Taylor<V> {
+    coefficients: [Vec<V>; 2],
+    /// Which of them are of the beginning.
+    beginning: usize,
+    /// Whether a step was taken from there.
+    is_taken: bool,
+}
+
+impl<V: Vector> Taylor<V> {
+    /// Room for the series that a tolerance asks for.
+    pub fn new(tolerance: &Tolerance<V>) -> Self {
+        let zeros = tolerance.absolute.zeros_like();
+        let absolute = tolerance.absolute.as_slice().iter();
+        let least = absolute.fold(f64::INFINITY, |least, &x| least.min(x));
+        let is_fine = least + tolerance.relative <= FINE;
+        let order = ORDERS[usize::from(is_fine)];
+        Self {
+            coefficients: [(); 2].map(|()| std::vec![zeros.clone(); order + 2]),
+            beginning: 0,
+            is_taken: false,
+        }
+    }
+
+    /// The coefficients of the last step; before the first, those of the start.
+    pub fn of_step(&self) -> &[V] {
+        &self.coefficients[self.beginning]
+    }
+
+    /// The coefficients of the motion through now.
+    pub fn of_now_rows(&self) -> &[V] {
+        &self.coefficients[self.of_now()]
+    }
+
+    fn of_now(&self) -> usize {
+        match self.is_taken {
+            true => 1 - self.beginning,
+            false => self.beginning,
+        }
+    }
+
+    /// Makes now the beginning of a step.
+    pub fn begin(&mut self) {
+        self.beginning = self.of_now();
+        self.is_taken = false;
+    }
+
+    /// Makes the step just tried the last step.
+    pub fn accept(&mut self) {
+        self.is_taken = true;
+    }
+
+    /// Takes the last step back.
+    pub fn retreat(&mut self) {
+        self.is_taken = false;
+    }
+
+    /// Expands the motion through a state: the start, or, with `ahead`, the end of the step that is tried.
+    pub fn expand<S: System<Vector = V>>(
+        &mut self,
+        system: &S,
+        at: &Point<V>,
+        u: &S::Inputs,
+        ahead: bool,
+    ) -> Result<(), Singular> {
+        let which = match ahead {
+            true => 1 - self.beginning,
+            false => self.of_now(),
+        };
+        let t = [at.t, at.t_low];
+        system.series(t, &at.q, &at.v, u, &mut self.coefficients[which])
+    }
+
+    /// The accelerations at the state that was expanded last: now, or with `ahead` the end of the step that is tried.
+    pub fn accelerations(&self, ahead: bool, a: &mut V) {
+        let which = match ahead {
+            true => 1 - self.beginning,
+            false => self.of_now(),
+        };
+        let second = &self.coefficients[which][2];
+        for (a, c) in a.as_mut_slice().iter_mut().zip(second.as_slice()) {
+            *a = 2.0 * c;
+        }
+    }
+
+    /// The length of a step from now whose last two terms are tolerable; infinite where nothing moves.
+    ///
+    /// With two, since after a start at rest, and at turning points, every second coefficient vanishes. What is left out
+    /// behind them is about `tolerable/(1 − h/R)`, with `R` the radius of convergence, near which steps of coarse tolerances
+    /// come: these ask for a tenth. Tolerances at the rounding of `f64` ask for a hundredth, so that what is left out stays
+    /// below rounding, and errors of steps do not add up with the same sign.
+    pub fn length(&self, tolerance: &Tolerance<V>) -> f64 {
+        let coefficients = &self.coefficients[self.of_now()];
+        let last = coefficients.len() - 1;
+        let mut length = f64::INFINITY;
+        // v = Σ (j + 1) cⱼ₊₁ τʲ
+        for j in [last - 1, last] {
+            let mut worst = 0.0_f64;
+            for (i, c) in coefficients[j].as_slice().iter().enumerate() {
+                let [q, v] = [0, 1].map(|k| coefficients[k].as_slice()[i].abs());
+                let size = q.max(v);
+                let tolerable = tolerance.absolute.as_slice()[i] + tolerance.relative * size;
+                let share = tolerable / (1.0 + size);
+                let bound = match share {
+                    _ if share > 1e-8 => 0.1 * tolerable,
+                    _ if share < 1e-14 => 0.01 * tolerable,
+                    _ => tolerable,
+                };
+                let ratio = (j as f64 * c.abs()) / bound;
+                // What is no number must not pass for none.
+                worst = if ratio > worst || ratio.is_nan() {
+                    ratio
+                } else {
+                    worst
+                };
+            }
+            if worst > 0.0 {
+                length = length.min(power(worst, -1.0 / (j - 1) as f64));
+            } else if worst.is_nan() {
+                return f64::NAN;
+            }
+        }
+        length
+    }
+
+    /// The state at the end of a step of length `h`, as compensated sums.
+    pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
+        let coefficients = self.of_step();
+        for i in 0..before.q.as_slice().len() {
+            let [q, v] = rises(coefficients, i, h);
+            let low = before.v_low.as_slice()[i];
+            let q_low = before.q_low.as_slice()[i] + h * low;
+            (now.q.as_mut_slice()[i], now.q_low.as_mut_slice()[i]) =
+                two_sum(before.q.as_slice()[i], q_low + q);
+            (now.v.as_mut_slice()[i], now.v_low.as_mut_slice()[i]) =
+                two_sum(before.v.as_slice()[i], low + v);
+        }
+    }
+}
+
+/// By how much coordinate `i` and its rate change in a time `tau`.
+#[inline(always)]
+fn rises<V: Vector>(coefficients: &[V], i: usize, tau: f64) -> [f64; 2] {
+    let (mut q, mut v) = (0.0, 0.0);
+    for j in (2..coefficients.len()).rev() {
+        let c = coefficients[j].as_slice()[i];
+        q = (q + c) * tau;
+        v = (v + j as f64 * c) * tau;
+    }
+    [(q + coefficients[1].as_slice()[i]) * tau, v]
+}
+
+/// Coordinates and rates at a time `tau` after the state that was expanded.
+pub(crate) fn state<V: Vector>(coefficients: &[V], tau: f64) -> (V, V) {
+    let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
+    for i in 0..q.as_slice().len() {
+        let [by_q, by_v] = rises(coefficients, i, tau);
+        q.as_mut_slice()[i] += by_q;
+        v.as_mut_slice()[i] += by_v;
+    }
+    (q, v)
+}
+
+/// The accelerations there.
+pub(crate) fn accelerations<V: Vector>(coefficients: &[V], tau: f64, a: &mut V) {
+    for (i, a) in a.as_mut_slice().iter_mut().enumerate() {
+        *a = 0.0;
+        for j in (2..coefficients.len()).rev() {
+            *a = *a * tau + (j * (j - 1)) as f64 * coefficients[j].as_slice()[i];
+        }
+    }
+}
