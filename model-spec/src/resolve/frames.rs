@@ -7,6 +7,7 @@ use lagrangian_symbolic::{Expr, Id};
 
 use super::Resolver;
 use super::names::{Content, Namespace, suggestion, with_help};
+use super::text;
 use super::value::{MemberId, Scope, Value, Vector, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
@@ -517,7 +518,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             if let (Some(member), Some((index, _))) =
                 (member_of(group.namespace), group.members.first_key_value())
             {
-                let name = super::names::show(group.base, *index);
+                let name = text::show(group.base, *index);
                 points.push((group.base != root, format!("`{name}.{member}`")));
             }
         }

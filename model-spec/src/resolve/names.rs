@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use lagrangian_symbolic::Expr;
 
 use super::Resolver;
+use super::text::show;
 use super::value::{MemberId, Scalar, Scope, Value, limits};
 use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic, nearest};
@@ -12,8 +13,7 @@ use crate::model::{Name, stage};
 use crate::source::Span;
 use crate::syntax::{
     Approximation, Declared, ElementContent, Equation, Expression, Form, Ident, Index, Item,
-    Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec, coordinate_of_rate,
-    rate_name,
+    Quantity, Range, Record, Reference, Remove, SectionKind, Spanned, Spec,
 };
 use crate::unit::{Measure, Unit};
 
@@ -826,15 +826,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     ) -> Option<MemberId> {
         let group = self.known_group(namespace, what, &reference.base)?;
         self.member(group, &reference.base, reference.index.as_deref(), scope)
-    }
-}
-
-/// `q[3]`, or `x` for what is no family; `der(q[3])` of a rate.
-pub(super) fn show(base: &str, index: Option<i64>) -> String {
-    match (index, coordinate_of_rate(base)) {
-        (Some(index), Some(base)) => rate_name(base, format_args!("[{index}]")),
-        (Some(index), None) => format!("{base}[{index}]"),
-        (None, _) => base.to_owned(),
     }
 }
 

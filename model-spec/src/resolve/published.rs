@@ -4,7 +4,8 @@ use lagrangian_symbolic::{Expr, nearest};
 
 use super::Resolver;
 use super::expression::unit_text;
-use super::names::{Namespace, show};
+use super::names::Namespace;
+use super::text::show;
 use super::value::{Scope, Vector, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{

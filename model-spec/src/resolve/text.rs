@@ -4,7 +4,16 @@
 
 use std::fmt::Write as _;
 
-use crate::syntax::{Expression, ExpressionKind, Reference};
+use crate::syntax::{Expression, ExpressionKind, Reference, coordinate_of_rate, rate_name};
+
+/// `q[3]`, or `x` for what is no family; `der(q[3])` of a rate.
+pub(super) fn show(base: &str, index: Option<i64>) -> String {
+    match (index, coordinate_of_rate(base)) {
+        (Some(index), Some(base)) => rate_name(base, format_args!("[{index}]")),
+        (Some(index), None) => format!("{base}[{index}]"),
+        (None, _) => base.to_owned(),
+    }
+}
 
 /// The text of an expression, the index of the family replaced by its value.
 pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> String {

@@ -5,7 +5,7 @@
 //! definitions of any length takes memory and no stack, and a definition that needs itself is seen.
 
 use super::Resolver;
-use super::names::show;
+use super::text::show;
 use super::value::{MemberId, Value};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
