@@ -80,7 +80,7 @@ pub struct Model<'d> {
     /// Rigid bodies and particles.
     pub bodies: Vec<Body<'d>>,
     /// Whatever contributes to the equations beside the inertia of the bodies: springs, gravity, forces,
-    /// constraints, in the order of [`crate::elements`].
+    /// constraints, section by section.
     pub elements: Vec<Element<'d>>,
     /// The same machine with every guide of `sliding` relaxed: what the guided body is built on can
     /// move off, by two coordinates for each guide behind all others. It tells what holds the guides

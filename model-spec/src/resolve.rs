@@ -58,7 +58,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::diagnostic::{Code, Diagnostic, Report, nearest};
 use crate::model::bounds::Bound;
-use crate::model::{Model, Pose, PoseId, Space, stage};
+use crate::model::{Model, Pose, PoseId, Space, Variable, stage};
 use crate::source::{Files, Sources, Span};
 use crate::syntax::{self, SectionKind, Spec};
 
@@ -234,9 +234,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             None::<()>
         });
         let frames = self.each(Frames, Self::named_frame);
-        let bodies = self.each(Bodies, |resolver, member| {
-            resolver.body(member).map(|body| (member, body))
-        });
+        let bodies = self.each(Bodies, Self::body);
         let assumptions = self.assumptions(layers);
         let facts = assumptions.iter().map(|fact| fact.excess);
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
@@ -247,11 +245,9 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             Some(resolver.approximation(member))
         });
         let outputs = self.each(Outputs, Self::output);
-        let derivatives = self.each(Derivatives, |resolver, member| {
-            Some(resolver.differentiated_by(member))
-        });
+        let derivatives = self.variables(Derivatives, Self::differentiated_by);
         let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
-        let kept = self.each(Keep, |resolver, member| Some(resolver.kept(member)));
+        let kept = self.variables(Keep, Self::kept);
         let destination = self.destination(layers, &coordinates);
         let published = self.published(layers);
 
@@ -280,29 +276,19 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             assumptions,
             poses: std::mem::take(&mut self.poses),
             frames,
-            bodies: bodies.into_iter().map(|(_, body)| body).collect(),
+            bodies,
             elements,
             relaxed: None,
             circles,
             contacts,
             approximations: approximations.into_iter().flatten().collect(),
             outputs,
-            derivatives: derivatives
-                .into_iter()
-                .flatten()
-                .collect::<BTreeSet<_>>()
-                .into_iter()
-                .collect(),
+            derivatives,
             stages: crate::model::Stages {
                 time: stages.iter().any(|stages| stages.time),
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
-            kept: kept
-                .into_iter()
-                .flatten()
-                .collect::<BTreeSet<_>>()
-                .into_iter()
-                .collect(),
+            kept,
             destination,
             published,
             bounds,
@@ -323,6 +309,17 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             .into_iter()
             .filter_map(|member| self.settle(|resolver| resolve(resolver, member)))
             .collect()
+    }
+
+    /// The variables that the members of a section name, each once and in order.
+    fn variables(
+        &mut self,
+        section: SectionKind,
+        named: impl Fn(&mut Self, MemberId) -> Vec<Variable>,
+    ) -> Vec<Variable> {
+        let all = self.each(section, |resolver, member| Some(named(resolver, member)));
+        let all: BTreeSet<Variable> = all.into_iter().flatten().collect();
+        all.into_iter().collect()
     }
 
     /// Unrolls every family, and numbers the members of every section.

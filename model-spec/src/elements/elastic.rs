@@ -1,9 +1,10 @@
 //! What springs and dampers have in common: a coefficient, and what it stretches.
 
-use lagrangian_symbolic::{Expr, Id, Node, Rational};
+use lagrangian_symbolic::Expr;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
+use crate::model::circles::terms;
 use crate::model::element::{Deformation, Drawing, Shape, Site};
 use crate::model::stage;
 use crate::resolve::Resolver;
@@ -189,12 +190,6 @@ fn distance_less<'d>(
     free: Expr<'d>,
 ) -> Expr<'d> {
     let length = resolver.distance(line);
-    match length.node() {
-        // Added up as one sum, so that a free length in it cancels.
-        Node::Sum(terms) => {
-            let term = |(id, factor): &(Id, Rational)| resolver.dag.expr(*id) * factor.clone();
-            resolver.dag.sum(terms.iter().map(term).chain([-free]))
-        }
-        _ => length - free,
-    }
+    // Added up as one sum, so that a free length in it cancels.
+    resolver.dag.sum(terms(length).into_iter().chain([-free]))
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use lagrangian_symbolic::{Expr, Node, Symbol, Tangent};
+use lagrangian_symbolic::{Expr, Id, Node, Rational, Symbol, Tangent};
 
 use crate::identity;
 use crate::model::{Body, Circle, Model, Place, PoseId, Rotation, Surface, Touching};
@@ -144,15 +144,20 @@ fn with_circle<'d>(
 /// `a − b` with what both have in common left out.
 fn difference<'d>(a: Expr<'d>, b: Expr<'d>) -> Expr<'d> {
     let dag = a.dag();
-    let terms = |e: Expr<'d>| match e.node() {
-        Node::Sum(terms) => terms
-            .iter()
-            .map(|(id, factor)| dag.expr(*id) * factor.clone())
-            .collect(),
-        _ => vec![e],
-    };
     let (a, b) = (terms(a), terms(b));
     dag.sum(a.into_iter().chain(b.into_iter().map(|term| -term)))
+}
+
+/// The terms of a sum, or the whole of what is none: added up as one sum, what they have in common
+/// cancels.
+pub fn terms<'d>(sum: Expr<'d>) -> Vec<Expr<'d>> {
+    match sum.node() {
+        Node::Sum(terms) => {
+            let term = |(id, factor): &(Id, Rational)| sum.dag().expr(*id) * factor.clone();
+            terms.iter().map(term).collect()
+        }
+        _ => vec![sum],
+    }
 }
 
 /// The length of a line, √(u·u), or what is assumed not to be negative and has that square: `facts`

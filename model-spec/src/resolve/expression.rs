@@ -286,35 +286,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         for term in terms {
             values.push((self.value(&term.value, scope), term));
         }
-        let mut complete = true;
-        let mut vectors = None; // whether the sum is one of vectors, as the first known term says
-        for (value, term) in &values {
-            let is_vector = match value {
-                Value::Unknown => None,
-                Value::Scalar(_) => Some(false),
-                Value::Vector(_) => Some(true),
-                Value::Frame(_) | Value::Body(_) => {
-                    let expected = if vectors == Some(true) {
-                        "a vector"
-                    } else {
-                        "a number"
-                    };
-                    self.wrong_kind(expected, value, &term.value);
-                    None
-                }
-            };
-            complete &= is_vector.is_some();
-            if is_vector.is_some() && vectors.is_some() && vectors != is_vector {
-                let expected = if vectors == Some(true) {
-                    "a vector"
-                } else {
-                    "a number"
-                };
-                self.wrong_kind(expected, value, &term.value);
-                complete = false;
-            }
-            vectors = vectors.or(is_vector);
-        }
+        let vectors = self.kind_of_sum(&values);
         let unit = self.common_unit(
             values
                 .iter()
@@ -327,13 +299,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             parts.map(|(value, term)| (value.is_bare(), term.value.span)),
             unit,
         );
-        let (Some((_, first)), Some((_, last)), true) = (values.first(), values.last(), complete)
+        let (Some((_, first)), Some((_, last)), Some(vectors)) =
+            (values.first(), values.last(), vectors)
         else {
             return Value::Unknown;
         };
         let span = first.value.span.to(last.value.span);
         let sign = |term: &Term, expr: Expr<'d>| if term.negative { -expr } else { expr };
-        if vectors == Some(true) {
+        if vectors {
             let component = |k: usize| {
                 self.dag
                     .sum(values.iter().filter_map(|(value, term)| match value {
@@ -360,6 +333,31 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             })
             .sum();
         self.finish(expr, unit, number, span)
+    }
+
+    /// Whether a sum is one of vectors, as the first term says that is known; nothing where a term is not
+    /// known, or of another kind, which is reported.
+    fn kind_of_sum(&mut self, values: &[(Value<'d>, &'a Term)]) -> Option<bool> {
+        let mut complete = true;
+        let mut vectors = None;
+        for (value, term) in values {
+            let is_vector = match value {
+                Value::Scalar(_) => Some(false),
+                Value::Vector(_) => Some(true),
+                Value::Unknown | Value::Frame(_) | Value::Body(_) => None,
+            };
+            let is_alike = is_vector.is_some() && vectors.is_none_or(|all| Some(all) == is_vector);
+            if !is_alike && !value.is_unknown() {
+                let expected = match vectors {
+                    Some(true) => "a vector",
+                    _ => "a number",
+                };
+                self.wrong_kind(expected, value, &term.value);
+            }
+            complete &= is_alike;
+            vectors = vectors.or(is_vector);
+        }
+        vectors.filter(|_| complete)
     }
 
     /// The unit that several parts have in common, reporting each part that has another: the unit
@@ -481,11 +479,10 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     }
 
     fn product(&mut self, factors: &'a [Factor], span: Span, scope: Scope<'a>) -> Value<'d> {
-        let mut unit: Option<Unit> = None;
-        let mut pi = 0;
-        let mut number = Some(1.0);
-        let mut exprs = Vec::with_capacity(factors.len());
-        let mut vector: Option<Vector<'d>> = None;
+        let mut product = Product {
+            number: Some(1.0),
+            ..Product::default()
+        };
         let mut complete = true;
         // Whether there are only numbers so far, and units: then a unit may follow.
         let mut measured = true;
@@ -503,85 +500,57 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 None => self.value(&factor.value, scope),
             };
             measured &= measure.is_some() || value.unit().is_none();
-            let turns = match &value {
-                Value::Scalar(scalar) if scalar.unit.is_none_or(|unit| unit.is_one()) => {
-                    let is_bare = measure.is_none() && scalar.expr.stage() == stage::CONSTANT;
-                    let is_angle = scalar.unit.is_some_and(Unit::is_angle);
-                    if is_bare && !is_angle {
-                        power_of_pi(scalar.expr)
-                    } else {
-                        0
-                    }
-                }
-                _ => 0,
-            };
-            pi += if factor.divides { -turns } else { turns };
-            let found = match value {
-                Value::Scalar(scalar) => {
-                    complete &= !factor.divides || self.check_divisor(&scalar, factor.value.span);
-                    let value = scalar.number;
-                    number = number.zip(value).map(|(product, value)| {
-                        if factor.divides {
-                            product / value
-                        } else {
-                            product * value
-                        }
-                    });
-                    let power = if factor.divides { -1 } else { 1 };
-                    exprs.push((scalar.expr, power));
-                    scalar.unit
-                }
-                Value::Vector(other) if factor.divides => {
-                    self.wrong_kind("a number", &Value::Vector(other), &factor.value);
-                    complete = false;
-                    continue;
-                }
-                Value::Vector(other) if vector.is_none() => {
-                    let unit = other.unit;
-                    vector = Some(other);
-                    unit
-                }
-                Value::Vector(_) => {
-                    let message = "two vectors have no product of this kind";
-                    let diagnostic = Diagnostic::new(Code::WrongKind, factor.value.span, message);
-                    self.push(diagnostic.help("write `dot(u, v)` or `cross(u, v)`"));
-                    complete = false;
-                    continue;
-                }
-                Value::Unknown => {
-                    complete = false;
-                    continue;
-                }
-                other => {
-                    self.wrong_kind("a number", &other, &factor.value);
-                    complete = false;
-                    continue;
-                }
-            };
-            if let Some(found) = found {
-                let so_far = unit.unwrap_or(Unit::ONE);
-                unit = Some(if factor.divides {
-                    so_far.over(found)
-                } else {
-                    so_far.times(found)
-                });
+            if measure.is_none() {
+                product.count_pi(&value, factor.divides);
             }
+            complete &= self.multiply(&mut product, value, factor);
         }
         if !complete {
             return Value::Unknown;
         }
-        let unit = unit.map(|unit| unit.times_pi(pi));
-        let scale = self
-            .dag
-            .product(exprs.iter().map(|&(expr, power)| match power {
-                1 => expr,
-                power => expr.powi(power),
-            }));
-        match vector {
-            None => self.finish(scale, unit, number, span),
+        let unit = product.unit.map(|unit| unit.times_pi(product.pi));
+        let scalars = product.scalars.iter();
+        let scale = self.dag.product(scalars.map(|&(expr, power)| match power {
+            1 => expr,
+            power => expr.powi(power),
+        }));
+        match product.vector {
+            None => self.finish(scale, unit, product.number, span),
             Some(vector) => {
                 let components = vector.components.iter().map(|&c| scale * c).collect();
                 self.finish_vector(components, unit, span)
+            }
+        }
+    }
+
+    /// Multiplies a product by the value of a factor, or divides it; false where that has been reported.
+    fn multiply(
+        &mut self,
+        product: &mut Product<'d>,
+        value: Value<'d>,
+        factor: &'a Factor,
+    ) -> bool {
+        let divides = factor.divides;
+        match value {
+            Value::Unknown => false,
+            Value::Scalar(scalar) => {
+                product.times(&scalar, divides);
+                !divides || self.check_divisor(&scalar, factor.value.span)
+            }
+            Value::Vector(vector) if !divides && product.vector.is_none() => {
+                product.times_unit(vector.unit, false);
+                product.vector = Some(vector);
+                true
+            }
+            Value::Vector(_) if !divides => {
+                let message = "two vectors have no product of this kind";
+                let diagnostic = Diagnostic::new(Code::WrongKind, factor.value.span, message);
+                self.push(diagnostic.help("write `dot(u, v)` or `cross(u, v)`"));
+                false
+            }
+            other => {
+                self.wrong_kind("a number", &other, &factor.value);
+                false
             }
         }
     }
@@ -1062,6 +1031,56 @@ impl Value<'_> {
             Value::Scalar(scalar) => scalar.unit,
             Value::Vector(vector) => vector.unit,
             _ => None,
+        }
+    }
+}
+
+/// A product, as far as it has been read.
+#[derive(Default)]
+struct Product<'d> {
+    /// None as long as all factors are bare numbers.
+    unit: Option<Unit>,
+    /// How often π is a factor that stands for an angle.
+    pi: i32,
+    number: Option<f64>,
+    /// Factors with their powers.
+    scalars: Vec<(Expr<'d>, i32)>,
+    vector: Option<Vector<'d>>,
+}
+
+impl<'d> Product<'d> {
+    fn times(&mut self, scalar: &Scalar<'d>, divides: bool) {
+        self.number = self.number.zip(scalar.number).map(|(product, value)| {
+            if divides {
+                product / value
+            } else {
+                product * value
+            }
+        });
+        self.scalars
+            .push((scalar.expr, if divides { -1 } else { 1 }));
+        self.times_unit(scalar.unit, divides);
+    }
+
+    fn times_unit(&mut self, unit: Option<Unit>, divides: bool) {
+        let Some(unit) = unit else { return };
+        let so_far = self.unit.unwrap_or(Unit::ONE);
+        self.unit = Some(if divides {
+            so_far.over(unit)
+        } else {
+            so_far.times(unit)
+        });
+    }
+
+    /// Counts π in a factor that is a constant without a unit.
+    fn count_pi(&mut self, value: &Value<'d>, divides: bool) {
+        let Value::Scalar(scalar) = value else { return };
+        let is_pure = scalar
+            .unit
+            .is_none_or(|unit| unit.is_one() && !unit.is_angle());
+        if is_pure && scalar.expr.stage() == stage::CONSTANT {
+            let power = power_of_pi(scalar.expr);
+            self.pi += if divides { -power } else { power };
         }
     }
 }

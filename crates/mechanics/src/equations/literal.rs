@@ -387,11 +387,11 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 (Space::Space, &Rotation::Frame(pose)) => {
                     // The turn is ½ Σ e × δe, along the ground's axes.
                     for e in &model.poses[pose.index()].axes {
-                        for k in 0..3 {
+                        for (k, &torque) in torque.iter().enumerate() {
                             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
                             let turn =
                                 here(e[next]) * moved(e[last]) - here(e[last]) * moved(e[next]);
-                            work = work + here(torque[k]) * turn * R::from_ratio(1, 2);
+                            work = work + here(torque) * turn * R::from_ratio(1, 2);
                         }
                     }
                 }

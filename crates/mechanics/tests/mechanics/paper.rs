@@ -63,7 +63,7 @@ fn mistakes(comparison: &Comparison<'_>) -> Vec<[String; 3]> {
 
 /// The page, from the heading of the paper on.
 fn page() -> String {
-    let path = library().join("../../docs/errata.md");
+    let path = library().join("../docs/errata.md");
     let page = std::fs::read_to_string(path).expect("the page can be read");
     let start = page.find("## Dynamical simulation of a vibrating crush machine");
     page[start.expect("the paper has a section")..].to_owned()
