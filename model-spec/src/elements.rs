@@ -7,6 +7,7 @@
 //! it; behind them an element is what [`element`](crate::model::element) says, a few contributions that
 //! mechanics knows.
 
+mod bushing;
 mod constraint;
 mod damper;
 mod dissipation;
@@ -36,6 +37,7 @@ const ROWS: &[Row] = &[
     torsion_spring::ROW,
     gravity::ROW,
     damper::ROW,
+    bushing::ROW,
     potential::ROW,
     dissipation::ROW,
     force::ROW,

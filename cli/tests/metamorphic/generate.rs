@@ -1,9 +1,9 @@
 //! Random machines.
 
 use super::machine::{
-    Approximation, Body, Circle, Constraint, Coordinate, Elastic, Expr, Force, Frame, Guide, Loop,
-    METRE, Machine, Meaning, NEWTON, PURE, Rolling, Step, Stretch, Surface, Value, Vector, cos,
-    der, dot, mul, neg, norm, num, power, q, quotient, sin, sum,
+    Approximation, Body, Bushing, Circle, Constraint, Coordinate, Elastic, Expr, Force, Frame,
+    Guide, Loop, METRE, Machine, Meaning, NEWTON, PURE, Rolling, Step, Stretch, Surface, Value,
+    Vector, cos, der, dot, mul, neg, norm, num, power, q, quotient, sin, sum,
 };
 use super::random::Random;
 use super::truth::{State, World};
@@ -544,6 +544,31 @@ impl Builder<'_> {
         Stretch::Number(e)
     }
 
+    /// In the plane perhaps a bushing between two frames. Loops are cut elsewhere, which builds the frames
+    /// anew; so they have none.
+    fn bushing(&mut self) {
+        let count = self.machine.frames.len();
+        let has_frames = count > 0 && !self.machine.spatial && self.machine.closed.is_none();
+        if !has_frames || !self.random.chance(40) {
+            return;
+        }
+        let (from, to) = (self.random.below(count + 1), 1 + self.random.below(count));
+        if from == to {
+            return;
+        }
+        let mut values =
+            || [0, 1, 2].map(|_| mul(num(self.random.number(0.25, 4.0)), self.positive()));
+        let (stiffness, damping, preload) = (values(), values(), values());
+        let bushing = Bushing {
+            from,
+            to,
+            stiffness,
+            damping: self.random.chance(50).then_some(damping),
+            preload: self.random.chance(50).then_some(preload),
+        };
+        self.machine.bushings.push(bushing);
+    }
+
     fn linear(&mut self) -> Expr {
         let mut parts = vec![num(self.random.number(-1.0, 1.0))];
         for i in 0..self.machine.coordinates.len() {
@@ -601,6 +626,7 @@ impl Builder<'_> {
             let (stiffness, twist) = (self.positive(), self.linear());
             self.machine.torsions.push((stiffness, twist));
         }
+        self.bushing();
         if self.random.chance(25) {
             let (a, i, j) = (
                 self.positive(),

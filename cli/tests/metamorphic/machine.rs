@@ -110,6 +110,16 @@ pub enum Stretch {
     Points(Vector, Vector, Option<Expr>),
 }
 
+/// An elastic joint of two frames in the plane; 0 is the ground.
+#[derive(Clone, Debug)]
+pub struct Bushing {
+    pub from: usize,
+    pub to: usize,
+    pub stiffness: [Expr; 3],
+    pub damping: Option<[Expr; 3]>,
+    pub preload: Option<[Expr; 3]>,
+}
+
 #[derive(Clone, Debug)]
 pub enum Force {
     At(Vector, Vector),
@@ -188,6 +198,7 @@ pub struct Machine {
     pub springs: Vec<Elastic>,
     pub torsions: Vec<(Expr, Expr)>,
     pub dampers: Vec<Elastic>,
+    pub bushings: Vec<Bushing>,
     pub potentials: Vec<Expr>,
     pub dissipations: Vec<Expr>,
     pub forces: Vec<Force>,
@@ -241,6 +252,11 @@ impl Machine {
         for (stiffness, twist) in &mut self.torsions {
             f(stiffness);
             f(twist);
+        }
+        for one in &mut self.bushings {
+            let given = [&mut one.damping, &mut one.preload];
+            let given = given.into_iter().flatten().flatten();
+            one.stiffness.iter_mut().chain(given).for_each(&mut *f);
         }
         self.potentials.iter_mut().for_each(&mut *f);
         self.dissipations.iter_mut().for_each(&mut *f);

@@ -29,7 +29,7 @@ pub struct Rewritten {
 type Rewriting = fn(&mut Rewritten, &mut Random) -> bool;
 
 /// All of them. The first stands first wherever it takes part: it builds the frames anew.
-pub const REWRITINGS: [(&str, Rewriting); 24] = [
+pub const REWRITINGS: [(&str, Rewriting); 25] = [
     ("loop cut elsewhere", cut_elsewhere),
     ("coordinates in place of frames", formulas_for_frames),
     ("frames from the ground", frames_from_ground),
@@ -42,6 +42,7 @@ pub const REWRITINGS: [(&str, Rewriting); 24] = [
     ("springs as forces", springs_as_forces),
     ("torsion springs otherwise", torsions_otherwise),
     ("dampers as dissipations", dampers_as_dissipations),
+    ("bushings as their energies", bushings_as_energies),
     ("weights as potentials", weights_as_potentials),
     ("weights as forces", weights_as_forces),
     ("ground turned", ground_turned),
@@ -214,7 +215,7 @@ fn energies_need_frames(machine: &Machine) -> bool {
             found |= matches!(v, Vector::Point(..) | Vector::Origin(_) | Vector::Along(..));
         });
     }
-    found && is_guided_at_all(machine)
+    (found || !machine.bushings.is_empty()) && is_guided_at_all(machine)
 }
 
 fn formulas_for_frames(r: &mut Rewritten, _: &mut Random) -> bool {
@@ -265,6 +266,10 @@ fn rename_frames(machine: &mut Machine, new: &dyn Fn(usize) -> usize) {
     }
     for guide in &mut machine.sliding {
         guide.on = new(guide.on);
+    }
+    for bushing in &mut machine.bushings {
+        bushing.from = new(bushing.from);
+        bushing.to = new(bushing.to);
     }
 }
 
@@ -405,6 +410,7 @@ fn order_of_items(r: &mut Rewritten, random: &mut Random) -> bool {
     reorder(&mut machine.springs, random);
     reorder(&mut machine.dampers, random);
     reorder(&mut machine.torsions, random);
+    reorder(&mut machine.bushings, random);
     reorder(&mut machine.potentials, random);
     reorder(&mut machine.dissipations, random);
     reorder(&mut machine.forces, random);
@@ -608,6 +614,41 @@ fn dampers_as_dissipations(r: &mut Rewritten, _: &mut Random) -> bool {
         let rate = der(stretch_expr(&stretch));
         let power = mul(mul(num(0.5), factor), power(rate, 4));
         r.machine.dissipations.push(power);
+    }
+    some
+}
+
+/// A bushing by its energy and its dissipation function, in products of vectors.
+fn bushings_as_energies(r: &mut Rewritten, _: &mut Random) -> bool {
+    // As above.
+    if r.by_formulas {
+        return false;
+    }
+    let bushings = std::mem::take(&mut r.machine.bushings);
+    let some = !bushings.is_empty();
+    for bushing in bushings {
+        let angle = |frame: usize| formulas(&r.machine, frame).angle;
+        let line = Vector::Origin(bushing.to).less(Vector::Origin(bushing.from));
+        let along = |k: usize| {
+            let axis = [0, 1].map(|l| num(f64::from(u8::from(k == l))));
+            dot(line.clone(), Vector::Along(bushing.from, axis.to_vec()))
+        };
+        let turned = sum(vec![angle(bushing.to), neg(angle(bushing.from))]);
+        let deformed = [along(0), along(1), turned];
+        for (k, s) in deformed.into_iter().enumerate() {
+            let half = |factor: &Expr, s: Expr| mul(mul(num(0.5), factor.clone()), power(s, 4));
+            r.machine
+                .potentials
+                .push(half(&bushing.stiffness[k], s.clone()));
+            if let Some(preload) = &bushing.preload {
+                r.machine
+                    .potentials
+                    .push(neg(mul(preload[k].clone(), s.clone())));
+            }
+            if let Some(damping) = &bushing.damping {
+                r.machine.dissipations.push(half(&damping[k], der(s)));
+            }
+        }
     }
     some
 }

@@ -1,7 +1,7 @@
 //! A machine as the text of a spec.
 
 use super::machine::{
-    Approximation, Coordinate, Elastic, Expr, Force, Machine, Meaning, PURE, Step, Stretch,
+    Approximation, Coordinate, Elastic, Expr, Force, Machine, Meaning, NEWTON, PURE, Step, Stretch,
     Surface, Unit, Vector,
 };
 
@@ -216,6 +216,23 @@ pub fn items(machine: &Machine) -> Vec<Item> {
         let (stiffness, twist) = (p.expr(stiffness), p.expr(twist));
         let text = format!("w{k} {{ stiffness: one_N*one_m*{stiffness}, twist: {twist} }}");
         item("torsion_springs", format!("w{k}"), text);
+    }
+    for (k, one) in machine.bushings.iter().enumerate() {
+        let values = |field: &str, values: &[Expr; 3], unit: &str| {
+            let [x, y, angle] = [0, 1, 2].map(|k| p.expr(&values[k]));
+            let about = format!("{angle}*{unit}*one_m^2");
+            format!("{field}: ({x}*{unit}, {y}*{unit}, {about})")
+        };
+        let ends = format!("from: {}, to: {}", p.frame(one.from), p.frame(one.to));
+        let mut fields = vec![ends, values("stiffness", &one.stiffness, "one_N/one_m")];
+        let damping = one.damping.as_ref();
+        fields.extend(damping.map(|all| values("damping", all, "one_N*one_s/one_m")));
+        fields.extend(one.preload.as_ref().map(|[x, y, moment]| {
+            let along = p.list(&[x.clone(), y.clone()], NEWTON);
+            format!("preload: ({along}, {}*one_N*one_m)", p.expr(moment))
+        }));
+        let text = format!("b{k} {{ {} }}", fields.join(", "));
+        item("bushings", format!("b{k}"), text);
     }
     for (k, e) in machine.potentials.iter().enumerate() {
         let text = format!("u{k}: one_N*one_m*{}", p.expr(e));

@@ -8,7 +8,7 @@ use lagrangian_scalar::Scalar;
 
 use super::jet::{Jet, solve};
 use super::machine::{
-    Approximation, Expr, Force, Machine, Meaning, Step, Stretch, Surface, Vector,
+    Approximation, Bushing, Expr, Force, Machine, Meaning, Step, Stretch, Surface, Vector,
 };
 
 /// A state: time, coordinates, rates; and inputs.
@@ -367,6 +367,18 @@ impl<'m, S: Scalar> World<'m, S> {
         }
     }
 
+    /// How a bushing is deformed: where the origin of one frame is along the axes of the other, and how far
+    /// it is turned against it.
+    fn deformation(&self, bushing: &Bushing) -> Vec<Jet<S>> {
+        let [from, to] = [bushing.from, bushing.to].map(|frame| &self.poses[frame]);
+        let line = minus(&to.origin, &from.origin);
+        let along = |k: usize| {
+            let axis: Vec<Jet<S>> = from.axes.iter().map(|row| row[k].clone()).collect();
+            product(&axis, &line)
+        };
+        vec![along(0), along(1), to.angle.sub(&from.angle)]
+    }
+
     fn potential_exact(&self) -> Jet<S> {
         let machine = self.machine;
         let mut sum = Jet::of(S::ZERO);
@@ -376,6 +388,16 @@ impl<'m, S: Scalar> World<'m, S> {
         }
         for (stiffness, twist) in &machine.torsions {
             sum = sum.add(&elastic(stiffness, self.expr(twist)));
+        }
+        for bushing in &machine.bushings {
+            let deformed = self.deformation(bushing);
+            for (factor, s) in bushing.stiffness.iter().zip(&deformed) {
+                sum = sum.add(&elastic(factor, s.clone()));
+            }
+            let preload = bushing.preload.iter().flatten().zip(&deformed);
+            for (force, s) in preload {
+                sum = sum.sub(&self.expr(force).mul(s));
+            }
         }
         for potential in &machine.potentials {
             sum = sum.add(&self.expr(potential));
@@ -395,6 +417,12 @@ impl<'m, S: Scalar> World<'m, S> {
         for damper in &self.machine.dampers {
             let rate = self.rate(|world| world.stretch(&damper.stretch));
             sum = sum.add(&self.expr(&damper.factor).mul(&rate).mul(&rate).times(0.5));
+        }
+        for bushing in &self.machine.bushings {
+            let rates = self.rates(|world| world.deformation(bushing));
+            for (factor, rate) in bushing.damping.iter().flatten().zip(rates) {
+                sum = sum.add(&self.expr(factor).mul(&rate).mul(&rate).times(0.5));
+            }
         }
         for one in &self.machine.dissipations {
             sum = sum.add(&self.expr(one));

@@ -1,6 +1,7 @@
 //! The derivation held against Lagrange, against textbooks, and against itself.
 
 mod approximations;
+mod bushing;
 mod by_hand;
 mod energy;
 mod freedom;

@@ -1,0 +1,276 @@
+//! Bushings: elastic joints between two frames in the plane, of three stiffnesses, three dampings and a
+//! preload.
+//!
+//! What is deformed is how the second frame stands as the first one sees it: the displacement (x, y) of
+//! its origin along the axes of the first, and the angle φ by which it is turned against it.
+//!
+//! ```text
+//! V = ½ kx x² + ½ ky y² + ½ kφ φ² − Fx x − Fy y − M φ,    D = ½ bx ẋ² + ½ by ẏ² + ½ bφ φ̇²
+//! ```
+//!
+//! So where nothing is displaced, the preload (Fx, Fy, M) is what the second frame is pushed by, along
+//! the axes of the first. Both frames may move and turn together at no cost.
+
+use lagrangian_symbolic::Expr;
+
+use super::damper::DAMPING;
+use super::spring::STIFFNESS;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::bounds::BoundKind;
+use crate::model::circles::terms;
+use crate::model::element::{Contribution, Deformation, Drawing, Energy, Shape, Site};
+use crate::model::{PoseId, Space, Step, stage};
+use crate::resolve::Resolver;
+use crate::resolve::element::{Meaning, Resolved, Row};
+use crate::resolve::value::{Limit, MemberId, limit, limits};
+use crate::syntax::{Expression, ExpressionKind, Form, Record, Section};
+use crate::unit::Unit;
+
+pub(super) const ROW: Row = Row {
+    section: &SECTION,
+    meaning: Meaning::Items(resolve),
+};
+
+const SECTION: Section = Section {
+    word: "bushings",
+    item: "a bushing",
+    noun: "bushing",
+    form: Form::Records(&["from", "to", "stiffness", "damping", "preload"]),
+    help: "a bushing is `name { from: frame, to: frame, stiffness: (kx, ky, kphi) }`, and where \
+           needed `damping: (bx, by, bphi)` and `preload: (Fx, Fy, M)`",
+};
+
+static PRELOAD: Limit = limit(
+    stage::TIME,
+    "a preload",
+    "what depends on coordinates or velocities stands under `forces` or `potentials`",
+);
+
+/// What stands in a field: two values along the axes, and one about them.
+struct Values {
+    field: &'static str,
+    /// The units along the axes, and about them.
+    units: [Unit; 2],
+    why: &'static str,
+    limit: &'static Limit,
+    bound: Option<BoundKind<'static>>,
+}
+
+const STIFFNESSES: Values = Values {
+    field: "stiffness",
+    units: [Unit::base(1, 0, -2), Unit::JOULE],
+    why: "the stiffnesses of a bushing are in N/m, N/m and N*m",
+    limit: &STIFFNESS,
+    bound: Some(BoundKind::Stiffness),
+};
+
+const DAMPINGS: Values = Values {
+    field: "damping",
+    units: [Unit::base(1, 0, -1), Unit::base(1, 2, -1)],
+    why: "the dampings of a bushing are in N*s/m, N*s/m and N*m*s",
+    limit: &DAMPING,
+    bound: Some(BoundKind::Damping),
+};
+
+const PRELOADS: Values = Values {
+    field: "preload",
+    units: [Unit::NEWTON, Unit::JOULE],
+    why: "the preload of a bushing is in N, N and N*m",
+    limit: &PRELOAD,
+    bound: None,
+};
+
+fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<Resolved<'d>> {
+    let record = resolver.record(member)?;
+    if resolver.space == Space::Space {
+        let message = "bushings exist only in the plane";
+        resolver.error(Code::WrongSpace, resolver.span(member), message);
+        return None;
+    }
+    let ends = ["from", "to"].map(|end| {
+        let end = resolver.field(member, record, end)?;
+        let scope = resolver.scope(member, &limits::POINT);
+        Some((resolver.frame(end, scope)?, end.span))
+    });
+    let stiffness = resolver.field(member, record, STIFFNESSES.field);
+    let stiffness = stiffness.and_then(|said| three(resolver, member, said, &STIFFNESSES));
+    let damping = optional(resolver, member, record, &DAMPINGS);
+    let preload = optional(resolver, member, record, &PRELOADS);
+    let [Some((from, _)), Some((to, span))] = ends else {
+        return None;
+    };
+    if from == to {
+        let message = "a bushing joins two frames, and both ends are the same one";
+        resolver.error(Code::ConflictingFields, span, message);
+        return None;
+    }
+
+    let measures = measures(resolver, from, to);
+    let deformations = |coefficients: [Expr<'d>; 3]| {
+        let pairs = coefficients.into_iter().zip(measures).enumerate();
+        // What has no stiffness or damping costs nothing.
+        let pairs = pairs.filter(|(_, (coefficient, _))| !coefficient.is_zero());
+        pairs.map(|(k, (coefficient, measure))| {
+            Energy::Quadratic(Deformation {
+                coefficient,
+                measure,
+                torsional: k == 2,
+            })
+        })
+    };
+    let stored = deformations(stiffness?).map(Contribution::Stored);
+    let dissipated = deformations(damping?).map(Contribution::Dissipated);
+    let work = preload?.into_iter().zip(measures);
+    let work = work.map(|(force, measure)| force * measure);
+    let work = resolver.dag.sum(work);
+    let preloaded = (!work.is_zero()).then(|| Contribution::Stored(Energy::Given(-work)));
+    let contributions = stored.chain(preloaded).chain(dissipated);
+    Some(Resolved::of(contributions).drawn(Drawing {
+        shape: Shape::Coil,
+        site: Site::At(resolver.origin(to).components),
+    }))
+}
+
+/// Three values that may be left out; then they are zero.
+fn optional<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    record: &'a Record,
+    values: &Values,
+) -> Option<[Expr<'d>; 3]> {
+    match record.get(values.field) {
+        Some(said) => three(resolver, member, said, values),
+        None => Some([resolver.dag.zero(); 3]),
+    }
+}
+
+/// Two values along the axes, and one about them. They are no vector: their units are not the same.
+fn three<'a, 'd>(
+    resolver: &mut Resolver<'a, 'd, '_>,
+    member: MemberId,
+    said: &'a Expression,
+    values: &Values,
+) -> Option<[Expr<'d>; 3]> {
+    let parts = match &said.kind {
+        ExpressionKind::Tuple(parts) => &parts[..],
+        ExpressionKind::Error => return None,
+        _ => std::slice::from_ref(said),
+    };
+    let [x, y, angle] = parts else {
+        let message = format!(
+            "expected three values, along both axes and about them, found {}",
+            parts.len()
+        );
+        let diagnostic = Diagnostic::new(Code::WrongDimension, said.span, message);
+        let help = format!("write `{}: (…, …, …)`", values.field);
+        resolver.push(diagnostic.help(help));
+        return None;
+    };
+    let [along, about] = values.units;
+    let found = [(x, along), (y, along), (angle, about)].map(|(part, unit)| {
+        let scope = resolver.scope(member, values.limit);
+        let scalar = resolver.scalar_in(part, unit, values.why, scope)?;
+        if let Some(bound) = values.bound {
+            resolver.bound(bound, scalar.expr, part.span);
+        }
+        Some(scalar.expr)
+    });
+    let [Some(x), Some(y), Some(angle)] = found else {
+        return None;
+    };
+    Some([x, y, angle])
+}
+
+/// The most steps from frame to frame that are looked at. Frames that are farther from each other are
+/// seen from the ground, so that bushings on every link of a long chain do not make as many walks along
+/// it.
+const FAR: usize = 64;
+
+/// How the frame `to` stands as `from` sees it: x, y and φ. What both are built on is left out.
+///
+/// On the way from one to the other every shift was made along the axes of some frame of angle ψ, and so
+/// stands turned by ψ less the angle of `from`: nothing of it has to cancel, and a frame that is built on
+/// `from` by a shift alone is displaced by that shift.
+fn measures<'d>(resolver: &Resolver<'_, 'd, '_>, from: PoseId, to: PoseId) -> [Expr<'d>; 3] {
+    let (dag, base) = (resolver.dag, resolver.pose(from).angle);
+    let less_base = |angle: Expr<'d>| {
+        let base = terms(base).into_iter().map(|term| -term);
+        dag.sum(terms(angle).into_iter().chain(base))
+    };
+    let shifts = shifts_between(resolver, from, to).unwrap_or_else(|| {
+        let [from, to] = [from, to].map(|frame| resolver.pose(frame).origin.clone());
+        vec![
+            Shift::new(dag.zero(), from, true),
+            Shift::new(dag.zero(), to, false),
+        ]
+    });
+    let (mut x, mut y) = (Vec::new(), Vec::new());
+    let mut left = &shifts[..];
+    // What was made along the same axes stands together.
+    while let Some(first) = left.first() {
+        let count = left
+            .iter()
+            .take_while(|shift| shift.angle == first.angle)
+            .count();
+        let (group, others) = left.split_at(count);
+        left = others;
+        let along = |k: usize| dag.sum(group.iter().flat_map(|shift| shift.terms(k)));
+        let shift = [along(0), along(1)];
+        let turned = less_base(first.angle);
+        let (sin, cos) = (turned.sin(), turned.cos());
+        x.extend([cos * shift[0], -(sin * shift[1])]);
+        y.extend([sin * shift[0], cos * shift[1]]);
+    }
+    [dag.sum(x), dag.sum(y), less_base(resolver.pose(to).angle)]
+}
+
+/// A shift on the way, along the axes of a frame that is turned by an angle.
+struct Shift<'d> {
+    angle: Expr<'d>,
+    by: Vec<Expr<'d>>,
+    /// Whether it is on the way from `from` to what both frames are built on, and counts backwards.
+    is_back: bool,
+}
+
+impl<'d> Shift<'d> {
+    fn new(angle: Expr<'d>, by: Vec<Expr<'d>>, is_back: bool) -> Shift<'d> {
+        Shift { angle, by, is_back }
+    }
+
+    /// The terms of a component.
+    fn terms(&self, k: usize) -> impl Iterator<Item = Expr<'d>> {
+        let is_back = self.is_back;
+        let signed = move |term: Expr<'d>| if is_back { -term } else { term };
+        terms(self.by[k]).into_iter().map(signed)
+    }
+}
+
+/// The shifts on the way from one frame to another, by their angles; nothing where the way is long.
+fn shifts_between<'d>(
+    resolver: &Resolver<'_, 'd, '_>,
+    from: PoseId,
+    to: PoseId,
+) -> Option<Vec<Shift<'d>>> {
+    let mut shifts = Vec::new();
+    let (mut near, mut far) = ((from, true), (to, false));
+    for _ in 0..FAR {
+        if near.0 == far.0 {
+            shifts.sort_by_key(|shift: &Shift<'d>| shift.angle.id());
+            return Some(shifts);
+        }
+        // A frame is made after its parent, so the later of the two is no parent of the other.
+        if near.0 > far.0 {
+            std::mem::swap(&mut near, &mut far);
+        }
+        let (frame, is_back) = far;
+        let pose = resolver.pose(frame);
+        if let Step::Shift(by) = &pose.step {
+            let angle = resolver.pose(pose.parent).angle;
+            shifts.push(Shift::new(angle, by.clone(), is_back));
+        }
+        let relaxed = resolver.relaxed_by(frame);
+        shifts.extend(relaxed.map(|by| Shift::new(resolver.dag.zero(), by, is_back)));
+        far.0 = pose.parent;
+    }
+    None
+}
