@@ -1,7 +1,7 @@
 //! Machines read from a spec while the program runs, without a Rust compiler.
 //!
-//! Slower than emitted code by a factor of about ten, and otherwise the same: the same operations
-//! in the same order.
+//! Interpreted they are slower than emitted code by a factor of about ten, and otherwise the same: the same operations
+//! in the same order. With the feature `jit` an [`Engine`] makes machine code of what is called often, which is as fast.
 
 use core::cell::RefCell;
 use core::fmt;
@@ -19,6 +19,10 @@ use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
 use lagrangian_spec::model::Variable;
 use lagrangian_spec::token::normalized;
 
+mod engine;
+
+pub use engine::{Engine, NoMachineCode};
+
 use crate::{
     Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
     Staged, State, System, accelerations_with_friction, multipliers_with_friction,
@@ -32,6 +36,7 @@ pub struct InterpretedMachine {
     parameters: Vec<f64>,
     inputs: Vec<f64>,
     series: Result<Arc<Series>, String>,
+    machine_code: engine::MachineCode,
 }
 
 /// Numbers under the names of coordinates, inputs or outputs; a member of a family is called
@@ -66,6 +71,8 @@ pub struct InterpretedSystem {
     inputs: Vec<f64>,
     /// Registers that a call writes; a system is used by one thread at a time.
     interpreter: RefCell<Interpreter<f64>>,
+    /// What runs the same in its place, where it can.
+    compiled: RefCell<engine::Compiled>,
     /// The parameters, and the same program over intervals once it is asked for; of machines with
     /// contacts.
     parameters: Vec<f64>,
@@ -119,6 +126,7 @@ impl InterpretedMachine {
                 .collect(),
             names: Arc::new(names),
             program: Arc::new(program),
+            machine_code: engine::MachineCode::default(),
             series: Err("its series was not derived".into()),
         }
     }
@@ -157,6 +165,16 @@ impl InterpretedMachine {
             Err(reason) => Err(reason.to_string()),
         };
         self
+    }
+
+    /// Sets what runs its functions: the interpreter, as long as nobody says otherwise. Systems that were prepared before
+    /// keep theirs.
+    ///
+    /// # Errors
+    /// If it is to be machine code and there is none here, or none in this build; then everything stays as it is.
+    pub fn set_engine(&mut self, engine: Engine) -> Result<(), NoMachineCode> {
+        self.machine_code = engine::MachineCode::new(engine, &self.program)?;
+        Ok(())
     }
 
     /// Sets a parameter, or the value that an input has while nobody sets it. The name of a family
@@ -218,11 +236,13 @@ impl Machine for InterpretedMachine {
     }
 
     fn prepare(&self) -> InterpretedSystem {
+        let interpreter = Interpreter::new(&self.program, &self.parameters);
         InterpretedSystem {
             program: self.program.clone(),
             names: self.names.clone(),
             inputs: self.inputs.clone(),
-            interpreter: RefCell::new(Interpreter::new(&self.program, &self.parameters)),
+            compiled: RefCell::new(self.machine_code.prepared(&interpreter)),
+            interpreter: RefCell::new(interpreter),
             parameters: match self.program.contacts.is_empty() {
                 true => Vec::new(),
                 false => self.parameters.clone(),
@@ -257,6 +277,9 @@ impl InterpretedSystem {
         arguments: Arguments<'_, f64>,
         results: &mut [f64],
     ) -> Result<(), Singular> {
+        if self.compiled.borrow_mut().call(role, arguments, results) {
+            return Ok(());
+        }
         let mut interpreter = self.interpreter.borrow_mut();
         let called = match role.is_fast() {
             // In the arithmetic of compiled machines, to the last bit.
@@ -706,6 +729,7 @@ impl InterpretedSystem {
             return values[0];
         }
         self.interpreter.borrow_mut().stand(role, values);
+        self.compiled.borrow_mut().stand(role, values);
         f64::NAN // nobody reads the time any more
     }
 }

@@ -44,6 +44,7 @@
 //! | `std` (default) | simulations, solutions, events, the implicit method `radau5`; without it the crate allocates nothing and needs no operating system |
 //! | `macros` (default) | `machine!` |
 //! | `interpreter` | specs that are read while the program runs |
+//! | `jit` | these at compiled speed, by machine code that is made while the program runs |
 //! | `strict-libm` | the same bits on every machine: no fused multiply-add, `libm`'s sines |
 //! | `nalgebra` | vectors and matrices of that crate at the interface |
 #![no_std]

@@ -53,6 +53,7 @@ pub fn run(call: &call::Brachistochrone) -> Result<(), Failure> {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
         rates: Vec::new(),
+        running: call.running,
     };
     let machine = reading::machine(&compiled, &start)?;
     machine.check_parameters().map_err(|missing| {

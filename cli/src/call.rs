@@ -132,6 +132,27 @@ pub struct Start {
     /// Set the velocity of a coordinate at the start; 0 where left out.
     #[arg(long = "rate", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub rates: Vec<Assignment>,
+    #[command(flatten)]
+    pub running: Running,
+}
+
+/// How it is run.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Running {
+    /// What runs the equations; the results are the same to the last bit.
+    #[arg(long, value_enum, default_value_t = Engine::Auto)]
+    pub engine: Engine,
+}
+
+/// What runs the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// The interpreter, until machine code pays; and where there is none.
+    Auto,
+    /// The interpreter.
+    Interpreter,
+    /// Machine code from the first call on.
+    Jit,
 }
 
 /// Which numbers of a start stay as they are.
@@ -320,6 +341,8 @@ pub struct Brachistochrone {
     /// Write the motion as a page, beside that of the machine left to itself.
     #[arg(long, value_name = "FILE.html")]
     pub report: Option<PathBuf>,
+    #[command(flatten)]
+    pub running: Running,
 }
 
 /// `name=from..to:count`.

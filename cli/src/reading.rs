@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lagrangian::interpreted::{InterpretedMachine, Named, UnknownName};
+use lagrangian::interpreted::{Engine, InterpretedMachine, Named, UnknownName};
 use lagrangian::{Machine, Simulation, State};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
@@ -159,6 +159,16 @@ pub fn machine(
     start: &call::Start,
 ) -> Result<InterpretedMachine, Failure> {
     let mut machine = InterpretedMachine::new(compiled.program.clone());
+    let engine = match start.running.engine {
+        call::Engine::Auto => Engine::Auto,
+        call::Engine::Interpreter => Engine::Interpreter,
+        call::Engine::Jit => Engine::Jit,
+    };
+    machine.set_engine(engine).map_err(|none| {
+        Failure::Call(format!(
+            "--engine jit: {none}; without it the machine is interpreted, to the same bits"
+        ))
+    })?;
     for set in families_first(&start.parameters) {
         let value = match machine.unit(&set.name) {
             Some(unit) => set.value("--set", unit).map_err(Failure::Call)?,

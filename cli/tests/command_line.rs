@@ -1,5 +1,7 @@
 //! The command as a user calls it: what it prints, where, and with which exit status.
 
+#[path = "command_line/engines.rs"]
+mod engines;
 #[path = "command_line/kept.rs"]
 mod kept;
 mod support;

@@ -41,6 +41,7 @@ pub fn arrival(
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
         rates: Vec::new(),
+        running: call.running,
     };
     let machine = reading::machine(&compiled, &start).map_err(|_| said.to_owned())?;
     let motion = &found.motion;

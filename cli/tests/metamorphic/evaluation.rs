@@ -1,12 +1,13 @@
 //! Accelerations, reactions, energies and what is derived beside them, at random states.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{ContactForce, Machine as _, System as _, contact_forces, least_multipliers};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::Proved;
-use lagrangian_program::{Arguments, Interpreter, Role};
+use lagrangian_program::{Arguments, Interpreter, Program, Role};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model;
@@ -783,6 +784,27 @@ fn families(random: &mut Random, tally: &mut Tally) {
     tally.count(format!("rewriting: {UNROLLED}"));
 }
 
+/// Of how many machines one is compiled to machine code; no multiple of the number of kinds.
+const COMPILED: usize = 9;
+
+/// Machine code of all functions, held against the interpreter.
+fn hold_machine_code(program: &Proved, random: &mut Random, tally: &mut Tally) -> Option<String> {
+    if lagrangian_jit::Level::here().is_none() {
+        return None;
+    }
+    let program = Arc::new(Program::clone(program));
+    let mut any = || random.number(0.5, 2.0);
+    let parameters = program.parameters.iter().map(|slot| match &slot.default {
+        Some(default) => default.value,
+        None => any(),
+    });
+    let parameters: Vec<f64> = parameters.collect();
+    tally.count("machine code");
+    let seed = random.below(1 << 30) as u64;
+    let found = super::check::agrees(&program, &parameters, seed, 8);
+    found.err().map(|error| format!("machine code: {error}"))
+}
+
 /// One machine, and two ways to say it otherwise.
 pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
     if number % EVERY == EVERY - 1 {
@@ -816,6 +838,9 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
     let expected = Expected::of(&case);
     let mut failures = hold(&program, &expected);
     failures.extend(hold_equations(&program, &case, &mut random));
+    if number % COMPILED == 0 {
+        failures.extend(hold_machine_code(&program, &mut random, tally));
+    }
     if !failures.is_empty() {
         let said = at(&expected);
         let failures = failures.join("\n");

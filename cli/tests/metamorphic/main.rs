@@ -9,6 +9,8 @@
     reason = "sums over i and j read like the formulas"
 )]
 
+#[path = "../../../jit/tests/agreement/check.rs"]
+mod check;
 mod commands;
 mod evaluation;
 mod generate;

@@ -24,7 +24,7 @@
 //!
 //! # Unsafe code
 //!
-//! This is the only crate of the project that has any: instructions which only some processors have
+//! Beside `lagrangian-jit` this is the only crate of the project that has any: instructions which only some processors have
 //! cannot be used without it. Types of registers are not public; a kernel meets them only where the
 //! processor has been asked.
 //!

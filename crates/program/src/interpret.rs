@@ -98,6 +98,17 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         &self.registers[start..start + len]
     }
 
+    /// The prepared values, which the parameters alone decide.
+    pub fn prepared(&self) -> &[S] {
+        let Region { start, len } = self.layout.prepared;
+        &self.registers[start..start + len]
+    }
+
+    /// Why the parameters alone leave the machine without accelerations, if they do.
+    pub fn singular(&self) -> Option<Singular> {
+        self.singular
+    }
+
     /// Where the coordinates start, and how fast.
     ///
     /// # Panics

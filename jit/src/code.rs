@@ -1,0 +1,280 @@
+//! Code in memory, and calls of it.
+
+use std::marker::PhantomData;
+
+use lagrangian_native::Lanes;
+use lagrangian_program::{Arguments, Function};
+use memmap2::{Mmap, MmapMut};
+
+pub use super::emit::Layout;
+use super::emit::{Assembled, assemble};
+use super::lower::{Arithmetic, Base, Lowered};
+use super::{SeveralArguments, Unavailable, Work};
+
+/// The bytes in front of the room for values: addresses of arguments.
+pub const HEADER: usize = 128;
+
+/// What code is called as: time, coordinates, velocities, inputs, prepared values, the room. A bit for each lane: whether
+/// its guards hold.
+type Entry = unsafe extern "sysv64" fn(
+    *const f64,
+    *const f64,
+    *const f64,
+    *const f64,
+    *const f64,
+    *mut u8,
+) -> u32;
+
+/// A function as machine code.
+#[derive(Debug)]
+pub struct Code {
+    /// Never writable while it is executable.
+    pages: Mmap,
+    entry: usize,
+    layout: Layout,
+    /// Of each argument how many numbers it reads.
+    reads: [usize; READ],
+    results: usize,
+    room: usize,
+    work: Work,
+    length: usize,
+}
+
+/// What a call reads: numbers of one state, or of several side by side.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a> {
+    /// In the order of `Base`, but for the results.
+    addresses: [*const f64; READ],
+    /// How many numbers a state has there.
+    lens: [usize; READ],
+    /// How many states lie side by side; of prepared values how many numbers stand for one.
+    width: usize,
+    known_width: usize,
+    numbers: PhantomData<&'a [f64]>,
+}
+
+/// How many kinds of arguments there are.
+const READ: usize = Base::COUNT - 1;
+
+impl<'a> Rows<'a> {
+    /// Those of one state.
+    #[inline(always)]
+    pub fn of_one(
+        arguments: &'a Arguments<'a, f64>,
+        known: &'a [f64],
+        [at_time, at_position]: [&'a [f64]; 2],
+    ) -> Rows<'a> {
+        let Arguments { t, q, v, u, a } = arguments;
+        let rows = [
+            std::slice::from_ref(t),
+            q,
+            v,
+            u,
+            known,
+            a,
+            at_time,
+            at_position,
+        ];
+        Rows {
+            addresses: rows.map(<[f64]>::as_ptr),
+            lens: rows.map(<[f64]>::len),
+            width: 1,
+            known_width: 1,
+            numbers: PhantomData,
+        }
+    }
+
+    /// Those of N states; each prepared value is so many numbers.
+    #[inline(always)]
+    pub fn of_several<const N: usize>(
+        arguments: &'a SeveralArguments<'a, N>,
+        known: &'a [f64],
+        known_width: usize,
+        [at_time, at_position]: [&'a [Lanes<N>]; 2],
+    ) -> Rows<'a> {
+        let SeveralArguments { t, q, v, u, a } = arguments;
+        let nothing: &[Lanes<N>] = &[];
+        let rows = [
+            std::slice::from_ref(t),
+            q,
+            v,
+            u,
+            nothing,
+            a,
+            at_time,
+            at_position,
+        ];
+        let mut addresses = rows.map(|row| row.as_ptr().cast::<f64>());
+        let mut lens = rows.map(<[Lanes<N>]>::len);
+        addresses[Base::Known as usize] = known.as_ptr();
+        lens[Base::Known as usize] = known.len() / known_width.max(1);
+        Rows {
+            addresses,
+            lens,
+            width: N,
+            known_width,
+            numbers: PhantomData,
+        }
+    }
+}
+
+/// Room for the results of one or several states.
+pub struct Results<'a> {
+    address: *mut f64,
+    len: usize,
+    width: usize,
+    numbers: PhantomData<&'a mut [f64]>,
+}
+
+impl<'a> From<&'a mut [f64]> for Results<'a> {
+    #[inline(always)]
+    fn from(numbers: &'a mut [f64]) -> Results<'a> {
+        Results {
+            address: numbers.as_mut_ptr(),
+            len: numbers.len(),
+            width: 1,
+            numbers: PhantomData,
+        }
+    }
+}
+
+impl<'a, const N: usize> From<&'a mut [Lanes<N>]> for Results<'a> {
+    #[inline(always)]
+    fn from(numbers: &'a mut [Lanes<N>]) -> Results<'a> {
+        Results {
+            address: numbers.as_mut_ptr().cast(),
+            len: numbers.len(),
+            width: N,
+            numbers: PhantomData,
+        }
+    }
+}
+
+/// Where code keeps what its registers have no place for.
+#[derive(Clone, Debug, Default)]
+pub struct Room(Vec<Line>);
+
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+struct Line([u64; 8]);
+
+impl Room {
+    #[inline(always)]
+    fn at_least(&mut self, bytes: usize) -> *mut u8 {
+        let lines = bytes.div_ceil(size_of::<Line>());
+        if self.0.len() < lines {
+            self.0.resize(lines, Line([0; 8]));
+        }
+        self.0.as_mut_ptr().cast()
+    }
+}
+
+impl Code {
+    /// Compiles a function.
+    ///
+    /// # Errors
+    /// If the system does not give pages that may be executable.
+    pub fn new(function: &Function, is_fused: bool, layout: Layout) -> Result<Code, Unavailable> {
+        let arithmetic = match is_fused {
+            true => Arithmetic::Fused,
+            false => Arithmetic::Plain,
+        };
+        let lowered = Lowered::new(function, arithmetic);
+        let assembled = assemble(&lowered, arithmetic, layout);
+        let Assembled {
+            bytes,
+            entry,
+            room,
+            work,
+        } = assembled.map_err(|error| Unavailable::Encoding(error.to_string()))?;
+        let length = bytes.len();
+        let mut writable = MmapMut::map_anon(length).map_err(Unavailable::Pages)?;
+        writable.copy_from_slice(&bytes);
+        let pages = writable.make_exec().map_err(Unavailable::Pages)?;
+        Ok(Code {
+            pages,
+            entry,
+            layout,
+            reads: std::array::from_fn(|base| lowered.reads[base] as usize),
+            results: lowered.results.len(),
+            room: HEADER + room * layout.width(),
+            work,
+            length,
+        })
+    }
+
+    /// How much work compiling was.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// How many bytes it has, constants included.
+    pub fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Where it is in memory.
+    pub fn addresses(&self) -> std::ops::Range<usize> {
+        let start = self.pages.as_ptr() as usize;
+        start..start + self.pages.len()
+    }
+
+    /// Runs the code; a bit for each lane, whether its guards hold. None if an argument is too short, there is not room for
+    /// exactly the results, or any of these is of another number of states than the layout: then nothing happens.
+    ///
+    /// Of states side by side as many are evaluated as the code has lanes, from `first` on.
+    #[inline(always)]
+    pub(crate) fn run(
+        &self,
+        room: &mut Room,
+        rows: &Rows<'_>,
+        first: usize,
+        results: &mut Results<'_>,
+    ) -> Option<u32> {
+        let Layout {
+            lanes,
+            stride,
+            known_stride,
+            ..
+        } = self.layout;
+        let mut is_other = first + lanes > stride;
+        is_other |= rows.width != stride || rows.known_width != known_stride;
+        is_other |= results.width != stride || results.len != self.results;
+        for (len, least) in rows.lens.iter().zip(&self.reads) {
+            is_other |= len < least;
+        }
+        if is_other {
+            return None;
+        }
+        let room = room.at_least(self.room);
+        let at = |base: Base| rows.addresses[base as usize].wrapping_add(first);
+        let known = match known_stride < stride {
+            // The same for all lanes.
+            true => rows.addresses[Base::Known as usize],
+            false => at(Base::Known),
+        };
+        // SAFETY: the pages are executable and hold, from `entry` on, a function of this kind, which `assemble` wrote. Of
+        // each argument it reads as many numbers as `reads` says, a stride apart, and there are so many; it writes as many
+        // results, and there is room for so many. The room is as long as the code says, and aligned to its registers. The
+        // addresses of what it does not read may be any. It calls `external.rs` only.
+        unsafe {
+            let entry =
+                std::mem::transmute::<*const u8, Entry>(self.pages.as_ptr().add(self.entry));
+            let header = room.cast::<*const f64>();
+            for base in [Base::Accelerations, Base::AtTime, Base::AtPosition] {
+                header.add(base as usize).write(at(base));
+            }
+            let to = room.cast::<*mut f64>().add(Base::Results as usize);
+            to.write(results.address.wrapping_add(first));
+            let held = entry(
+                at(Base::Time),
+                at(Base::Coordinates),
+                at(Base::Velocities),
+                at(Base::Inputs),
+                known,
+                room,
+            );
+            Some(held & ((1 << lanes) - 1))
+        }
+    }
+}

@@ -1,0 +1,821 @@
+//! Machine code of a function: one walk over its instructions.
+//!
+//! Values are kept in registers as long as there are any. Where one more is needed, the value whose next use is furthest
+//! leaves its register (L. A. Belady, *A study of replacement algorithms for a virtual-storage computer*, IBM Systems
+//! Journal 5 (1966) 78–101), and is written to memory unless it is there already. Arguments and constants are operands in
+//! memory wherever an instruction takes one.
+//!
+//! What holds between instructions: a value that is still needed is in a register or has a place in memory.
+
+use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
+use lagrangian_program::Contracted;
+
+use super::code::HEADER;
+use super::encodings::{Encodings, encodings};
+use super::external;
+use super::lower::{Arithmetic, Base, Id, Instruction, Lowered, Node, Place, Predicate};
+use super::{Level, Work};
+
+/// For how many states at once code is, and how their numbers lie in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Layout {
+    /// The instructions that the processor has.
+    pub level: Level,
+    /// How many states an instruction works on.
+    pub lanes: usize,
+    /// From a number of a state to its next, in numbers: as many as there are states side by side.
+    pub stride: usize,
+    /// From a prepared value to the next, in numbers: 1 where they are shared by all lanes, which only AVX-512 can read;
+    /// otherwise one for each lane, or more.
+    pub known_stride: usize,
+}
+
+impl Layout {
+    /// The bytes of a register.
+    pub fn width(self) -> usize {
+        8 * self.lanes
+    }
+}
+
+/// Code and what it needs.
+#[derive(Debug)]
+pub struct Assembled {
+    /// Constants, and behind them the code.
+    pub bytes: Vec<u8>,
+    /// Where the code starts.
+    pub entry: usize,
+    /// How many places as long as a register it needs in the room.
+    pub room: usize,
+    /// How much work it was.
+    pub work: Work,
+}
+
+/// Code is aligned to lines of the cache.
+const LINE: usize = 64;
+
+/// No further use.
+const NEVER: u32 = u32::MAX;
+
+/// The registers of addresses: the first five arguments of a call have theirs from the start.
+const ADDRESSES: [Register; Base::COUNT] = [
+    Register::RDI, // time
+    Register::RSI, // coordinates
+    Register::RDX, // velocities
+    Register::RCX, // inputs
+    Register::R8,  // prepared values
+    Register::R9,  // accelerations
+    Register::R10, // left by the stage of time
+    Register::R11, // left by the stage of position
+    Register::RAX, // results
+];
+
+/// How many of [`ADDRESSES`] a call brings along; where the room is, it brings in R9.
+const BROUGHT: usize = 5;
+
+/// The address of the room, in a register that calls keep.
+const ROOM: Register = Register::RBX;
+
+/// Where guards are kept in mind with AVX-512, and where comparisons go.
+const GUARDS: Register = Register::K1;
+const COMPARED: Register = Register::K2;
+
+/// Encodes a function.
+///
+/// # Errors
+/// If an instruction has no encoding, which would be a mistake here.
+pub fn assemble(
+    lowered: &Lowered,
+    arithmetic: Arithmetic,
+    layout: Layout,
+) -> Result<Assembled, IcedError> {
+    let mut emitter = Emitter::new(lowered, arithmetic, layout);
+    emitter.function()?;
+    let entry = emitter.start;
+    let mut bytes = emitter.pool;
+    bytes.resize(entry, 0);
+    bytes.extend(emitter.encoder.take_buffer());
+    Ok(Assembled {
+        bytes,
+        entry,
+        room: emitter.slots as usize,
+        work: emitter.work,
+    })
+}
+
+struct Emitter<'a> {
+    lowered: &'a Lowered,
+    arithmetic: Arithmetic,
+    layout: Layout,
+    table: &'static Encodings,
+    encoder: Encoder,
+    /// The constants, and from one to the next in bytes.
+    pool: Vec<u8>,
+    constant_stride: usize,
+    /// Where the code starts, and where the next instruction stands.
+    start: usize,
+    place: u64,
+    /// The uses of value i are `uses[first_use[i]..first_use[i + 1]]`, of which those before `next_use[i]` are past.
+    uses: Vec<u32>,
+    first_use: Vec<u32>,
+    next_use: Vec<u32>,
+    /// What is in each register, and in which register a value is.
+    held: Vec<Option<Id>>,
+    register_of: Vec<Option<u8>>,
+    /// Where a value is in memory.
+    home: Vec<Option<Place>>,
+    /// Whether that is a place to be used again by others.
+    is_borrowed: Vec<bool>,
+    free_slots: Vec<u32>,
+    slots: u32,
+    /// The argument places of calls that a value goes to, and its places among the results.
+    wanted: Vec<(Id, Goal)>,
+    /// Which addresses are in their registers.
+    is_loaded: [bool; Base::COUNT],
+    work: Work,
+}
+
+/// Where a value goes as soon as it is there.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Goal {
+    /// An argument of a call, in the room.
+    Room(u32),
+    /// A result.
+    Result(u32),
+}
+
+impl<'a> Emitter<'a> {
+    fn new(lowered: &'a Lowered, arithmetic: Arithmetic, layout: Layout) -> Emitter<'a> {
+        let count = lowered.nodes.len();
+        // With AVX-512 one number is an operand of all lanes; otherwise constants are as long as registers, and masks at
+        // least as long as the shortest.
+        let copies = match layout.level {
+            Level::Avx512 => 1,
+            Level::Avx2 => layout.lanes.max(2),
+        };
+        let mut pool = Vec::new();
+        for bits in &lowered.constants {
+            for _ in 0..copies {
+                pool.extend_from_slice(&bits.to_le_bytes());
+            }
+        }
+        let start = pool.len().next_multiple_of(LINE);
+
+        let order = || lowered.phases.iter().flat_map(|phase| &phase.order);
+        let mut first_use = vec![0u32; count + 1];
+        for id in order() {
+            for operand in lowered.nodes[*id as usize].operands() {
+                first_use[operand as usize + 1] += 1;
+            }
+        }
+        for index in 0..count {
+            first_use[index + 1] += first_use[index];
+        }
+        let mut next: Vec<u32> = first_use[..count].to_vec();
+        let mut uses = vec![0; first_use[count] as usize];
+        for (position, id) in order().enumerate() {
+            for operand in lowered.nodes[*id as usize].operands() {
+                let next = &mut next[operand as usize];
+                uses[*next as usize] = position as u32;
+                *next += 1;
+            }
+        }
+
+        let mut wanted: Vec<(Id, Goal)> = Vec::new();
+        for call in lowered.phases.iter().flat_map(|phase| &phase.calls) {
+            for (index, id) in call.arguments.iter().enumerate() {
+                wanted.push((*id, Goal::Room(call.from + index as u32)));
+            }
+        }
+        for (index, id) in lowered.results.iter().enumerate() {
+            wanted.push((*id, Goal::Result(index as u32)));
+        }
+        wanted.sort_unstable();
+        let home = lowered.nodes.iter().map(|node| match node {
+            Node::Leaf(place) => Some(*place),
+            _ => None,
+        });
+        let registers = match layout.level {
+            Level::Avx512 => 32,
+            // The last one keeps guards in mind.
+            Level::Avx2 => 16 - usize::from(lowered.is_guarded),
+        };
+        let mut is_loaded = [false; Base::COUNT];
+        is_loaded[..BROUGHT].fill(true);
+        Emitter {
+            lowered,
+            arithmetic,
+            layout,
+            table: encodings(layout.level, layout.lanes),
+            encoder: Encoder::new(64),
+            pool,
+            constant_stride: 8 * copies,
+            start,
+            place: start as u64,
+            uses,
+            next_use: first_use[..count].to_vec(),
+            first_use,
+            held: vec![None; registers],
+            register_of: vec![None; count],
+            home: home.collect(),
+            is_borrowed: vec![false; count],
+            free_slots: Vec::new(),
+            slots: lowered.room,
+            wanted,
+            is_loaded,
+            work: Work::default(),
+        }
+    }
+
+    fn function(&mut self) -> Result<(), IcedError> {
+        // The stack is then aligned as calls want it.
+        self.put(Encoded::with1(Code::Push_r64, ROOM)?)?;
+        self.put(Encoded::with2(Code::Mov_r64_rm64, ROOM, Register::R9)?)?;
+        let lowered = self.lowered;
+        let phases = &lowered.phases;
+        for (number, phase) in phases.iter().enumerate() {
+            let is_last = number + 1 == phases.len();
+            if is_last && self.lowered.is_guarded {
+                self.start_guards()?;
+            }
+            for id in &phase.order {
+                self.instruction(*id)?;
+            }
+            if !is_last {
+                self.calls(number)?;
+            }
+        }
+        // Results that are arguments or constants, or of calls.
+        for (index, id) in lowered.results.iter().enumerate() {
+            if let Node::Leaf(place) = lowered.nodes[*id as usize] {
+                self.copy(place, Goal::Result(index as u32))?;
+            }
+        }
+        self.finish_guards()?;
+        if self.layout.lanes > 1 {
+            self.put(Encoded::with(Code::VEX_Vzeroupper))?;
+        }
+        self.put(Encoded::with1(Code::Pop_r64, ROOM)?)?;
+        self.put(Encoded::with(Code::Retnq))
+    }
+
+    // Registers and memory.
+
+    fn put(&mut self, instruction: Encoded) -> Result<(), IcedError> {
+        self.place += self.encoder.encode(&instruction, self.place)? as u64;
+        self.work.instructions += 1;
+        Ok(())
+    }
+
+    /// A vector register of the width of a state's number or of several.
+    fn register(&self, index: u8) -> Register {
+        let first = match self.layout.lanes {
+            1 => Register::XMM0,
+            4 => Register::YMM0,
+            _ => Register::ZMM0,
+        };
+        first + u32::from(index)
+    }
+
+    /// The address of an argument, in its register.
+    fn address(&mut self, base: Base) -> Result<Register, IcedError> {
+        let register = ADDRESSES[base as usize];
+        if !std::mem::replace(&mut self.is_loaded[base as usize], true) {
+            let header = MemoryOperand::with_base_displ(ROOM, saved(base as usize));
+            self.put(Encoded::with2(Code::Mov_r64_rm64, register, header)?)?;
+        }
+        Ok(register)
+    }
+
+    /// A place as an operand.
+    fn operand(&mut self, place: Place) -> Result<MemoryOperand, IcedError> {
+        let is_wide = self.layout.lanes > 1;
+        let (base, displacement, is_broadcast) = match place {
+            Place::Constant(index) => {
+                let address = index as usize * self.constant_stride;
+                let is_broadcast = is_wide && self.layout.level == Level::Avx512;
+                (Register::RIP, address as i64, is_broadcast)
+            }
+            Place::Argument(base, index) => {
+                let stride = match base {
+                    Base::Known => self.layout.known_stride,
+                    _ => self.layout.stride,
+                };
+                let register = self.address(base)?;
+                let displacement = 8 * stride * index as usize;
+                (register, displacement as i64, is_wide && stride == 1)
+            }
+            Place::Room(index) => (ROOM, self.in_room(index), false),
+        };
+        let mut operand = MemoryOperand::with_base_displ(base, displacement);
+        operand.is_broadcast = is_broadcast;
+        Ok(operand)
+    }
+
+    fn in_room(&self, index: u32) -> i64 {
+        (HEADER + index as usize * self.layout.width()) as i64
+    }
+
+    /// The next position at which a value is used.
+    fn next(&self, id: Id) -> u32 {
+        let id = id as usize;
+        match self.next_use[id] < self.first_use[id + 1] {
+            true => self.uses[self.next_use[id] as usize],
+            false => NEVER,
+        }
+    }
+
+    /// A register for a value, which must not be one of some others.
+    fn take(&mut self, but: &[Option<u8>]) -> Result<u8, IcedError> {
+        let mut furthest: Option<(u32, u8)> = None;
+        for index in 0..self.held.len() {
+            self.work.looks += 1;
+            let Some(id) = self.held[index] else {
+                if but.contains(&Some(index as u8)) {
+                    continue;
+                }
+                return Ok(index as u8);
+            };
+            let index = index as u8;
+            if but.contains(&Some(index)) {
+                continue;
+            }
+            let next = self.next(id);
+            if furthest.is_none_or(|(other, _)| next > other) {
+                furthest = Some((next, index));
+            }
+        }
+        // Instructions have three operands, and there are more registers.
+        let (next, index) = furthest.unwrap_or((NEVER, 0));
+        if next != NEVER {
+            self.work.evictions += 1;
+            self.save(index)?;
+        }
+        self.release(index);
+        Ok(index)
+    }
+
+    /// Writes what is in a register to memory, unless it is there.
+    fn save(&mut self, index: u8) -> Result<(), IcedError> {
+        let Some(id) = self.held[index as usize] else {
+            return Ok(());
+        };
+        if self.home[id as usize].is_none() {
+            let slot = self.free_slots.pop().unwrap_or(self.slots);
+            self.slots = self.slots.max(slot + 1);
+            self.home[id as usize] = Some(Place::Room(slot));
+            self.is_borrowed[id as usize] = true;
+            self.store(index, Goal::Room(slot))?;
+        }
+        Ok(())
+    }
+
+    /// Nothing is in a register any more.
+    fn release(&mut self, index: u8) {
+        if let Some(id) = self.held[index as usize].take() {
+            self.register_of[id as usize] = None;
+        }
+    }
+
+    fn hold(&mut self, index: u8, id: Id) {
+        self.release(index);
+        self.held[index as usize] = Some(id);
+        self.register_of[id as usize] = Some(index);
+    }
+
+    fn store(&mut self, index: u8, goal: Goal) -> Result<(), IcedError> {
+        let to = match goal {
+            Goal::Room(slot) => MemoryOperand::with_base_displ(ROOM, self.in_room(slot)),
+            Goal::Result(result) => {
+                let register = self.address(Base::Results)?;
+                let displacement = 8 * self.layout.stride * result as usize;
+                MemoryOperand::with_base_displ(register, displacement as i64)
+            }
+        };
+        let from = self.register(index);
+        self.put(Encoded::with2(self.table.store, to, from)?)
+    }
+
+    /// Reads a place into a register.
+    fn read(&mut self, index: u8, place: Place) -> Result<(), IcedError> {
+        let mut from = self.operand(place)?;
+        let to = self.register(index);
+        let code = match (from.is_broadcast, self.table.broadcast) {
+            (true, Some(broadcast)) => {
+                // The instruction itself says so.
+                from.is_broadcast = false;
+                broadcast
+            }
+            _ => self.table.load,
+        };
+        self.put(Encoded::with2(code, to, from)?)
+    }
+
+    /// Copies a place to where it is wanted.
+    fn copy(&mut self, from: Place, to: Goal) -> Result<(), IcedError> {
+        let index = self.take(&[])?;
+        self.read(index, from)?;
+        self.store(index, to)
+    }
+
+    /// The register of a value; it is read from memory if it is in none.
+    fn in_register(&mut self, id: Id, but: &[Option<u8>]) -> Result<u8, IcedError> {
+        if let Some(index) = self.register_of[id as usize] {
+            return Ok(index);
+        }
+        let index = self.take(but)?;
+        if let Some(place) = self.home[id as usize] {
+            self.read(index, place)?;
+        }
+        self.hold(index, id);
+        Ok(index)
+    }
+
+    // Instructions.
+
+    fn instruction(&mut self, id: Id) -> Result<(), IcedError> {
+        match self.lowered.nodes[id as usize] {
+            Node::Leaf(_) => Ok(()),
+            Node::Binary(instruction, a, b) => {
+                let code = self.code(instruction);
+                let (a, b) = match instruction.is_symmetric() && self.is_better_second(a, b) {
+                    true => (b, a),
+                    false => (a, b),
+                };
+                let (a, last) = self.pair(a, b, instruction.is_of_bits())?;
+                let to = self.result(id)?;
+                let (to_register, first) = (self.register(to), self.register(a));
+                self.put(match last {
+                    Last::Register(b) => {
+                        Encoded::with3(code, to_register, first, self.register(b))?
+                    }
+                    Last::Memory(place) => Encoded::with3(code, to_register, first, place)?,
+                })?;
+                self.done(id, to)
+            }
+            Node::Root(a) => {
+                let a = self.in_register(a, &[])?;
+                self.past(id);
+                let to = self.take(&[])?;
+                let (to_register, from) = (self.register(to), self.register(a));
+                self.put(match self.layout.lanes {
+                    1 => Encoded::with3(self.table.sqrt, to_register, from, from)?,
+                    _ => Encoded::with2(self.table.sqrt, to_register, from)?,
+                })?;
+                self.hold(to, id);
+                self.done(id, to)
+            }
+            Node::Contracted(kind, factors, term) => self.contracted(id, kind, factors, term),
+            Node::Compare(predicate, a, b) => {
+                let (a, last) = self.pair(a, b, false)?;
+                let to = self.result(id)?;
+                let into = match self.layout.level {
+                    Level::Avx512 => COMPARED,
+                    Level::Avx2 => self.register(to),
+                };
+                let compare = self.comparison(predicate, into, a, last)?;
+                self.put(compare)?;
+                if let Some(spread) = self.table.spread {
+                    // A register of one number is as long as one of two.
+                    self.put(Encoded::with2(spread, self.register(to), COMPARED)?)?;
+                }
+                self.done(id, to)
+            }
+            Node::Guard(pivot, bound) => {
+                let (a, last) = self.pair(pivot, bound, false)?;
+                match self.layout.level {
+                    Level::Avx512 => {
+                        let mut compare = self.comparison(Predicate::Greater, GUARDS, a, last)?;
+                        // Those that held so far, and hold here.
+                        compare.set_op_mask(GUARDS);
+                        self.put(compare)?;
+                    }
+                    Level::Avx2 => {
+                        let second = match last {
+                            Last::Register(index) => Some(index),
+                            Last::Memory(_) => None,
+                        };
+                        let to = self.take(&[Some(a), second])?;
+                        let into = self.register(to);
+                        let compare = self.comparison(Predicate::Greater, into, a, last)?;
+                        self.put(compare)?;
+                        let guards = self.guards();
+                        self.put(Encoded::with3(self.table.and, guards, guards, into)?)?;
+                    }
+                }
+                self.past(id);
+                self.give_back(id);
+                Ok(())
+            }
+        }
+    }
+
+    fn code(&self, instruction: Instruction) -> Code {
+        match instruction {
+            Instruction::Add => self.table.add,
+            Instruction::Sub => self.table.sub,
+            Instruction::Mul => self.table.mul,
+            Instruction::Div => self.table.div,
+            Instruction::Min => self.table.min,
+            Instruction::Max => self.table.max,
+            Instruction::And => self.table.and,
+            Instruction::Or => self.table.or,
+            Instruction::Xor => self.table.xor,
+        }
+    }
+
+    fn comparison(
+        &self,
+        predicate: Predicate,
+        into: Register,
+        a: u8,
+        last: Last,
+    ) -> Result<Encoded, IcedError> {
+        let (code, first, predicate) = (self.table.compare, self.register(a), predicate as u32);
+        match last {
+            Last::Register(b) => Encoded::with4(code, into, first, self.register(b), predicate),
+            Last::Memory(place) => Encoded::with4(code, into, first, place, predicate),
+        }
+    }
+
+    /// Whether the first of two operands is in memory and the second is not, so that they should change places.
+    fn is_better_second(&self, a: Id, b: Id) -> bool {
+        let is_held = |id: Id| self.register_of[id as usize].is_some();
+        !is_held(a) && is_held(b)
+    }
+
+    /// The operands of an instruction: the first in a register, the second in memory if it is in none.
+    fn pair(&mut self, a: Id, b: Id, is_of_bits: bool) -> Result<(u8, Last), IcedError> {
+        let other = self.register_of[b as usize];
+        let a = self.in_register(a, &[other])?;
+        Ok((a, self.last(b, &[Some(a)], is_of_bits)?))
+    }
+
+    /// An operand that may be in memory.
+    fn last(&mut self, id: Id, but: &[Option<u8>], is_of_bits: bool) -> Result<Last, IcedError> {
+        let place = match (self.register_of[id as usize], self.home[id as usize]) {
+            (None, Some(place)) => place,
+            _ => return Ok(Last::Register(self.in_register(id, but)?)),
+        };
+        // To instructions for bits one number is two.
+        let is_long = is_of_bits && self.layout.lanes == 1;
+        Ok(match (self.layout.level, place) {
+            (Level::Avx512, _) => {
+                let mut operand = self.operand(place)?;
+                operand.is_broadcast |= is_long;
+                Last::Memory(operand)
+            }
+            // Constants are there twice; behind others may be nothing.
+            (Level::Avx2, Place::Argument(..) | Place::Room(_)) if is_long => {
+                Last::Register(self.in_register(id, but)?)
+            }
+            (Level::Avx2, _) => Last::Memory(self.operand(place)?),
+        })
+    }
+
+    /// The register of the value of an instruction, of which the operands are in theirs. It may be one of these: an
+    /// instruction reads before it writes.
+    fn result(&mut self, id: Id) -> Result<u8, IcedError> {
+        self.past(id);
+        let to = self.take(&[])?;
+        self.hold(to, id);
+        Ok(to)
+    }
+
+    /// The operands of a value have one use less; what has none left leaves its register.
+    fn past(&mut self, id: Id) {
+        for operand in self.lowered.nodes[id as usize].operands() {
+            let next = &mut self.next_use[operand as usize];
+            if *next < self.first_use[operand as usize + 1] {
+                *next += 1;
+            }
+            if self.next(operand) == NEVER
+                && let Some(index) = self.register_of[operand as usize]
+            {
+                self.release(index);
+            }
+        }
+    }
+
+    /// Places of operands that nobody needs any more are there for others, now that the instruction is written.
+    fn give_back(&mut self, id: Id) {
+        for operand in self.lowered.nodes[id as usize].operands() {
+            if self.next(operand) == NEVER
+                && std::mem::replace(&mut self.is_borrowed[operand as usize], false)
+                && let Some(Place::Room(slot)) = self.home[operand as usize].take()
+            {
+                self.free_slots.push(slot);
+            }
+        }
+    }
+
+    /// A value is in its register: it goes where it is wanted.
+    fn done(&mut self, id: Id, index: u8) -> Result<(), IcedError> {
+        let first = self.wanted.partition_point(|(other, _)| *other < id);
+        for place in first..self.wanted.len() {
+            let (other, goal) = self.wanted[place];
+            if other != id {
+                break;
+            }
+            self.store(index, goal)?;
+            if let Goal::Room(slot) = goal {
+                // Nobody else writes there, so it need not be saved.
+                self.home[id as usize] = Some(Place::Room(slot));
+            }
+        }
+        self.give_back(id);
+        if self.next(id) == NEVER {
+            self.release(index);
+        }
+        Ok(())
+    }
+
+    /// A fused operation overwrites one of its operands. Of all ways the one that needs the fewest copies is taken.
+    fn contracted(
+        &mut self,
+        id: Id,
+        kind: Contracted,
+        factors: [Id; 2],
+        term: Id,
+    ) -> Result<(), IcedError> {
+        let [a, b] = factors;
+        // The overwritten operand, the one in a register, the one that may be in memory; and the form, as instructions
+        // number their operands: `first = first·third + second` is 132.
+        let ways = [
+            (term, a, b, 2),
+            (term, b, a, 2),
+            (a, b, term, 1),
+            (b, a, term, 1),
+            (a, term, b, 0),
+            (b, term, a, 0),
+        ];
+        let last_use = |emitter: &Emitter, id: Id| {
+            // Its uses by this instruction are the last ones.
+            let own = [a, b, term]
+                .into_iter()
+                .filter(|other| *other == id)
+                .count() as u32;
+            emitter.next_use[id as usize] + own >= emitter.first_use[id as usize + 1]
+        };
+        let price = |emitter: &Emitter, &(over, second, third, _): &(Id, Id, Id, usize)| {
+            let held = |id: Id| emitter.register_of[id as usize].is_some();
+            let copy = u32::from(!(held(over) && last_use(emitter, over)));
+            let load = u32::from(!held(second) && second != over);
+            // A copy from memory takes the place of an operand in memory.
+            let waste = u32::from(held(over) && copy == 1 && !held(third));
+            2 * (copy + load) + waste
+        };
+        let best = ways.iter().min_by_key(|way| price(self, way));
+        let (over, second, third, form) = *best.unwrap_or(&ways[0]);
+
+        let registers =
+            |emitter: &Emitter| [over, second, third].map(|id| emitter.register_of[id as usize]);
+        let held = registers(self);
+        let second = self.in_register(second, &held)?;
+        let held = registers(self);
+        let last = self.last(third, &held, false)?;
+        let held = registers(self);
+        let to = match self.register_of[over as usize] {
+            Some(index) if last_use(self, over) => index,
+            Some(index) => {
+                let to = self.take(&held)?;
+                let (into, from) = (self.register(to), self.register(index));
+                self.put(Encoded::with2(self.table.copy, into, from)?)?;
+                to
+            }
+            None => {
+                let to = self.take(&held)?;
+                if let Some(place) = self.home[over as usize] {
+                    self.read(to, place)?;
+                }
+                to
+            }
+        };
+        let kind = match kind {
+            Contracted::Add => 0,
+            Contracted::Sub => 1,
+            Contracted::SubFrom => 2,
+        };
+        let code = self.table.fused[kind][form];
+        let (into, second) = (self.register(to), self.register(second));
+        self.put(match last {
+            Last::Register(third) => Encoded::with3(code, into, second, self.register(third))?,
+            Last::Memory(place) => Encoded::with3(code, into, second, place)?,
+        })?;
+        self.past(id);
+        self.hold(to, id);
+        self.done(id, to)
+    }
+
+    // Guards.
+
+    /// The register that keeps guards in mind with AVX2.
+    fn guards(&self) -> Register {
+        self.register(15)
+    }
+
+    fn start_guards(&mut self) -> Result<(), IcedError> {
+        match self.layout.level {
+            Level::Avx512 => self.put(Encoded::with3(
+                Code::VEX_Kxnorb_kr_kr_kr,
+                GUARDS,
+                GUARDS,
+                GUARDS,
+            )?),
+            Level::Avx2 => {
+                let code = match self.layout.lanes {
+                    1 => Code::VEX_Vpcmpeqd_xmm_xmm_xmmm128,
+                    _ => Code::VEX_Vpcmpeqd_ymm_ymm_ymmm256,
+                };
+                let guards = self.guards();
+                self.put(Encoded::with3(code, guards, guards, guards)?)
+            }
+        }
+    }
+
+    /// Leaves a bit for each lane in EAX: whether its guards hold.
+    fn finish_guards(&mut self) -> Result<(), IcedError> {
+        let (level, lanes) = (self.layout.level, self.layout.lanes);
+        self.put(match level {
+            _ if !self.lowered.is_guarded => {
+                Encoded::with2(Code::Mov_r32_imm32, Register::EAX, (1u32 << lanes) - 1)?
+            }
+            Level::Avx512 => Encoded::with2(Code::VEX_Kmovb_r32_kr, Register::EAX, GUARDS)?,
+            Level::Avx2 => {
+                let code = match lanes {
+                    1 => Code::VEX_Vmovmskpd_r32_xmm,
+                    _ => Code::VEX_Vmovmskpd_r32_ymm,
+                };
+                Encoded::with2(code, Register::EAX, self.guards())?
+            }
+        })
+    }
+
+    // Calls.
+
+    fn calls(&mut self, phase: usize) -> Result<(), IcedError> {
+        let lowered = self.lowered;
+        let calls = &lowered.phases[phase].calls;
+        for call in calls {
+            for (index, id) in call.arguments.iter().enumerate() {
+                // What is computed went there at once.
+                if let Node::Leaf(place) = lowered.nodes[*id as usize] {
+                    self.copy(place, Goal::Room(call.from + index as u32))?;
+                }
+            }
+        }
+        for index in 0..self.held.len() as u8 {
+            if let Some(id) = self.held[index as usize]
+                && self.next(id) != NEVER
+            {
+                self.save(index)?;
+            }
+            self.release(index);
+        }
+        if phase == 0 {
+            for (base, register) in ADDRESSES.iter().enumerate().take(BROUGHT) {
+                if self.lowered.reads[base] > 0 {
+                    let header = MemoryOperand::with_base_displ(ROOM, saved(base));
+                    self.put(Encoded::with2(Code::Mov_rm64_r64, header, *register)?)?;
+                }
+            }
+        }
+        if self.layout.lanes > 1 {
+            // Whoever is called may be of the time before long registers, and slow beside used ones.
+            self.put(Encoded::with(Code::VEX_Vzeroupper))?;
+        }
+        for call in calls {
+            let function = external::address(
+                call.kind,
+                self.arithmetic,
+                self.layout.lanes,
+                call.arguments.len(),
+            );
+            let from = MemoryOperand::with_base_displ(ROOM, self.in_room(call.from));
+            let to = MemoryOperand::with_base_displ(ROOM, self.in_room(call.to));
+            let count = call.arguments.len() as u32;
+            self.put(Encoded::with2(Code::Lea_r64_m, Register::RDI, from)?)?;
+            self.put(Encoded::with2(Code::Lea_r64_m, Register::RSI, to)?)?;
+            self.put(Encoded::with2(Code::Mov_r32_imm32, Register::EDX, count)?)?;
+            self.put(Encoded::with2(
+                Code::Mov_r64_imm64,
+                Register::RAX,
+                function as u64,
+            )?)?;
+            self.put(Encoded::with1(Code::Call_rm64, Register::RAX)?)?;
+        }
+        self.is_loaded = [false; Base::COUNT];
+        Ok(())
+    }
+}
+
+/// Where the address of an argument is kept, by the number of its [`Base`], from the start of the room.
+fn saved(base: usize) -> i64 {
+    8 * base as i64
+}
+
+/// The last operand of an instruction.
+#[derive(Clone, Copy)]
+enum Last {
+    Register(u8),
+    Memory(MemoryOperand),
+}

@@ -1,0 +1,201 @@
+//! The functions of a program, each compiled when it is first asked for.
+
+use std::fmt;
+use std::io;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, OnceLock};
+
+use lagrangian_program::{Function, Program, Role};
+
+use super::code::{Code, Layout};
+use super::{Level, work};
+
+/// Why there is no machine code.
+#[derive(Debug)]
+pub enum Unavailable {
+    /// The processor is none that code is made for, or the build wants the same bits everywhere.
+    Processor,
+    /// The system gives no pages that may be executable.
+    Pages(io::Error),
+    /// An instruction has no encoding: a mistake in this crate.
+    Encoding(String),
+}
+
+impl fmt::Display for Unavailable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unavailable::Processor => f.write_str(
+                "machine code is made for x86-64 with AVX2 and FMA, in builds without strict-libm",
+            ),
+            Unavailable::Pages(error) => {
+                write!(f, "the system gives no pages for machine code: {error}")
+            }
+            Unavailable::Encoding(error) => write!(f, "an instruction has no encoding: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for Unavailable {}
+
+/// A program's functions as machine code, for one state or several at once. It is shared by all who run it.
+#[derive(Debug)]
+pub struct Library {
+    program: Arc<Program>,
+    layout: Layout,
+    /// In the order of roles.
+    functions: Vec<Entry>,
+}
+
+#[derive(Debug)]
+struct Entry {
+    role: Role,
+    /// After how many calls it pays, and how many there have been without code.
+    pays_after: u32,
+    calls: AtomicU32,
+    /// Nothing inside where the system gave no pages.
+    code: OnceLock<Option<Code>>,
+}
+
+impl Library {
+    /// A program for one state at a time. Nothing is compiled yet, but for the shortest function there is: so it is known
+    /// whether anything can be.
+    ///
+    /// # Errors
+    /// If there is no machine code here.
+    pub fn new(program: Arc<Program>) -> Result<Library, Unavailable> {
+        let level = Level::here().ok_or(Unavailable::Processor)?;
+        Library::of(program, Library::one(level))
+    }
+
+    /// A program for N states at once, 4 or 8, all with the same parameters or each with its own.
+    ///
+    /// # Errors
+    /// If there is no machine code here, or not for so many.
+    pub fn for_lanes(
+        program: Arc<Program>,
+        lanes: usize,
+        is_shared: bool,
+    ) -> Result<Library, Unavailable> {
+        let level = Level::here().ok_or(Unavailable::Processor)?;
+        let layout = Library::several(level, lanes, is_shared).ok_or(Unavailable::Processor)?;
+        Library::of(program, layout)
+    }
+
+    /// A program in a layout, as [`one`](Self::one) or [`several`](Self::several) make it.
+    ///
+    /// # Errors
+    /// If the processor does not have the level, or the system gives no pages.
+    pub fn of(program: Arc<Program>, layout: Layout) -> Result<Library, Unavailable> {
+        if !Level::all().any(|level| level == layout.level) {
+            return Err(Unavailable::Processor);
+        }
+        let shortest = program
+            .all_functions()
+            .min_by_key(|function| function.code.len());
+        if let Some(shortest) = shortest {
+            Code::new(shortest, shortest.role.is_fast(), layout)?;
+        }
+        let mut functions: Vec<Entry> = program
+            .all_functions()
+            .map(|function| Entry {
+                role: function.role,
+                pays_after: work::calls_until_it_pays(function),
+                calls: AtomicU32::new(0),
+                code: OnceLock::new(),
+            })
+            .collect();
+        functions.sort_by_key(|entry| entry.role);
+        Ok(Library {
+            program,
+            layout,
+            functions,
+        })
+    }
+
+    /// The layout of one state.
+    pub fn one(level: Level) -> Layout {
+        Layout {
+            level,
+            lanes: 1,
+            stride: 1,
+            known_stride: 1,
+        }
+    }
+
+    /// The layout of 4 or 8 states; none of other numbers.
+    pub fn several(level: Level, lanes: usize, is_shared: bool) -> Option<Layout> {
+        if lanes != 4 && lanes != 8 {
+            return None;
+        }
+        // Without AVX-512 eight lanes are twice four, which lie eight apart.
+        let own = match level {
+            Level::Avx512 => lanes,
+            Level::Avx2 => 4,
+        };
+        let known_stride = match (is_shared, level) {
+            (true, Level::Avx512) => 1,
+            (true, Level::Avx2) => own,
+            (false, _) => lanes,
+        };
+        Some(Layout {
+            level,
+            lanes: own,
+            stride: lanes,
+            known_stride,
+        })
+    }
+
+    /// The program.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// How the numbers of states lie in memory.
+    pub fn layout(&self) -> Layout {
+        self.layout
+    }
+
+    /// The code of a function, compiled if it is not yet; none if the program has no such function.
+    pub fn code(&self, role: Role) -> Option<&Code> {
+        self.code_at(self.place(role)?)
+    }
+
+    /// The place of a function.
+    pub(crate) fn place(&self, role: Role) -> Option<usize> {
+        let functions = &self.functions;
+        functions
+            .binary_search_by_key(&role, |entry| entry.role)
+            .ok()
+    }
+
+    /// Which function is at a place.
+    pub(crate) fn role_at(&self, place: usize) -> Option<Role> {
+        self.functions.get(place).map(|entry| entry.role)
+    }
+
+    /// The code of the function at a place, one call later: none until as many calls have been as make it worth compiling.
+    #[inline]
+    pub(crate) fn code_where_it_pays(&self, place: usize) -> Option<&Code> {
+        let entry = self.functions.get(place)?;
+        if let Some(code) = entry.code.get() {
+            return code.as_ref();
+        }
+        // Counts of several threads may be lost, which only makes it later.
+        let calls = entry.calls.load(Ordering::Relaxed);
+        if calls < entry.pays_after {
+            entry.calls.store(calls + 1, Ordering::Relaxed);
+            return None;
+        }
+        self.code_at(place)
+    }
+
+    /// The code of the function at a place.
+    pub(crate) fn code_at(&self, place: usize) -> Option<&Code> {
+        let entry = self.functions.get(place)?;
+        let code = entry.code.get_or_init(|| {
+            let function: &Function = self.program.function(entry.role)?;
+            Code::new(function, entry.role.is_fast(), self.layout).ok()
+        });
+        code.as_ref()
+    }
+}

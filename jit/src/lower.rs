@@ -1,0 +1,574 @@
+//! From the operations of a program to those of a processor.
+//!
+//! What a processor has no instruction for is a call: sines and cosines, and functions such as `atan2`. All calls whose
+//! arguments are known at the same time stand together, so code is a row of *phases*: arithmetic up to arguments of calls,
+//! the calls, arithmetic with their results, and so on; most machines have two. An operation stands in the last phase in
+//! which it is still in time for whoever needs it, so that little is to be kept across calls.
+
+use std::collections::HashMap;
+
+use lagrangian_program::{Contracted, Contractions, Function, Op, Source};
+use lagrangian_scalar::Scalar;
+use lagrangian_symbolic::Function as Named;
+
+/// The number of a [`Node`].
+pub type Id = u32;
+
+/// A value.
+#[derive(Clone, Copy, Debug)]
+pub enum Node {
+    /// It is in memory before anything needs it.
+    Leaf(Place),
+    /// An instruction with two operands.
+    Binary(Instruction, Id, Id),
+    /// A sum with the product that is contracted into it: the factors and the term.
+    Contracted(Contracted, [Id; 2], Id),
+    /// A square root.
+    Root(Id),
+    /// Bits of ones where a comparison holds, zeros elsewhere.
+    Compare(Predicate, Id, Id),
+    /// Keeps in mind for which lanes the first exceeds the second; nobody reads it.
+    Guard(Id, Id),
+}
+
+/// An instruction with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instruction {
+    /// a + b
+    Add,
+    /// a − b
+    Sub,
+    /// a·b
+    Mul,
+    /// a/b
+    Div,
+    /// a where a < b, otherwise b.
+    Min,
+    /// a where a > b, otherwise b.
+    Max,
+    /// Bits that both have.
+    And,
+    /// Bits that one of them has.
+    Or,
+    /// Bits that one has and the other has not.
+    Xor,
+}
+
+impl Instruction {
+    /// Whether the operands may change places.
+    pub fn is_symmetric(self) -> bool {
+        use Instruction::{Add, And, Mul, Or, Xor};
+        matches!(self, Add | Mul | And | Or | Xor)
+    }
+
+    /// Whether it works on bits: then an operand in memory is as long as the register.
+    pub fn is_of_bits(self) -> bool {
+        use Instruction::{And, Or, Xor};
+        matches!(self, And | Or | Xor)
+    }
+}
+
+/// A comparison, as instructions number it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Predicate {
+    /// One of the two is undefined.
+    Unordered = 0x03,
+    /// Both are defined, and they differ.
+    Different = 0x0c,
+    /// a < b
+    Less = 0x11,
+    /// a > b
+    Greater = 0x1e,
+}
+
+/// Where a value lies in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// Among the constants beside the code.
+    Constant(u32),
+    /// Among the arguments of the call.
+    Argument(Base, u32),
+    /// In the room for values between instructions.
+    Room(u32),
+}
+
+/// The arguments of a call, each a row of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Base {
+    /// The time.
+    Time,
+    /// Coordinates.
+    Coordinates,
+    /// Velocities.
+    Velocities,
+    /// Inputs.
+    Inputs,
+    /// Prepared values; parameters in functions that read these.
+    Known,
+    /// Accelerations.
+    Accelerations,
+    /// What the stage of the time has left.
+    AtTime,
+    /// What the stage of the position has left.
+    AtPosition,
+    /// Where the results go.
+    Results,
+}
+
+impl Base {
+    /// How many there are.
+    pub const COUNT: usize = 9;
+}
+
+/// Calls of one function.
+#[derive(Clone, Debug)]
+pub struct Call {
+    /// What is called.
+    pub kind: CallKind,
+    /// The arguments, of sines and cosines any number.
+    pub arguments: Vec<Id>,
+    /// Where in the room the arguments go, one after another.
+    pub from: u32,
+    /// Where the results are: of angles all sines, then all cosines.
+    pub to: u32,
+}
+
+/// What is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallKind {
+    /// Sines and cosines of angles.
+    Circular,
+    /// A function of one argument or two.
+    Named(Named),
+}
+
+/// How sums and sines are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Arithmetic {
+    /// Contracted, and the sines of `lagrangian-native`: what functions that are called often run in.
+    Fused,
+    /// Every operation by itself, and `libm`'s sines.
+    Plain,
+}
+
+/// A function in terms of instructions.
+#[derive(Debug, Default)]
+pub struct Lowered {
+    /// All values.
+    pub nodes: Vec<Node>,
+    /// The phases.
+    pub phases: Vec<Phase>,
+    /// The results, in their order.
+    pub results: Vec<Id>,
+    /// The bits of the constants.
+    pub constants: Vec<u64>,
+    /// How many places the calls need in the room.
+    pub room: u32,
+    /// Of each argument how many numbers are read.
+    pub reads: [u32; Base::COUNT],
+    /// Whether there are guards.
+    pub is_guarded: bool,
+}
+
+/// Arithmetic, and the calls behind it.
+#[derive(Debug, Default)]
+pub struct Phase {
+    /// The values to compute, in this order.
+    pub order: Vec<Id>,
+    /// The calls; none in the last phase.
+    pub calls: Vec<Call>,
+}
+
+/// A call before it is known where its arguments and results lie.
+struct Wanted {
+    kind: CallKind,
+    arguments: Vec<Id>,
+    results: Vec<Id>,
+}
+
+struct Builder {
+    nodes: Vec<Node>,
+    /// The values in the order of the program, leaves left out.
+    order: Vec<Id>,
+    leaves: HashMap<Place, Id>,
+    constants: Vec<u64>,
+    constant_of: HashMap<u64, u32>,
+    wanted: Vec<Wanted>,
+    /// The sine and cosine of an angle.
+    circular: HashMap<Id, [Id; 2]>,
+    /// The call that a leaf comes from.
+    call_of: HashMap<Id, usize>,
+}
+
+const SIGN: u64 = 1 << 63;
+
+impl Builder {
+    fn add(&mut self, node: Node) -> Id {
+        let id = self.nodes.len() as Id;
+        self.nodes.push(node);
+        if !matches!(node, Node::Leaf(_)) {
+            self.order.push(id);
+        }
+        id
+    }
+
+    fn binary(&mut self, instruction: Instruction, a: Id, b: Id) -> Id {
+        self.add(Node::Binary(instruction, a, b))
+    }
+
+    fn leaf(&mut self, place: Place) -> Id {
+        match self.leaves.get(&place) {
+            Some(id) => *id,
+            None => {
+                let id = self.add(Node::Leaf(place));
+                self.leaves.insert(place, id);
+                id
+            }
+        }
+    }
+
+    fn bits(&mut self, bits: u64) -> Id {
+        let next = self.constants.len() as u32;
+        let index = *self.constant_of.entry(bits).or_insert(next);
+        if index == next {
+            self.constants.push(bits);
+        }
+        self.leaf(Place::Constant(index))
+    }
+
+    fn number(&mut self, number: f64) -> Id {
+        self.bits(number.to_bits())
+    }
+
+    /// The result of a call of which nothing is known yet but what it is of.
+    fn call(&mut self, kind: CallKind, arguments: Vec<Id>, results: usize) -> Vec<Id> {
+        let call = self.wanted.len();
+        let place = Node::Leaf(Place::Room(0));
+        let results: Vec<Id> = (0..results).map(|_| self.add(place)).collect();
+        self.call_of.extend(results.iter().map(|id| (*id, call)));
+        self.wanted.push(Wanted {
+            kind,
+            arguments,
+            results: results.clone(),
+        });
+        results
+    }
+
+    fn circular(&mut self, angle: Id) -> [Id; 2] {
+        if let Some(both) = self.circular.get(&angle) {
+            return *both;
+        }
+        let results = self.call(CallKind::Circular, vec![angle], 2);
+        let both = [results[0], results[1]];
+        self.circular.insert(angle, both);
+        both
+    }
+
+    fn read(&mut self, source: Source) -> Id {
+        let (base, index) = match source {
+            Source::Parameter(index) | Source::Prepared(index) => (Base::Known, index),
+            Source::Time => (Base::Time, 0),
+            Source::Coordinate(index) => (Base::Coordinates, index),
+            Source::Velocity(index) => (Base::Velocities, index),
+            Source::Input(index) => (Base::Inputs, index),
+            Source::Acceleration(index) => (Base::Accelerations, index),
+            Source::AtTime(index) => (Base::AtTime, index),
+            Source::AtPosition(index) => (Base::AtPosition, index),
+        };
+        self.leaf(Place::Argument(base, index))
+    }
+
+    fn product_error(&mut self, arithmetic: Arithmetic, a: Id, b: Id) -> Id {
+        use Instruction::{Mul, Sub};
+        let product = self.binary(Mul, a, b);
+        if arithmetic == Arithmetic::Fused {
+            return self.add(Node::Contracted(Contracted::Sub, [a, b], product));
+        }
+        // As `f64` does it, step for step: T. J. Dekker, *A floating-point technique for extending the available
+        // precision*, Numer. Math. 18 (1971) 224–242.
+        let splitter = self.number(134_217_729.0); // 2²⁷ + 1
+        let mut halves = |x: Id| {
+            let c = self.binary(Mul, splitter, x);
+            let rest = self.binary(Sub, c, x);
+            let high = self.binary(Sub, c, rest);
+            [high, self.binary(Sub, x, high)]
+        };
+        let [a1, a0] = halves(a);
+        let [b1, b0] = halves(b);
+        let mut left = product;
+        for (x, y) in [(a1, b1), (a0, b1), (a1, b0)] {
+            let part = self.binary(Mul, x, y);
+            left = self.binary(Sub, left, part);
+        }
+        let lowest = self.binary(Mul, a0, b0);
+        let error = self.binary(Sub, lowest, left);
+        // Numbers near the largest have no halves.
+        let size = self.magnitude(error);
+        let infinity = self.number(f64::INFINITY);
+        let is_finite = self.add(Node::Compare(Predicate::Less, size, infinity));
+        self.binary(Instruction::And, is_finite, error)
+    }
+
+    fn sum_error(&mut self, a: Id, b: Id) -> Id {
+        use Instruction::{Add, Sub};
+        let sum = self.binary(Add, a, b);
+        let b_kept = self.binary(Sub, sum, a);
+        let a_kept = self.binary(Sub, sum, b_kept);
+        let lost_a = self.binary(Sub, a, a_kept);
+        let lost_b = self.binary(Sub, b, b_kept);
+        self.binary(Add, lost_a, lost_b)
+    }
+
+    fn magnitude(&mut self, a: Id) -> Id {
+        let all_but_sign = self.bits(!SIGN);
+        self.binary(Instruction::And, a, all_but_sign)
+    }
+
+    /// `otherwise`, which must be all zeros where `a` is undefined, or `a` where it is.
+    fn or_undefined(&mut self, a: Id, otherwise: Id) -> Id {
+        let is_undefined = self.add(Node::Compare(Predicate::Unordered, a, a));
+        let undefined = self.binary(Instruction::And, is_undefined, a);
+        self.binary(Instruction::Or, otherwise, undefined)
+    }
+
+    fn sign(&mut self, a: Id) -> Id {
+        let (sign, zero, one) = (self.bits(SIGN), self.number(0.0), self.number(1.0));
+        let own = self.binary(Instruction::And, a, sign);
+        let one = self.binary(Instruction::Or, own, one);
+        let is_any = self.add(Node::Compare(Predicate::Different, a, zero));
+        let of_defined = self.binary(Instruction::And, is_any, one);
+        self.or_undefined(a, of_defined)
+    }
+
+    /// The smaller or the larger; an undefined operand gives an undefined result.
+    fn extreme(&mut self, instruction: Instruction, a: Id, b: Id) -> Id {
+        // The instruction gives b where a is undefined.
+        let extreme = self.binary(instruction, a, b);
+        let ones = self.bits(u64::MAX);
+        let is_undefined = self.add(Node::Compare(Predicate::Unordered, a, a));
+        let is_defined = self.binary(Instruction::Xor, is_undefined, ones);
+        let of_defined = self.binary(Instruction::And, is_defined, extreme);
+        self.or_undefined(a, of_defined)
+    }
+
+    fn unary(&mut self, function: Named, a: Id) -> Id {
+        match function {
+            Named::Sin => self.circular(a)[0],
+            Named::Cos => self.circular(a)[1],
+            Named::Sqrt => self.add(Node::Root(a)),
+            Named::Abs => self.magnitude(a),
+            Named::Sign => self.sign(a),
+            _ => self.call(CallKind::Named(function), vec![a], 1)[0],
+        }
+    }
+
+    fn pair(&mut self, function: Named, a: Id, b: Id) -> Id {
+        match function {
+            Named::Min => self.extreme(Instruction::Min, a, b),
+            Named::Max => self.extreme(Instruction::Max, a, b),
+            _ => self.call(CallKind::Named(function), vec![a, b], 1)[0],
+        }
+    }
+}
+
+impl Lowered {
+    /// The instructions of a function.
+    pub fn new(function: &Function, arithmetic: Arithmetic) -> Lowered {
+        let mut builder = Builder {
+            nodes: Vec::new(),
+            order: Vec::new(),
+            leaves: HashMap::new(),
+            constants: Vec::new(),
+            constant_of: HashMap::new(),
+            wanted: Vec::new(),
+            circular: HashMap::new(),
+            call_of: HashMap::new(),
+        };
+        let contractions = match arithmetic {
+            Arithmetic::Fused => Contractions::of(function),
+            Arithmetic::Plain => Contractions::none(function),
+        };
+        // Guards, by the operation behind which both of their numbers are known.
+        let mut guards: Vec<(usize, usize)> = function
+            .guards
+            .iter()
+            .enumerate()
+            .map(|(index, guard)| (guard.pivot.index().max(guard.scale.index()), index))
+            .collect();
+        guards.sort_unstable();
+        let mut guards = guards.into_iter().peekable();
+
+        let mut id_of: Vec<Id> = Vec::with_capacity(function.code.len());
+        for (index, op) in function.code.iter().enumerate() {
+            let value = lagrangian_program::Value(index as u32);
+            let at = |value: lagrangian_program::Value| id_of[value.index()];
+            let id = match *op {
+                // The sum that uses it computes it.
+                _ if contractions.is_part(value) => Id::MAX,
+                _ if let Some(sum) = contractions.sum(value) => builder.add(Node::Contracted(
+                    sum.kind,
+                    sum.factors.map(at),
+                    at(sum.term),
+                )),
+                Op::Constant(ref value) => builder.number(value.evaluate()),
+                Op::Pi => builder.number(f64::pi()),
+                Op::Read(source) => builder.read(source),
+                Op::Add(a, b) => builder.binary(Instruction::Add, at(a), at(b)),
+                Op::Sub(a, b) => builder.binary(Instruction::Sub, at(a), at(b)),
+                Op::Mul(a, b) => builder.binary(Instruction::Mul, at(a), at(b)),
+                Op::Div(a, b) => builder.binary(Instruction::Div, at(a), at(b)),
+                Op::Neg(a) => {
+                    let sign = builder.bits(SIGN);
+                    builder.binary(Instruction::Xor, at(a), sign)
+                }
+                Op::ProductError(a, b) => builder.product_error(arithmetic, at(a), at(b)),
+                Op::SumError(a, b) => builder.sum_error(at(a), at(b)),
+                Op::Sin(a) => builder.circular(at(a))[0],
+                Op::Cos(a) => builder.circular(at(a))[1],
+                Op::Unary(function, a) => builder.unary(function, at(a)),
+                Op::Binary(function, a, b) => builder.pair(function, at(a), at(b)),
+            };
+            id_of.push(id);
+            while let Some((_, guard)) = guards.next_if(|(after, _)| *after == index) {
+                let guard = &function.guards[guard];
+                let [pivot, scale] = [guard.pivot, guard.scale].map(|value| id_of[value.index()]);
+                let tolerance = builder.number(guard.tolerance);
+                let bound = builder.binary(Instruction::Mul, tolerance, scale);
+                builder.add(Node::Guard(pivot, bound));
+            }
+        }
+        let results = function.results.iter();
+        let results = results.map(|value| id_of[value.index()]).collect();
+        builder.in_phases(results)
+    }
+}
+
+impl Builder {
+    /// Everything in its phase.
+    fn in_phases(mut self, results: Vec<Id>) -> Lowered {
+        let count = self.nodes.len();
+        // From which phase on a value is there, and behind which phase a call stands.
+        let mut known = vec![0u32; count];
+        let mut stands = vec![0u32; self.wanted.len()];
+        for id in 0..count {
+            known[id] = match self.nodes[id] {
+                Node::Leaf(_) => match self.call_of.get(&(id as Id)) {
+                    Some(call) => {
+                        // Arguments have smaller numbers than results.
+                        let arguments = self.wanted[*call].arguments.iter();
+                        let behind = arguments.map(|id| known[*id as usize]).max();
+                        stands[*call] = behind.unwrap_or(0);
+                        stands[*call] + 1
+                    }
+                    None => 0,
+                },
+                node => {
+                    let operands = node.operands();
+                    operands.map(|id| known[id as usize]).max().unwrap_or(0)
+                }
+            };
+        }
+        let last = stands.iter().map(|phase| phase + 1).max().unwrap_or(0);
+        // The last phase in which a value is in time, and whether anybody needs it.
+        let mut phase = vec![u32::MAX; count];
+        for id in &results {
+            phase[*id as usize] = last;
+        }
+        for (call, stands) in self.wanted.iter().zip(&stands) {
+            for id in &call.arguments {
+                let phase = &mut phase[*id as usize];
+                *phase = (*phase).min(*stands);
+            }
+        }
+        let mut is_guarded = false;
+        for id in (0..count).rev() {
+            let node = self.nodes[id];
+            if matches!(node, Node::Guard(..)) {
+                // All in one phase, so that no call stands between them.
+                phase[id] = last;
+                is_guarded = true;
+            }
+            let own = phase[id];
+            for operand in node.operands() {
+                let phase = &mut phase[operand as usize];
+                *phase = (*phase).min(own);
+            }
+        }
+
+        let mut phases: Vec<Phase> = (0..=last).map(|_| Phase::default()).collect();
+        for id in &self.order {
+            if let Some(phase) = phases.get_mut(phase[*id as usize] as usize) {
+                phase.order.push(*id);
+            }
+        }
+        let mut room = 0;
+        let mut place = |nodes: &mut [Node], calls: &[&Wanted], kind| {
+            let arguments: Vec<Id> = calls
+                .iter()
+                .flat_map(|call| call.arguments.iter().copied())
+                .collect();
+            let from = room;
+            let to = from + arguments.len() as u32;
+            room = to;
+            // All first results, then all second ones.
+            for second in 0..2 {
+                for id in calls.iter().filter_map(|call| call.results.get(second)) {
+                    nodes[*id as usize] = Node::Leaf(Place::Room(room));
+                    room += 1;
+                }
+            }
+            Call {
+                kind,
+                arguments,
+                from,
+                to,
+            }
+        };
+        for (number, phase) in phases.iter_mut().enumerate() {
+            let here = self.wanted.iter().zip(&stands);
+            let here = here.filter(|(_, stands)| **stands as usize == number);
+            let (circular, others): (Vec<&Wanted>, Vec<&Wanted>) = here
+                .map(|(call, _)| call)
+                .partition(|call| call.kind == CallKind::Circular);
+            if !circular.is_empty() {
+                let call = place(&mut self.nodes, &circular, CallKind::Circular);
+                phase.calls.push(call);
+            }
+            for call in others {
+                phase.calls.push(place(&mut self.nodes, &[call], call.kind));
+            }
+        }
+
+        let mut reads = [0; Base::COUNT];
+        for node in &self.nodes {
+            if let Node::Leaf(Place::Argument(base, index)) = node {
+                let reads = &mut reads[*base as usize];
+                *reads = (*reads).max(index + 1);
+            }
+        }
+        Lowered {
+            nodes: self.nodes,
+            phases,
+            results,
+            constants: self.constants,
+            room,
+            reads,
+            is_guarded,
+        }
+    }
+}
+
+impl Node {
+    /// What it is computed from.
+    pub fn operands(self) -> impl Iterator<Item = Id> {
+        let (a, b, c) = match self {
+            Node::Leaf(_) => (None, None, None),
+            Node::Root(a) => (Some(a), None, None),
+            Node::Binary(_, a, b) | Node::Compare(_, a, b) | Node::Guard(a, b) => {
+                (Some(a), Some(b), None)
+            }
+            Node::Contracted(_, [a, b], c) => (Some(a), Some(b), Some(c)),
+        };
+        a.into_iter().chain(b).chain(c)
+    }
+}

@@ -1,0 +1,84 @@
+//! Calls of one state.
+
+use std::sync::Arc;
+
+use lagrangian_program::{Arguments, Interpreter, Role};
+
+use super::Library;
+use super::code::{Room, Rows};
+
+/// When functions are compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// At their first call.
+    Always,
+    /// When as much time went into interpreting them as compiling takes.
+    ItPays,
+}
+
+/// A machine with the values of its parameters, run by machine code where that pays.
+#[derive(Clone, Debug)]
+pub struct Running {
+    library: Arc<Library>,
+    when: When,
+    prepared: Vec<f64>,
+    /// Whether the parameters leave the machine without accelerations.
+    is_singular: bool,
+    at_time: Vec<f64>,
+    at_position: Vec<f64>,
+    room: Room,
+    /// The function of the last call.
+    last: usize,
+}
+
+impl Running {
+    /// A program with the parameters of an interpreter of it.
+    pub fn new(library: Arc<Library>, when: When, interpreter: &Interpreter<f64>) -> Running {
+        Running {
+            library,
+            when,
+            prepared: interpreter.prepared().to_vec(),
+            is_singular: interpreter.singular().is_some(),
+            at_time: Vec::new(),
+            at_position: Vec::new(),
+            room: Room::default(),
+            last: usize::MAX,
+        }
+    }
+
+    /// Runs a function, if there is code for it by now and it has a value here; otherwise says false, and the interpreter is
+    /// to be asked, for results or for the error.
+    #[inline]
+    pub fn call(&mut self, role: Role, arguments: Arguments<'_, f64>, results: &mut [f64]) -> bool {
+        if self.library.role_at(self.last) != Some(role) {
+            // These two read parameters.
+            let has_none =
+                matches!(role, Role::Prepare | Role::Start) || self.is_singular && role.inverts();
+            match self.library.place(role) {
+                Some(place) if !has_none => self.last = place,
+                _ => return false,
+            }
+        }
+        let place = self.last;
+        let code = match self.when {
+            When::Always => self.library.code_at(place),
+            When::ItPays => self.library.code_where_it_pays(place),
+        };
+        let Some(code) = code else {
+            return false;
+        };
+        let left = [self.at_time.as_slice(), self.at_position.as_slice()];
+        let rows = Rows::of_one(&arguments, &self.prepared, left);
+        code.run(&mut self.room, &rows, 0, &mut results.into()) == Some(1)
+    }
+
+    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.
+    pub fn stand(&mut self, role: Role, values: &[f64]) {
+        let left = match role {
+            Role::AtTime => &mut self.at_time,
+            _ => &mut self.at_position,
+        };
+        left.clear();
+        left.extend_from_slice(values);
+    }
+}

@@ -1,0 +1,158 @@
+//! Calls of 4 or 8 states at once.
+
+use std::sync::Arc;
+
+use lagrangian_native::Lanes;
+use lagrangian_program::{Interpreter, Role};
+
+use super::Library;
+use super::code::{Results, Room, Rows};
+
+/// A machine in N lanes, 4 or 8, run by machine code.
+///
+/// A lane's results are those of one state, to the last bit, whatever its neighbours hold.
+#[derive(Clone, Debug)]
+pub struct Several<const N: usize> {
+    library: Arc<Library>,
+    /// As the layout says: one number for all lanes, or one for each.
+    known: Vec<f64>,
+    /// The lanes that have accelerations with these parameters.
+    regular: u32,
+    at_time: Vec<Lanes<N>>,
+    at_position: Vec<Lanes<N>>,
+    room: Room,
+    /// The function of the last call.
+    last: usize,
+}
+
+/// The arguments of a call, those of N states side by side. What a function does not read may be empty.
+#[derive(Clone, Copy, Debug)]
+pub struct SeveralArguments<'a, const N: usize> {
+    /// The times.
+    pub t: Lanes<N>,
+    /// Coordinates.
+    pub q: &'a [Lanes<N>],
+    /// Velocities.
+    pub v: &'a [Lanes<N>],
+    /// Inputs.
+    pub u: &'a [Lanes<N>],
+    /// Accelerations.
+    pub a: &'a [Lanes<N>],
+}
+
+impl<const N: usize> Several<N> {
+    const ALL: u32 = match N {
+        4 => 0b1111,
+        8 => 0b1111_1111,
+        _ => panic!("there is code for 4 or 8 lanes"),
+    };
+
+    /// The parameters of an interpreter of the program in every lane. None if the library is for another number of lanes, or
+    /// each with its own parameters.
+    pub fn shared(library: Arc<Library>, interpreter: &Interpreter<f64>) -> Option<Self> {
+        let layout = library.layout();
+        if layout.stride != N || layout.known_stride == layout.stride && layout.lanes != N {
+            return None;
+        }
+        let copies = layout.known_stride;
+        let known = interpreter.prepared().iter();
+        let known = known.flat_map(|value| std::iter::repeat_n(*value, copies));
+        Some(Several {
+            known: known.collect(),
+            regular: match interpreter.singular() {
+                Some(_) => 0,
+                None => Self::ALL,
+            },
+            ..Several::empty(library)
+        })
+    }
+
+    /// Each lane with its own parameters: computes what depends on these alone. None if the library is for another number of
+    /// lanes or for shared parameters, or there are not as many as the program has.
+    pub fn each(library: Arc<Library>, parameters: &[Lanes<N>]) -> Option<Self> {
+        let layout = library.layout();
+        if layout.stride != N || layout.known_stride != N {
+            return None;
+        }
+        let mut several = Several::empty(library);
+        let program = several.library.program();
+        if parameters.len() != program.parameters.len() {
+            return None;
+        }
+        let mut prepared = vec![Lanes::splat(0.0); program.prepare.results.len()];
+        several.known = parameters.iter().flat_map(|lanes| lanes.0).collect();
+        let nothing = SeveralArguments {
+            t: Lanes::splat(0.0),
+            q: &[],
+            v: &[],
+            u: &[],
+            a: &[],
+        };
+        several.regular = several.run(Role::Prepare, nothing, &mut prepared)?;
+        several.known = prepared.iter().flat_map(|lanes| lanes.0).collect();
+        Some(several)
+    }
+
+    fn empty(library: Arc<Library>) -> Self {
+        Several {
+            library,
+            known: Vec::new(),
+            regular: Self::ALL,
+            at_time: Vec::new(),
+            at_position: Vec::new(),
+            room: Room::default(),
+            last: usize::MAX,
+        }
+    }
+
+    /// Runs a function in all lanes; a bit for each lane, the lowest of the first: whether it has a value there. (What the
+    /// results of other lanes are means nothing; alone, such a state has its error.) None if the program has no such
+    /// function, the system gave no pages for it, or numbers are missing.
+    pub fn call(
+        &mut self,
+        role: Role,
+        arguments: SeveralArguments<'_, N>,
+        results: &mut [Lanes<N>],
+    ) -> Option<u32> {
+        if matches!(role, Role::Prepare | Role::Start) {
+            return None; // they read parameters
+        }
+        let held = self.run(role, arguments, results)?;
+        Some(match role.inverts() {
+            true => held & self.regular,
+            false => held,
+        })
+    }
+
+    #[inline]
+    fn run(
+        &mut self,
+        role: Role,
+        arguments: SeveralArguments<'_, N>,
+        results: &mut [Lanes<N>],
+    ) -> Option<u32> {
+        if self.library.role_at(self.last) != Some(role) {
+            self.last = self.library.place(role)?;
+        }
+        let code = self.library.code_at(self.last)?;
+        let layout = self.library.layout();
+        let left = [self.at_time.as_slice(), self.at_position.as_slice()];
+        let rows = Rows::of_several(&arguments, &self.known, layout.known_stride, left);
+        let mut to = Results::from(results);
+        let mut held = 0;
+        for first in (0..N).step_by(layout.lanes) {
+            held |= code.run(&mut self.room, &rows, first, &mut to)? << first;
+        }
+        Some(held)
+    }
+
+    /// Hands the results of [`Role::AtTime`] or [`Role::AtPosition`] to the calls of the next stage.
+    pub fn stand(&mut self, role: Role, values: &[Lanes<N>]) {
+        let left = match role {
+            Role::AtTime => &mut self.at_time,
+            _ => &mut self.at_position,
+        };
+        left.clear();
+        left.extend_from_slice(values);
+    }
+}

@@ -1,0 +1,132 @@
+//! What runs the functions of a machine that was read from a spec: the interpreter, or machine code.
+
+use core::fmt;
+use std::string::String;
+use std::sync::Arc;
+
+use lagrangian_program::{Arguments, Interpreter, Program, Role};
+
+/// What runs the functions of an [`InterpretedMachine`](super::InterpretedMachine). The results have the same bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Engine {
+    /// The interpreter, which is everywhere.
+    #[default]
+    Interpreter,
+    /// Machine code, compiled at the first call of a function.
+    Jit,
+    /// The interpreter, until as much time went into a function as compiling it takes; then machine code, where there is any.
+    Auto,
+}
+
+/// There is no machine code here.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoMachineCode {
+    /// Why.
+    pub why: String,
+}
+
+impl fmt::Display for NoMachineCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.why)
+    }
+}
+
+impl core::error::Error for NoMachineCode {}
+
+/// The machine code of a program, if it is to have any: shared by all its systems.
+#[derive(Clone, Debug, Default)]
+pub(super) struct MachineCode {
+    #[cfg(feature = "jit")]
+    library: Option<(Arc<lagrangian_jit::Library>, lagrangian_jit::When)>,
+}
+
+/// The same with the values of parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Compiled {
+    #[cfg(feature = "jit")]
+    running: Option<lagrangian_jit::Running>,
+}
+
+#[cfg(feature = "jit")]
+impl MachineCode {
+    /// What an engine needs for a program.
+    pub(super) fn new(
+        engine: Engine,
+        program: &Arc<Program>,
+    ) -> Result<MachineCode, NoMachineCode> {
+        use lagrangian_jit::{Library, When};
+        use std::string::ToString;
+        let when = match engine {
+            Engine::Interpreter => return Ok(MachineCode::default()),
+            Engine::Jit => When::Always,
+            Engine::Auto => When::ItPays,
+        };
+        match Library::new(program.clone()) {
+            Ok(library) => Ok(MachineCode {
+                library: Some((Arc::new(library), when)),
+            }),
+            Err(_) if engine == Engine::Auto => Ok(MachineCode::default()),
+            Err(error) => Err(NoMachineCode {
+                why: error.to_string(),
+            }),
+        }
+    }
+
+    /// With the parameters of an interpreter.
+    pub(super) fn prepared(&self, interpreter: &Interpreter<f64>) -> Compiled {
+        let library = self.library.as_ref();
+        let running = library.map(|(library, when)| {
+            lagrangian_jit::Running::new(library.clone(), *when, interpreter)
+        });
+        Compiled { running }
+    }
+}
+
+#[cfg(feature = "jit")]
+impl Compiled {
+    /// Whether machine code has run a function; otherwise the interpreter is to be asked.
+    #[inline]
+    pub(super) fn call(
+        &mut self,
+        role: Role,
+        arguments: Arguments<'_, f64>,
+        results: &mut [f64],
+    ) -> bool {
+        let running = self.running.as_mut();
+        running.is_some_and(|running| running.call(role, arguments, results))
+    }
+
+    /// As [`Interpreter::stand`].
+    pub(super) fn stand(&mut self, role: Role, values: &[f64]) {
+        if let Some(running) = &mut self.running {
+            running.stand(role, values);
+        }
+    }
+}
+
+#[cfg(not(feature = "jit"))]
+impl MachineCode {
+    pub(super) fn new(engine: Engine, _: &Arc<Program>) -> Result<MachineCode, NoMachineCode> {
+        match engine {
+            Engine::Jit => Err(NoMachineCode {
+                why: "this build has no machine code: it is without the feature jit".into(),
+            }),
+            Engine::Interpreter | Engine::Auto => Ok(MachineCode {}),
+        }
+    }
+
+    pub(super) fn prepared(&self, _: &Interpreter<f64>) -> Compiled {
+        Compiled {}
+    }
+}
+
+#[cfg(not(feature = "jit"))]
+impl Compiled {
+    #[inline(always)]
+    pub(super) fn call(&mut self, _: Role, _: Arguments<'_, f64>, _: &mut [f64]) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    pub(super) fn stand(&mut self, _: Role, _: &[f64]) {}
+}
