@@ -127,11 +127,12 @@ impl<S: Scalar, const N: usize> Div for Jet<S, N> {
     fn div(self, other: Self) -> Self {
         let mut left = self;
         let mut quotient = [S::ZERO; N];
-        for n in 0..N {
-            quotient[n] = left.0[n] / other.0[0];
+        for (n, entry) in quotient.iter_mut().enumerate() {
+            let part = left.0[n] / other.0[0];
             for j in 1..N - n {
-                left.0[n + j] = left.0[n + j] - quotient[n] * other.0[j];
+                left.0[n + j] = left.0[n + j] - part * other.0[j];
             }
+            *entry = part;
         }
         Jet(quotient)
     }

@@ -97,10 +97,10 @@ pub(super) fn residual<'d>(model: &Model<'d>) -> Result<Residual<'d>, NoSeries> 
                     // The turn is ½ Σ e × δe, along the ground's axes.
                     (Space::Space, &Rotation::Frame(pose)) => {
                         for e in &model.poses[pose.index()].axes {
-                            for k in 0..3 {
+                            for (k, &component) in torque.iter().enumerate() {
                                 let (next, last) = ((k + 1) % 3, (k + 2) % 3);
-                                on_positions.push((e[last], -torque[k] * e[next] / 2));
-                                on_positions.push((e[next], torque[k] * e[last] / 2));
+                                on_positions.push((e[last], -component * e[next] / 2));
+                                on_positions.push((e[next], component * e[last] / 2));
                             }
                         }
                     }
