@@ -28,10 +28,6 @@ pub struct Interpolant<V> {
 
 /// The polynomials of a step.
 #[derive(Clone, Debug)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is one at a time, and the core has no allocator"
-)]
 enum Curve<V> {
     /// Of a Runge–Kutta method.
     Stages(Stages<V>),
