@@ -29,6 +29,11 @@ pub trait Quadratures<S: System>: Clone {
     #[inline(always)]
     fn add(&mut self, _stage: usize, _work: f64, _lost: f64) {}
 
+    /// Adds work and losses of an instant, in J.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn add_at_once(&mut self, _work: f64, _lost: f64) {}
+
     /// Adds a step of length `h` whose stages have the weights `b`; the stage after them is the
     /// next step's first.
     #[doc(hidden)]
@@ -119,6 +124,12 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
         *rate += work;
         *absolute = rate.abs();
         *dissipation += lost;
+    }
+
+    fn add_at_once(&mut self, work: f64, lost: f64) {
+        for (sum, by) in self.sums.iter_mut().zip([work, work.abs(), lost]) {
+            *sum = sum.plus(by);
+        }
     }
 
     #[inline]

@@ -13,7 +13,7 @@
     reason = "what is not a number passes no test here"
 )]
 
-mod algebra;
+pub(crate) mod algebra;
 mod choice;
 #[cfg(feature = "std")]
 mod closest;

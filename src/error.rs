@@ -3,7 +3,7 @@
 use core::fmt::{self, Display};
 use std::string::String;
 
-use crate::{Pivot, Quantity, StepError, System};
+use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
 
 /// Why a run could not begin, or not go on.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,6 +119,19 @@ pub enum Error {
         contact: String,
         /// Whether several motions are possible; if not, none is.
         several: bool,
+        /// Time, in s.
+        t: f64,
+        /// The coordinates then, in their order.
+        q: std::vec::Vec<f64>,
+        /// Their rates.
+        v: std::vec::Vec<f64>,
+    },
+    /// A unilateral contact leaves the run no way on.
+    Contact {
+        /// The contact.
+        contact: String,
+        /// Why.
+        trouble: ContactTrouble,
         /// Time, in s.
         t: f64,
         /// The coordinates then, in their order.
@@ -316,6 +329,19 @@ impl Error {
                     Err(reason) => reason.into(),
                 },
             },
+            StepError::Contact {
+                contact,
+                trouble,
+                t,
+            } => Self::Contact {
+                contact: (system.unilateral_contacts().nth(contact))
+                    .map_or("?", |contact| contact.name)
+                    .into(),
+                trouble,
+                t,
+                q: std::vec::Vec::new(),
+                v: std::vec::Vec::new(),
+            },
             StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
             StepError::StepTooSmall {
@@ -417,6 +443,24 @@ impl Display for Error {
                 f,
                 "the motion has no Taylor series here: {reason}; take another method, such as `dop853`"
             ),
+            Self::Contact {
+                contact,
+                trouble,
+                t,
+                q,
+                v,
+            } => {
+                let words = trouble.words();
+                write!(
+                    f,
+                    "the contact `{contact}` at t = {t} s: {words}",
+                    t = Short(*t)
+                )?;
+                if !q.is_empty() {
+                    write!(f, "; the coordinates are {q:?} and their rates {v:?}")?;
+                }
+                Ok(())
+            }
             Self::ParameterNotFinite { parameter, value } => {
                 write!(
                     f,
@@ -658,6 +702,17 @@ pub enum Warning {
         /// The residual relative to the energy turned over.
         relative: f64,
     },
+    /// Impacts created energy, as Newton's law with friction may.
+    ImpactGains {
+        /// The contact in whose impact it was the most.
+        contact: String,
+        /// When that was, in s.
+        t: f64,
+        /// How much it was, in J.
+        gain: f64,
+        /// How many impacts did so.
+        impacts: usize,
+    },
     /// A constraint follows from others at the start, so multipliers are not determined: those of
     /// least norm are given, and the motion does not depend on the choice.
     RedundantConstraint {
@@ -693,6 +748,17 @@ impl Display for Warning {
                 "the energies do not balance: the residual is {residual:.1e} J, {relative:.1e} of what was turned over, \
                  where tolerance and rounding explain {explained:.1e} J; the motion is less exact than was asked for, or \
                  its equations and its energies do not belong together"
+            ),
+            Self::ImpactGains {
+                contact,
+                t,
+                gain,
+                impacts,
+            } => write!(
+                f,
+                "impacts created energy, {impacts} of them, the most {gain:.2e} J at t = {t} s where `{contact}` closed: \
+                 Newton's law may with friction; `law: stronge` never does",
+                t = Short(*t)
             ),
             Self::RedundantConstraint { constraint, with } if with.is_empty() => write!(
                 f,

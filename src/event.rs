@@ -422,6 +422,27 @@ pub(crate) fn root(
     }
 }
 
+/// Where a function that is negative at the second of two places was positive last. What has just begun may be
+/// positive only a little later than at the first; where it never is, that is the answer.
+pub(crate) fn last_positive(
+    [from, to]: [f64; 2],
+    roundoff: f64,
+    mut f: impl FnMut(f64) -> Result<f64, Error>,
+) -> Result<f64, Error> {
+    let mut positive = from;
+    if f(from)? <= 0.0 {
+        let mut part = 0.5 * (to - from);
+        while part > roundoff && f(from + part)? <= 0.0 {
+            part *= 0.5;
+        }
+        if part <= roundoff {
+            return Ok(from);
+        }
+        positive = from + part;
+    }
+    root([positive, to], roundoff, f)
+}
+
 fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
 }

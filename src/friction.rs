@@ -95,7 +95,7 @@ pub(crate) struct Margin {
 #[cfg(feature = "std")]
 impl Margin {
     /// Of what does not end.
-    const ENDLESS: Margin = Margin {
+    pub(crate) const ENDLESS: Margin = Margin {
         value: f64::INFINITY,
         rounding: 0.0,
     };

@@ -16,7 +16,7 @@ use lagrangian_program as program;
 use lagrangian_program::series::{Expander, NoSeries, Series};
 use lagrangian_program::{Arguments, Interpreter, Program, Role, Shape, Slot};
 use lagrangian_scalar::{Dual, Interval, Kernel, Scalar};
-use lagrangian_spec::model::Variable;
+use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
 mod engine;
@@ -24,8 +24,9 @@ mod engine;
 pub use engine::{Engine, NoMachineCode};
 
 use crate::{
-    Assumption, Constraint, Differentiate, Linearize, Machine, Number, Pivot, Quantity, Singular,
-    Staged, State, System, accelerations_with_friction, multipliers_with_friction,
+    Assumption, Constraint, Differentiate, ImpactLaw, Linearize, Machine, Number, Pivot, Quantity,
+    Singular, Staged, State, System, UnilateralContact, accelerations_with_friction,
+    multipliers_with_friction,
 };
 
 /// A machine whose equations are interpreted, with the values of its parameters.
@@ -390,6 +391,9 @@ impl System for InterpretedSystem {
     }
 
     fn check_series(&self) -> Result<(), &str> {
+        if !self.program.unilateral.is_empty() {
+            return Err("it has contacts that close and open");
+        }
         match &self.series {
             Ok(_) => Ok(()),
             Err(reason) => Err(reason),
@@ -571,6 +575,42 @@ impl System for InterpretedSystem {
         self.program.contacts.iter().map(String::as_str)
     }
 
+    fn unilateral_contacts(&self) -> impl ExactSizeIterator<Item = UnilateralContact<'_>> {
+        self.program
+            .unilateral
+            .iter()
+            .map(|contact| UnilateralContact {
+                name: &contact.name,
+                law: match contact.law {
+                    model::ImpactLaw::Newton => ImpactLaw::Newton,
+                    model::ImpactLaw::Poisson => ImpactLaw::Poisson,
+                    model::ImpactLaw::PoissonGlocker => ImpactLaw::PoissonGlocker,
+                    model::ImpactLaw::Stronge => ImpactLaw::Stronge,
+                },
+                rubs: contact.rubs,
+            })
+    }
+
+    fn gaps(&self, t: f64, q: &Vec<f64>, gaps: &mut [f64]) {
+        self.fill(Role::Gaps, at(t, q, &[], &[]), gaps);
+    }
+
+    fn contact_rates(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, rates: &mut [f64]) {
+        self.fill(Role::ContactRates, at(t, q, v, &[]), rates);
+    }
+
+    fn contact_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut [f64]) {
+        self.fill(Role::ContactMatrix, at(t, q, &[], &[]), matrix);
+    }
+
+    fn contact_drift(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, drift: &mut [f64]) {
+        self.fill(Role::ContactDrift, at(t, q, v, &[]), drift);
+    }
+
+    fn contact_coefficients(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, coefficients: &mut [f64]) {
+        self.fill(Role::ContactCoefficients, at(t, q, v, &[]), coefficients);
+    }
+
     fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
         self.program.kept.iter().map(String::as_str)
     }
@@ -632,7 +672,7 @@ impl Linearize for InterpretedSystem {
         by_rates: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = q.len();
-        if !self.program.contacts.is_empty() {
+        if !self.program.contacts.is_empty() || !self.program.unilateral.is_empty() {
             // What sticks has no linearization, and the law of what slides is not differentiated.
             return Err(Singular {
                 at: Pivot::NotDifferentiated(0),

@@ -55,6 +55,7 @@ extern crate std;
 mod balance;
 mod compensated;
 mod constraints;
+mod contact;
 mod friction;
 #[cfg(feature = "std")]
 mod implicit;
@@ -94,6 +95,7 @@ mod solution;
 
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
+pub use contact::{ContactTrouble, ImpactLaw, UnilateralContact};
 pub use friction::{
     ContactForce, MOST_CONTACTS, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,
@@ -111,6 +113,10 @@ pub use system::{
 };
 pub use vector::Vector;
 
+#[cfg(feature = "std")]
+pub use contact::{
+    ContactEvent, ContactEventKind, ContactImpact, UnilateralForce, unilateral_forces,
+};
 #[cfg(feature = "std")]
 pub use equations::check_equations;
 #[cfg(feature = "std")]

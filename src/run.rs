@@ -1,5 +1,7 @@
 //! The making of a run: step after step, with everything that the simulation was told to look at.
 
+pub(crate) mod contacts;
+
 use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
@@ -44,11 +46,11 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         Of::System(system) => system,
     };
     let goes_on = resumed.is_some();
-    if system.contacts().len() != 0 && until < start.t {
+    if system.contacts().len() + system.unilateral_contacts().len() != 0 && until < start.t {
         return Err(Error::InvalidSetting {
             setting: "until",
             value: until,
-            needed: "after the start: what friction has stopped cannot be run backward",
+            needed: "after the start: what friction or an impact has stopped cannot be run backward",
         });
     }
     let tolerance = settings.tolerance(&system)?;
@@ -80,7 +82,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         });
     }
     let at_start = (start.t, q.clone(), v.clone());
-    let mut stepper = Stepper::new(
+    let mut stepper = Stepper::begun(
         &system,
         &law,
         quadratures,
@@ -112,6 +114,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             events: Vec::new(),
             energies: Vec::new(),
             contacts: Vec::new(),
+            unilateral: contacts::Kept::default(),
             kinetic_energy: 0.0,
             explained: Explained::default(),
         },
@@ -121,6 +124,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         .contacts
         .extend(contacts.map(|known| (start.t, known)));
     run.enter_energies();
+    run.meet_at_start()?;
     let (ending, error) = match run.go() {
         Ok(ending) => (ending, None),
         Err(error) => (Ending::Error, Some(error)),
@@ -138,6 +142,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         events,
         energies,
         contacts,
+        unilateral,
         explained,
         kinetic_energy,
     } = record;
@@ -151,6 +156,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let work = stepper.work();
     let balance = balance(&stepper, &energies, &explained, kinetic_energy);
     let mut warnings = warnings(&settings, &stepper, of_start);
+    warnings.extend(unilateral.warning(&system));
     if let Some(balance) = &balance
         && error.is_none()
         && balance.residual().abs() > balance.explained
@@ -176,6 +182,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         next_step: next_step.unwrap_or(stepper.next_step()).abs(),
         constraints: stepper.constraints().clone(),
         contacts,
+        unilateral,
         start,
         end,
         steps,
@@ -215,6 +222,8 @@ struct Record<M: Machine> {
     energies: Vec<Energies>,
     /// The states of the contacts, and since when.
     contacts: Vec<(f64, Contacts)>,
+    /// What unilateral contacts did.
+    unilateral: contacts::Kept<Coordinates<M>, VectorOf<M>>,
     /// The greatest so far, in J.
     kinetic_energy: f64,
     /// What tolerance and rounding explain of the energy balance's residual.
@@ -235,6 +244,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         let mut pending = None;
         // When contacts have changed last, and how often then.
         let mut last_change = (f64::NAN, 0);
+        // A change of unilateral contacts that the stepper is to stop at.
+        let mut meeting = None;
         while !self.stepper.is_done() {
             if self.stepper.work().steps == self.settings.max_steps {
                 return Err(Error::TooManySteps {
@@ -265,6 +276,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
                 continue;
             }
+            if self.stepper.touching().is_some() {
+                let (looks, changes) = (ending.is_ok(), &mut last_change);
+                let next = self.follow_contacts(&mut meeting, &mut interpolant, looks, changes)?;
+                match next {
+                    contacts::Next::Step => continue,
+                    contacts::Next::End(ending) => return Ok(ending),
+                    contacts::Next::Keep => {}
+                }
+            }
             // A run ends within a step by taking that step again, up to there: so the end is as
             // exact as every other step's, and so is the balance of energy.
             if ending.is_ok()
@@ -273,6 +293,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 self.stepper.retreat(t);
                 ending = Err(Error::AssumptionEnded { assumption, t });
                 pending = None;
+                meeting = None;
                 continue;
             }
             if let Some(found) = self.find_events(&mut interpolant)? {
@@ -284,6 +305,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
             if self.stepper.is_done() {
                 self.change(&mut pending, &mut last_change)?;
+                if let Some(ending) = self.meet(&mut meeting, &mut last_change)? {
+                    return Ok(ending);
+                }
             }
         }
         ending
@@ -317,22 +341,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     continue;
                 }
                 let margin = |theta| exactly(theta).map(|margin| margin.value);
-                // What has just begun may hold only a little later.
-                let mut from = theta_before;
-                if margin(from)? <= 0.0 {
-                    let mut part = 0.5 * (theta - from);
-                    while part > theta_roundoff && margin(theta_before + part)? <= 0.0 {
-                        part *= 0.5;
-                    }
-                    from = match part > theta_roundoff {
-                        true => theta_before + part,
-                        false => theta_before,
-                    };
-                }
-                let found = match from > theta_before || margin(from)? > 0.0 {
-                    true => event::root([from, theta], theta_roundoff, margin)?,
-                    false => from,
-                };
+                let found = event::last_positive([theta_before, theta], theta_roundoff, margin)?;
                 if earliest.is_none_or(|(known, ..)| found < known) {
                     earliest = Some((found, at(found)?.0, change));
                 }
@@ -870,6 +879,9 @@ fn dependences<S: System>(
 fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::Vector) -> Error {
     let mut error_of_run = Error::of_step(error, system);
     if let Error::FrictionParadox {
+        q: at, v: rates, ..
+    }
+    | Error::Contact {
         q: at, v: rates, ..
     } = &mut error_of_run
     {

@@ -6,15 +6,17 @@ use std::vec::Vec;
 
 use crate::compensated::Sum;
 use crate::constraints::Constraints;
+use crate::contact::Mode;
 use crate::event::{Event, state};
 use crate::friction::{ContactForce, Contacts};
 use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
+use crate::run::contacts::{Kept, Phase};
 use crate::simulation::{Callbacks, Of, Resumed, Settings};
 use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, project};
 use crate::{
-    Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs, Quadratures, Simulation,
-    State, Stepper, System, Vector, Warning,
+    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs,
+    Quadratures, Simulation, State, Stepper, System, UnilateralForce, Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -43,6 +45,8 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
     /// The states of the contacts, and since when.
     pub(crate) contacts: Vec<(f64, Contacts)>,
+    /// What unilateral contacts did.
+    pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
 }
 
 /// How a run ended.
@@ -97,6 +101,8 @@ pub struct Observation<M: Machine> {
     pub multipliers: Vec<f64>,
     /// The contacts that stick and slide, in their order.
     pub contacts: Vec<ContactForce>,
+    /// The unilateral contacts, in their order.
+    pub unilateral: Vec<UnilateralForce>,
     /// Kinetic energy, in J.
     pub kinetic_energy: f64,
     /// Potential energy, in J.
@@ -172,10 +178,17 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             }
         };
         let multipliers = multipliers.map_err(|e| Error::of_step(e, &self.system))?;
+        let unilateral = match self.phase_at(t) {
+            None => Vec::new(),
+            Some(phase) => (phase.touching)
+                .forces(&self.system, (t, &q, &v, &u), &mut a)
+                .map_err(|e| Error::of_step(e, &self.system))?,
+        };
         Ok(Observation {
             t,
             multipliers,
             contacts,
+            unilateral,
             q: state.q.clone(),
             v: state.v.clone(),
             a: self.system.to_coordinates(&a),
@@ -226,6 +239,11 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
             constraints,
             ..
         } = self;
+        if let Some(phase) = self.phase_at(t) {
+            let at = (t, q, v, &u);
+            phase.touching.accelerations(system, at, a)?;
+            return Ok(u);
+        }
         match constraints {
             Some(known) if known.redundant => {
                 let mut known = known.clone();
@@ -255,6 +273,9 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         u: &Inputs<M>,
     ) -> Result<Vec<f64>, StepError> {
         let mut multipliers = std::vec![0.0; self.system.constraints().len()];
+        if let Some(phase) = self.phase_at(t) {
+            return phase.touching.multipliers(&self.system, (t, q, v, u));
+        }
         match &self.constraints {
             None => {}
             Some(known) if known.redundant => {
@@ -272,6 +293,12 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
 
     /// A state within the run, on the constraints.
     fn project(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
+        if let Some(phase) = self.phase_at(t) {
+            let held = phase.touching.machine(&self.system);
+            project(&held, &phase.constraints, t, &mut q, &mut v)
+                .map_err(|error| Error::of_step(error, &self.system))?;
+            return Ok((q, v));
+        }
         project(&self.system, &self.constraints, t, &mut q, &mut v)
             .map_err(|error| Error::of_step(error, &self.system))?;
         Ok((q, v))
@@ -374,6 +401,30 @@ impl<M: Machine, L> Solution<M, L> {
     /// What happened, in order.
     pub fn events(&self) -> &[Event<Coordinates<M>>] {
         &self.events
+    }
+
+    /// What happened to the unilateral contacts, in order.
+    pub fn contact_events(&self) -> &[ContactEvent<Coordinates<M>>] {
+        &self.unilateral.events
+    }
+
+    /// What unilateral contacts do at a time within the run: at that of a change, what they do after it.
+    fn phase_at(&self, t: f64) -> Option<&Phase<VectorOf<M>>> {
+        let phases = &self.unilateral.phases;
+        let after = phases.partition_point(|phase| phase.since <= t);
+        phases.get(after.saturating_sub(1))
+    }
+
+    /// Which unilateral contacts are closed at a time within the run, in their order.
+    pub fn closed_contacts(&self, t: f64) -> Vec<bool> {
+        let modes = self.phase_at(t).map(|phase| phase.touching.modes());
+        let modes = modes.unwrap_or_default().iter();
+        modes.map(|mode| *mode != Mode::Open).collect()
+    }
+
+    /// For each unilateral contact the energy that its impacts took, in J.
+    pub fn impact_losses(&self) -> &[f64] {
+        &self.unilateral.losses
     }
 
     /// Where the energy went, if the simulation was told to keep the balance.
@@ -481,6 +532,11 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
             energies.dissipated += half * weight * run.system.dissipation_rate(t, &q, &v, &u);
             if let Some(contacts) = run.contacts_at(t) {
                 let [work, lost] = contacts.power(&run.system, (t, &q, &v, &u));
+                energies.work += half * weight * work;
+                energies.dissipated += half * weight * lost;
+            }
+            if let Some(phase) = run.phase_at(t) {
+                let [work, lost] = phase.touching.power(&run.system, (t, &q, &v, &u));
                 energies.work += half * weight * work;
                 energies.dissipated += half * weight * lost;
             }

@@ -5,12 +5,18 @@
 mod implicitly;
 #[cfg(feature = "std")]
 mod in_series;
+#[cfg(feature = "std")]
+mod meeting;
+#[cfg(feature = "std")]
+pub(crate) use meeting::{Cause, Happened};
 
 use core::fmt::{self, Display};
 
 use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
+#[cfg(feature = "std")]
+use crate::contact::Touching;
 #[cfg(feature = "std")]
 use crate::friction::Change;
 use crate::friction::Contacts;
@@ -24,7 +30,7 @@ use crate::methods::{MAX_STAGES, Method, Row};
 use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
-use crate::{Singular, System, Vector};
+use crate::{ContactTrouble, Singular, System, Vector};
 #[cfg(feature = "std")]
 use std::boxed::Box;
 
@@ -166,6 +172,16 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// Unilateral contacts leave the run no way on, or are at work where only a
+    /// [`Simulation`](crate::Simulation) can follow them.
+    Contact {
+        /// One of them.
+        contact: usize,
+        /// Why.
+        trouble: ContactTrouble,
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time, and its error is still too great.
     StepTooSmall {
         /// The coordinate with the greatest error.
@@ -210,6 +226,16 @@ impl Display for StepError {
             Self::Changed { t } => write!(
                 f,
                 "the motion before t = {t:e} s is to be looked at before the inputs are changed there"
+            ),
+            Self::Contact {
+                contact,
+                trouble,
+                t,
+            } => write!(
+                f,
+                "at t = {t:e} s, unilateral contact number {}: {}",
+                contact + 1,
+                trouble.words()
             ),
             Self::StepTooSmall {
                 coordinate,
@@ -289,6 +315,9 @@ struct Model<'s, S: System, L> {
     constraints: Option<Constraints<S::Vector>>,
     /// None if it has no contacts.
     contacts: Option<Contacts>,
+    /// None if it has no unilateral contacts; if it has, what of them is closed is among `constraints`.
+    #[cfg(feature = "std")]
+    touching: Option<Touching>,
 }
 
 /// Signs of stiffness, as in DOP853 (section IV.2 of the second volume).
@@ -306,6 +335,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Fails where the accelerations at the start have no value, or no state near is on the
     /// constraints.
     pub fn new(
+        system: &'s S,
+        law: L,
+        quadratures: A,
+        method: &'static Method,
+        tolerance: Tolerance<S::Vector>,
+        start: (f64, S::Vector, S::Vector),
+        end: f64,
+    ) -> Result<Self, StepError> {
+        // What closes, opens and sticks is found by whoever looks for events.
+        if system.unilateral_contacts().len() != 0 {
+            return Err(StepError::Contact {
+                contact: 0,
+                trouble: ContactTrouble::NotFollowed,
+                t: start.0,
+            });
+        }
+        Self::begun(system, law, quadratures, method, tolerance, start, end)
+    }
+
+    /// The same for whoever looks for impacts.
+    pub(crate) fn begun(
         system: &'s S,
         law: L,
         quadratures: A,
@@ -349,6 +399,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 law,
                 constraints,
                 contacts: None,
+                #[cfg(feature = "std")]
+                touching: None,
             },
             quadratures,
             end,
@@ -387,6 +439,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             law.set(system, now.t, &now.q, &now.v, inputs);
             let contacts = Contacts::begin(system, now.t, &now.q, &now.v, inputs)?;
             model.contacts = Some(contacts);
+        }
+        #[cfg(feature = "std")]
+        if system.unilateral_contacts().len() != 0 {
+            model.touching = Some(Touching::new(system));
         }
         let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
         if let Some(constraints) = &mut model.constraints
@@ -836,6 +892,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Projects a state within the last step onto the constraints of the machine, by the least move in
     /// the metric of its inertia.
     pub fn project(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
+        #[cfg(feature = "std")]
+        if let Some(touching) = &self.model.touching {
+            let held = touching.machine(self.model.system);
+            return project(&held, &self.model.constraints, t, q, v);
+        }
         project(self.model.system, &self.model.constraints, t, q, v)
     }
 
@@ -931,6 +992,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             stage,
             ..
         } = self;
+        #[cfg(feature = "std")]
+        if model.touching.is_some() {
+            return false;
+        }
         let Some(constraints) = &mut model.constraints else {
             return false;
         };
@@ -1237,7 +1302,14 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         work.evaluations += 1;
         self.law.set(self.system, t, q, v, &mut self.inputs);
         let known = (&self.constraints, &self.contacts);
-        accelerations(self.system, known, (t, q, v, &self.inputs), a)?;
+        let at = (t, q, v, &self.inputs);
+        #[cfg(feature = "std")]
+        match &self.touching {
+            Some(touching) => touching.accelerations(self.system, at, a)?,
+            None => accelerations(self.system, known, at, a)?,
+        }
+        #[cfg(not(feature = "std"))]
+        accelerations(self.system, known, at, a)?;
         // The sum of what is not finite is not finite, and one test is cheaper than many.
         let sum: f64 = a.as_slice().iter().sum();
         if sum.is_finite() {
@@ -1273,6 +1345,18 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Projects the end of a step onto the constraints; says whether that moved it.
     #[inline(always)]
     fn project(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
+        #[cfg(feature = "std")]
+        if self.system.unilateral_contacts().len() != 0
+            && let Some(touching) = &self.touching
+        {
+            let held = touching.machine(self.system);
+            return match &mut self.constraints {
+                Some(constraints) if held.constraints().len() != 0 => {
+                    constraints.project(&held, &mut now.place())
+                }
+                _ => Ok(false),
+            };
+        }
         let moved = match &mut self.constraints {
             Some(constraints) if self.system.constraints().len() != 0 => {
                 constraints.project(self.system, &mut now.place())?
@@ -1296,6 +1380,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && let Some(contacts) = &mut self.contacts
         {
             contacts.accept(self.system, now.t, &now.q, &now.v);
+        }
+        #[cfg(feature = "std")]
+        if self.system.unilateral_contacts().len() != 0 {
+            self.accept_contacts(now);
+            return;
         }
         if self.system.constraints().len() == 0 {
             return;
@@ -1326,6 +1415,15 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         {
             let (t, q, v, _) = at;
             let [work, lost] = contacts.power(self.system, (t, q, v, &self.inputs));
+            quadratures.add(stage, work, lost);
+        }
+        #[cfg(feature = "std")]
+        if self.system.unilateral_contacts().len() != 0
+            && let Some(touching) = &self.touching
+            && quadratures.integrals().is_some()
+        {
+            let (t, q, v, _) = at;
+            let [work, lost] = touching.power(self.system, (t, q, v, &self.inputs));
             quadratures.add(stage, work, lost);
         }
     }

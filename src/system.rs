@@ -6,7 +6,7 @@
 
 use core::fmt::{self, Debug, Display};
 
-use crate::Vector;
+use crate::{UnilateralContact, Vector};
 
 /// The parameters of a machine: a plain struct with a named field for each.
 ///
@@ -294,6 +294,45 @@ pub trait System {
         Ok(())
     }
 
+    /// The unilateral contacts, whose gaps stay open or closed. None by default, and a machine without any has
+    /// nothing to say in the methods that follow.
+    ///
+    /// [`accelerations`](Self::accelerations) are those of a machine whose contacts are open: what closed
+    /// ones do is found by a [`Simulation`](crate::Simulation).
+    #[inline(always)]
+    fn unilateral_contacts(&self) -> impl ExactSizeIterator<Item = UnilateralContact<'_>> {
+        core::iter::empty()
+    }
+
+    /// The gaps `g(q, t)` of the unilateral contacts, in m: positive where they are open.
+    #[inline(always)]
+    fn gaps(&self, _t: f64, _q: &Self::Vector, _gaps: &mut [f64]) {}
+
+    /// For each unilateral contact the rate `dg/dt` at which its gap opens and the rate at which it slips, in
+    /// m/s.
+    #[inline(always)]
+    fn contact_rates(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _rates: &mut [f64]) {}
+
+    /// The derivatives of these rates by the rates of the coordinates, row after row.
+    #[inline(always)]
+    fn contact_matrix(&self, _t: f64, _q: &Self::Vector, _matrix: &mut [f64]) {}
+
+    /// How fast these rates change at `a = 0`.
+    #[inline(always)]
+    fn contact_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
+
+    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, friction
+    /// of what slips and of what sticks.
+    #[inline(always)]
+    fn contact_coefficients(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _coefficients: &mut [f64],
+    ) {
+    }
+
     /// Which numbers of a start that does not obey the constraints stay as they are while the others are
     /// moved: coordinates, `"theta"`, and rates, `"der(theta)"`. None by default.
     /// [`Simulation::keep`](crate::Simulation::keep) takes others.
@@ -578,7 +617,11 @@ impl Singular {
         let name = match self.at {
             Pivot::Coordinate(index) => system.coordinates().nth(index).map(|row| row.name),
             Pivot::Constraint(index) => system.constraints().nth(index).map(|row| row.name),
-            Pivot::Contact(index) | Pivot::NotDifferentiated(index) => system.contacts().nth(index),
+            Pivot::Contact(index) | Pivot::NotDifferentiated(index) => {
+                let mut unilateral = system.unilateral_contacts();
+                let guide = system.contacts().nth(index);
+                guide.or_else(|| unilateral.nth(index).map(|contact| contact.name))
+            }
             Pivot::NoWorkspace => None,
         };
         name.unwrap_or("?")

@@ -15,6 +15,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::call;
+use crate::collisions;
 use crate::contacts;
 use crate::diagnostics;
 use crate::failure::Failure;
@@ -205,6 +206,17 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
         };
         least.map_err(|error| in_words(system, error))?;
     }
+    let mut collisions = Vec::new();
+    if system.unilateral_contacts().len() != 0 {
+        let found = collisions::forces(system, (t, q, v, &u), &mut a);
+        collisions = found.map_err(|error| in_words(system, error))?;
+        if !multipliers.is_empty() && collisions.iter().any(|(_, force)| force["closed"] == true) {
+            return Err(
+                "the multipliers of constraints where contacts are closed are those of a run"
+                    .into(),
+            );
+        }
+    }
     let mut rows = vec![0.0; multipliers.len() * n];
     system.constraint_matrix(t, q, &mut rows);
     let reaction = |i: usize| {
@@ -229,6 +241,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     check_equations(system, (t, q, v, &u)).map_err(|error| error.to_string())?;
     let mut contacts = contacts::forces(system, &multipliers);
     contacts.extend(sliding(system, (t, q, v, &u)));
+    contacts.extend(collisions);
     let kinetic_energy = system.kinetic_energy(t, q, v);
     let potential_energy = system.potential_energy(t, q, &u);
     let dissipation = system.dissipation(t, q, v, &u);

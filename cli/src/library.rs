@@ -46,6 +46,11 @@ pub fn run(call: &call::Library) -> Result<(), Failure> {
              `sliding` cannot be made",
         ));
     }
+    if !program.unilateral.is_empty() {
+        return Err(Failure::run(
+            "whether contacts are closed is no function of q and v alone: a library of a machine with `contacts` cannot be made",
+        ));
+    }
     let mut lanes = call.lanes.clone();
     lanes.sort_unstable();
     lanes.dedup();

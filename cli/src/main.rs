@@ -6,6 +6,7 @@
 mod brachistochrone;
 mod call;
 mod check;
+mod collisions;
 mod contacts;
 mod derive;
 mod diagnostics;

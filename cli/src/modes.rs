@@ -176,6 +176,14 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag, files: &Files) -> Result<Compil
             "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",
         ));
     }
+    if model
+        .as_ref()
+        .is_some_and(|model| !model.contacts.is_empty())
+    {
+        return Err(Failure::run(
+            "what collides has no linearization: a machine with `contacts` has no modes; say it without them",
+        ));
+    }
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {
         Some(compiled) => {

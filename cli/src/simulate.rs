@@ -11,6 +11,7 @@ use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
 
 use crate::call;
+use crate::collisions;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
@@ -348,13 +349,26 @@ pub fn record(run: &Run) -> Recording {
             column(format!("{what}({name})"), unit.into(), Kind::Contact);
         }
     }
+    for contact in system.unilateral_contacts() {
+        let name = contact.name;
+        for (what, unit) in [
+            ("gap", "m"),
+            ("normal", "N"),
+            ("friction", "N"),
+            ("slip", "m/s"),
+        ] {
+            column(format!("{what}({name})"), unit.into(), Kind::Contact);
+        }
+    }
     for name in ["kinetic energy", "potential energy", "total energy"] {
         column(name.into(), "J".into(), Kind::Energy);
     }
     column("energy residual".into(), "J".into(), Kind::Residual);
 
     let unknown = |count: usize| vec![f64::NAN; count];
-    let reactions = system.constraints().len() + 3 * system.contacts().len();
+    let reactions = system.constraints().len()
+        + 3 * system.contacts().len()
+        + 4 * system.unilateral_contacts().len();
     for state in states {
         // Where a run ends early there may be no accelerations, and then nothing that is made from them.
         let (outputs, reactions, energies) = match run.observe_state(state) {
@@ -363,7 +377,10 @@ pub fn record(run: &Run) -> Recording {
                 let energies = [kinetic, potential, kinetic + potential];
                 let contacts = seen.contacts.iter();
                 let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
+                let unilateral = seen.unilateral.iter();
+                let unilateral = unilateral.flat_map(|c| [c.gap, c.normal, c.friction, c.slip]);
                 let reactions = seen.multipliers.iter().copied().chain(contacts);
+                let reactions = reactions.chain(unilateral);
                 (seen.outputs.values, reactions.collect(), energies)
             }
             Err(_) => {
@@ -450,6 +467,9 @@ fn document(
             let contacts = contacts.iter().map(Found::json);
             fields.insert("contacts".into(), contacts.collect());
         }
+        for (name, value) in collisions::fields(run) {
+            fields.insert(name.into(), value);
+        }
         if interruption.is_some() {
             fields.insert("interrupted".into(), true.into());
         }
@@ -525,7 +545,15 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, conta
     for contact in contacts {
         output::line(format_args!("    {}", contact.line()));
     }
-    for event in contacts::other_events(run, contacts) {
+    let collisions = collisions::lines(run);
+    if !collisions.is_empty() {
+        output::line(format_args!("  unilateral contacts"));
+    }
+    for line in collisions {
+        output::line(format_args!("    {line}"));
+    }
+    let events = contacts::other_events(run, contacts);
+    for event in events.filter(|event| !collisions::is_of_contact(run, event)) {
         output::line(format_args!(
             "  event {} at t = {} s",
             event.name, event.state.t

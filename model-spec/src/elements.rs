@@ -8,7 +8,7 @@
 //! mechanics knows.
 
 mod bushing;
-mod constraint;
+pub(crate) mod constraint;
 mod damper;
 mod dissipation;
 mod elastic;

@@ -16,7 +16,7 @@ use lagrangian_symbolic::{Dag, Expr};
 use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
-pub use crate::unit::{Name, Stages, Variable};
+pub use crate::unit::{ImpactLaw, Name, Stages, Variable};
 
 pub mod bounds;
 pub mod circles;
@@ -398,10 +398,16 @@ pub struct Contact<'d> {
     pub name: Name,
     /// Which circles, or the gap and the slip velocity in terms of coordinates.
     pub geometry: ContactGeometry<'d>,
-    /// Coefficient of restitution.
+    /// Coefficient of restitution, along the normal.
     pub restitution: Expr<'d>,
-    /// Coefficient of friction.
-    pub friction: Expr<'d>,
+    /// Coefficient of restitution of the slip; 0 where nothing is said.
+    pub tangential_restitution: Expr<'d>,
+    /// Coefficient of friction; none where there is no friction at all.
+    pub friction: Option<Expr<'d>>,
+    /// Coefficient of friction of what sticks, where it is another.
+    pub static_friction: Option<Expr<'d>>,
+    /// How it bounces.
+    pub law: ImpactLaw,
     /// Its name in the spec.
     pub span: Span,
 }
@@ -411,6 +417,13 @@ pub struct Contact<'d> {
 pub enum ContactGeometry<'d> {
     /// By two circles.
     Circles(Touching),
+    /// By a point, which is a circle of no radius, and what it touches.
+    Point {
+        /// The point.
+        point: Circle<'d>,
+        /// What it touches.
+        surface: Surface,
+    },
     /// By expressions.
     Expressions {
         /// The gap, which stays ≥ 0.

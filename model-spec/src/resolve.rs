@@ -29,6 +29,7 @@
 
 mod bounds;
 mod brachistochrone;
+mod contacts;
 mod derivatives;
 pub(crate) mod element;
 pub(crate) mod expression;

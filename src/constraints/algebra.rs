@@ -9,7 +9,7 @@ use crate::math::sqrt;
 
 /// Cholesky's factorization `L Lᵀ`, to the lower triangle; and to `shares` the remainder of each
 /// diagonal element, `Lᵢᵢ / √aᵢᵢ`.
-pub(super) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
+pub(crate) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular> {
     let n = root(a.len());
     let roundoff = 4.0 * n as f64 * f64::EPSILON;
     for j in 0..n {
@@ -34,7 +34,7 @@ pub(super) fn cholesky(a: &mut [f64], shares: &mut [f64]) -> Result<(), Singular
 }
 
 /// `L⁻¹ x` in place.
-pub(super) fn forward(l: &[f64], x: &mut [f64]) {
+pub(crate) fn forward(l: &[f64], x: &mut [f64]) {
     let n = x.len();
     for i in 0..n {
         let known = dot(&l[i * n..][..i], &x[..i]);
@@ -43,7 +43,7 @@ pub(super) fn forward(l: &[f64], x: &mut [f64]) {
 }
 
 /// `L⁻ᵀ x` in place.
-pub(super) fn backward(l: &[f64], x: &mut [f64]) {
+pub(crate) fn backward(l: &[f64], x: &mut [f64]) {
     let n = x.len();
     for i in (0..n).rev() {
         let mut sum = x[i];
@@ -63,7 +63,7 @@ pub(super) fn solve_triangle(r: &[f64], rank: usize, x: &mut [f64]) {
 }
 
 /// Takes out of `x` what it has along a unit vector, and says how much that was.
-pub(super) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
+pub(crate) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
     let along = dot(unit, x);
     for (x, unit) in x.iter_mut().zip(unit) {
         *x -= along * unit;
@@ -71,11 +71,11 @@ pub(super) fn remove(unit: &[f64], x: &mut [f64]) -> f64 {
     along
 }
 
-pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
-pub(super) fn length(x: &[f64]) -> f64 {
+pub(crate) fn length(x: &[f64]) -> f64 {
     sqrt(dot(x, x))
 }
 

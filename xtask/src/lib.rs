@@ -166,6 +166,9 @@ fn quantities() -> String {
             Kind::Coordinate => "coordinate",
             Kind::Constraint => "constraint",
             Kind::Contact => "contact",
+            Kind::Unilateral => "contact",
+            Kind::Direction => "direction",
+            Kind::Coefficient => "coefficient",
         };
         let numbers = match extent {
             Extent::Number => "one".to_owned(),
@@ -183,6 +186,7 @@ fn quantities() -> String {
             (_, Needs::Nothing) => "all",
             (_, Needs::Constraints) => "with constraints",
             (_, Needs::Contacts) => "with guided contacts",
+            (_, Needs::Unilateral) => "with unilateral contacts",
             (Role::Derivatives, _) => "with `derivatives`",
             (Role::Output(_), _) => "one for each output",
             (Role::Assumption(_), _) => "one for each assumption",

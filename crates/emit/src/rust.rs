@@ -216,11 +216,12 @@ impl<'a> Emitter<'a> {
         self.tables();
         self.table_of_constraints();
         self.table_of_contacts();
+        self.table_of_unilateral_contacts();
         self.impl_machine();
         self.impl_system();
         self.impl_linearize();
         self.impl_staged();
-        if self.program.contacts.is_empty() {
+        if self.program.contacts.is_empty() && self.program.unilateral.is_empty() {
             self.impl_batched();
         }
         self.helpers();

@@ -35,6 +35,7 @@ mod reduction;
 pub(crate) mod refusal;
 mod sliding;
 mod symmetric;
+mod unilateral;
 
 use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 
@@ -48,6 +49,7 @@ pub use reduction::{Dependent, ReducedModel, Reduction, dependents};
 pub use refusal::MOST_COORDINATES;
 pub use sliding::{MOST_CONTACTS, SlidingEquation};
 pub use symmetric::Symmetric;
+pub use unilateral::{DirectionEquation, UnilateralEquation};
 
 use approximation::Approximations;
 use kinematics::Variables;
@@ -88,6 +90,8 @@ pub struct Equations<'d> {
     pub constraints: Vec<ConstraintEquation<'d>>,
     /// The guided contacts with friction, of which `M`, `h`, `Q` and `f` know nothing either.
     pub sliding: Vec<SlidingEquation<'d>>,
+    /// The unilateral contacts, of which nothing else here knows anything.
+    pub unilateral: Vec<UnilateralEquation<'d>>,
     /// The same machine without the coordinates that constraints settle, if they settle any.
     pub reduction: Option<Box<Reduction<'d>>>,
     /// The residual of the equations of motion where accelerations are given, `f − M a`, eq. (E25); with
@@ -220,6 +224,7 @@ impl<'d> Equations<'d> {
         equations.slopes = slopes;
         if !model.dag.is_exhausted() {
             equations.sliding = sliding::sliding(model, report)?;
+            equations.unilateral = unilateral::unilateral(model);
         }
         equations.reduction = reduction::reduction(model, &equations.constraints);
         if model.dag.is_exhausted() {
@@ -382,6 +387,7 @@ fn exact<'d>(model: &Model<'d>) -> Option<Equations<'d>> {
         unprojected: Some(projection.unprojected(&weightless, &forces)),
         constraints: constraints::constraints(model),
         sliding: Vec::new(),
+        unilateral: Vec::new(),
         reduction: None,
         forces: projection.project(&forces, all),
         unbalanced: match model.derivatives.is_empty() {
@@ -454,6 +460,7 @@ fn approximate<'d>(
         unprojected: None,
         constraints: constraints::constraints(model),
         sliding: Vec::new(),
+        unilateral: Vec::new(),
         reduction: None,
         unbalanced,
         slopes: Vec::new(),

@@ -23,7 +23,7 @@ use lagrangian_program::rounding::States;
 use lagrangian_program::schedule::{Code, schedule};
 use lagrangian_program::solve::{self, Elimination, Pivot, Solution, System};
 use lagrangian_program::{
-    Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source,
+    Constraint, Default, Fact, Function, Guard, Op, Program, Role, Shape, Slot, Source, Unilateral,
 };
 use lagrangian_spec::model::{Model, Name, Stages, Variable, stage};
 use lagrangian_spec::unit::Unit;
@@ -114,6 +114,12 @@ pub fn lower_by<'d>(
         choose,
     );
     program.contacts = equations.sliding.iter().map(|s| s.name.clone()).collect();
+    let unilateral = equations.unilateral.iter().map(|u| Unilateral {
+        name: u.name.clone(),
+        law: u.law,
+        rubs: u.rubs,
+    });
+    program.unilateral = unilateral.collect();
     debug_assert_eq!(program.verify(), Ok(()));
     program
 }
@@ -271,6 +277,7 @@ fn build<'d>(
         assumptions: facts(model),
         constraints,
         contacts: Vec::new(),
+        unilateral: Vec::new(),
         kept: model
             .kept
             .iter()
@@ -288,7 +295,7 @@ fn build<'d>(
         choices,
     };
     // Contacts are named by the caller, who verifies then.
-    if source.sliding.is_empty() {
+    if source.sliding.is_empty() && model.contacts.is_empty() {
         debug_assert_eq!(program.verify(), Ok(()));
     }
     program
@@ -376,12 +383,15 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         coordinates: model.coordinates.len(),
         constraints: equations.constraints.len(),
         contacts: equations.sliding.len(),
+        unilateral: equations.unilateral.len(),
         derivatives: model.derivatives.len(),
     };
     if !role.row().needs.are_met(sizes) {
         return None;
     }
     let (constraints, sliding) = (equations.constraints.iter(), equations.sliding.iter());
+    let unilateral = &equations.unilateral;
+    let directions = unilateral.iter().flat_map(|u| &u.directions);
     let zero = model.dag.zero();
     let values = match role {
         Role::MassMatrix => equations.mass_matrix.lower().to_vec(),
@@ -400,6 +410,11 @@ fn quantity<'d>(model: &Model<'d>, equations: &Equations<'d>, role: Role) -> Opt
         Role::Slips => sliding.map(|s| s.slip).collect(),
         Role::SlipMatrix => sliding.flat_map(|s| s.row.iter().copied()).collect(),
         Role::SlipDrift => sliding.map(|s| s.drift).collect(),
+        Role::Gaps => unilateral.iter().map(|u| u.gap).collect(),
+        Role::ContactRates => directions.map(|d| d.rate).collect(),
+        Role::ContactMatrix => directions.flat_map(|d| d.row.iter().copied()).collect(),
+        Role::ContactDrift => directions.map(|d| d.drift).collect(),
+        Role::ContactCoefficients => unilateral.iter().flat_map(|u| u.coefficients).collect(),
         Role::Output(index) => vec![equations.outputs[index]],
         Role::Assumption(index) => vec![model.assumptions[index].excess],
         // These are found by elimination, or are no expressions of the equations.

@@ -212,6 +212,9 @@ fn told(disagreement: &Disagreement, program: &Program) -> String {
             Kind::Coordinate => format!("`{name}`"),
             Kind::Constraint => format!("the constraint `{name}`"),
             Kind::Contact => format!("the guide `{name}`"),
+            Kind::Unilateral | Kind::Direction | Kind::Coefficient => {
+                format!("the contact `{name}`")
+            }
         }
     };
     let coordinate = |i: usize| member((Kind::Coordinate, i));
@@ -544,6 +547,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_constraints(&state, &w, &literal, &computed)?;
         self.check_power(&state, &literal, &computed)?;
         let signs = self.check_slips(&state, &w, &literal)?;
+        self.check_unilateral(&state, &w, &literal)?;
         self.check_rest(&state, facts)?;
 
         let (state, computed) = match self.parts.settled.is_empty() {
@@ -839,6 +843,47 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
             signs.push(sign);
         }
         Ok(signs)
+    }
+
+    /// The unilateral contacts: gaps, and the rates, rows and drifts of both directions, each as those
+    /// of a constraint that would hold it; and the coefficients.
+    fn check_unilateral(
+        &mut self,
+        at: &State<R>,
+        w: &[R],
+        literal: &Literal<R>,
+    ) -> Result<(), Verdict> {
+        let (n, count) = (w.len(), literal.unilateral.len());
+        if count != self.parts.program.unilateral.len() {
+            return Err(self.wrong(Role::Gaps, 0));
+        }
+        if count == 0 {
+            return Ok(());
+        }
+        let gaps = self.call(Role::Gaps, at, count)?;
+        let rates = self.call(Role::ContactRates, at, 2 * count)?;
+        let rows = self.call(Role::ContactMatrix, at, 2 * count * n)?;
+        let drifts = self.call(Role::ContactDrift, at, 2 * count)?;
+        let coefficients = self.call(Role::ContactCoefficients, at, 4 * count)?;
+        for (k, contact) in literal.unilateral.iter().enumerate() {
+            self.compare(Role::Gaps, k, gaps[k], contact.gap.position)?;
+            // What is said of positions must not depend on rates.
+            self.compare(Role::Gaps, k, contact.gap.by_rates, R::ZERO)?;
+            for (i, direction) in [contact.gap, contact.slip].into_iter().enumerate() {
+                let i = 2 * k + i;
+                self.compare(Role::ContactRates, i, rates[i], direction.rate)?;
+                let row = &rows[i * n..][..n];
+                let along = Sum::products(row, w).plus(-direction.along);
+                self.settle(Role::ContactMatrix, i * n, along)?;
+                let rate = Sum::products(row, &at.a).plus(drifts[i]);
+                self.settle(Role::ContactDrift, i, rate.plus(-direction.acceleration))?;
+            }
+            for (i, &expected) in contact.coefficients.iter().enumerate() {
+                let i = 4 * k + i;
+                self.compare(Role::ContactCoefficients, i, coefficients[i], expected)?;
+            }
+        }
+        Ok(())
     }
 
     /// Outputs, facts and the start. An output may have no value here.

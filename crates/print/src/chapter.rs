@@ -13,6 +13,7 @@ mod machine;
 mod motion;
 mod program;
 mod published;
+mod unilateral;
 
 use lagrangian_symbolic::{Expr, Math, Names, math};
 
@@ -54,6 +55,7 @@ pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
         ("Equations of motion", chapter.motion()),
         ("Constraints", chapter.constraints()),
         ("Friction", chapter.contacts()),
+        ("Contacts", chapter.unilateral()),
         ("Mass matrix", chapter.mass_matrix()),
         (
             "What is conserved, and what is not there",

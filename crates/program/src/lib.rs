@@ -27,7 +27,7 @@
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use lagrangian_units::{Name, Stages, Unit, Variable};
+use lagrangian_units::{ImpactLaw, Name, Stages, Unit, Variable};
 
 pub mod choose;
 mod cost;
@@ -85,6 +85,8 @@ pub struct Program {
     /// The names of the guided contacts with friction; the functions about them are there if these
     /// are.
     pub contacts: Vec<String>,
+    /// The unilateral contacts; the functions about them are there if these are.
+    pub unilateral: Vec<Unilateral>,
     /// Which start values stay as they are where the start does not obey the constraints: `theta`,
     /// `der(phi)`.
     pub kept: Vec<String>,
@@ -167,6 +169,17 @@ pub struct Constraint {
     pub multiplier_unit: String,
     /// Whether it constrains positions, not velocities alone.
     pub holonomic: bool,
+}
+
+/// A unilateral contact.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unilateral {
+    /// Its name.
+    pub name: String,
+    /// How it bounces.
+    pub law: ImpactLaw,
+    /// Whether there is friction.
+    pub rubs: bool,
 }
 
 /// How the results of [`Role::Friction`] are arranged.

@@ -17,6 +17,13 @@ pub enum Kind {
     Constraint,
     /// The guided contacts with friction.
     Contact,
+    /// The unilateral contacts.
+    Unilateral,
+    /// The directions of unilateral contacts: for each its normal, then its tangent.
+    Direction,
+    /// The coefficients of unilateral contacts: for each its restitution along the normal and along the tangent,
+    /// its friction and its static friction.
+    Coefficient,
 }
 
 /// How the results of a function are arranged, whatever machine it is of.
@@ -77,6 +84,8 @@ pub enum Needs {
     Constraints,
     /// Those with guided contacts.
     Contacts,
+    /// Those with unilateral contacts.
+    Unilateral,
     /// Those that are asked for it.
     Request,
 }
@@ -88,6 +97,7 @@ impl Needs {
             Needs::Nothing | Needs::Request => true,
             Needs::Constraints => sizes.constraints > 0,
             Needs::Contacts => sizes.contacts > 0,
+            Needs::Unilateral => sizes.unilateral > 0,
         }
     }
 }
@@ -135,6 +145,8 @@ pub struct Sizes {
     pub constraints: usize,
     /// Contacts.
     pub contacts: usize,
+    /// Unilateral contacts.
+    pub unilateral: usize,
     /// Variables that accelerations are differentiated by.
     pub derivatives: usize,
 }
@@ -183,7 +195,7 @@ macro_rules! quantities {
 }
 
 use Extent::{Chosen, Differentials, Each, Number, Responses, Rows, State, Symmetric};
-use Kind::{Constraint, Contact, Coordinate};
+use Kind::{Coefficient, Constraint, Contact, Coordinate, Direction, Unilateral};
 
 quantities! {
     /// Prepared values: what parameters alone decide.
@@ -241,6 +253,25 @@ quantities! {
     /// contacts has this in place of accelerations and multipliers.
     Friction => {
         "friction", "", "r*", Responses, [Time Coordinates Velocities Inputs], Contacts, Solves, "E34"
+    }
+    /// Gaps `g` of the unilateral contacts, in m: positive where they are open.
+    Gaps => { "gaps", "", "gap*", Each(Unilateral), [Time Coordinates], Unilateral, Seldom, "E51" }
+    /// Rates `gamma` at which the gaps of unilateral contacts open and at which these slip, in m/s.
+    ContactRates => {
+        "contact_rates", "", "rate*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E51"
+    }
+    /// Derivatives of the rates of unilateral contacts by the rates of the coordinates.
+    ContactMatrix => {
+        "contact_matrix", "", "w*", Rows(Direction, Coordinate), [Time Coordinates], Unilateral, Seldom, "E52"
+    }
+    /// Rates `dgamma/dt` of unilateral contacts where all accelerations are 0.
+    ContactDrift => {
+        "contact_drift", "", "drift*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
+    }
+    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent, friction, static
+    /// friction.
+    ContactCoefficients => {
+        "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
     }
     /// Accelerations `a` with their derivatives by each `x` that is asked for, the solutions of
     /// `M da/dx = d(f - M a)/dx` with `a` held.
@@ -310,6 +341,9 @@ impl Sizes {
             Kind::Coordinate => self.coordinates,
             Kind::Constraint => self.constraints,
             Kind::Contact => self.contacts,
+            Kind::Unilateral => self.unilateral,
+            Kind::Direction => 2 * self.unilateral,
+            Kind::Coefficient => 4 * self.unilateral,
         }
     }
 }
@@ -366,6 +400,7 @@ impl Program {
             coordinates: self.coordinates.len(),
             constraints: self.constraints.len(),
             contacts: self.contacts.len(),
+            unilateral: self.unilateral.len(),
             derivatives: self.derivatives.len(),
         }
     }
@@ -407,6 +442,22 @@ impl Program {
                 .map(|slot| slot.name.to_string()),
             Constraint => self.constraints.get(index).map(|one| one.name.clone()),
             Contact => self.contacts.get(index).cloned(),
+            Unilateral => self.unilateral.get(index).map(|one| one.name.clone()),
+            Direction => {
+                let part = ["gap", "slip"][index % 2];
+                let one = self.unilateral.get(index / 2);
+                one.map(|one| format!("{}.{part}", one.name))
+            }
+            Coefficient => {
+                let part = [
+                    "restitution",
+                    "tangential_restitution",
+                    "friction",
+                    "static_friction",
+                ][index % 4];
+                let one = self.unilateral.get(index / 4);
+                one.map(|one| format!("{}.{part}", one.name))
+            }
         };
         name.unwrap_or_else(|| index.to_string())
     }

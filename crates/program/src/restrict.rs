@@ -63,6 +63,7 @@ impl Program {
             assumptions: self.assumptions.clone(),
             constraints: self.constraints.clone(),
             contacts: self.contacts.clone(),
+            unilateral: self.unilateral.clone(),
             kept: self.kept.clone(),
             derivatives: self.derivatives.clone(),
             stages: self.stages,

@@ -61,3 +61,39 @@ impl Stages {
         self == Stages::default()
     }
 }
+
+/// How rates after an impact follow from those before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ImpactLaw {
+    /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`.
+    #[default]
+    Newton,
+    /// The impulse of expansion is `e` times that of compression, along Routh's path; one contact at a
+    /// time.
+    Poisson,
+    /// Poisson's hypothesis for several contacts at once, in two complementarity problems.
+    PoissonGlocker,
+    /// The work of expansion is `−e²` times that of compression, along Routh's path; one contact at a
+    /// time.
+    Stronge,
+}
+
+impl ImpactLaw {
+    /// All of them.
+    pub const ALL: [ImpactLaw; 4] = [
+        ImpactLaw::Newton,
+        ImpactLaw::Poisson,
+        ImpactLaw::PoissonGlocker,
+        ImpactLaw::Stronge,
+    ];
+
+    /// As a spec writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            ImpactLaw::Newton => "newton",
+            ImpactLaw::Poisson => "poisson",
+            ImpactLaw::PoissonGlocker => "poisson_glocker",
+            ImpactLaw::Stronge => "stronge",
+        }
+    }
+}

@@ -53,7 +53,7 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
 }
 
 /// Whether no derivative with respect to a velocity depends on a velocity.
-fn is_linear(expression: Expr<'_>) -> bool {
+pub(crate) fn is_linear(expression: Expr<'_>) -> bool {
     let dag = expression.dag();
     let symbols = expression.symbols().into_iter();
     let mut rates = symbols.filter(|&symbol| dag.stage_of(symbol) == stage::VELOCITY);

@@ -67,8 +67,22 @@ fn turning<'d>(model: &Model<'d>, circle: &Circle<'d>, rate: &mut Tangent<'d>) -
 
 /// How a circle touches what it is to touch.
 pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d>) -> Contact<'d> {
-    let circle = &model.circles[touching.circle];
-    match touching.surface {
+    touch(
+        model,
+        &model.circles[touching.circle],
+        touching.surface,
+        rate,
+    )
+}
+
+/// The same of a circle that need not be one of the machine's.
+pub fn touch<'d>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    surface: Surface,
+    rate: &mut Tangent<'d>,
+) -> Contact<'d> {
+    match surface {
         Surface::Inside(other) => with_circle(model, [circle, &model.circles[other]], true, rate),
         Surface::Outside(other) => with_circle(model, [circle, &model.circles[other]], false, rate),
         Surface::Along(pose) => with_line(model, circle, pose, rate),

@@ -300,6 +300,21 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
     /// `circle` with `inside`, `outside` or `along`: what touches what.
     pub fn touching(&mut self, member: MemberId, record: &'a Record) -> Option<Touching> {
         let circle = self.field(member, record, "circle");
+        let circle = circle.map(|circle| self.circle_at(member, circle));
+        let surface = self.surface(member, record, circle.flatten());
+        Some(Touching {
+            circle: self.ordinal(circle??)?,
+            surface: surface?,
+        })
+    }
+
+    /// `inside`, `outside` or `along`: what is touched, by a circle or by something else.
+    pub fn surface(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        circle: Option<MemberId>,
+    ) -> Option<Surface> {
         let inside = record.get("inside");
         if inside.is_some() {
             self.conflict(record, "outside", "inside");
@@ -309,13 +324,8 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         }
         let other = inside.or(record.get("outside"));
         if let (None, Some(along)) = (other, record.get("along")) {
-            let circle = circle.and_then(|circle| self.circle_at(member, circle));
             let scope = self.scope(member, &limits::POINT);
-            let pose = self.frame(along, scope);
-            return Some(Touching {
-                circle: self.ordinal(circle?)?,
-                surface: Surface::Along(pose?),
-            });
+            return self.frame(along, scope).map(Surface::Along);
         }
         if other.is_none() {
             let base = self.base_name(member);
@@ -324,22 +334,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             );
             self.missing_field(member, message);
         }
-        let circle_member = circle.and_then(|circle| self.circle_at(member, circle));
-        let other_member = other.and_then(|other| self.circle_at(member, other));
-        let (circle_member, other_member) = (circle_member?, other_member?);
-        if circle_member == other_member {
+        let other_member = other.and_then(|other| self.circle_at(member, other))?;
+        if circle == Some(other_member) {
             let message = "a circle does not touch itself";
             self.error(Code::ConflictingFields, other?.span, message);
         }
-        Some(Touching {
-            circle: self.ordinal(circle_member)?,
-            surface: {
-                let other = self.ordinal(other_member)?;
-                match inside {
-                    Some(_) => Surface::Inside(other),
-                    None => Surface::Outside(other),
-                }
-            },
+        let other = self.ordinal(other_member)?;
+        Some(match inside {
+            Some(_) => Surface::Inside(other),
+            None => Surface::Outside(other),
         })
     }
 

@@ -9,15 +9,14 @@ use super::work::{Need, State};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
 use crate::model::{
-    Approximation, ApproximationKind, Body, Circle, Constant, Contact, ContactGeometry, Coordinate,
-    Frame, Inertia, Input, Local, Output, Parameter, Rotation, Space, stage,
+    Approximation, ApproximationKind, Body, Circle, Constant, Coordinate, Frame, Inertia, Input,
+    Local, Output, Parameter, Rotation, Space, stage,
 };
 use crate::source::Span;
 use crate::syntax::{self, Expression, ExpressionKind, Quantity, Record, SectionKind};
 use crate::unit::{Measure, Unit};
 
 const INERTIA: Unit = Unit::base(1, 2, 0);
-const VELOCITY: Unit = Unit::base(0, 1, -1);
 
 impl<'a, 'd> Resolver<'a, 'd, '_> {
     // Values.
@@ -492,70 +491,6 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             radius: radius?,
             span: self.span(member),
         })
-    }
-
-    pub fn contact(&mut self, member: MemberId) -> Option<Contact<'d>> {
-        let record = self.record(member)?;
-        let by_expressions = ["gap", "slip"]
-            .iter()
-            .any(|field| record.field(field).is_some());
-        let geometry = if by_expressions {
-            for field in ["circle", "inside", "outside", "along"] {
-                self.conflict(record, field, "gap");
-            }
-            self.gap_and_slip(member, record)
-        } else {
-            self.touching(member, record).map(ContactGeometry::Circles)
-        };
-        let restitution = self.field(member, record, "restitution");
-        let restitution = restitution.and_then(|value| self.restitution(member, value));
-        let friction = match record.get("friction") {
-            Some(friction) => self.friction(member, friction),
-            None => Some(self.dag.zero()),
-        };
-        Some(Contact {
-            name: self.name(member),
-            geometry: geometry?,
-            restitution: restitution?,
-            friction: friction?,
-            span: self.span(member),
-        })
-    }
-
-    fn gap_and_slip(
-        &mut self,
-        member: MemberId,
-        record: &'a Record,
-    ) -> Option<ContactGeometry<'d>> {
-        let gap = self.field(member, record, "gap");
-        let scope = self.scope(member, &limits::GAP);
-        let gap = gap.and_then(|gap| self.scalar_in(gap, Unit::METRE, "a gap is in m", scope));
-        // Without friction nothing depends on the slip.
-        let slip = match (record.get("slip"), record.field("friction")) {
-            (None, None) => Some(self.dag.zero()),
-            (None, Some(_)) => {
-                self.field(member, record, "slip");
-                None
-            }
-            (Some(slip), _) => {
-                let scope = self.scope(member, &limits::SLIP);
-                let why = "a slip is a velocity, in m/s";
-                self.scalar_in(slip, VELOCITY, why, scope)
-                    .map(|slip| slip.expr)
-            }
-        };
-        Some(ContactGeometry::Expressions {
-            gap: gap?.expr,
-            slip: slip?,
-        })
-    }
-
-    fn restitution(&mut self, member: MemberId, value: &'a Expression) -> Option<Expr<'d>> {
-        let scope = self.scope(member, &limits::RESTITUTION);
-        let why = "a coefficient of restitution has no unit";
-        let scalar = self.scalar_in(value, Unit::ONE, why, scope)?;
-        self.bound(BoundKind::Restitution, scalar.expr, value.span);
-        Some(scalar.expr)
     }
 
     // The rest.

@@ -3,7 +3,8 @@
 
 use super::Emitter;
 use crate::layout::Layout;
-use lagrangian_program::{FrictionLayout, Role};
+use lagrangian_program::{FrictionLayout, Program, Role};
+use lagrangian_units::ImpactLaw;
 
 /// About how many numbers a workspace may have on the stack: a quarter of a megabyte.
 const MOST_LENT: usize = 1 << 15;
@@ -22,6 +23,55 @@ impl Emitter<'_> {
             .line("/// The names of the contacts that stick and slide.");
         let head = format!("const CONTACTS: [&{str}; {}] = ", contacts.len());
         self.writer.expression(&head, &Layout::array(names), ";");
+    }
+
+    /// What the unilateral contacts are called, and how they bounce.
+    pub(super) fn table_of_unilateral_contacts(&mut self) {
+        let contacts = &self.program.unilateral;
+        if contacts.is_empty() {
+            return;
+        }
+        let runtime = &self.options.runtime;
+        let rows = contacts.iter().map(|contact| {
+            let law = match contact.law {
+                ImpactLaw::Newton => "Newton",
+                ImpactLaw::Poisson => "Poisson",
+                ImpactLaw::PoissonGlocker => "PoissonGlocker",
+                ImpactLaw::Stronge => "Stronge",
+            };
+            let fields = vec![
+                ("name".into(), Layout::Atom(format!("{:?}", contact.name))),
+                (
+                    "law".into(),
+                    Layout::Atom(format!("{runtime}::ImpactLaw::{law}")),
+                ),
+                ("rubs".into(), Layout::Atom(contact.rubs.to_string())),
+            ];
+            Layout::Struct(format!("{runtime}::UnilateralContact"), fields)
+        });
+        let head = format!(
+            "const UNILATERAL: [{runtime}::UnilateralContact<'_>; {}] = ",
+            contacts.len()
+        );
+        let rows = Layout::nested(rows);
+        self.writer.gap();
+        self.writer.line("/// The unilateral contacts.");
+        self.writer.expression(&head, &rows, ";");
+    }
+
+    /// The method of `System` that says which unilateral contacts there are.
+    pub(super) fn unilateral_contacts(&mut self) {
+        if self.program.unilateral.is_empty() {
+            return;
+        }
+        let result = format!(
+            "impl {}<Item = {}::UnilateralContact<'_>>",
+            self.types.known("ExactSizeIterator"),
+            self.options.runtime
+        );
+        self.method("unilateral_contacts", &[], Some(&result), |body| {
+            body.line("UNILATERAL.iter().copied()");
+        });
     }
 
     /// The methods of `System` that machines without contacts do not have.
@@ -145,7 +195,13 @@ impl Emitter<'_> {
 
     /// A small function that the methods about constraints and contacts call.
     pub(super) fn helper_of_filling(&mut self) {
-        if self.program.constraints.is_empty() && self.program.contacts.is_empty() {
+        let Program {
+            constraints,
+            contacts,
+            unilateral,
+            ..
+        } = self.program;
+        if constraints.is_empty() && contacts.is_empty() && unilateral.is_empty() {
             return;
         }
         let f64 = self.types.known("f64");

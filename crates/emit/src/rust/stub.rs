@@ -89,6 +89,7 @@ fn standstill(spec: &Spec) -> Program {
         assumptions: Vec::new(),
         constraints: Vec::new(),
         contacts: Vec::new(),
+        unilateral: Vec::new(),
         kept: Vec::new(),
         derivatives: Vec::new(),
         stages,

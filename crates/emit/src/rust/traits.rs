@@ -189,6 +189,7 @@ impl Emitter<'_> {
         self.assumptions();
         self.constraints();
         self.contacts();
+        self.unilateral_contacts();
         self.kept_at_start();
         self.workspace();
         self.writer.close("}");

@@ -105,7 +105,7 @@ impl<'d> Brachistochronic<'d> {
         if n == 0 {
             unmet.push(Unmet::Empty);
         }
-        if !equations.constraints.is_empty() {
+        if !equations.constraints.is_empty() || !model.contacts.is_empty() {
             unmet.push(Unmet::Constrained);
         }
         let name = |i: usize| model.coordinates[i].name.to_string();

@@ -42,7 +42,8 @@ use rustc_hash::FxHashMap;
 use frozen::Frozen;
 use lagrangian_spec::model::element::{Energy, Load, Sliding};
 use lagrangian_spec::model::{
-    ApproximationKind, Body, Circle, Inertia, Model, Place, PoseId, Rotation, Space, Surface,
+    ApproximationKind, Body, Circle, Contact, ContactGeometry, Inertia, Model, Place, PoseId,
+    Rotation, Space, Surface, Touching,
 };
 
 /// Where a machine is, how it moves, and what acts on it.
@@ -73,6 +74,18 @@ pub(crate) struct Literal<R> {
     pub applied: R,
     pub constraints: Vec<LiteralConstraint<R>>,
     pub sliding: Vec<LiteralSliding<R>>,
+    pub unilateral: Vec<LiteralUnilateral<R>>,
+}
+
+/// A unilateral contact at a state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LiteralUnilateral<R> {
+    /// The gap, as a constraint of positions would hold it at 0.
+    pub gap: LiteralConstraint<R>,
+    /// The slip, as a constraint of velocities would.
+    pub slip: LiteralConstraint<R>,
+    /// `e`, `eₜ`, `μ` and `μ₀`.
+    pub coefficients: [R; 4],
 }
 
 /// A bilateral constraint at a state.
@@ -266,6 +279,11 @@ impl<'m, 'd> Lagrange<'m, 'd> {
                 .into_iter()
                 .map(|s| self.sliding(s, &x))
                 .collect(),
+            unilateral: model
+                .contacts
+                .iter()
+                .map(|contact| self.unilateral(contact, &x))
+                .collect(),
         }
     }
 
@@ -428,16 +446,41 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             .collect();
         for rolling in model.rolling() {
             let circle = &model.circles[rolling.circles.circle];
-            let [gap, slip] = match rolling.circles.surface {
-                Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
-                Surface::Outside(other) => {
-                    on_circle(model, circle, &model.circles[other], false, x)
-                }
-                Surface::Along(pose) => on_line(model, circle, pose, x),
-            };
+            let [gap, slip] = on_surface(model, circle, rolling.circles.surface, x);
             all.extend([of_position(gap), of_rate(slip.value)]);
         }
         all
+    }
+
+    fn unilateral<R: Scalar>(
+        &self,
+        contact: &Contact<'d>,
+        x: &impl Fn(Expr<'d>) -> Moving<R>,
+    ) -> LiteralUnilateral<R> {
+        let model = self.model;
+        let [gap, slip] = match &contact.geometry {
+            ContactGeometry::Circles(touching) => {
+                let circle = &model.circles[touching.circle];
+                on_surface(model, circle, touching.surface, x)
+            }
+            ContactGeometry::Point { point, surface } => on_surface(model, point, *surface, x),
+            ContactGeometry::Expressions { gap, slip } => [x(*gap), x(*slip)],
+        };
+        let here = |e: Expr<'d>| x(e).value.value.value;
+        let known = |e: Option<Expr<'d>>| e.map_or(R::ZERO, here);
+        let friction = contact.friction;
+        let nothing = Varied::<R>::ZERO;
+        LiteralUnilateral {
+            gap: of_position(gap),
+            // Without friction nobody looks at the slip.
+            slip: of_rate(friction.map_or(nothing, |_| slip.value)),
+            coefficients: [
+                here(contact.restitution),
+                here(contact.tangential_restitution),
+                known(friction),
+                known(contact.static_friction.or(friction)),
+            ],
+        }
     }
 
     fn sliding<R: Scalar>(
@@ -667,12 +710,36 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
         }
     }
     roots.extend(model.constraints().into_iter().map(|c| c.expression));
-    if !model.rolling().is_empty() {
-        for circle in &model.circles {
+    if !model.rolling().is_empty() || !model.contacts.is_empty() {
+        let points = model
+            .contacts
+            .iter()
+            .filter_map(|contact| match &contact.geometry {
+                ContactGeometry::Point { point, .. } => Some(point),
+                _ => None,
+            });
+        for circle in model.circles.iter().chain(points) {
             roots.extend(&circle.center);
             roots.push(circle.radius);
             place(circle.on, &mut roots);
         }
+    }
+    for contact in &model.contacts {
+        match &contact.geometry {
+            ContactGeometry::Circles(Touching {
+                surface: Surface::Along(frame),
+                ..
+            })
+            | ContactGeometry::Point {
+                surface: Surface::Along(frame),
+                ..
+            } => pose(*frame, &mut roots),
+            ContactGeometry::Expressions { gap, slip } => roots.extend([*gap, *slip]),
+            _ => {}
+        }
+        roots.extend([contact.restitution, contact.tangential_restitution]);
+        roots.extend(contact.friction);
+        roots.extend(contact.static_friction);
     }
     for rolling in model.rolling() {
         if let Surface::Along(frame) = rolling.circles.surface {
@@ -814,6 +881,21 @@ fn placed<'d, R: Scalar>(
     let centre = [0, 1].map(|l| x(origin[l]) + c * axes[0][l] + d * axes[1][l]);
     let turning = turned.map_or(Varied::<R>::ZERO, |angle| x(angle).derivative);
     (centre, turning)
+}
+
+/// How far a circle is from touching a surface, and how fast the points that touch slide past each
+/// other.
+fn on_surface<'d, R: Scalar>(
+    model: &Model<'d>,
+    circle: &Circle<'d>,
+    surface: Surface,
+    x: &impl Fn(Expr<'d>) -> Moving<R>,
+) -> [Moving<R>; 2] {
+    match surface {
+        Surface::Inside(other) => on_circle(model, circle, &model.circles[other], true, x),
+        Surface::Outside(other) => on_circle(model, circle, &model.circles[other], false, x),
+        Surface::Along(pose) => on_line(model, circle, pose, x),
+    }
 }
 
 /// How far a circle is from touching another, inside or outside of it, and how fast the points that

@@ -9,24 +9,75 @@ use super::sliding::MOST_CONTACTS;
 use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
-use lagrangian_spec::model::{Model, Place, Rotation, Space, Surface, Touching};
+use lagrangian_spec::model::{
+    Circle, ContactGeometry, Model, Place, Rotation, Space, Surface, Touching,
+};
+use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
 
 /// Refuses what is understood but not derived yet: one message for each section. True if anything
 /// is refused. Circles are geometry: on their own they add nothing to the equations, and reports
 /// draw them.
 pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool {
-    let mut refused = false;
-    if !model.contacts.is_empty() {
-        let section = SectionKind::Contacts;
-        let span = model.section(section).unwrap_or(model.span);
-        let message = format!("the equations of a machine with `{section}` cannot be derived yet");
-        let help =
-            format!("it is checked all the same; without `{section}` the machine can be derived");
-        report.push(Diagnostic::new(Code::NotSupported, span, message).help(help));
-        refused = true;
-    }
+    let refused = refuse_contacts(model, report);
     refuse_sliding(model, report) || refused
+}
+
+/// The most unilateral contacts of a machine.
+pub const MOST_UNILATERAL: usize = 100;
+
+/// Refuses what goes with unilateral contacts not yet. True if anything is refused.
+fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
+    let Some(first) = model.contacts.first() else {
+        return false;
+    };
+    let mut refused = false;
+    let mut refuse = |code, span, message: String, help: String| {
+        report.push(Diagnostic::new(code, span, message).help(help));
+        refused = true;
+    };
+    if let Some(sliding) = model.sliding().first() {
+        let message = "`sliding` of a machine with `contacts` cannot be derived yet".to_owned();
+        let help = "without `sliding`, or without `contacts`, it can be derived".to_owned();
+        refuse(Code::NotSupported, sliding.span, message, help);
+    }
+    let beside = [
+        (SectionKind::Approximations, model.approximations.is_empty()),
+        (SectionKind::Derivatives, model.derivatives.is_empty()),
+        (SectionKind::Stages, model.stages.is_empty()),
+    ];
+    for (section, _) in beside.into_iter().filter(|(_, is_empty)| !is_empty) {
+        let span = model.section(section).unwrap_or(first.span);
+        let message = format!("`{section}` of a machine with `contacts` cannot be derived yet");
+        let help = format!("without `{section}`, or without `contacts`, it can be derived");
+        refuse(Code::NotSupported, span, message, help);
+    }
+    if model.space == Space::Space {
+        for contact in model.contacts.iter().filter(|c| c.friction.is_some()) {
+            let message = "contacts with friction can be derived in the plane only".to_owned();
+            let help = "in space there are two directions of slip: leave `friction` out".to_owned();
+            refuse(Code::NotSupported, contact.span, message, help);
+        }
+    }
+    if let Some(contact) = model.contacts.get(MOST_UNILATERAL) {
+        let count = model.contacts.len();
+        let message = format!("{count} unilateral contacts are too many");
+        let help = format!("a machine may have {MOST_UNILATERAL} of them");
+        refuse(Code::TooLarge, contact.span, message, help);
+    }
+    let law = first.law;
+    if let Some(other) = model.contacts.iter().find(|contact| contact.law != law) {
+        let message = format!(
+            "`{}` bounces by `{}` and `{}` by `{}`",
+            first.name,
+            law.name(),
+            other.name,
+            other.law.name()
+        );
+        let help = "contacts that may meet in one impact have one `law`".to_owned();
+        refuse(Code::ConflictingFields, other.span, message, help);
+    }
+    refused
 }
 
 /// Refuses what goes with friction not yet. True if anything is refused.
@@ -75,17 +126,15 @@ fn refuse_sliding(model: &Model<'_>, report: &mut Report) -> bool {
     refused
 }
 
-/// Refuses what rolls without a word on how it turns. True if anything is refused.
+/// Refuses what rolls or rubs without a word on how it turns. True if anything is refused.
 pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
     let mut refused = false;
-    for rolling in model.rolling() {
-        let Touching { circle, surface } = rolling.circles;
+    let mut refuse = |circle: &Circle<'_>, surface: Surface, span: Span| {
         let other = match surface {
-            Surface::Inside(other) | Surface::Outside(other) => Some(other),
+            Surface::Inside(other) | Surface::Outside(other) => Some(&model.circles[other]),
             Surface::Along(_) => None,
         };
         for circle in [Some(circle), other].into_iter().flatten() {
-            let circle = &model.circles[circle];
             let Place::Body(body) = circle.on else {
                 continue;
             };
@@ -96,10 +145,25 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
                     "the circle `{}` is on it: give it an `angle` or a `frame`",
                     circle.name
                 );
-                report
-                    .push(Diagnostic::new(Code::MissingRotation, rolling.span, message).help(help));
+                report.push(Diagnostic::new(Code::MissingRotation, span, message).help(help));
                 refused = true;
             }
+        }
+    };
+    for rolling in model.rolling() {
+        let Touching { circle, surface } = rolling.circles;
+        refuse(&model.circles[circle], surface, rolling.span);
+    }
+    for contact in &model.contacts {
+        match &contact.geometry {
+            ContactGeometry::Circles(Touching { circle, surface })
+                if contact.friction.is_some() =>
+            {
+                refuse(&model.circles[*circle], *surface, contact.span);
+            }
+            // Where a point of a body is depends on how that is turned, friction or not.
+            ContactGeometry::Point { point, surface } => refuse(point, *surface, contact.span),
+            ContactGeometry::Circles(_) | ContactGeometry::Expressions { .. } => {}
         }
     }
     refused

@@ -36,12 +36,40 @@ fn sections_that_are_not_derived_yet_are_named() {
         }",
     );
     // Circles alone are a drawing.
-    assert_eq!(codes.len(), 2);
+    assert_eq!(codes.len(), 3);
     assert!(codes.iter().all(|(code, _)| *code == Code::NotSupported));
-    assert!(
-        codes[0].1.contains("`derivatives`") && codes[1].1.contains("`contacts`"),
+    let says = |what: &str| codes.iter().filter(|(_, m)| m.starts_with(what)).count();
+    assert_eq!(
+        (says("`sliding`"), says("`derivatives`")),
+        (1, 2),
         "{codes:?}"
     );
+}
+
+#[test]
+fn contacts_that_are_not_derived_yet_are_named() {
+    let in_space = refused(
+        "machine Bead in space {
+            coordinates { x: m, y: m, z: m }
+            bodies { bead { mass: 1, at: (x, y, z) } }
+            contacts { stop { gap: z, slip: der(x), restitution: 0.5, friction: 0.1 } }
+        }",
+    );
+    assert_eq!(in_space.len(), 1);
+    assert_eq!(in_space[0].0, Code::NotSupported);
+    let of_two_laws = refused(
+        "machine Bead in plane {
+            coordinates { x: m, y: m }
+            bodies { bead { mass: 1, at: (x, y) } }
+            contacts {
+                floor { gap: y, restitution: 0.5 },
+                wall { gap: x, restitution: 0.5, law: stronge },
+            }
+        }",
+    );
+    assert_eq!(of_two_laws.len(), 1);
+    assert_eq!(of_two_laws[0].0, Code::ConflictingFields);
+    assert!(of_two_laws[0].1.contains("`wall`"), "{of_two_laws:?}");
 }
 
 #[test]

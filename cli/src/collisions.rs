@@ -1,0 +1,165 @@
+//! What runs tell of unilateral contacts: impacts, what closes, lifts, slips and sticks, and where energy went.
+
+use lagrangian::interpreted::{InterpretedSystem, Named};
+use lagrangian::{ContactEvent, ContactEventKind, Event, System, unilateral_forces};
+use serde_json::{Map, Value, json};
+
+use crate::simulate::{Run, shortest};
+
+/// What a run has shown of a contact.
+struct Account {
+    name: String,
+    impacts: usize,
+    loss: f64,
+    /// When it closed last, with by how much that time may be off, and whether it is closed at the end.
+    closed_at: Option<(f64, f64)>,
+    is_closed: bool,
+}
+
+fn accounts(run: &Run) -> Vec<Account> {
+    let closed = run.closed_contacts(run.end().t);
+    let contacts = run.system().unilateral_contacts().enumerate();
+    let of_contact = |(k, contact): (usize, lagrangian::UnilateralContact<'_>)| {
+        let own = || {
+            run.contact_events()
+                .iter()
+                .filter(|event| event.contact == contact.name)
+        };
+        let of_kind = |kind| own().filter(move |event| event.kind == kind);
+        let closes = of_kind(ContactEventKind::Closes).next_back();
+        Account {
+            name: contact.name.to_owned(),
+            impacts: of_kind(ContactEventKind::Impact).count(),
+            loss: run.impact_losses().get(k).copied().unwrap_or(0.0),
+            closed_at: closes.map(|event| (event.state.t, event.time_error)),
+            is_closed: closed.get(k).copied().unwrap_or(false),
+        }
+    };
+    contacts.map(of_contact).collect()
+}
+
+/// Whether an event is one of the contacts.
+pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
+    let Some((contact, word)) = event.name.rsplit_once(' ') else {
+        return false;
+    };
+    use ContactEventKind::{Closes, Impact, Lifts, Reverses, Slips, Sticks};
+    let mut kinds = [Impact, Closes, Lifts, Sticks, Slips, Reverses].into_iter();
+    let mut contacts = run.system().unilateral_contacts();
+    kinds.any(|kind| kind.word() == word) && contacts.any(|known| known.name == contact)
+}
+
+/// Lines of the summary.
+pub fn lines(run: &Run) -> Vec<String> {
+    let line = |account: Account| {
+        let Account {
+            name,
+            impacts,
+            loss,
+            closed_at,
+            is_closed,
+        } = account;
+        let mut line = match impacts {
+            1 => format!("{name}: 1 impact, which took {loss:.6e} J"),
+            _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
+        };
+        if let Some((t, error)) = closed_at {
+            line.push_str(&format!("; closed at t = {} s", shortest(t)));
+            if error > 0.0 {
+                line.push_str(&format!(" within {error:.1e} s, where its bounces end"));
+            }
+        }
+        line.push_str(match is_closed {
+            true => "; closed at the end",
+            false => "; open at the end",
+        });
+        line
+    };
+    accounts(run).into_iter().map(line).collect()
+}
+
+/// What a document says of the contacts; nothing where there are none.
+pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
+    if run.system().unilateral_contacts().len() == 0 {
+        return Vec::new();
+    }
+    let accounts: Vec<Value> = accounts(run)
+        .into_iter()
+        .map(|account| {
+            json!({
+                "name": account.name,
+                "impacts": account.impacts,
+                "impact_loss": account.loss,
+                "closed_at": account.closed_at.map(|(t, _)| t),
+                "closed_at_error": account.closed_at.map(|(_, error)| error),
+                "closed": account.is_closed,
+            })
+        })
+        .collect();
+    let lost: f64 = run.impact_losses().iter().sum();
+    let events = run.contact_events().iter().map(event);
+    vec![
+        ("contact_events", events.collect()),
+        ("unilateral_contacts", accounts.into()),
+        ("impact_loss", lost.into()),
+    ]
+}
+
+fn event(event: &ContactEvent<Named>) -> Value {
+    let by_name = |numbers: &Named| -> Value {
+        let pairs = numbers.iter().map(|(name, x)| (name.to_owned(), x.into()));
+        Value::Object(pairs.collect::<Map<_, _>>())
+    };
+    let mut document = json!({
+        "t": event.state.t,
+        "contact": event.contact,
+        "kind": event.kind.word(),
+        "q": by_name(&event.state.q),
+        "v": by_name(&event.state.v),
+    });
+    let Value::Object(fields) = &mut document else {
+        return document;
+    };
+    if let Some(impact) = event.impact {
+        fields.insert("gap_rate".into(), json!(impact.gap_rate));
+        fields.insert("slip".into(), json!(impact.slip));
+        fields.insert("impulse".into(), json!(impact.impulse));
+        fields.insert("loss".into(), json!(impact.loss));
+    }
+    if event.direction != 0.0 {
+        fields.insert("direction".into(), json!(event.direction));
+    }
+    if event.time_error > 0.0 {
+        fields.insert("time_error".into(), json!(event.time_error));
+    }
+    document
+}
+
+/// Gap, rates and forces of each contact at a state; the accelerations are those with what is closed there.
+///
+/// # Errors
+/// Where there are none.
+pub fn forces(
+    system: &InterpretedSystem,
+    at: (f64, &Vec<f64>, &Vec<f64>, &Named),
+    a: &mut Vec<f64>,
+) -> Result<Vec<(String, Value)>, lagrangian::StepError> {
+    let forces = unilateral_forces(system, at, a)?;
+    let pairs = system.unilateral_contacts().zip(forces);
+    let entry = |(contact, force): (
+        lagrangian::UnilateralContact<'_>,
+        lagrangian::UnilateralForce,
+    )| {
+        let force = json!({
+            "gap": force.gap,
+            "gap_rate": force.gap_rate,
+            "slip": force.slip,
+            "normal": force.normal,
+            "friction": force.friction,
+            "closed": force.closed,
+            "sticks": force.sticks,
+        });
+        (contact.name.to_owned(), force)
+    };
+    Ok(pairs.map(entry).collect())
+}

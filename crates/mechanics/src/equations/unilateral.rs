@@ -1,0 +1,99 @@
+//! Unilateral contacts: gaps, their rates, and how fast what touches slips.
+//!
+//! ```text
+//! gap        g(q, t) ≥ 0,   γₙ = Dg = wₙ v + ∂g/∂t,   wₙ = ∂γₙ/∂v                     (E51)
+//! slip       γₜ = wₜ v + b(q, t),                     wₜ = ∂γₜ/∂v                      (E52)
+//! rates      dγ/dt = w a + δ,                         δ = Dγ at a = 0                  (E53)
+//! motion     M a = f + Gᵀλ + Σ wₙᵀ λₙ + Σ wₜᵀ λₜ
+//! ```
+//!
+//! `D` is the total time derivative (E8), so a wall that moves is in `γ` and in `δ`. What presses, what
+//! sticks and what an impact leaves of the rates is for the run to find out.
+
+use lagrangian_symbolic::{Expr, normal};
+
+use super::kinematics::Variables;
+use super::lagrange::gradient;
+use lagrangian_spec::identity;
+use lagrangian_spec::model::circles::{self, Contact};
+use lagrangian_spec::model::{self, ContactGeometry, ImpactLaw, Model};
+
+/// The most terms of a gap that is multiplied out, to see what cancels.
+const TERMS: usize = 200;
+
+/// A unilateral contact.
+#[derive(Clone, Debug)]
+pub struct UnilateralEquation<'d> {
+    /// Its name.
+    pub name: String,
+    /// `g(q, t)`, in m.
+    pub gap: Expr<'d>,
+    /// Along the normal, and along the tangent.
+    pub directions: [DirectionEquation<'d>; 2],
+    /// `e`, `eₜ`, `μ` and `μ₀`.
+    pub coefficients: [Expr<'d>; 4],
+    /// How it bounces.
+    pub law: ImpactLaw,
+    /// Whether there is friction.
+    pub rubs: bool,
+}
+
+/// A direction of a contact.
+#[derive(Clone, Debug)]
+pub struct DirectionEquation<'d> {
+    /// `γ(q, v, t)`, in m/s.
+    pub rate: Expr<'d>,
+    /// `w(q, t)`, by coordinates.
+    pub row: Vec<Expr<'d>>,
+    /// `δ(q, v, t)`.
+    pub drift: Expr<'d>,
+}
+
+/// The unilateral contacts of a machine, in their order.
+pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
+    let x = Variables::of(model);
+    let of_contact = |contact: &model::Contact<'d>| {
+        let mut coasting = x.coasting(model);
+        let Contact { gap, slip } = match &contact.geometry {
+            ContactGeometry::Circles(touching) => circles::contact(model, touching, &mut coasting),
+            ContactGeometry::Point { point, surface } => {
+                circles::touch(model, point, *surface, &mut coasting)
+            }
+            &ContactGeometry::Expressions { gap, slip } => Contact { gap, slip },
+        };
+        let plain = |e: Expr<'d>| match normal::expand(e, TERMS) {
+            Some(expanded) => normal::readable(expanded.to_expr(), TERMS),
+            None => e,
+        };
+        let gap = plain(gap);
+        let rubs = contact.friction.is_some();
+        let slip = if rubs { plain(slip) } else { model.dag.zero() };
+        let rate = x.coasting(model).of(gap);
+        let zero = model.dag.zero();
+        let friction = contact.friction.unwrap_or(zero);
+        UnilateralEquation {
+            name: contact.name.to_string(),
+            gap,
+            directions: [rate, slip].map(|rate| direction(model, &x, rate)),
+            coefficients: [
+                contact.restitution,
+                contact.tangential_restitution,
+                friction,
+                contact.static_friction.unwrap_or(friction),
+            ],
+            law: contact.law,
+            rubs,
+        }
+    };
+    model.contacts.iter().map(of_contact).collect()
+}
+
+fn direction<'d>(model: &Model<'d>, x: &Variables<'d>, rate: Expr<'d>) -> DirectionEquation<'d> {
+    let mut row = gradient(model.dag, rate, &x.v);
+    identity::write_zeros(model.dag, &mut row);
+    DirectionEquation {
+        rate,
+        row,
+        drift: x.coasting(model).of(rate),
+    }
+}

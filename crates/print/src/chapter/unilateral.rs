@@ -1,0 +1,39 @@
+//! Unilateral contacts: their gaps and rates, and what is not said of them here.
+
+use lagrangian_symbolic::Math;
+
+use super::{Chapter, words};
+use crate::document::Block;
+
+/// Of more contacts than this only the first are written out.
+const MOST: usize = 12;
+
+impl Chapter<'_, '_> {
+    pub(super) fn unilateral(&self) -> Vec<Block> {
+        let contacts = &self.compiled.equations.unilateral;
+        if contacts.is_empty() {
+            return Vec::new();
+        }
+        let mut blocks = vec![Block::Paragraph(words![
+            "All that stands above and below is said of the machine while these contacts are open. Gaps are never negative; \
+             where one closes there is an impact, and while it stays closed it presses and rubs. What energy and momentum \
+             impacts and friction take is not what is said to be conserved.",
+        ])];
+        for contact in contacts.iter().take(MOST) {
+            let [normal, tangent] = &contact.directions;
+            let rate = |index: &'static str| Math::letter('γ').with_index(Math::text(index));
+            let mut rows = self.equality(Math::letter('g'), contact.gap, "gap");
+            rows.extend(self.equality(rate("n"), normal.rate, "at which it opens"));
+            if contact.rubs {
+                rows.extend(self.equality(rate("t"), tangent.rate, "at which it slips"));
+            }
+            blocks.push(Block::Heading(words!["Contact ", contact.name.clone()]));
+            blocks.push(Block::Formula(rows));
+        }
+        if contacts.len() > MOST {
+            let text = format!("{} more contacts are left out here.", contacts.len() - MOST);
+            blocks.push(Block::Paragraph(words![text]));
+        }
+        blocks
+    }
+}

@@ -1,0 +1,106 @@
+//! Unilateral contacts: gaps that stay open or closed, impacts, and Coulomb friction in what is closed.
+//!
+//! ```text
+//! open      g > 0,  λ = 0
+//! closed    g = 0,  0 ≤ λₙ ⊥ dγₙ/dt ≥ 0,  −λₜ ∈ μ λₙ Sgn γₜ,  at rest −λₜ ∈ μ₀ λₙ Sgn dγₜ/dt
+//! impact    M (v⁺ − v⁻) = Σ wₙ Λₙ + Σ wₜ Λₜ + Gᵀ Λ_G,  and a law of impact
+//! ```
+//!
+//! A machine says how far its contacts are open, at which rates `γ` they open and slip, and how these depend on
+//! the rates of its coordinates ([`System::gaps`](crate::System::gaps) and what follows it). What is closed, what
+//! slips and what sticks is a state of the run: between two events it stays as it is, the motion is smooth, and
+//! closed contacts are further constraints, kept as those of the machine are. Where a gap closes, a force vanishes,
+//! or a slip stops, all closed contacts are asked together, by a linear complementarity problem that is solved by
+//! pivoting ([`lcp`]). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
+//! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
+
+#[cfg(feature = "std")]
+mod delassus;
+#[cfg(feature = "std")]
+mod force;
+#[cfg(feature = "std")]
+mod held;
+#[cfg(feature = "std")]
+mod impact;
+#[cfg(feature = "std")]
+pub(crate) mod lcp;
+#[cfg(feature = "std")]
+mod problem;
+#[cfg(feature = "std")]
+mod routh;
+#[cfg(feature = "std")]
+mod touching;
+
+#[cfg(feature = "std")]
+mod event;
+
+#[cfg(feature = "std")]
+pub use event::{ContactEvent, ContactEventKind, ContactImpact};
+#[cfg(feature = "std")]
+pub use force::{UnilateralForce, unilateral_forces};
+#[cfg(feature = "std")]
+pub(crate) use held::Held;
+#[cfg(feature = "std")]
+pub(crate) use impact::Impact;
+#[cfg(feature = "std")]
+pub(crate) use touching::{Mode, Touching};
+
+/// A unilateral contact of a machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnilateralContact<'a> {
+    /// The name in the description.
+    pub name: &'a str,
+    /// How it bounces.
+    pub law: ImpactLaw,
+    /// Whether there is friction; without it the slip is 0.
+    pub rubs: bool,
+}
+
+/// How rates after an impact follow from those before it. `e` and `eₜ` are the coefficients of restitution along
+/// the normal and along the tangent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactLaw {
+    /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`, `−Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ⁻)`; with `eₜ = e` this is Moreau's law. It may
+    /// create energy where these differ.
+    #[default]
+    Newton,
+    /// Along Routh's path of impulses; the normal impulse of expansion is `e` times that of compression.
+    Poisson,
+    /// Poisson's hypothesis in two complementarity problems, for several contacts at once.
+    PoissonGlocker,
+    /// Along Routh's path; the work of expansion is `−e²` times that of compression. It never creates energy.
+    Stronge,
+}
+
+/// Why contacts leave a run no way on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactTrouble {
+    /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
+    Paradox,
+    /// A gap is negative at the start.
+    Penetrates,
+    /// The law of impact is for one contact at a time, and several meet.
+    SeveralAtOnce,
+    /// What is closed, slips and sticks changes again and again at one instant.
+    Unsettled,
+    /// A [`Stepper`](crate::Stepper) alone does not look for impacts: a [`Simulation`](crate::Simulation) does.
+    NotFollowed,
+}
+
+impl ContactTrouble {
+    /// What is wrong, the subject of the sentence being the contact.
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Paradox => {
+                "its friction leaves no motion, or more than one (a paradox of P. Painlevé)"
+            }
+            Self::Penetrates => "it is not open but penetrated",
+            Self::SeveralAtOnce => {
+                "it meets in one impact with others, and its law is for one contact at a time; the law `poisson_glocker` \
+                 is for several"
+            }
+            Self::Unsettled => "what it does changes again and again at this instant",
+            Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",
+        }
+    }
+}

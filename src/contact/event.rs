@@ -1,0 +1,66 @@
+//! What a run tells of its unilateral contacts.
+
+use std::string::String;
+
+use crate::State;
+
+/// What happened to a unilateral contact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactEvent<C> {
+    /// The contact.
+    pub contact: String,
+    /// What happened.
+    pub kind: ContactEventKind,
+    /// Time, and the state after it.
+    pub state: State<C>,
+    /// The direction of the slip that begins, 1 or −1; 0 where none does.
+    pub direction: f64,
+    /// By how much the time may be off, in s, where bounces were closed at the sum of all that were left; 0 else.
+    pub time_error: f64,
+    /// What an impact did.
+    pub impact: Option<ContactImpact>,
+}
+
+/// What happens to unilateral contacts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ContactEventKind {
+    /// It takes part in an impact.
+    Impact,
+    /// A contact that lasts begins; also where bounces accumulate.
+    Closes,
+    /// A contact that lasted ends.
+    Lifts,
+    /// It stops slipping.
+    Sticks,
+    /// It begins to slip.
+    Slips,
+    /// Its slip changes direction.
+    Reverses,
+}
+
+impl ContactEventKind {
+    /// One word for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Impact => "impact",
+            Self::Closes => "closes",
+            Self::Lifts => "lifts",
+            Self::Sticks => "sticks",
+            Self::Slips => "slips",
+            Self::Reverses => "reverses",
+        }
+    }
+}
+
+/// What an impact did to a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactImpact {
+    /// The rate at which the gap opens before and after, in m/s.
+    pub gap_rate: [f64; 2],
+    /// The slip before and after, in m/s.
+    pub slip: [f64; 2],
+    /// The impulse along the normal and along the tangent, in N s.
+    pub impulse: [f64; 2],
+    /// The energy lost in it, in J: `−½ Λ·(γ⁺ + γ⁻)`.
+    pub loss: f64,
+}

@@ -1,0 +1,75 @@
+//! Forces in unilateral contacts at a state.
+
+use std::vec::Vec;
+
+use super::touching::Here;
+use super::{Mode, Touching};
+use crate::{StepError, System};
+
+/// A unilateral contact at a state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct UnilateralForce {
+    /// How far it is open, in m.
+    pub gap: f64,
+    /// How fast it opens, in m/s.
+    pub gap_rate: f64,
+    /// How fast it slips, in m/s; 0 without friction.
+    pub slip: f64,
+    /// What presses, in N.
+    pub normal: f64,
+    /// The friction along the direction of the slip, in N.
+    pub friction: f64,
+    /// Whether it is closed, and lasts.
+    pub closed: bool,
+    /// Whether it is closed and does not slip.
+    pub sticks: bool,
+}
+
+/// Accelerations of a machine with unilateral contacts at a state, and the forces in these: what touches within
+/// rounding and does not open is closed, and all that is closed is asked together whether it lifts, slips or sticks.
+/// What is about to collide is open until it does.
+///
+/// A run knows more: there a contact stays closed until its force vanishes.
+///
+/// # Errors
+/// Where the machine has no accelerations, or the friction of the contacts leaves none.
+pub fn unilateral_forces<S: System>(
+    system: &S,
+    at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+    a: &mut S::Vector,
+) -> Result<Vec<UnilateralForce>, StepError> {
+    let (t, q, v, _) = at;
+    let mut touching = Touching::new(system);
+    let (touches, _) = touching.near(system, t, q, v);
+    let closed = touching.lasting(system, t, q, v, &touches);
+    let resting = touching.resting(system, t, q, v);
+    let modes = touching.settled(system, at, &closed, &resting, None)?;
+    touching.set_modes(modes);
+    touching.forces(system, at, a)
+}
+
+impl Touching {
+    /// Accelerations and forces while everything stays as it is.
+    pub(crate) fn forces<S: System>(
+        &self,
+        system: &S,
+        at: (f64, &S::Vector, &S::Vector, &S::Inputs),
+        a: &mut S::Vector,
+    ) -> Result<Vec<UnilateralForce>, StepError> {
+        use crate::Vector;
+        let (t, q, v, _) = at;
+        let here = Here::of(system, t, q, v);
+        let reaction = self.reaction(system, at)?;
+        a.as_mut_slice().copy_from_slice(&reaction.a);
+        let of_contact = |(k, mode): (usize, &Mode)| UnilateralForce {
+            gap: here.gaps[k],
+            gap_rate: here.rates[2 * k],
+            slip: here.rates[2 * k + 1],
+            normal: reaction.forces[k][0],
+            friction: reaction.forces[k][1],
+            closed: *mode != Mode::Open,
+            sticks: *mode == Mode::Sticks,
+        };
+        Ok(self.modes().iter().enumerate().map(of_contact).collect())
+    }
+}

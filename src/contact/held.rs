@@ -1,0 +1,224 @@
+//! A machine with its closed contacts as further constraints.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::{Mode, Touching, UnilateralContact};
+use crate::{Assumption, Constraint, Quantity, Singular, System};
+
+/// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
+#[derive(Clone, Copy)]
+pub(crate) struct Held<'a, S> {
+    system: &'a S,
+    /// Which directions of contacts are held: two of each contact.
+    directions: &'a [usize],
+}
+
+impl<'a, S: System> Held<'a, S> {
+    pub fn new(system: &'a S, touching: &'a Touching) -> Self {
+        Held {
+            system,
+            directions: touching.held(),
+        }
+    }
+
+    /// Writes what the machine says of its own constraints, and behind it what is picked of both directions of its
+    /// contacts, each being so many numbers.
+    fn with_contacts(
+        &self,
+        width: usize,
+        to: &mut [f64],
+        own: impl FnOnce(&mut [f64]),
+        contacts: impl FnOnce(&mut [f64]),
+        sign: f64,
+    ) {
+        let at = self.system.constraints().len() * width;
+        let (first, rest) = to.split_at_mut(at.min(to.len()));
+        own(first);
+        if self.directions.is_empty() {
+            return;
+        }
+        let count = 2 * self.system.unilateral_contacts().len();
+        let mut all = vec![0.0; count * width];
+        contacts(&mut all);
+        for (to, &direction) in rest.chunks_mut(width.max(1)).zip(self.directions) {
+            let from = &all[direction * width..][..width];
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = sign * from;
+            }
+        }
+    }
+}
+
+impl Touching {
+    /// Which directions are held: 2k for the normal of the contact k, and 2k + 1 for its tangent.
+    pub(super) fn held_directions(modes: &[Mode], rubs: &[bool]) -> Vec<usize> {
+        let mut held = Vec::new();
+        for (k, mode) in modes.iter().enumerate() {
+            if *mode != Mode::Open {
+                held.push(2 * k);
+            }
+            if *mode == Mode::Sticks && rubs[k] {
+                held.push(2 * k + 1);
+            }
+        }
+        held
+    }
+}
+
+impl<S: System> System for Held<'_, S> {
+    type Vector = S::Vector;
+    type Matrix = S::Matrix;
+    type Coordinates = S::Coordinates;
+    type Inputs = S::Inputs;
+    type Outputs = S::Outputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
+        self.system.coordinates()
+    }
+
+    fn to_coordinates(&self, vector: &S::Vector) -> S::Coordinates {
+        self.system.to_coordinates(vector)
+    }
+
+    fn to_vector(&self, coordinates: &S::Coordinates) -> S::Vector {
+        self.system.to_vector(coordinates)
+    }
+
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+        a: &mut S::Vector,
+    ) -> Result<(), Singular> {
+        self.system.accelerations(t, q, v, u, a)
+    }
+
+    fn mass_matrix(&self, t: f64, q: &S::Vector, matrix: &mut S::Matrix) {
+        self.system.mass_matrix(t, q, matrix);
+    }
+
+    fn bias(&self, t: f64, q: &S::Vector, v: &S::Vector, bias: &mut S::Vector) {
+        self.system.bias(t, q, v, bias);
+    }
+
+    fn applied(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+        applied: &mut S::Vector,
+    ) {
+        self.system.applied(t, q, v, u, applied);
+    }
+
+    fn forces(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs, forces: &mut S::Vector) {
+        self.system.forces(t, q, v, u, forces);
+    }
+
+    fn kinetic_energy(&self, t: f64, q: &S::Vector, v: &S::Vector) -> f64 {
+        self.system.kinetic_energy(t, q, v)
+    }
+
+    fn potential_energy(&self, t: f64, q: &S::Vector, u: &S::Inputs) -> f64 {
+        self.system.potential_energy(t, q, u)
+    }
+
+    fn dissipation(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> f64 {
+        self.system.dissipation(t, q, v, u)
+    }
+
+    fn work_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &S::Vector, u: &S::Inputs) -> f64 {
+        self.system.work_rate(t, q, v, a, u)
+    }
+
+    fn dissipation_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> f64 {
+        self.system.dissipation_rate(t, q, v, u)
+    }
+
+    fn default_inputs(&self) -> S::Inputs {
+        self.system.default_inputs()
+    }
+
+    fn input_values(
+        &self,
+        inputs: &S::Inputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.system.input_values(inputs)
+    }
+
+    fn outputs(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        a: &S::Vector,
+        u: &S::Inputs,
+    ) -> S::Outputs {
+        self.system.outputs(t, q, v, a, u)
+    }
+
+    fn output_values(
+        &self,
+        outputs: &S::Outputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.system.output_values(outputs)
+    }
+
+    fn assumptions(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+    ) -> impl ExactSizeIterator<Item = Assumption<'_>> {
+        self.system.assumptions(t, q, v, u)
+    }
+
+    fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
+        let names: Vec<UnilateralContact<'_>> = self.system.unilateral_contacts().collect();
+        let held = self.directions.iter().map(|direction| Constraint {
+            name: names[direction / 2].name,
+            unit: if direction % 2 == 0 { "m" } else { "m/s" },
+            multiplier_unit: "N",
+            holonomic: direction % 2 == 0,
+        });
+        let all: Vec<Constraint<'_>> = self.system.constraints().chain(held).collect();
+        all.into_iter()
+    }
+
+    fn constraint_positions(&self, t: f64, q: &S::Vector, residuals: &mut [f64]) {
+        let own = |to: &mut [f64]| self.system.constraint_positions(t, q, to);
+        let gaps = |to: &mut [f64]| {
+            let mut gaps = vec![0.0; to.len() / 2];
+            self.system.gaps(t, q, &mut gaps);
+            for (to, gap) in to.chunks_exact_mut(2).zip(gaps) {
+                to[0] = gap;
+            }
+        };
+        self.with_contacts(1, residuals, own, gaps, 1.0);
+    }
+
+    fn constraint_rates(&self, t: f64, q: &S::Vector, v: &S::Vector, residuals: &mut [f64]) {
+        let own = |to: &mut [f64]| self.system.constraint_rates(t, q, v, to);
+        let contacts = |to: &mut [f64]| self.system.contact_rates(t, q, v, to);
+        self.with_contacts(1, residuals, own, contacts, 1.0);
+    }
+
+    fn constraint_matrix(&self, t: f64, q: &S::Vector, matrix: &mut [f64]) {
+        use crate::Vector;
+        let own = |to: &mut [f64]| self.system.constraint_matrix(t, q, to);
+        let contacts = |to: &mut [f64]| self.system.contact_matrix(t, q, to);
+        self.with_contacts(q.as_slice().len(), matrix, own, contacts, 1.0);
+    }
+
+    fn constraint_drift(&self, t: f64, q: &S::Vector, v: &S::Vector, drift: &mut [f64]) {
+        let own = |to: &mut [f64]| self.system.constraint_drift(t, q, v, to);
+        let contacts = |to: &mut [f64]| self.system.contact_drift(t, q, v, to);
+        // A constraint says what `G a` is to be, a contact what its rate is without it.
+        self.with_contacts(1, drift, own, contacts, -1.0);
+    }
+}

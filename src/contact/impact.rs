@@ -1,0 +1,296 @@
+//! Impacts: what is left of the rates.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::delassus::{Inertia, matrix};
+use super::problem::{self, Answer, Asked};
+use super::routh::{self, Expansion, Meeting};
+use super::touching::{Here, Touching};
+use super::{ContactTrouble, ImpactLaw, Mode};
+use crate::{Singular, StepError, System, Vector};
+
+/// Contacts that share less than this of their inertia do not meet in one impact.
+const COUPLED: f64 = 1e-12;
+
+/// Contacts that bounce ever lower are closed where they open at less than this of the greatest rate at which any
+/// closed so far.
+const LEAST_BOUNCE: f64 = 1e-9;
+
+/// A bounce is no higher than so many roundings of its gap.
+const LEAST_HEIGHT: f64 = 64.0;
+
+/// What an impact did to a contact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Impact {
+    pub contact: usize,
+    /// Rates of gap and slip, before and after.
+    pub gap_rate: [f64; 2],
+    pub slip: [f64; 2],
+    /// Along normal and tangent, in N s.
+    pub impulse: [f64; 2],
+    /// In J.
+    pub loss: f64,
+}
+
+impl Touching {
+    /// Which contacts touch, and which of these close.
+    pub fn near<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+    ) -> (Vec<bool>, Vec<bool>) {
+        let here = Here::of(system, t, q, v);
+        let touches: Vec<bool> = (0..here.gaps.len())
+            .map(|k| self.modes()[k] != Mode::Open || here.gaps[k] <= here.gap_rounding[k])
+            .collect();
+        let closes = touches
+            .iter()
+            .enumerate()
+            .map(|(k, touches)| {
+                let rounding = here.rate_rounding[2 * k].max(LEAST_BOUNCE * 1e-3 * self.speed);
+                *touches && here.rates[2 * k] < -rounding
+            })
+            .collect();
+        (touches, closes)
+    }
+
+    /// The gap that is negative by more than rounding, if there is one, and by how much.
+    pub fn penetrated<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+    ) -> Option<usize> {
+        let here = Here::of(system, t, q, v);
+        (0..here.gaps.len()).find(|k| here.gaps[*k] < -here.gap_rounding[*k])
+    }
+
+    /// Changes the rates by an impact of the contacts that touch.
+    pub fn impact<S: System>(
+        &mut self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &mut S::Vector,
+        touches: &[bool],
+    ) -> Result<Vec<Impact>, StepError> {
+        let here = Here::of(system, t, q, v);
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        // What opens already has no part in it.
+        let meets: Vec<usize> = (0..touches.len())
+            .filter(|k| touches[*k] && here.rates[2 * k] <= here.rate_rounding[2 * k])
+            .collect();
+        let directions: Vec<usize> = meets.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let images: Vec<Vec<f64>> = (directions.iter())
+            .map(|direction| inertia.image(here.row(*direction)))
+            .collect();
+        let g = matrix(&images);
+        let before: Vec<f64> = directions.iter().map(|d| here.rates[*d]).collect();
+        let impulses = self.impulses(t, &here, &meets, &g, &before)?;
+
+        let width = directions.len();
+        let mut impacts = Vec::with_capacity(meets.len());
+        for (place, &k) in meets.iter().enumerate() {
+            let [gap_rate, slip] = [0, 1].map(|part| {
+                let row = 2 * place + part;
+                let own = g[row * width..][..width].iter();
+                let change = own
+                    .zip(impulses.iter().flatten())
+                    .map(|(g, impulse)| g * impulse);
+                [before[row], before[row] + change.sum::<f64>()]
+            });
+            let impulse = impulses[place];
+            let loss = -0.5
+                * (impulse[0] * (gap_rate[0] + gap_rate[1]) + impulse[1] * (slip[0] + slip[1]));
+            self.speed = self.speed.max(-gap_rate[0]);
+            impacts.push(Impact {
+                contact: k,
+                gap_rate,
+                slip,
+                impulse,
+                loss,
+            });
+        }
+        let change = inertia.response(&images, impulses.into_iter().flatten());
+        for (v, by) in v.as_mut_slice().iter_mut().zip(change) {
+            *v += by;
+        }
+        Ok(impacts)
+    }
+
+    /// The impulses of contacts that meet.
+    fn impulses(
+        &self,
+        t: f64,
+        here: &Here,
+        meets: &[usize],
+        g: &[f64],
+        before: &[f64],
+    ) -> Result<Vec<[f64; 2]>, StepError> {
+        let trouble = |place: usize, trouble| StepError::Contact {
+            contact: meets[place],
+            trouble,
+            t,
+        };
+        let paradox = || trouble(0, ContactTrouble::Paradox);
+        let width = before.len();
+        let solved = |beside: &[f64], b: &[f64]| -> Result<Answer, StepError> {
+            let asked: Vec<Asked> = (meets.iter().zip(beside))
+                .map(|(&k, &beside)| Asked::Both {
+                    friction: here.friction(k)[0],
+                    beside,
+                })
+                .collect();
+            let answer = problem::solve(&asked, g, b).map_err(|_| paradox())?;
+            match answer.residual > 1e-8 {
+                true => Err(paradox()),
+                false => Ok(answer),
+            }
+        };
+        let after = |b: &[f64], impulses: &[[f64; 2]]| -> Vec<f64> {
+            let row = |(i, b): (usize, &f64)| {
+                let terms = g[i * width..][..width].iter();
+                let terms = terms.zip(impulses.iter().flatten());
+                b + terms.map(|(g, impulse)| g * impulse).sum::<f64>()
+            };
+            b.iter().enumerate().map(row).collect()
+        };
+        let none = vec![0.0; meets.len()];
+        match self.law {
+            ImpactLaw::Newton => {
+                let mut b = before.to_vec();
+                for (b, &k) in b.chunks_exact_mut(2).zip(meets) {
+                    let [normal, tangential] = here.restitution(k);
+                    b[0] *= 1.0 + normal;
+                    b[1] *= 1.0 + tangential;
+                }
+                Ok(solved(&none, &b)?.forces)
+            }
+            ImpactLaw::PoissonGlocker => {
+                let compression = solved(&none, before)?.forces;
+                let middle = after(before, &compression);
+                // What the expansion gives at least, and what it adds to that.
+                let given: Vec<[f64; 2]> = (meets.iter().zip(&compression))
+                    .map(|(&k, impulse)| [here.restitution(k)[0] * impulse[0], 0.0])
+                    .collect();
+                let beside: Vec<f64> = given.iter().map(|given| given[0]).collect();
+                let expansion = solved(&beside, &after(&middle, &given))?.forces;
+                let sum = |((c, g), e): ((&[f64; 2], &[f64; 2]), &[f64; 2])| {
+                    [c[0] + g[0] + e[0], c[1] + g[1] + e[1]]
+                };
+                Ok((compression.iter().zip(&given))
+                    .zip(&expansion)
+                    .map(sum)
+                    .collect())
+            }
+            ImpactLaw::Poisson | ImpactLaw::Stronge => {
+                let expansion = match self.law {
+                    ImpactLaw::Poisson => Expansion::Impulse,
+                    _ => Expansion::Work,
+                };
+                let mut impulses = vec![[0.0; 2]; meets.len()];
+                for (place, impulse) in impulses.iter_mut().enumerate() {
+                    let k = meets[place];
+                    let entry = |i: usize, j: usize| g[(2 * place + i) * width + 2 * place + j];
+                    let is_coupled = |other: usize| {
+                        let pairs = [0, 1].map(|i| {
+                            [0, 1].map(|j| {
+                                let (i, j) = (2 * place + i, 2 * other + j);
+                                let own = (g[i * width + i] * g[j * width + j]).sqrt();
+                                g[i * width + j].abs() > COUPLED * own
+                            })
+                        });
+                        other != place && pairs.as_flattened().contains(&true)
+                    };
+                    if here.rates[2 * k] >= -here.rate_rounding[2 * k] {
+                        continue;
+                    }
+                    if (0..meets.len()).any(is_coupled) {
+                        return Err(trouble(place, ContactTrouble::SeveralAtOnce));
+                    }
+                    let meeting = Meeting {
+                        inverse_masses: [entry(0, 0), entry(0, 1), entry(1, 1)],
+                        rates: [before[2 * place], before[2 * place + 1]],
+                        restitution: here.restitution(k)[0],
+                        friction: here.friction(k),
+                    };
+                    *impulse = routh::impulse(meeting, expansion)
+                        .ok_or_else(|| trouble(place, ContactTrouble::Paradox))?;
+                }
+                Ok(impulses)
+            }
+        }
+    }
+
+    /// Whether bounces of a contact have become so low that they are at their end: how long the rest of them takes,
+    /// in s. Its rate is what the impact left of it, and `falls` what it changes by while it is open.
+    pub fn ends_bouncing<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        contact: usize,
+        falls: f64,
+    ) -> Option<f64> {
+        let here = Here::of(system, t, q, v);
+        let opening = here.rates[2 * contact];
+        let last = core::mem::replace(&mut self.openings[contact], opening);
+        let share = opening / last;
+        if opening <= 0.0 || falls >= 0.0 || last <= 0.0 || share >= 1.0 {
+            return None;
+        }
+        let rounding = here.gap_rounding[contact] * (f64::EPSILON / super::touching::ROUNDING);
+        let least = (2.0 * -falls * LEAST_HEIGHT * rounding).sqrt();
+        let limit = least.max(LEAST_BOUNCE * self.speed);
+        (opening <= limit).then(|| 2.0 * opening / -falls / (1.0 - share))
+    }
+
+    /// How fast the rate of a gap changes while the machine has these accelerations.
+    pub fn falls<S: System>(
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        contact: usize,
+        a: &[f64],
+    ) -> f64 {
+        Here::of(system, t, q, v).acceleration(2 * contact, a)[0]
+    }
+
+    /// Which contacts are at rest along their tangents.
+    pub fn resting<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+    ) -> Vec<bool> {
+        let here = Here::of(system, t, q, v);
+        (0..here.gaps.len())
+            .map(|k| {
+                let rounding = here.rate_rounding[2 * k + 1].max(1e-12 * self.speed);
+                here.rates[2 * k + 1].abs() <= rounding
+            })
+            .collect()
+    }
+
+    /// Which contacts neither open nor close.
+    pub fn lasting<S: System>(
+        &self,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        touches: &[bool],
+    ) -> Vec<bool> {
+        let here = Here::of(system, t, q, v);
+        (touches.iter().enumerate())
+            .map(|(k, touches)| {
+                let rounding = here.rate_rounding[2 * k].max(1e-12 * self.speed);
+                *touches && here.rates[2 * k].abs() <= rounding
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,356 @@
+//! Linear complementarity problems: `w = M z + q`, `w ≥ 0`, `z ≥ 0`, `wᵀz = 0`.
+//!
+//! C. E. Lemke, *Bimatrix equilibrium points and mathematical programming*, Management Science 11 (1965) 681–689.
+//! Ties in the ratio test are broken lexicographically, so that degenerate problems do not cycle (R. W. Cottle,
+//! J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem*, 1992, section 4.9). The numbers of the last basis
+//! are solved for once more from the problem itself, so that rounding of the pivots does not add up.
+
+use std::vec;
+use std::vec::Vec;
+
+/// A solution.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Solution {
+    pub z: Vec<f64>,
+    /// By how much it misses any of the conditions, relative to the size of the terms.
+    pub residual: f64,
+}
+
+/// Why there is no solution here: the path of pivots goes to infinity, or does not end in as many pivots as any
+/// problem of that size takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Unsolved;
+
+/// What counts as zero in a tableau of numbers about as large as 1.
+const ZERO: f64 = 1e-12;
+
+/// Solves the problem of the matrix `m`, row after row, whose entries are about as large as 1.
+pub(crate) fn lemke(m: &[f64], q: &[f64]) -> Result<Solution, Unsolved> {
+    let n = q.len();
+    let size = q.iter().fold(0.0_f64, |size, q| size.max(q.abs()));
+    if q.iter().all(|q| *q >= 0.0) {
+        return Ok(Solution {
+            z: vec![0.0; n],
+            residual: 0.0,
+        });
+    }
+    if !size.is_finite() || m.iter().any(|m| !m.is_finite()) {
+        return Err(Unsolved);
+    }
+    let mut tableau = Tableau::new(m, q, size);
+    // The covering variable goes in where q is least.
+    let mut leaving = tableau.least(2 * n);
+    let mut entering = 2 * n;
+    for _ in 0..50 * n + 200 {
+        let left = tableau.basis[leaving];
+        tableau.pivot(leaving, entering);
+        if left == 2 * n {
+            let z = refined(m, q, &tableau.basis).unwrap_or_else(|| tableau.z(size));
+            let residual = residual(m, q, &z);
+            return Ok(Solution { z, residual });
+        }
+        // What has left is followed by its complement.
+        entering = if left < n { left + n } else { left - n };
+        leaving = tableau.blocking(entering).ok_or(Unsolved)?;
+    }
+    Err(Unsolved)
+}
+
+/// Rows `w − M z − z₀ = q`, solved for what is in the basis: columns of `w`, of `z`, of `z₀` and of `q`.
+struct Tableau {
+    n: usize,
+    width: usize,
+    numbers: Vec<f64>,
+    /// Which variable each row is solved for: `w` from 0, `z` from n, `z₀` last.
+    basis: Vec<usize>,
+}
+
+impl Tableau {
+    fn new(m: &[f64], q: &[f64], size: f64) -> Tableau {
+        let n = q.len();
+        let width = 2 * n + 2;
+        let mut numbers = vec![0.0; n * width];
+        for (i, row) in numbers.chunks_exact_mut(width).enumerate() {
+            row[i] = 1.0;
+            for (to, m) in row[n..2 * n].iter_mut().zip(&m[i * n..][..n]) {
+                *to = -m;
+            }
+            row[2 * n] = -1.0;
+            row[2 * n + 1] = q[i] / size;
+        }
+        Tableau {
+            n,
+            width,
+            numbers,
+            basis: (0..n).collect(),
+        }
+    }
+
+    fn row(&self, i: usize) -> &[f64] {
+        &self.numbers[i * self.width..][..self.width]
+    }
+
+    /// Compares two rows divided by their entries in a column: what they are solved for, then what the first
+    /// variables have done to them.
+    fn is_before(&self, i: usize, j: usize, column: usize) -> bool {
+        let (a, b) = (self.row(i), self.row(j));
+        let (by_a, by_b) = (a[column], b[column]);
+        let first = [2 * self.n + 1];
+        for k in first.into_iter().chain(0..self.n) {
+            let (x, y) = (a[k] / by_a, b[k] / by_b);
+            if (x - y).abs() > ZERO * (1.0 + x.abs().max(y.abs())) {
+                return x < y;
+            }
+        }
+        false
+    }
+
+    /// The row in which the covering variable goes in: the lexicographically least.
+    fn least(&self, column: usize) -> usize {
+        let mut least = 0;
+        for i in 1..self.n {
+            // Divided by −1, the greatest is the least.
+            if self.is_before(least, i, column) {
+                least = i;
+            }
+        }
+        least
+    }
+
+    /// The row that stops a variable from growing; none if nothing does.
+    fn blocking(&self, column: usize) -> Option<usize> {
+        let greatest = (0..self.n).fold(0.0_f64, |greatest, i| {
+            greatest.max(self.row(i)[column].abs())
+        });
+        let mut found: Option<usize> = None;
+        for i in 0..self.n {
+            if self.row(i)[column] <= ZERO * greatest.max(1.0) {
+                continue;
+            }
+            let is_better = match found {
+                None => true,
+                Some(best) => {
+                    let ratio = |i: usize| self.row(i)[2 * self.n + 1] / self.row(i)[column];
+                    let is_tie = (ratio(i) - ratio(best)).abs()
+                        <= ZERO * (1.0 + ratio(i).abs().max(ratio(best).abs()));
+                    // The covering variable leaves as soon as it may.
+                    match (is_tie, self.basis[i] == 2 * self.n) {
+                        (true, true) => true,
+                        (true, false) if self.basis[best] == 2 * self.n => false,
+                        _ => self.is_before(i, best, column),
+                    }
+                }
+            };
+            if is_better {
+                found = Some(i);
+            }
+        }
+        found
+    }
+
+    fn pivot(&mut self, row: usize, column: usize) {
+        let width = self.width;
+        let by = self.numbers[row * width + column];
+        let pivot: Vec<f64> = self.row(row).iter().map(|x| x / by).collect();
+        for (i, own) in self.numbers.chunks_exact_mut(width).enumerate() {
+            let factor = own[column];
+            if i == row {
+                own.copy_from_slice(&pivot);
+            } else if factor != 0.0 {
+                for (to, from) in own.iter_mut().zip(&pivot) {
+                    *to -= factor * from;
+                }
+                own[column] = 0.0;
+            }
+        }
+        self.basis[row] = column;
+    }
+
+    fn z(&self, size: f64) -> Vec<f64> {
+        let mut z = vec![0.0; self.n];
+        for (i, &variable) in self.basis.iter().enumerate() {
+            if (self.n..2 * self.n).contains(&variable) {
+                z[variable - self.n] = (size * self.row(i)[2 * self.n + 1]).max(0.0);
+            }
+        }
+        z
+    }
+}
+
+/// The numbers of a basis, from the problem itself; none where rounding has made it singular.
+fn refined(m: &[f64], q: &[f64], basis: &[usize]) -> Option<Vec<f64>> {
+    let n = q.len();
+    let in_basis: Vec<usize> = (0..n).filter(|i| basis.contains(&(n + i))).collect();
+    let k = in_basis.len();
+    let (mut a, mut b) = (vec![0.0; k * k], vec![0.0; k]);
+    for (row, &i) in in_basis.iter().enumerate() {
+        for (column, &j) in in_basis.iter().enumerate() {
+            a[row * k + column] = m[i * n + j];
+        }
+        b[row] = -q[i];
+    }
+    let (values, rank) = solve(&mut a, &mut b);
+    let mut z = vec![0.0; n];
+    for (&i, value) in in_basis.iter().zip(&values) {
+        z[i] = value.max(0.0);
+    }
+    (rank == k).then_some(z)
+}
+
+/// By how much numbers miss `M z + q ≥ 0 ⊥ z ≥ 0`, relative to the greatest term of all: a row of which nothing is
+/// left but rounding is not held against terms of its own.
+fn residual(m: &[f64], q: &[f64], z: &[f64]) -> f64 {
+    let n = q.len();
+    let greatest = z
+        .iter()
+        .fold(f64::MIN_POSITIVE, |size, z| size.max(z.abs()));
+    let mut size = q
+        .iter()
+        .fold(f64::MIN_POSITIVE, |size, q| size.max(q.abs()));
+    let mut sums = q.to_vec();
+    for (sum, row) in sums.iter_mut().zip(m.chunks_exact(n)) {
+        for (m, z) in row.iter().zip(z) {
+            *sum += m * z;
+            size = size.max((m * z).abs());
+        }
+    }
+    let missed = |(sum, z): (&f64, &f64)| (-sum / size).max((sum.abs() / size).min(z / greatest));
+    sums.iter().zip(z).map(missed).fold(0.0, f64::max)
+}
+
+/// Solves `A x = b` by elimination with a full search for pivots. What depends on the rest is 0; the second result
+/// is how much does not.
+pub(super) fn solve(a: &mut [f64], b: &mut [f64]) -> (Vec<f64>, usize) {
+    let n = b.len();
+    let mut columns: Vec<usize> = (0..n).collect();
+    let greatest = a.iter().fold(0.0_f64, |size, a| size.max(a.abs()));
+    let mut rank = 0;
+    while rank < n {
+        let mut best = (rank, rank, 0.0_f64);
+        for i in rank..n {
+            for j in rank..n {
+                let size = a[i * n + j].abs();
+                if size > best.2 {
+                    best = (i, j, size);
+                }
+            }
+        }
+        let (row, column, size) = best;
+        if size <= 1e-11 * greatest || size.is_nan() {
+            break;
+        }
+        for j in 0..n {
+            a.swap(rank * n + j, row * n + j);
+        }
+        b.swap(rank, row);
+        for i in 0..n {
+            a.swap(i * n + rank, i * n + column);
+        }
+        columns.swap(rank, column);
+        for i in rank + 1..n {
+            let factor = a[i * n + rank] / a[rank * n + rank];
+            if factor != 0.0 {
+                for j in rank..n {
+                    a[i * n + j] -= factor * a[rank * n + j];
+                }
+                b[i] -= factor * b[rank];
+            }
+        }
+        rank += 1;
+    }
+    let mut x = vec![0.0; n];
+    for i in (0..rank).rev() {
+        let known: f64 = (i + 1..rank).map(|j| a[i * n + j] * x[columns[j]]).sum();
+        x[columns[i]] = (b[i] - known) / a[i * n + i];
+    }
+    (x, rank)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers between −1 and 1 that look drawn at random.
+    fn drawn(seed: &mut u64) -> f64 {
+        *seed ^= *seed << 13;
+        *seed ^= *seed >> 7;
+        *seed ^= *seed << 17;
+        (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    #[test]
+    fn random_problems_of_every_rank_are_solved_to_rounding() {
+        let mut seed = 0x9e37_79b9_7f4a_7c15;
+        for case in 0..300 {
+            let n = 1 + case % 30;
+            let rank = 1 + case % n.max(1);
+            let rows: Vec<Vec<f64>> = (0..n)
+                .map(|_| (0..rank).map(|_| drawn(&mut seed)).collect())
+                .collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let m: Vec<f64> = (0..n * n)
+                .map(|k| dot(&rows[k / n], &rows[k % n]) / rank as f64)
+                .collect();
+            // Rates of a body that exists: then there is a solution, for any rank.
+            let v: Vec<f64> = (0..rank).map(|_| drawn(&mut seed)).collect();
+            let q: Vec<f64> = rows.iter().map(|row| dot(row, &v)).collect();
+            let found = lemke(&m, &q);
+            let Ok(solution) = found else {
+                panic!("case {case} of {n} contacts and rank {rank} was not solved");
+            };
+            assert!(solution.residual < 1e-11, "case {case}: {solution:?}");
+        }
+    }
+
+    #[test]
+    fn every_state_is_looked_at_and_none_other_than_the_one_found_holds() {
+        // Positive definite problems have one solution: found by trying all sets of three.
+        let mut seed = 7;
+        for _ in 0..100 {
+            let n = 3;
+            let rows: Vec<f64> = (0..9).map(|_| drawn(&mut seed)).collect();
+            let mut m = vec![0.0; 9];
+            for i in 0..n {
+                for j in 0..n {
+                    m[i * n + j] = (0..n)
+                        .map(|k| rows[i * n + k] * rows[j * n + k])
+                        .sum::<f64>();
+                }
+                m[i * n + i] += 0.1;
+            }
+            let q: Vec<f64> = (0..n).map(|_| drawn(&mut seed)).collect();
+            let mut truth = Vec::new();
+            for set in 0..1 << n {
+                let inside: Vec<usize> = (0..n).filter(|i| set >> i & 1 == 1).collect();
+                let k = inside.len();
+                let mut a = vec![0.0; k * k];
+                let mut b = vec![0.0; k];
+                for (r, &i) in inside.iter().enumerate() {
+                    for (c, &j) in inside.iter().enumerate() {
+                        a[r * k + c] = m[i * n + j];
+                    }
+                    b[r] = -q[i];
+                }
+                let (x, _) = solve(&mut a, &mut b);
+                let mut z = vec![0.0; n];
+                for (&i, x) in inside.iter().zip(&x) {
+                    z[i] = *x;
+                }
+                let w = |i: usize| q[i] + (0..n).map(|j| m[i * n + j] * z[j]).sum::<f64>();
+                if z.iter().all(|z| *z >= 0.0) && (0..n).all(|i| w(i) > -1e-12) {
+                    truth = z;
+                }
+            }
+            let found = lemke(&m, &q).map(|found| found.z).unwrap_or_default();
+            assert_eq!(found.len(), n);
+            for (found, truth) in found.iter().zip(&truth) {
+                assert!((found - truth).abs() < 1e-10);
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_solution_is_not_solved() {
+        assert_eq!(lemke(&[-1.0], &[-1.0]), Err(Unsolved));
+    }
+}

@@ -1,0 +1,551 @@
+//! What is closed, slips and sticks: the state of contacts between two events.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::delassus::{Inertia, matrix};
+use super::lcp;
+use super::problem::{self, Asked};
+use super::{ContactTrouble, Held, ImpactLaw};
+use crate::{Singular, StepError, System, Vector};
+
+/// A gap within this of its scale is closed, and a rate within this of its scale is rest.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// Forces and accelerations below this, relative to the terms that they are the sum of, are rounding.
+const ROUNDING_OF_FORCES: f64 = 1e-11;
+
+/// Friction within this of the greatest that there is, relative to that, is used up.
+const SATURATED: f64 = 1e-10;
+
+/// The state of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Mode {
+    /// It does not touch.
+    Open,
+    /// It touches and slips, forward or backward; 0 where it has no friction.
+    Slides(f64),
+    /// It touches and does not slip.
+    Sticks,
+}
+
+pub(crate) use crate::friction::Margin;
+
+/// What a run knows of its unilateral contacts.
+#[derive(Clone, Debug)]
+pub(crate) struct Touching {
+    modes: Vec<Mode>,
+    rubs: Vec<bool>,
+    pub(super) law: ImpactLaw,
+    held: Vec<usize>,
+    /// The greatest rate at which any gap closed so far.
+    pub(super) speed: f64,
+    /// How fast each contact opened after its last impact.
+    pub openings: Vec<f64>,
+}
+
+/// Gaps, rates and all that belongs to them at a state.
+pub(super) struct Here {
+    pub n: usize,
+    pub gaps: Vec<f64>,
+    pub rates: Vec<f64>,
+    pub rows: Vec<f64>,
+    pub drifts: Vec<f64>,
+    pub coefficients: Vec<f64>,
+    /// Below which a gap is closed, and a rate is rest.
+    pub gap_rounding: Vec<f64>,
+    pub rate_rounding: Vec<f64>,
+}
+
+impl Here {
+    pub fn of<S: System>(system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> Here {
+        let (n, m) = (q.as_slice().len(), system.unilateral_contacts().len());
+        let mut here = Here {
+            n,
+            gaps: vec![0.0; m],
+            rates: vec![0.0; 2 * m],
+            rows: vec![0.0; 2 * m * n],
+            drifts: vec![0.0; 2 * m],
+            coefficients: vec![0.0; 4 * m],
+            gap_rounding: Vec::new(),
+            rate_rounding: Vec::new(),
+        };
+        system.gaps(t, q, &mut here.gaps);
+        system.contact_rates(t, q, v, &mut here.rates);
+        system.contact_matrix(t, q, &mut here.rows);
+        system.contact_drift(t, q, v, &mut here.drifts);
+        system.contact_coefficients(t, q, v, &mut here.coefficients);
+        let size = |row: &[f64], y: &[f64]| row.iter().zip(y).map(|(w, y)| (w * y).abs()).sum();
+        let rows = || here.rows.chunks_exact(n.max(1));
+        let moving = |(row, rate): (&[f64], &f64)| -> f64 {
+            let terms: f64 = size(row, v.as_slice());
+            ROUNDING * (terms + rate.abs())
+        };
+        here.rate_rounding = rows().zip(&here.rates).map(moving).collect();
+        let gaps = rows().step_by(2).zip(here.rates.iter().step_by(2));
+        let placed = |(row, rate): (&[f64], &f64)| -> f64 {
+            let terms: f64 = size(row, q.as_slice());
+            ROUNDING * terms + 8.0 * f64::EPSILON * (t * rate).abs()
+        };
+        here.gap_rounding = gaps.map(placed).collect();
+        here
+    }
+
+    pub fn row(&self, direction: usize) -> &[f64] {
+        &self.rows[direction * self.n..][..self.n]
+    }
+
+    /// How fast a rate of a contact changes with these accelerations, and how large the terms of that are.
+    pub fn acceleration(&self, direction: usize, a: &[f64]) -> [f64; 2] {
+        let drift = self.drifts[direction];
+        let terms = self.row(direction).iter().zip(a).map(|(w, a)| w * a);
+        [
+            drift + terms.clone().sum::<f64>(),
+            drift.abs() + terms.map(f64::abs).sum::<f64>(),
+        ]
+    }
+
+    pub fn friction(&self, contact: usize) -> [f64; 2] {
+        let own = &self.coefficients[4 * contact..][..4];
+        [own[2], own[3]]
+    }
+
+    pub fn restitution(&self, contact: usize) -> [f64; 2] {
+        let own = &self.coefficients[4 * contact..][..4];
+        [own[0], own[1]]
+    }
+}
+
+/// Accelerations, and the forces in contacts that go with them.
+pub(crate) struct Reaction {
+    pub a: Vec<f64>,
+    /// Along normal and tangent, of every contact.
+    pub forces: Vec<[f64; 2]>,
+    /// What forces of a contact are made of, for their rounding.
+    sizes: Vec<f64>,
+    /// Whether the forces are the only ones that go with the accelerations.
+    pub is_only: bool,
+}
+
+/// By how much the states of closed contacts hold.
+pub(crate) struct Margins {
+    /// For each contact: that it presses, and that it slips as it does or sticks.
+    pub each: Vec<[Margin; 2]>,
+    /// Whether the forces that they are taken from are the only ones.
+    pub is_only: bool,
+}
+
+/// Time, state and inputs.
+pub(crate) type At<'a, S> = (
+    f64,
+    &'a <S as System>::Vector,
+    &'a <S as System>::Vector,
+    &'a <S as System>::Inputs,
+);
+
+impl Touching {
+    /// All contacts open.
+    pub fn new<S: System>(system: &S) -> Touching {
+        let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
+        let law = system.unilateral_contacts().next().map(|c| c.law);
+        Touching {
+            modes: vec![Mode::Open; rubs.len()],
+            law: law.unwrap_or_default(),
+            held: Vec::new(),
+            speed: 0.0,
+            openings: vec![0.0; rubs.len()],
+            rubs,
+        }
+    }
+
+    pub fn modes(&self) -> &[Mode] {
+        &self.modes
+    }
+
+    pub fn set_modes(&mut self, modes: Vec<Mode>) {
+        self.held = Self::held_directions(&modes, &self.rubs);
+        self.modes = modes;
+    }
+
+    /// Which directions are constraints now.
+    pub(super) fn held(&self) -> &[usize] {
+        &self.held
+    }
+
+    /// Whether nothing touches.
+    pub fn is_free(&self) -> bool {
+        self.held.is_empty()
+    }
+
+    /// The machine with what is closed as constraints.
+    pub fn machine<'a, S: System>(&'a self, system: &'a S) -> Held<'a, S> {
+        Held::new(system, self)
+    }
+
+    /// What the machine would do without any contact.
+    pub(super) fn free<S: System>(
+        system: &S,
+        (t, q, v, u): At<'_, S>,
+    ) -> Result<Vec<f64>, StepError> {
+        let mut a = q.zeros_like();
+        match system.accelerations(t, q, v, u, &mut a) {
+            Ok(()) => {}
+            Err(singular) if system.constraints().len() == 0 => {
+                return Err(StepError::Singular { singular, t });
+            }
+            Err(_) => {
+                let mut multipliers = vec![0.0; system.constraints().len()];
+                crate::least_multipliers(system, t, q, v, u, &mut a, &mut multipliers)?;
+            }
+        }
+        Ok(a.as_slice().to_vec())
+    }
+
+    /// Accelerations and forces while everything stays as it is.
+    pub fn reaction<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Reaction, StepError> {
+        let (t, q, v, _) = at;
+        let a = Self::free(system, at)?;
+        let mut reaction = Reaction {
+            forces: vec![[0.0; 2]; self.modes.len()],
+            sizes: vec![0.0; self.modes.len()],
+            is_only: true,
+            a,
+        };
+        if self.is_free() {
+            return Ok(reaction);
+        }
+        let here = Here::of(system, t, q, v);
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let closed: Vec<usize> = (0..self.modes.len())
+            .filter(|k| self.modes[*k] != Mode::Open)
+            .collect();
+        let images: Vec<Vec<f64>> = (closed.iter())
+            .flat_map(|k| [2 * k, 2 * k + 1])
+            .map(|direction| inertia.image(here.row(direction)))
+            .collect();
+        let g = matrix(&images);
+        let width = images.len();
+        // Of what slides the tangential force is a share of the normal one; what sticks has two unknowns.
+        let share = |k: usize| match self.modes[k] {
+            Mode::Slides(sign) => -sign * here.friction(k)[0],
+            _ => 0.0,
+        };
+        let mut unknowns: Vec<(usize, usize)> = Vec::new();
+        for (place, &k) in closed.iter().enumerate() {
+            unknowns.push((place, 0));
+            if self.modes[k] == Mode::Sticks && self.rubs[k] {
+                unknowns.push((place, 1));
+            }
+        }
+        for (place, &k) in closed.iter().enumerate() {
+            let own = g[2 * place * width + 2 * place];
+            let coupled = share(k) * g[2 * place * width + 2 * place + 1];
+            if own + coupled <= ROUNDING_OF_FORCES * own && coupled < 0.0 {
+                let trouble = ContactTrouble::Paradox;
+                return Err(StepError::Contact {
+                    contact: k,
+                    trouble,
+                    t,
+                });
+            }
+        }
+        let size = unknowns.len();
+        let (mut left, mut right) = (vec![0.0; size * size], vec![0.0; size]);
+        for (i, &(place, part)) in unknowns.iter().enumerate() {
+            let row = 2 * place + part;
+            for (j, &(other, other_part)) in unknowns.iter().enumerate() {
+                let column = |part: usize| g[row * width + 2 * other + part];
+                left[i * size + j] = match other_part {
+                    0 => column(0) + share(closed[other]) * column(1),
+                    _ => column(1),
+                };
+            }
+            let [value, terms] = here.acceleration(2 * closed[place] + part, &reaction.a);
+            right[i] = -value;
+            let own = g[row * width + row];
+            if own > 0.0 {
+                let known = &mut reaction.sizes[closed[place]];
+                *known = known.max(terms / own);
+            }
+        }
+        let (values, rank) = lcp::solve(&mut left, &mut right);
+        reaction.is_only = rank == size;
+        for (&(place, part), value) in unknowns.iter().zip(&values) {
+            let force = &mut reaction.forces[closed[place]];
+            force[part] += value;
+            if part == 0 {
+                force[1] += share(closed[place]) * value;
+            }
+        }
+        let forces = closed.iter().flat_map(|k| reaction.forces[*k]);
+        let response = inertia.response(&images, forces);
+        for (a, by) in reaction.a.iter_mut().zip(response) {
+            *a += by;
+        }
+        Ok(reaction)
+    }
+
+    /// The multipliers of the constraints of the machine, with what the contacts press.
+    ///
+    /// They are those of `M a = f + Σ wᵀλ + Gᵀ λ_G`; of constraints that depend on each other, one of the sets that do.
+    pub fn multipliers<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Vec<f64>, StepError> {
+        let (t, q, v, u) = at;
+        let m = system.constraints().len();
+        if m == 0 {
+            return Ok(Vec::new());
+        }
+        let n = q.as_slice().len();
+        let reaction = self.reaction(system, at)?;
+        let here = Here::of(system, t, q, v);
+        let (mut mass, mut forces) = (S::Matrix::zeros(n * n), q.zeros_like());
+        let mut rows = vec![0.0; m * n];
+        system.mass_matrix(t, q, &mut mass);
+        system.forces(t, q, v, u, &mut forces);
+        system.constraint_matrix(t, q, &mut rows);
+        // What of `M a − f` the contacts do not carry.
+        let mut open: Vec<f64> = (mass.as_slice().chunks_exact(n).zip(forces.as_slice()))
+            .map(|(row, f)| row.iter().zip(&reaction.a).map(|(m, a)| m * a).sum::<f64>() - f)
+            .collect();
+        for (direction, force) in reaction.forces.iter().flatten().enumerate() {
+            for (open, w) in open.iter_mut().zip(here.row(direction)) {
+                *open -= w * force;
+            }
+        }
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let row = |k: usize| &rows[k * n..][..n];
+        let mut left: Vec<f64> = (0..m * m).map(|k| dot(row(k / m), row(k % m))).collect();
+        let mut right: Vec<f64> = (0..m).map(|k| dot(row(k), &open)).collect();
+        Ok(lcp::solve(&mut left, &mut right).0)
+    }
+
+    /// Accelerations while everything stays as it is.
+    pub fn accelerations<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        a: &mut S::Vector,
+    ) -> Result<(), StepError> {
+        let reaction = self.reaction(system, at)?;
+        a.as_mut_slice().copy_from_slice(&reaction.a);
+        Ok(())
+    }
+
+    /// The work that what moves by itself does through the contacts, and what friction takes, in W.
+    pub fn power<S: System>(&self, system: &S, at: At<'_, S>) -> [f64; 2] {
+        let (t, q, v, _) = at;
+        if self.is_free() {
+            return [0.0; 2];
+        }
+        let Ok(reaction) = self.reaction(system, at) else {
+            return [f64::NAN; 2];
+        };
+        let here = Here::of(system, t, q, v);
+        let (mut on_coordinates, mut lost) = (0.0, 0.0);
+        for (k, force) in reaction.forces.iter().enumerate() {
+            for (part, force) in force.iter().enumerate() {
+                let row = here.row(2 * k + part).iter().zip(v.as_slice());
+                on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
+            }
+            if let Mode::Slides(_) = self.modes[k] {
+                lost -= force[1] * here.rates[2 * k + 1];
+            }
+        }
+        // Where constraints move by themselves, the machine counts as work whatever changes its energy.
+        let m = system.constraints().len();
+        let mut moving = vec![0.0; m];
+        if m > 0 {
+            system.constraint_rates(t, q, &v.zeros_like(), &mut moving);
+        }
+        match moving.iter().any(|rate| *rate != 0.0) {
+            true => [lost, lost],
+            false => [on_coordinates + lost, lost],
+        }
+    }
+
+    /// By how much the states of closed contacts hold: whether they press, and whether what slips does so still,
+    /// or what sticks has friction left.
+    pub fn margins<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Margins, StepError> {
+        let mut margins = vec![[Margin::ENDLESS; 2]; self.modes.len()];
+        if self.is_free() {
+            return Ok(Margins {
+                each: margins,
+                is_only: true,
+            });
+        }
+        let (t, q, v, _) = at;
+        let reaction = self.reaction(system, at)?;
+        let here = Here::of(system, t, q, v);
+        for (k, margin) in margins.iter_mut().enumerate() {
+            let [normal, tangential] = reaction.forces[k];
+            let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
+            let presses = Margin {
+                value: normal,
+                rounding,
+            };
+            *margin = match self.modes[k] {
+                Mode::Open => continue,
+                Mode::Slides(0.0) => [presses, Margin::ENDLESS],
+                Mode::Slides(sign) => [
+                    presses,
+                    Margin {
+                        value: sign * here.rates[2 * k + 1],
+                        rounding: here.rate_rounding[2 * k + 1],
+                    },
+                ],
+                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS],
+                Mode::Sticks => {
+                    let friction = here.friction(k)[1];
+                    let reserve = Margin {
+                        value: friction * normal - tangential.abs(),
+                        rounding: rounding * (1.0 + friction),
+                    };
+                    [presses, reserve]
+                }
+            };
+        }
+        let is_doubtful = |margin: &[Margin; 2]| margin.iter().any(|m| m.value < -m.rounding);
+        if !reaction.is_only && margins.iter().any(is_doubtful) {
+            // Forces that share a load may share it otherwise: only all together can tell.
+            let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
+            let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
+            if self.settled(system, at, &closed, &resting, None)? == self.modes {
+                for (margin, mode) in margins.iter_mut().zip(&self.modes) {
+                    margin[0] = Margin::ENDLESS;
+                    if *mode == Mode::Sticks {
+                        margin[1] = Margin::ENDLESS;
+                    }
+                }
+            }
+        }
+        Ok(Margins {
+            each: margins,
+            is_only: reaction.is_only,
+        })
+    }
+
+    /// What contacts that touch do next: which of `closed` stay so, and what those of them that are at rest do.
+    ///
+    /// A contact that slips has a direction, and friction along it. One at rest sticks if it can with its static
+    /// friction; if not it slips, with its friction, in the direction in which it is pulled. Of one contact it may
+    /// be known what it does: where its force has just vanished, or its friction is used up, nothing else says so.
+    pub fn settled<S: System>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        closed: &[bool],
+        resting: &[bool],
+        known: Option<(usize, Mode)>,
+    ) -> Result<Vec<Mode>, StepError> {
+        let (t, q, v, _) = at;
+        let mut modes = vec![Mode::Open; closed.len()];
+        let asked_of: Vec<usize> = (0..closed.len())
+            .filter(|k| closed[*k] && known != Some((*k, Mode::Open)))
+            .collect();
+        if asked_of.is_empty() {
+            return Ok(modes);
+        }
+        let free = Self::free(system, at)?;
+        let here = Here::of(system, t, q, v);
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let directions: Vec<usize> = asked_of.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
+        let images: Vec<Vec<f64>> = (directions.iter())
+            .map(|direction| inertia.image(here.row(*direction)))
+            .collect();
+        let g = matrix(&images);
+        let width = images.len();
+        let accelerations: Vec<[f64; 2]> = (directions.iter())
+            .map(|direction| here.acceleration(*direction, &free))
+            .collect();
+        let b: Vec<f64> = accelerations.iter().map(|[value, _]| *value).collect();
+        let paradox = |k: usize| StepError::Contact {
+            contact: k,
+            trouble: ContactTrouble::Paradox,
+            t,
+        };
+        // How each slips: from its rate, or found out below; none where it may stick.
+        let mut slipping: Vec<Option<f64>> = asked_of
+            .iter()
+            .map(|&k| match (self.rubs[k], resting[k]) {
+                (false, _) => Some(0.0),
+                _ if known.is_some_and(|(known, _)| known == k) => match known {
+                    Some((_, Mode::Slides(sign))) => Some(sign),
+                    _ => None,
+                },
+                (true, true) => None,
+                (true, false) => Some(here.rates[2 * k + 1].signum()),
+            })
+            .collect();
+        for _ in 0..=asked_of.len() {
+            let mut asked = Vec::with_capacity(asked_of.len());
+            for (place, &k) in asked_of.iter().enumerate() {
+                let [friction, static_friction] = here.friction(k);
+                asked.push(match slipping[place] {
+                    None => Asked::Both {
+                        friction: static_friction,
+                        beside: 0.0,
+                    },
+                    Some(sign) => {
+                        let share = -sign * friction;
+                        let own = g[2 * place * width + 2 * place];
+                        let coupled = share * g[2 * place * width + 2 * place + 1];
+                        // Pressed, it would be pressed the more: none or several motions.
+                        if own + coupled <= ROUNDING_OF_FORCES * own {
+                            return Err(paradox(k));
+                        }
+                        Asked::Normal { share }
+                    }
+                });
+            }
+            let answer = problem::solve(&asked, &g, &b).map_err(|_| paradox(asked_of[0]))?;
+            if answer.residual > 1e-8 {
+                return Err(paradox(asked_of[0]));
+            }
+            let mut breaks_away = false;
+            for (place, &k) in asked_of.iter().enumerate() {
+                let after = |part: usize| {
+                    let row = 2 * place + part;
+                    let forces = answer.forces.iter().flatten();
+                    let terms = g[row * width..][..width].iter().zip(forces);
+                    let terms = terms.map(|(g, force)| g * force);
+                    let size = accelerations[row][1] + terms.clone().map(f64::abs).sum::<f64>();
+                    (b[row] + terms.sum::<f64>(), ROUNDING_OF_FORCES * size)
+                };
+                let (opens, rounding) = after(0);
+                modes[k] = match slipping[place] {
+                    _ if opens > rounding => Mode::Open,
+                    Some(sign) => Mode::Slides(sign),
+                    None => {
+                        let [normal, tangential] = answer.forces[place];
+                        let most = here.friction(k)[1] * normal;
+                        let (slips, rounding) = after(1);
+                        // What has friction left sticks, whatever rounding makes of its slip.
+                        let sign = match tangential.abs() < most * (1.0 - SATURATED) {
+                            true => 0.0,
+                            false if most > 0.0 => -tangential.signum(),
+                            false if slips.abs() > rounding => slips.signum(),
+                            false => 0.0,
+                        };
+                        match sign {
+                            0.0 => Mode::Sticks,
+                            sign => {
+                                slipping[place] = Some(sign);
+                                breaks_away |= here.friction(k)[0] != here.friction(k)[1];
+                                Mode::Slides(sign)
+                            }
+                        }
+                    }
+                };
+            }
+            if !breaks_away {
+                return Ok(modes);
+            }
+        }
+        Err(StepError::Contact {
+            contact: asked_of[0],
+            trouble: ContactTrouble::Unsettled,
+            t,
+        })
+    }
+}

@@ -1,0 +1,519 @@
+//! Unilateral contacts in a run: when gaps close and forces vanish, and what is told of it.
+
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+use super::{LastInterpolant, Run, VectorOf, made};
+use crate::balance::Quadratures;
+use crate::constraints::Constraints;
+use crate::contact::{Impact, Mode, Touching};
+use crate::event::{self, Crossing, Event, Triple, state};
+use crate::friction::Margin;
+use crate::solution::Ending;
+use crate::stepper::{Cause, Happened, InputLaw, StepError};
+use crate::{
+    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, Machine, System, Warning,
+};
+
+/// How often contacts may change at one instant, for each of them and beyond.
+const MOST_CHANGES_AT_ONCE: usize = 8;
+
+/// How often the time of an impact is corrected, at most.
+const CORRECTIONS: usize = 8;
+
+/// Where several contacts share a load in ways that only all together can tell, a change is looked for so far
+/// behind the place where it is seen, as a part of the step.
+const BEYOND: f64 = 1e-9;
+
+/// What contacts did from some instant on.
+#[derive(Clone, Debug)]
+pub(crate) struct Phase<V> {
+    pub since: f64,
+    pub touching: Touching,
+    /// What is known of what they hold.
+    pub constraints: Option<Constraints<V>>,
+}
+
+/// What a run keeps of its contacts.
+#[derive(Clone, Debug)]
+pub(crate) struct Kept<C, V> {
+    pub phases: Vec<Phase<V>>,
+    pub events: Vec<ContactEvent<C>>,
+    /// For each contact how much energy its impacts took, in J.
+    pub losses: Vec<f64>,
+    /// Impacts that created energy: how many, and the worst.
+    gains: usize,
+    worst: Option<(usize, f64, f64)>,
+}
+
+impl<C, V> Default for Kept<C, V> {
+    fn default() -> Self {
+        Kept {
+            phases: Vec::new(),
+            events: Vec::new(),
+            losses: Vec::new(),
+            gains: 0,
+            worst: None,
+        }
+    }
+}
+
+impl<C, V> Kept<C, V> {
+    /// What the user should know.
+    pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
+        let (contact, t, gain) = self.worst?;
+        let mut contacts = system.unilateral_contacts();
+        Some(Warning::ImpactGains {
+            contact: contacts.nth(contact).map_or("?", |of| of.name).into(),
+            t,
+            gain,
+            impacts: self.gains,
+        })
+    }
+}
+
+/// A change that waits for the stepper to come to its instant.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    cause: Cause,
+    /// The contact whose gap closes.
+    closes: Option<usize>,
+    /// The step to go on with.
+    step: f64,
+    corrected: usize,
+}
+
+/// What the run does next.
+pub(super) enum Next {
+    /// It steps again.
+    Step,
+    /// It keeps the last step.
+    Keep,
+    /// It ends.
+    End(Ending),
+}
+
+impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
+    /// Contacts at the start of the run: what touches there is closed, or bounces.
+    pub(super) fn meet_at_start(&mut self) -> Result<(), Error> {
+        let Some(touching) = self.stepper.touching().clone() else {
+            return Ok(());
+        };
+        let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
+        if let Some(contact) = touching.penetrated(self.model.system, t, q, v) {
+            let trouble = ContactTrouble::Penetrates;
+            let error = StepError::Contact {
+                contact,
+                trouble,
+                t,
+            };
+            return Err(self.model.explain(error, q, v));
+        }
+        self.record.unilateral.losses = vec![0.0; touching.modes().len()];
+        let step = self.settings.first_step.unwrap_or(0.0);
+        self.meet_now(Cause::Asked, step, true)
+    }
+
+    /// Follows the contacts through the last step.
+    pub(super) fn follow_contacts(
+        &mut self,
+        meeting: &mut Option<Meeting>,
+        interpolant: &mut LastInterpolant<M>,
+        looks: bool,
+        changes: &mut (f64, usize),
+    ) -> Result<Next, Error> {
+        if let Some(meeting) = meeting {
+            // A gap is 0 at the end of the step, and not only on its dense output.
+            if self.stepper.is_done()
+                && let Some(contact) = meeting.closes
+                && meeting.corrected < CORRECTIONS
+            {
+                let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
+                let [gap, rate] = gap_and_rate(self.model.system, (t, q, v), contact);
+                let next = t - gap / rate;
+                let correction = (next - t).abs();
+                let from = self.stepper.t_before();
+                let is_within = next > from && correction < 0.5 * (t - from);
+                if is_within && correction > f64::EPSILON * t.abs() {
+                    meeting.corrected += 1;
+                    self.stepper.retreat(next);
+                    return Ok(Next::Step);
+                }
+            }
+            return Ok(Next::Keep);
+        }
+        if !looks {
+            return Ok(Next::Keep);
+        }
+        let Some((t, cause, closes)) = self.contact_found(interpolant)? else {
+            return Ok(Next::Keep);
+        };
+        let step = self.stepper.last_step();
+        self.stepper.retreat(t);
+        *meeting = Some(Meeting {
+            cause,
+            closes,
+            step,
+            corrected: 0,
+        });
+        if self.stepper.is_done()
+            && let Some(ending) = self.meet(meeting, changes)?
+        {
+            return Ok(Next::End(ending));
+        }
+        Ok(Next::Step)
+    }
+
+    /// Lets contacts meet, if the stepper stands where they do. The answer is the event that ends the run.
+    pub(super) fn meet(
+        &mut self,
+        meeting: &mut Option<Meeting>,
+        (last_t, times): &mut (f64, usize),
+    ) -> Result<Option<Ending>, Error> {
+        let Some(Meeting {
+            cause,
+            step,
+            closes,
+            ..
+        }) = meeting.take()
+        else {
+            return Ok(None);
+        };
+        let t = self.stepper.t();
+        *times = if *last_t == t { *times + 1 } else { 0 };
+        *last_t = t;
+        let contacts = self.model.system.unilateral_contacts().len();
+        if *times > MOST_CHANGES_AT_ONCE * (1 + contacts) {
+            let error = StepError::Contact {
+                contact: closes.unwrap_or(0),
+                trouble: ContactTrouble::Unsettled,
+                t,
+            };
+            let (q, v) = (self.stepper.q(), self.stepper.v());
+            return Err(self.model.explain(error, q, v));
+        }
+        self.meet_now(cause, step, false)?;
+        self.watch_jumps()
+    }
+
+    fn meet_now(&mut self, cause: Cause, step: f64, at_start: bool) -> Result<(), Error> {
+        let met = self.stepper.meet(cause, self.until, step);
+        let happened = match met {
+            Ok(happened) => happened,
+            Err(error) => {
+                let (q, v) = (self.stepper.q(), self.stepper.v());
+                return Err(self.model.explain(error, q, v));
+            }
+        };
+        if !at_start && let Some(steps) = &mut self.record.steps {
+            steps.jump(&self.stepper);
+        }
+        if !at_start {
+            self.enter_energies();
+        }
+        self.tell(&happened, at_start);
+        if let Some(touching) = self.stepper.touching() {
+            self.record.unilateral.phases.push(Phase {
+                since: self.stepper.t(),
+                touching: touching.clone(),
+                constraints: self.stepper.constraints().clone(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Writes down what happened.
+    fn tell(&mut self, happened: &Happened, at_start: bool) {
+        let system = self.model.system;
+        let names: Vec<String> = (system.unilateral_contacts())
+            .map(|contact| contact.name.into())
+            .collect();
+        let t = self.stepper.t();
+        let now = state(
+            system,
+            (t, self.stepper.q().clone(), self.stepper.v().clone()),
+        );
+        let mut told = Vec::new();
+        let size = |impulse: [f64; 2]| impulse[0].abs().max(impulse[1].abs());
+        let greatest = (happened.impacts.iter()).fold(0.0_f64, |most, i| most.max(size(i.impulse)));
+        for impact in &happened.impacts {
+            let &Impact {
+                contact,
+                gap_rate,
+                slip,
+                impulse,
+                loss,
+            } = impact;
+            self.record.unilateral.losses[contact] += loss;
+            // What is at rest and is not hit has an impulse of rounding.
+            let is_hit = size(impulse) > 1e-12 * greatest;
+            if is_hit {
+                let impact = ContactImpact {
+                    gap_rate,
+                    slip,
+                    impulse,
+                    loss,
+                };
+                told.push((contact, ContactEventKind::Impact, 0.0, Some(impact)));
+            }
+        }
+        self.note_gains(&happened.impacts, t);
+        for (contact, (before, after)) in happened.before.iter().zip(&happened.after).enumerate() {
+            use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
+            let (kind, direction) = match (*before, *after) {
+                (Mode::Open, Mode::Open) => continue,
+                (Mode::Open, _) if at_start => continue,
+                (Mode::Open, _) => (Closes, 0.0),
+                (_, Mode::Open) => (Lifts, 0.0),
+                (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
+                (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
+                (Mode::Sticks, Mode::Slides(to)) if to != 0.0 => (Slips, to),
+                _ => continue,
+            };
+            told.push((contact, kind, direction, None));
+        }
+        let shared = happened.lost_at_end / happened.ended.len().max(1) as f64;
+        for (contact, _) in &happened.ended {
+            self.record.unilateral.losses[*contact] += shared;
+        }
+        for (contact, kind, direction, impact) in told {
+            let ended = happened.ended.iter().find(|(ended, _)| *ended == contact);
+            let left = match (kind, ended) {
+                (ContactEventKind::Closes, Some((_, left))) => *left,
+                _ => 0.0,
+            };
+            let mut state = now.clone();
+            state.t += left;
+            self.record.events.push(Event {
+                name: std::format!("{} {}", names[contact], kind.word()),
+                crossing: match kind {
+                    ContactEventKind::Lifts | ContactEventKind::Slips => Crossing::Rising,
+                    _ => Crossing::Falling,
+                },
+                state: state.clone(),
+            });
+            self.record.unilateral.events.push(ContactEvent {
+                contact: names[contact].clone(),
+                kind,
+                state,
+                direction,
+                time_error: left,
+                impact,
+            });
+        }
+    }
+
+    /// Notes impacts that have created energy beyond rounding.
+    fn note_gains(&mut self, impacts: &[Impact], t: f64) {
+        let loss: f64 = impacts.iter().map(|impact| impact.loss).sum();
+        let turned_over: f64 = (impacts.iter())
+            .map(|i| (i.impulse[0] * i.gap_rate[0]).abs() + (i.impulse[1] * i.slip[0]).abs())
+            .sum();
+        if -loss <= 1e-12 * turned_over {
+            return;
+        }
+        let kept = &mut self.record.unilateral;
+        kept.gains += 1;
+        let own = impacts.iter().min_by(|a, b| a.loss.total_cmp(&b.loss));
+        if kept.worst.is_none_or(|(.., gain)| gain < -loss) {
+            kept.worst = own.map(|own| (own.contact, t, -loss));
+        }
+    }
+
+    /// Functions that are watched may have jumped with the rates.
+    fn watch_jumps(&mut self) -> Result<Option<Ending>, Error> {
+        let (t, q, v) = (
+            self.stepper.t(),
+            self.stepper.q().clone(),
+            self.stepper.v().clone(),
+        );
+        let now = state(self.model.system, (t, q, v));
+        let mut ending = None;
+        for watch in &mut self.callbacks.watches {
+            let value = watch.value(&now)?;
+            let before = watch.side;
+            if !watch.begun || before == 0.0 || value == 0.0 || value.signum() == before {
+                continue;
+            }
+            watch.side = value.signum();
+            let crossing = match value > 0.0 {
+                true => Crossing::Rising,
+                false => Crossing::Falling,
+            };
+            if watch.crossing != Crossing::Any && watch.crossing != crossing {
+                continue;
+            }
+            self.record.events.push(Event {
+                name: watch.name.clone(),
+                crossing,
+                state: now.clone(),
+            });
+            if watch.ends_run && ending.is_none() {
+                ending = Some(Ending::Event(watch.name.clone()));
+            }
+        }
+        Ok(ending)
+    }
+
+    /// When contacts change in the last step, why, and which gap closes.
+    fn contact_found(
+        &mut self,
+        interpolant: &mut LastInterpolant<M>,
+    ) -> Result<Option<(f64, Cause, Option<usize>)>, Error> {
+        let Self { model, stepper, .. } = self;
+        let Some(touching) = stepper.touching().clone() else {
+            return Ok(None);
+        };
+        let system = model.system;
+        let roundoff = event::theta_roundoff(stepper);
+        let beginning = (
+            stepper.t_before(),
+            stepper.q_before().clone(),
+            stepper.v_before().clone(),
+        );
+        let mut before = gaps_and_rates(system, &beginning);
+        let mut theta_before = 0.0;
+        for theta in event::LOOKS {
+            let looked = event::interpolated_at(stepper, theta);
+            let now = gaps_and_rates(system, &looked);
+            let mut earliest: Option<(f64, Cause, Option<usize>)> = None;
+            for (k, mode) in touching.modes().iter().enumerate() {
+                let ([_, from], [gap, to]) = (before[k], now[k]);
+                if *mode != Mode::Open || !(gap < 0.0 || (from < 0.0 && to > 0.0)) {
+                    continue;
+                }
+                let interpolant = made(interpolant, stepper, system)?;
+                let at = |theta: f64| {
+                    let (t, q, v) = match theta == 0.0 {
+                        true => beginning.clone(),
+                        false => event::state_at(system, stepper, interpolant, theta)?,
+                    };
+                    Ok(gap_and_rate(system, (t, &q, &v), k))
+                };
+                if let Some(found) = closing([theta_before, theta], roundoff, at)?
+                    && earliest.is_none_or(|(known, ..)| found < known)
+                {
+                    earliest = Some((found, Cause::Asked, Some(k)));
+                }
+            }
+            if !touching.is_free() {
+                let margins = |(t, q, v): &Triple<VectorOf<M>>| {
+                    let inputs = model.inputs(*t, q, v);
+                    touching
+                        .margins(system, (*t, q, v, &inputs))
+                        .map_err(|error| model.explain(error, q, v))
+                };
+                let seen = margins(&looked)?;
+                let doubtful = |k: usize, kind: usize| seen.each[k][kind].value < 0.0;
+                for (k, kind) in (0..seen.each.len()).flat_map(|k| [(k, 0), (k, 1)]) {
+                    if !doubtful(k, kind) {
+                        continue;
+                    }
+                    let interpolant = made(interpolant, stepper, system)?;
+                    let exactly = |theta: f64| -> Result<(Margin, bool), Error> {
+                        let at = match theta == 0.0 {
+                            true => beginning.clone(),
+                            false => event::state_at(system, stepper, interpolant, theta)?,
+                        };
+                        let margins = margins(&at)?;
+                        Ok((margins.each[k][kind], margins.is_only))
+                    };
+                    let (value, is_only) = exactly(theta)?;
+                    if !value.is_lost_since(exactly(theta_before)?.0) {
+                        continue;
+                    }
+                    let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
+                    let mut found = event::last_positive([theta_before, theta], roundoff, margin)?;
+                    let cause = match (is_only, touching.modes()[k], kind) {
+                        (false, ..) => Cause::Asked,
+                        (_, _, 0) => Cause::Lifts(k),
+                        (_, Mode::Slides(_), _) => Cause::Stops(k),
+                        _ => Cause::Breaks(k),
+                    };
+                    if !is_only {
+                        found = (found + BEYOND).min(theta);
+                    }
+                    if earliest.is_none_or(|(known, ..)| found < known) {
+                        earliest = Some((found, cause, None));
+                    }
+                }
+            }
+            if let Some((theta, cause, closes)) = earliest {
+                let t = match theta == 0.0 {
+                    true => beginning.0,
+                    false => {
+                        let interpolant = made(interpolant, stepper, system)?;
+                        interpolant.time_at(theta)
+                    }
+                };
+                return Ok(Some((t, cause, closes)));
+            }
+            (before, theta_before) = (now, theta);
+        }
+        Ok(None)
+    }
+}
+
+/// Where a gap closes between two looks at an open contact, if it does: not before it has opened, where it begins
+/// closed, and not where it comes near and goes away again.
+fn closing(
+    [from, to]: [f64; 2],
+    roundoff: f64,
+    mut at: impl FnMut(f64) -> Result<[f64; 2], Error>,
+) -> Result<Option<f64>, Error> {
+    let [gap, rate] = at(from)?;
+    let [gap_after, rate_after] = at(to)?;
+    let mut open = from;
+    if gap <= 0.0 {
+        if gap_after >= 0.0 {
+            return Ok(None);
+        }
+        if rate <= 0.0 {
+            return Ok(Some(from));
+        }
+        if rate_after >= 0.0 {
+            return Ok(Some(to));
+        }
+        // It opens first: up to where it is greatest.
+        open = event::root([from, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        if at(open)?[0] <= 0.0 {
+            return Ok(Some(open));
+        }
+    }
+    if gap_after < 0.0 {
+        let found = event::root([open, to], roundoff, |theta| Ok(at(theta)?[0]))?;
+        return Ok(Some(found));
+    }
+    if rate < 0.0 && rate_after > 0.0 {
+        let nearest = event::root([open, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        if at(nearest)?[0] < 0.0 {
+            let found = event::root([open, nearest], roundoff, |theta| Ok(at(theta)?[0]))?;
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
+}
+
+/// Gap and rate of every contact.
+fn gaps_and_rates<S: System>(system: &S, (t, q, v): &Triple<S::Vector>) -> Vec<[f64; 2]> {
+    let m = system.unilateral_contacts().len();
+    let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
+    system.gaps(*t, q, &mut gaps);
+    system.contact_rates(*t, q, v, &mut rates);
+    let rates = rates.chunks_exact(2).map(|rates| rates[0]);
+    gaps.into_iter().zip(rates).map(Into::into).collect()
+}
+
+/// Gap and rate of one.
+fn gap_and_rate<S: System>(
+    system: &S,
+    (t, q, v): (f64, &S::Vector, &S::Vector),
+    contact: usize,
+) -> [f64; 2] {
+    let m = system.unilateral_contacts().len();
+    let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
+    system.gaps(t, q, &mut gaps);
+    system.contact_rates(t, q, v, &mut rates);
+    [gaps[contact], rates[2 * contact]]
+}
