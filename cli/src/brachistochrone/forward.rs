@@ -7,7 +7,7 @@ use lagrangian::{Machine, Simulation};
 use lagrangian_spec::model::Coordinate;
 use lagrangian_symbolic::Dag;
 
-use super::found::Found;
+use super::found::{Arrival, Found};
 use crate::call;
 use crate::reading::{self, Reading};
 
@@ -16,13 +16,6 @@ const TOLERANCE: f64 = 1e-11;
 
 /// Control forces are smooth in time: the polynomial through so many of Chebyshev's points has all digits of the run.
 const POINTS: u32 = 48;
-
-/// Where the machine arrives, simulated.
-#[derive(Clone, Debug)]
-pub struct Arrival {
-    /// How far from the end, relative to the way, of the coordinate that is farthest.
-    pub off: f64,
-}
 
 /// Simulates the machine from rest under the control forces for the computed time.
 ///

@@ -6,7 +6,6 @@ use lagrangian_brachistochrone::direct::{Sought, Terrain, Trial};
 use lagrangian_brachistochrone::{Brachistochrone, Lapse, Moment, Problem};
 use serde_json::{Map, Value, json};
 
-use super::forward::Arrival;
 use super::landscape::Landscape;
 use super::tried;
 use crate::output;
@@ -80,6 +79,13 @@ impl Motion<'_, '_> {
             Self::Direct(motion) => motion.best_among_turns(),
         }
     }
+}
+
+/// Where the machine arrives, simulated.
+#[derive(Clone, Debug)]
+pub struct Arrival {
+    /// How far from the end, relative to the way, of the coordinate that is farthest.
+    pub off: f64,
 }
 
 /// What was found, and what it is told in.

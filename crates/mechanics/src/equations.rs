@@ -24,6 +24,7 @@ mod derivatives;
 mod energy;
 mod freedom;
 pub mod groups;
+mod guide;
 pub mod integrals;
 mod kinematics;
 mod lagrange;

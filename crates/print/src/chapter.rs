@@ -17,7 +17,7 @@ mod unilateral;
 
 use lagrangian_symbolic::{Expr, Math, Names, math};
 
-use super::document::{Block, Row, Run, Section, Words};
+use super::document::{Block, Document, Row, Run, Section, Words};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::equations::groups::{self, Share};
 use lagrangian_mechanics::equations::integrals::Facts;
@@ -40,8 +40,18 @@ struct Chapter<'a, 'd> {
     facts: Facts<'d>,
 }
 
+impl Document {
+    /// The derivation of a machine, a chapter to read.
+    pub fn new(compiled: &Compiled<'_>) -> Document {
+        Document {
+            title: compiled.model.name.clone(),
+            sections: sections(compiled),
+        }
+    }
+}
+
 /// The sections of the chapter on a machine.
-pub(super) fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
+fn sections(compiled: &Compiled<'_>) -> Vec<Section> {
     let chapter = Chapter {
         compiled,
         model: &compiled.model,

@@ -6,8 +6,6 @@
 use lagrangian_symbolic::Math;
 use lagrangian_symbolic::print::{Mark, Sign};
 
-use lagrangian_mechanics::Compiled;
-
 /// The width of a line of a formula, in the size of its font (em): less than the 47 of A4 paper with margins of 2 cm, since
 /// [`Math::width`] is an estimate.
 pub(super) const LINE: f32 = 43.0;
@@ -97,16 +95,6 @@ impl From<Math> for Run {
     }
 }
 
-impl Document {
-    /// The derivation of a machine, a chapter to read.
-    pub fn new(compiled: &Compiled<'_>) -> Document {
-        Document {
-            title: compiled.model.name.clone(),
-            sections: super::chapter::sections(compiled),
-        }
-    }
-}
-
 /// How a column of a table is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Column {
@@ -137,7 +125,7 @@ pub fn columns(head: &[Words], rows: &[Vec<Words>]) -> Vec<Column> {
         cells.map(width_of_words).fold(0.0, f32::max)
     };
     let column = |k: usize| match k + 1 == head.len() {
-        _ if super::html::is_numeric(rows, k) => Column::Numbers(natural(k)),
+        _ if is_numeric(rows, k) => Column::Numbers(natural(k)),
         true => Column::Wrapped(DESCRIPTION),
         false => Column::Line(natural(k)),
     };
@@ -234,4 +222,15 @@ impl Block {
     pub fn formula(math: &Math) -> Block {
         Block::Formula(Row::lines(math, 0, ""))
     }
+}
+
+/// Whether a column holds nothing but decimal numbers, or dashes in their place.
+pub(super) fn is_numeric(rows: &[Vec<Words>], column: usize) -> bool {
+    let is_number = |cells: &Vec<Words>| match cells.get(column).map(Vec::as_slice) {
+        Some([Run::Text(text)]) => text
+            .chars()
+            .all(|c| c.is_ascii_digit() || matches!(c, '.' | '–')),
+        _ => false,
+    };
+    !rows.is_empty() && rows.iter().all(is_number)
 }

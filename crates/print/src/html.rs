@@ -2,7 +2,7 @@
 
 use lagrangian_symbolic::markup_words;
 
-use super::document::{Block, Document, Row, Run, Words};
+use super::document::{self, Block, Document, Row, Run, Words};
 
 /// What the article looks like: light and dark, on a screen and printed. Everything is inside of `.derivation`.
 pub const STYLE: &str = r#".derivation { --ink: #1b1f24; --faint: #5c6672; --line: #d4dae1; color: var(--ink); line-height: 1.5; }
@@ -77,7 +77,9 @@ fn block(block: &Block) -> String {
         Block::Formula(rows) => formula(rows),
         Block::Table(head, rows) => {
             // Columns of numbers are set as such.
-            let numbers: Vec<bool> = (0..head.len()).map(|k| is_numeric(rows, k)).collect();
+            let numbers: Vec<bool> = (0..head.len())
+                .map(|k| document::is_numeric(rows, k))
+                .collect();
             let row = |cells: &[Words], tag: &str| {
                 let cell = |(k, cell): (usize, &Words)| {
                     let class = match numbers.get(k) {
@@ -96,17 +98,6 @@ fn block(block: &Block) -> String {
             )
         }
     }
-}
-
-/// Whether a column holds nothing but decimal numbers, or dashes in their place.
-pub(super) fn is_numeric(rows: &[Vec<Words>], column: usize) -> bool {
-    let is_number = |cells: &Vec<Words>| match cells.get(column).map(Vec::as_slice) {
-        Some([Run::Text(text)]) => text
-            .chars()
-            .all(|c| c.is_ascii_digit() || matches!(c, '.' | '–')),
-        _ => false,
-    };
-    !rows.is_empty() && rows.iter().all(is_number)
 }
 
 /// The lines of a formula, as the rows of a table.

@@ -33,9 +33,8 @@ use lagrangian_scalar::{Dual, Residue, Scalar};
 use lagrangian_symbolic::{Expr, Node, Symbol, evaluate};
 
 use super::constraints::{self, ConstraintEquation};
-use super::kinematics::Variables;
-use super::lagrange::gradient;
-use super::sliding;
+use super::guide;
+use super::kinematics::{Variables, gradient};
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::planar_angle;
@@ -892,8 +891,8 @@ impl<'d, T: Number> Written<'_, '_, 'd, T> {
 fn slides_by(model: &Model<'_>, guide: usize) -> Vec<bool> {
     let x = Variables::of(model);
     let sliding = model.sliding()[guide];
-    let directions = sliding::guide(model, sliding);
-    let [slip, _] = sliding::relative(model, sliding, &directions, &mut x.coasting(model));
+    let directions = guide::guide(model, sliding);
+    let [slip, _] = guide::relative(model, sliding, &directions, &mut x.coasting(model));
     let row = gradient(model.dag, slip, &x.v);
     row.into_iter()
         .map(|entry| identity::is_zero(entry) != Some(true))

@@ -14,7 +14,7 @@
 use lagrangian_symbolic::{Expr, normal, substitute};
 
 use super::kinematics::Variables;
-use super::lagrange::gradient;
+use super::kinematics::gradient;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
 use lagrangian_spec::model::element::Rolling;

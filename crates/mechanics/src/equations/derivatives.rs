@@ -15,7 +15,6 @@
 use lagrangian_symbolic::{Expr, Symbol, Tangent};
 
 use super::constraints::ConstraintEquation;
-use super::refusal;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::{Model, Variable};
 
@@ -60,7 +59,7 @@ pub(super) fn unbalanced<'d>(
 pub(super) fn slopes<'d>(model: &Model<'d>, unbalanced: &[Expr<'d>]) -> Option<Vec<Vec<Expr<'d>>>> {
     let mut columns = Vec::with_capacity(model.derivatives.len());
     for &variable in &model.derivatives {
-        if refusal::is_too_large(model) {
+        if model.dag.is_exhausted() {
             return None;
         }
         let direction = symbol(model, variable).map(|symbol| (symbol, model.dag.one()));

@@ -10,7 +10,7 @@ use lagrangian_symbolic::{Expr, Node, Symbol};
 use super::approximation::Approximations;
 use super::kinematics::Variables;
 use super::projected::{Loads, Projection};
-use super::{Equations, energy, lagrange};
+use super::{Equations, energy, kinematics};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::model::element::{Contribution, Energy};
@@ -40,7 +40,7 @@ pub fn shares<'d>(model: &Model<'d>) -> Vec<Share<'d>> {
     let elements = || model.elements.iter().enumerate();
     let share = |element, kind, value, by: &[Symbol]| {
         let value = approximations.energy(value);
-        let slopes = lagrange::gradient(dag, value, by);
+        let slopes = kinematics::gradient(dag, value, by);
         Share {
             element,
             kind,

@@ -6,7 +6,7 @@
 use lagrangian_symbolic::Expr;
 
 use super::kinematics::Variables;
-use super::{Equations, constraints, lagrange};
+use super::{Equations, constraints, kinematics};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::{Model, stage};
 
@@ -71,10 +71,10 @@ impl<'d> Facts<'d> {
 fn cyclic<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Vec<Cyclic<'d>> {
     let dag = model.dag;
     let x = Variables::of(model);
-    let slopes = |of| lagrange::gradient(dag, of, &x.q);
+    let slopes = |of| kinematics::gradient(dag, of, &x.q);
     let kinetic = slopes(equations.kinetic_energy);
     let potential = slopes(equations.potential_energy);
-    let momenta = lagrange::gradient(dag, equations.kinetic_energy, &x.v);
+    let momenta = kinematics::gradient(dag, equations.kinetic_energy, &x.v);
     let ignorable = (0..x.q.len()).filter(|&i| is_zero(kinetic[i]) && is_zero(potential[i]));
     let cyclic = |coordinate: usize| {
         let reactions = equations.constraints.iter();
@@ -103,8 +103,8 @@ fn energy<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Energy<'d> {
         return Energy::Balance;
     }
     let (kinetic, potential) = (equations.kinetic_energy, equations.potential_energy);
-    let momenta = lagrange::gradient(dag, kinetic, &x.v);
-    let slopes = lagrange::gradient(dag, potential, &x.q);
+    let momenta = kinematics::gradient(dag, kinetic, &x.v);
+    let slopes = kinematics::gradient(dag, potential, &x.q);
     let rates = model.coordinates.iter().map(|c| c.v);
     let others = equations
         .applied

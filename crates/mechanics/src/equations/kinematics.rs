@@ -1,6 +1,6 @@
 //! Motion: velocities and accelerations of bodies, by differentiating where they are.
 
-use lagrangian_symbolic::{Expr, Symbol, Tangent};
+use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent};
 
 use lagrangian_spec::model::circles::planar_angle;
 use lagrangian_spec::model::{Body, Inertia, Model, Pose, PoseId, Rotation, Space, Step};
@@ -508,4 +508,9 @@ fn turned<'d>(u: &Vector<'d>, axis: usize, angle: Expr<'d>) -> Vector<'d> {
 /// Three components as an array.
 pub(super) fn vector<'d>(components: &[Expr<'d>]) -> Vector<'d> {
     [0, 1, 2].map(|k| components[k])
+}
+
+/// All partial derivatives, by one reverse sweep.
+pub(super) fn gradient<'d>(dag: &'d Dag, of: Expr<'d>, wrt: &[Symbol]) -> Vec<Expr<'d>> {
+    lagrangian_symbolic::reverse(dag, &[(of, dag.one())], wrt)
 }

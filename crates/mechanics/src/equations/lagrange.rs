@@ -8,14 +8,13 @@
 //! code is emitted from it unless an approximation asks for these very equations
 //! ([`super::approximation`]). Explicit time is never dropped: the `d/dt` is that of eq. (E8).
 
-use lagrangian_symbolic::{Dag, Expr, Symbol, Tangent, substitute};
+use lagrangian_symbolic::{Expr, Symbol, Tangent, substitute};
 
 use super::approximation::Approximations;
 use super::constraints::{self, ConstraintEquation};
 use super::energy;
-use super::kinematics::{self, Variables};
-use super::refusal;
-use super::sliding::{guide, relative};
+use super::guide::{guide, relative};
+use super::kinematics::{self, Variables, gradient};
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_angle;
 use lagrangian_spec::model::element::Load;
@@ -274,7 +273,7 @@ pub(super) fn inertia<'d>(
     let slopes = gradient(dag, kinetic_energy, &x.q);
     let mut rows: Vec<Vec<Expr<'d>>> = Vec::with_capacity(momenta.len());
     for (i, &momentum) in momenta.iter().enumerate() {
-        if refusal::is_too_large(model) {
+        if model.dag.is_exhausted() {
             return None;
         }
         rows.push(gradient(dag, momentum, &x.v[..=i]));
@@ -286,9 +285,4 @@ pub(super) fn inertia<'d>(
         .map(|(&p, slope)| rate.of(p) - slope)
         .collect();
     Some((Symmetric::from_lower(x.q.len(), |i, j| rows[i][j]), bias))
-}
-
-/// All partial derivatives, by one reverse sweep.
-pub(super) fn gradient<'d>(dag: &'d Dag, of: Expr<'d>, wrt: &[Symbol]) -> Vec<Expr<'d>> {
-    lagrangian_symbolic::reverse(dag, &[(of, dag.one())], wrt)
 }

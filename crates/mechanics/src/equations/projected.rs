@@ -35,7 +35,6 @@ use super::energy;
 use super::kinematics::{
     self, Chains, Motion, Turning, Twist, Variables, Vector, add, apply_tensor, cross, vector,
 };
-use super::refusal;
 use super::symmetric::Symmetric;
 use lagrangian_spec::model::circles::planar_angle;
 use lagrangian_spec::model::element::{Energy, Load};
@@ -135,7 +134,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         let n = self.x.q.len();
         let mut columns: Vec<Vec<Expr<'d>>> = Vec::with_capacity(n);
         for j in 0..n {
-            if refusal::is_too_large(self.model) {
+            if self.model.dag.is_exhausted() {
                 return None;
             }
             let rate = &mut self.x.partial(self.model, j);

@@ -206,11 +206,6 @@ pub(super) fn refuse_many_constraints(model: &Model<'_>, report: &mut Report) ->
     true
 }
 
-/// Whether the expressions have outgrown every machine that could be run.
-pub(super) fn is_too_large(model: &Model<'_>) -> bool {
-    model.dag.is_exhausted()
-}
-
 /// Says that the equations are too large.
 pub(crate) fn refuse_large(model: &Model<'_>, report: &mut Report) {
     let message = "the equations of this machine are too large to be derived";
