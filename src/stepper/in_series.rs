@@ -89,12 +89,12 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         // By no more than what the series has left out, and rounding.
         model.project(now)?;
         if quadratures.integrals().is_some() {
-            for i in 1..stages {
+            for (i, k) in k.iter_mut().enumerate().take(stages).skip(1) {
                 let tau = method.tableau.c[i] * h;
                 (stage.0, stage.1) = crate::taylor::state(taylor.of_step(), tau);
-                crate::taylor::accelerations(taylor.of_step(), tau, &mut k[i]);
+                crate::taylor::accelerations(taylor.of_step(), tau, k);
                 let t = before.t + (before.t_low + tau);
-                model.take_rates(quadratures, i, (t, &stage.0, &stage.1, &k[i]));
+                model.take_rates(quadratures, i, (t, &stage.0, &stage.1, k));
             }
         }
         work.evaluations += 1;

@@ -789,9 +789,7 @@ const COMPILED: usize = 9;
 
 /// Machine code of all functions, held against the interpreter.
 fn hold_machine_code(program: &Proved, random: &mut Random, tally: &mut Tally) -> Option<String> {
-    if lagrangian_jit::Level::here().is_none() {
-        return None;
-    }
+    lagrangian_jit::Level::here()?;
     let program = Arc::new(Program::clone(program));
     let mut any = || random.number(0.5, 2.0);
     let parameters = program.parameters.iter().map(|slot| match &slot.default {
@@ -838,7 +836,7 @@ pub fn task(mut random: Random, number: usize, tally: &mut Tally) {
     let expected = Expected::of(&case);
     let mut failures = hold(&program, &expected);
     failures.extend(hold_equations(&program, &case, &mut random));
-    if number % COMPILED == 0 {
+    if number.is_multiple_of(COMPILED) {
         failures.extend(hold_machine_code(&program, &mut random, tally));
     }
     if !failures.is_empty() {

@@ -13,7 +13,7 @@
 use lagrangian_symbolic::{Expr, normal};
 
 use super::kinematics::Variables;
-use super::lagrange::gradient;
+use super::kinematics::gradient;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
 use lagrangian_spec::model::{self, ContactGeometry, ImpactLaw, Model};
