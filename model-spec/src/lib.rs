@@ -49,7 +49,7 @@ pub fn parse(sources: &mut Sources, name: &str, text: &str, report: &mut Report)
 /// }";
 /// let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
 /// let files = &mut InMemory::new();
-/// let ball = crate::model(&dag, "ball.machine", text, &[], files, &mut sources, &mut report)
+/// let ball = lagrangian_spec::model(&dag, "ball.machine", text, &[], files, &mut sources, &mut report)
 ///     .ok_or_else(|| report.render_short(&sources))?;
 /// assert_eq!(ball.coordinates[1].unit.to_string(), "m");
 /// # Ok::<(), String>(())

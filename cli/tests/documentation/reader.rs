@@ -46,12 +46,7 @@ impl Reader {
         let name = format!("lagrangian-{}-{name}", std::process::id());
         let folder = std::env::temp_dir().join(name);
         let machines = folder.join("machines");
-        std::fs::create_dir_all(&machines).expect("a temporary folder");
-        for entry in std::fs::read_dir(root().join("machines")).expect("the library") {
-            let from = entry.expect("an entry").path();
-            let to = machines.join(from.file_name().expect("a name"));
-            std::fs::copy(from, to).expect("a copy");
-        }
+        copy(&root().join("machines"), &machines);
         Reader { folder }
     }
 
@@ -264,4 +259,17 @@ fn is_progress(line: &str) -> bool {
     seconds.is_some_and(|(what, seconds)| {
         seconds.parse::<u64>().is_ok() && !what.is_empty() && !what.contains(['|', '{', '"'])
     })
+}
+
+/// Copies all files of a folder and of the folders in it.
+fn copy(folder: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a temporary folder");
+    for entry in std::fs::read_dir(folder).expect("the library") {
+        let from = entry.expect("an entry").path();
+        let to = to.join(from.file_name().expect("a name"));
+        match from.is_dir() {
+            true => copy(&from, &to),
+            false => std::fs::copy(from, to).map(|_| ()).expect("a copy"),
+        }
+    }
 }

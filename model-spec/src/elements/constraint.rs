@@ -7,7 +7,7 @@ use crate::model::element::{Constraint, Contribution};
 use crate::model::stage;
 use crate::resolve::Resolver;
 use crate::resolve::element::{Meaning, Resolved, Row};
-use crate::resolve::value::{Limit, MemberId, limit};
+use crate::resolve::value::{Limit, MemberId, is_linear, limit};
 use crate::syntax::{Form, Section};
 
 pub(super) const ROW: Row = Row {
@@ -50,12 +50,4 @@ fn resolve<'d>(resolver: &mut Resolver<'_, 'd, '_>, member: MemberId) -> Option<
         unit,
         span: resolver.span(member),
     })]))
-}
-
-/// Whether no derivative with respect to a velocity depends on a velocity.
-pub(crate) fn is_linear(expression: Expr<'_>) -> bool {
-    let dag = expression.dag();
-    let symbols = expression.symbols().into_iter();
-    let mut rates = symbols.filter(|&symbol| dag.stage_of(symbol) == stage::VELOCITY);
-    rates.all(|symbol| expression.diff(symbol).stage() < stage::VELOCITY)
 }

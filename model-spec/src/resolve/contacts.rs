@@ -1,9 +1,8 @@
 //! Unilateral contacts: what touches what, how it bounces and how it rubs.
 
 use super::Resolver;
-use super::value::{MemberId, limits};
+use super::value::{MemberId, is_linear, limits};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::elements::constraint::is_linear;
 use crate::model::bounds::BoundKind;
 use crate::model::{Circle, Contact, ContactGeometry, ImpactLaw, Space};
 use crate::syntax::{Expression, ExpressionKind, Record};

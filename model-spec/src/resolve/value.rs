@@ -233,3 +233,11 @@ pub(crate) fn dimension_text(space: Space) -> &'static str {
         Space::Space => "three components in space",
     }
 }
+
+/// Whether no derivative with respect to a velocity depends on a velocity.
+pub(crate) fn is_linear(expression: Expr<'_>) -> bool {
+    let dag = expression.dag();
+    let symbols = expression.symbols().into_iter();
+    let mut rates = symbols.filter(|&symbol| dag.stage_of(symbol) == stage::VELOCITY);
+    rates.all(|symbol| expression.diff(symbol).stage() < stage::VELOCITY)
+}
