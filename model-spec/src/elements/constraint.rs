@@ -1,7 +1,5 @@
 //! Bilateral constraints: equations between coordinates, or between velocities.
 
-use lagrangian_symbolic::Expr;
-
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::element::{Constraint, Contribution};
 use crate::model::stage;
