@@ -7,13 +7,19 @@
     reason = "references with all their digits"
 )]
 
-use std::f64::consts::PI;
+#[path = "../tests/support/mod.rs"]
+mod support;
+
 use std::fmt::Write;
 use std::process::ExitCode;
 
 use lagrangian::{Coordinates, METHODS, Machine, Method, Simulation, State, System, Vector};
 use lagrangian_machines::{
     AndrewsSqueezer, ClosedPendulum, Crusher9, DoublePendulum, FourBar, crusher9, double_pendulum,
+};
+use support::known_ends::{
+    CHAOTIC_AT_10, CHAOTIC_START, CRUSHER_AT_5, CRUSHER_RANGES, CRUSHER_RATES, REGULAR_AT_100,
+    REGULAR_START,
 };
 
 /// Runs of one setting; the quickest counts, for everything else on the computer only adds.
@@ -115,39 +121,16 @@ fn pendulum(
 
 fn crusher() -> Case<Crusher9> {
     let machine = Crusher9::default();
-    let v = [0.05, -0.03, 0.02, 0.0, 2.0, 1.0, 0.0, -3.0, -2.0];
     Case {
         name: "crusher, 5 s",
         start: State {
-            v: crusher9::Coordinates::from_array(v),
+            v: crusher9::Coordinates::from_array(CRUSHER_RATES),
             ..machine.start()
         },
         machine,
         until: 5.0,
-        end: vec![
-            0.06145283273805227510136737529,
-            0.4241214737780232413153200169,
-            -1.209985523340049481970345949,
-            0.1455123597444114492826119317,
-            5.967265586494525128131223913,
-            5.0,
-            0.1036735412132180923702475683,
-            -15.9766278485484829123169667,
-            -10.0,
-            -0.09462865728282268521632893372,
-            0.228207198914713414747289637,
-            -0.5249274085360239320948923577,
-            0.1100939663714541980174367722,
-            -0.2019782217149329347742263169,
-            1.0,
-            0.0059859895538211664776422265,
-            -2.701996137911471140233655696,
-            -2.0,
-        ],
-        scales: vec![
-            0.02, 0.02, 0.1, 0.03, PI, PI, 0.02, PI, PI, 0.5, 0.5, 1.0, 0.3, 5.0, 10.0, 0.3, 5.0,
-            10.0,
-        ],
+        end: CRUSHER_AT_5.to_vec(),
+        scales: CRUSHER_RANGES.to_vec(),
     }
 }
 
@@ -166,25 +149,15 @@ fn closed<M: Machine>(name: &'static str, machine: M, until: f64, end: &[f64]) -
 fn main() -> ExitCode {
     let regular = pendulum(
         "double pendulum, regular, 100 s",
-        [0.3, 0.5],
+        REGULAR_START,
         100.0,
-        [
-            0.1568362029256774608952189535,
-            0.1549800061482846913584054161,
-            0.7581220395333524674810571735,
-            0.9338915929100755708546461654,
-        ],
+        REGULAR_AT_100,
     );
     let chaotic = pendulum(
         "double pendulum, chaotic, 10 s",
-        [2.0, 2.5],
+        CHAOTIC_START,
         10.0,
-        [
-            -0.7531288742949123893982122328,
-            1.627933082053701835561554578,
-            -4.0873688513441880650215025,
-            -8.869702578387531735668069548,
-        ],
+        CHAOTIC_AT_10,
     );
     let crusher = crusher();
     let four_bar = closed(

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test and each bench uses some of it")]
 
 pub mod accuracy;
+pub mod known_ends;
 pub mod library;
 pub mod limits;
 pub mod random;

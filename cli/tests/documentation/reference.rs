@@ -59,7 +59,7 @@ fn every_section_has_an_entry_with_an_example() {
 fn shown_at(code: &str) -> String {
     match code {
         // Four megabytes would be a burden to the repository.
-        "source-too-large" => "../crates/mechanics/tests/ui.rs".to_owned(),
+        "source-too-large" => "../crates/mechanics/tests/mechanics/ui.rs".to_owned(),
         "internal-error" => "../crates/mechanics/tests/program/proved.rs".to_owned(),
         code => format!("../tests/ui/{code}.machine"),
     }

@@ -16,7 +16,7 @@ mod evaluation;
 mod generate;
 mod jet;
 mod machine;
-#[path = "../../../crates/mechanics/tests/random_machines/random.rs"]
+#[path = "../../../crates/mechanics/tests/mechanics/random_machines/random.rs"]
 mod random;
 mod rewrite;
 mod simulation;

@@ -1,0 +1,505 @@
+//! Machines whose parts collide, against closed forms and published numbers.
+
+use std::f64::consts::PI;
+
+use crate::support::{Scratch, lagrangian};
+use serde_json::Value;
+
+fn simulate(spec: &str, until: f64, settings: &[&str]) -> Value {
+    let until = format!("{until:?}");
+    let mut arguments = vec!["simulate", spec, "--until", &until, "--json"];
+    arguments.extend(["--tolerance", "1e-13"]);
+    for setting in settings {
+        arguments.extend(["--set", setting]);
+    }
+    let output = lagrangian(&arguments);
+    let text = String::from_utf8(output.stdout).expect("text");
+    let said = String::from_utf8_lossy(&output.stderr);
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}{said}"))
+}
+
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("no number: {value}"))
+}
+
+fn events<'a>(run: &'a Value, kind: &str) -> Vec<&'a Value> {
+    let all = run["contact_events"].as_array().expect("events").iter();
+    all.filter(|event| event["kind"] == kind).collect()
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, within: f64) {
+    let error = (found - expected).abs();
+    assert!(error <= within, "{found} is {error:e} off {expected}");
+}
+
+/// Without error, and with an energy balance that closes to rounding of what was turned over.
+#[track_caller]
+fn is_good(run: &Value) {
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    assert_eq!(
+        run["warnings"].as_array().map(Vec::len),
+        Some(0),
+        "{}",
+        run["warnings"]
+    );
+}
+
+/// √(2h/g) (1 + e)/(1 − e), of h = 1 m and e = 0.8; the fifth impact at √(2h/g) (1 + 2(e + … + e⁴)), and e⁵ √(2gh)
+/// after it.
+#[test]
+fn a_ball_comes_to_rest_where_its_bounces_accumulate() {
+    let run = simulate("machines/contacts/bouncing_ball.machine", 5.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    let times = |k: usize| number(&impacts[k]["t"]);
+    // A time is rounded at each of the impacts before it.
+    close(times(0), 0.451_523_640_985_730_9, 1e-15);
+    close(times(4), 2.584_160_102_089_535, 1e-14);
+    close(
+        number(&impacts[4]["gap_rate"][1]),
+        1.451_441_166_113_184_2,
+        1e-13,
+    );
+    let closes = events(&run, "closes");
+    assert_eq!(closes.len(), 1);
+    close(number(&closes[0]["t"]), 4.063_712_768_871_578, 1e-12);
+    assert!(number(&closes[0]["time_error"]) < 1e-8);
+    assert_eq!((number(&run["q"]["y"]), number(&run["v"]["y"])), (0.0, 0.0));
+    // All that it had at the height of 1 m.
+    close(number(&run["impact_loss"]), 0.1 * 9.81, 1e-12);
+    close(number(&run["energy_residual"]), 0.0, 1e-12);
+}
+
+/// A ball whose height is measured from far below bounces to the same time, as far as rounding of its place lets it be
+/// told: bounces of rounding are closed before they are noise.
+#[test]
+fn bounces_as_low_as_rounding_are_closed() {
+    let spec = Scratch::new(
+        "high.machine",
+        "machine High in plane {
+            parameters { e: 1 = 0.8, g: m/s^2 = 9.81, h: m = 1000 }
+            coordinates { y: m = h + 1 }
+            bodies { ball { mass: 1, at: (0, y) } }
+            gravity (0, -g);
+            contacts { floor { gap: y - h, restitution: e } }
+        }",
+    );
+    let run = simulate(spec.path(), 5.0, &[]);
+    is_good(&run);
+    let closes = events(&run, "closes");
+    // 1e-13 m of height are 1.4e-7 s of fall, and so much may be wrong in each of a few bounces.
+    close(number(&closes[0]["t"]), 4.063_712_768_871_578, 3e-6);
+}
+
+/// With all closed contacts in one impact: (−1/3, 2/3, 2/3) of e = 1, (0, 1/2, 1/2) of ½, (1/3, 1/3, 1/3) of 0.
+#[test]
+fn a_cradle_moves_as_moreaus_law_says() {
+    let third = 1.0 / 3.0;
+    for (e, expected) in [
+        ("1", [-third, 2.0 * third, 2.0 * third]),
+        ("0.5", [0.0, 0.5, 0.5]),
+        ("0", [third; 3]),
+    ] {
+        let run = simulate(
+            "machines/contacts/newtons_cradle.machine",
+            1.5,
+            &[&format!("e={e}")],
+        );
+        assert_eq!(run["error"], Value::Null, "{run:#}");
+        for (ball, expected) in ["a", "b", "c"].iter().zip(expected) {
+            close(number(&run["v"][ball]), expected, 1e-14);
+        }
+    }
+}
+
+/// On a spring with a stop at its middle every flight takes half a period, and each bounce leaves e of the speed.
+#[test]
+fn an_oscillator_bounces_every_half_period() {
+    let run = simulate("machines/contacts/impact_oscillator.machine", 10.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    assert_eq!(impacts.len(), 6);
+    for (k, impact) in impacts.iter().enumerate() {
+        close(number(&impact["t"]), PI / 4.0 + k as f64 * PI / 2.0, 1e-12);
+        let speed = 2.0 * 0.8_f64.powi(k as i32);
+        close(number(&impact["gap_rate"][0]), -speed, 1e-11);
+        close(
+            number(&impact["loss"]),
+            0.5 * speed * speed * (1.0 - 0.64),
+            1e-11,
+        );
+    }
+}
+
+/// Housner's block: a quarter of a period by the elliptic integral of a rigid pendulum turned over, and 1 − 3/2 sin²α
+/// of the angular velocity after each impact; twelve impacts in a row.
+#[test]
+fn a_block_rocks_as_housner_says() {
+    let run = simulate("machines/contacts/rocking_block.machine", 1.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    close(number(&impacts[0]["t"]), 0.493_803_215_078_831_9, 1e-12);
+    let after = number(&impacts[0]["v"]["theta"]).abs();
+    // ω before by energy: it falls from θ₀ to 0 about its corner, R² = b² + h².
+    let (b, h, g) = (0.25_f64, 1.0_f64, 9.81_f64);
+    let tilt = 0.122_489_331_563_432_08_f64;
+    let fall = b * tilt.sin() + h * tilt.cos() - h;
+    let inertia = (b * b + h * h) * 4.0 / 3.0;
+    let before = (2.0 * g * fall / inertia).sqrt();
+    close(after / before, 0.911_764_705_882_352_9, 1e-12);
+
+    let run = simulate("machines/contacts/rocking_block.machine", 4.0, &[]);
+    is_good(&run);
+    // By Housner's formulas the seventh is at about 3.95 s, and the eighth 0.36 s later.
+    assert_eq!(events(&run, "impact").len(), 7, "{run:#}");
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+}
+
+/// Walls that move work on the ball: the rate at which it leaves a wall is e times that at which it came, and the
+/// balance closes with the work of the walls in it.
+#[test]
+fn the_walls_of_a_shaken_box_work_on_the_ball() {
+    let run = simulate("machines/contacts/shaken_box.machine", 3.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    assert!(impacts.len() > 20);
+    for impact in impacts {
+        let [before, after] = [0, 1].map(|k| number(&impact["gap_rate"][k]));
+        close(after, -0.9 * before, 1e-13);
+    }
+    close(number(&run["energy_residual"]), 0.0, 1e-12);
+}
+
+/// The crusher's first twelve impacts without friction, recomputed elsewhere in quadruple precision: time, contact,
+/// rate of the gap and impulse.
+#[test]
+fn the_crusher_collides_as_it_does_in_quadruple_precision() {
+    #[rustfmt::skip]
+    let expected = [
+        (0.019471480922661894, "outer", -1.5365004636274473, 323.7866723895882),
+        (0.03460440805285144, "outer", -1.8092577873164208, 381.26418339933065),
+        (0.03935701266501024, "inner", -1.3957246892162274, 150.73826643535256),
+        (0.04246405269336595, "outer", -0.8220855203862831, 173.23798462895166),
+        (0.045084914799001126, "outer", -0.4446716505652894, 93.7045078528406),
+        (0.04629611117399249, "outer", -0.22928721743429137, 48.31685779983615),
+        (0.04687908566385473, "outer", -0.116231886274906, 24.493071199609386),
+        (0.04716509851575288, "outer", -0.05849615061985774, 12.326644598012823),
+        (0.04730675494231375, "outer", -0.02934112913018417, 6.182928738820974),
+        (0.047377247765092854, "outer", -0.014693584970983449, 3.096314792793467),
+        (0.047412410580191, "outer", -0.007352517620427718, 1.5493636913647977),
+        (0.04742997111934686, "outer", -0.00367768637390102, 0.774982635999659),
+    ];
+    let run = simulate(
+        "machines/contacts/colliding_crusher.machine",
+        0.05,
+        &["mu=0"],
+    );
+    is_good(&run);
+    for (impact, (t, contact, rate, impulse)) in events(&run, "impact").iter().zip(expected) {
+        assert_eq!(impact["contact"], contact);
+        close(number(&impact["t"]), t, 1e-13);
+        close(number(&impact["gap_rate"][0]), rate, 1e-11);
+        close(number(&impact["impulse"][0]), impulse, 1e-9 * impulse);
+    }
+    let closes = events(&run, "closes");
+    // Where twelve impacts point to, to the seven digits that they know of it.
+    close(number(&closes[0]["t"]), 0.04744749, 5e-8);
+}
+
+/// With friction and for as long as it takes to settle: it never penetrates by more than the tolerance, nothing is
+/// pulled, and the books close.
+#[test]
+fn the_crusher_runs_for_a_second_with_friction() {
+    let run = simulate("machines/contacts/colliding_crusher.machine", 1.0, &[]);
+    is_good(&run);
+    assert!(events(&run, "impact").len() > 50);
+    for event in events(&run, "impact") {
+        assert!(number(&event["gap_rate"][1]) >= -1e-12, "{event}");
+        let [normal, tangential] = [0, 1].map(|k| number(&event["impulse"][k]));
+        assert!(
+            normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-9),
+            "{event}"
+        );
+    }
+    // Of some 10⁴ J that are turned over.
+    close(number(&run["energy_residual"]), 0.0, 1e-6);
+}
+
+/// A block on a belt, held by a spring: the period of stick and slip in closed form, by a unilateral contact.
+#[test]
+fn a_block_on_a_belt_sticks_and_slips_in_time() {
+    let spec = Scratch::new(
+        "belt.machine",
+        "machine Belt in plane {
+            coordinates { x: m, y: m, der(x): m/s = 0.2 }
+            bodies { block { mass: 1, at: (x, y) } }
+            gravity (0, -1);
+            springs { spring { stiffness: 1, stretch: x } }
+            contacts {
+                belt { gap: y, slip: der(x) - 0.2, restitution: 0, friction: 0.5, static_friction: 1 }
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 20.0, &[]);
+    is_good(&run);
+    let (slips, sticks) = (events(&run, "slips"), events(&run, "sticks"));
+    close(number(&slips[0]["t"]), 5.0, 1e-12);
+    close(number(&slips[0]["q"]["x"]), 1.0, 1e-12);
+    let slip = number(&sticks[0]["t"]) - number(&slips[0]["t"]);
+    close(slip, 3.902_605_407_814_523, 1e-10);
+    let period = number(&slips[1]["t"]) - number(&slips[0]["t"]);
+    close(period, 8.902_605_407_814_523, 1e-10);
+    close(number(&run["energy_residual"]), 0.0, 1e-10);
+}
+
+/// A ball that slides and then rolls, on a plane with friction μ: it rolls at 5/7 of its speed for a sphere, of a disc
+/// at 2/3, after v₀/(3 μ g).
+#[test]
+fn a_disc_slides_until_it_rolls() {
+    let spec = Scratch::new(
+        "disc.machine",
+        "machine Disc in plane {
+            parameters { m: kg = 2, r: m = 0.1, mu: 1 = 0.2, g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m = r, theta: rad, der(x): m/s = 3 }
+            bodies { disc { mass: m, inertia: m*r^2/2, at: (x, y), angle: theta } }
+            gravity (0, -g);
+            circles { rim { on: disc, center: (0, 0), radius: r } }
+            contacts { floor { circle: rim, along: ground, restitution: 0.5, friction: mu } }
+        }",
+    );
+    let run = simulate(spec.path(), 2.0, &[]);
+    is_good(&run);
+    let sticks = events(&run, "sticks");
+    assert_eq!(sticks.len(), 1);
+    close(number(&sticks[0]["t"]), 3.0 / (3.0 * 0.2 * 9.81), 1e-12);
+    close(number(&run["v"]["x"]), 2.0, 1e-12);
+    close(number(&run["v"]["theta"]), -20.0, 1e-11);
+    // It stays on the floor to rounding.
+    close(number(&run["q"]["y"]), 0.1, 1e-15);
+}
+
+/// A disc that falls flat on a plane with Newton's, Poisson's and Stronge's laws: without coupling of normal and
+/// tangent they are one, and the tangential impulse is what sticks or what friction allows.
+#[test]
+fn laws_agree_where_nothing_couples_normal_and_tangent() {
+    for law in ["newton", "poisson", "poisson_glocker", "stronge"] {
+        let spec = Scratch::new(
+            "law.machine",
+            &format!(
+                "machine Law in plane {{
+                    parameters {{ m: kg = 2, r: m = 0.1, g: m/s^2 = 9.81 }}
+                    coordinates {{ x: m, y: m = r + 1, theta: rad, der(x): m/s = 30 }}
+                    bodies {{ disc {{ mass: m, inertia: m*r^2/2, at: (x, y), angle: theta }} }}
+                    gravity (0, -g);
+                    circles {{ rim {{ on: disc, center: (0, 0), radius: r }} }}
+                    contacts {{ floor {{ circle: rim, along: ground, restitution: 0.5, friction: 0.2, law: {law} }} }}
+                }}"
+            ),
+        );
+        let run = simulate(spec.path(), 0.5, &[]);
+        assert_eq!(run["error"], Value::Null, "{run:#}");
+        let impact = events(&run, "impact")[0];
+        let speed = (2.0 * 9.81_f64).sqrt();
+        close(number(&impact["impulse"][0]), 2.0 * 1.5 * speed, 1e-12);
+        close(
+            number(&impact["impulse"][1]),
+            -0.2 * 2.0 * 1.5 * speed,
+            1e-12,
+        );
+        close(number(&impact["gap_rate"][1]), 0.5 * speed, 1e-12);
+    }
+}
+
+/// A slanting rod with e = 0.9 and μ = 0.3 gains energy by Newton's law, which is told, and none by Stronge's.
+#[test]
+fn energy_that_newtons_law_creates_is_told() {
+    let rod = |law: &str, tilt: f64| {
+        Scratch::new(
+            "rod.machine",
+            &format!(
+                "machine Rod in plane {{
+                    coordinates {{ x: m, y: m = 0.01 + sin({tilt}), theta: rad = {tilt}, der(y): m/s = -1, der(x): m/s = 0.8 }}
+                    bodies {{ rod {{ mass: 1, inertia: 1/3, at: (x, y), angle: theta }} }}
+                    contacts {{
+                        tip {{ point: (-1, 0), on: rod, along: ground, restitution: 0.9, friction: 0.3, law: {law} }}
+                    }}
+                }}"
+            ),
+        )
+    };
+    let mut gained = 0;
+    for tilt in [0.3, 0.7, 0.9, 1.1] {
+        let run = simulate(rod("newton", tilt).path(), 0.05, &[]);
+        let loss = number(&run["impact_loss"]);
+        let told = run["warnings"].as_array().map_or(0, Vec::len);
+        assert_eq!(told > 0, loss < -1e-12, "{run:#}");
+        gained += told;
+        let run = simulate(rod("stronge", tilt).path(), 0.05, &[]);
+        assert!(number(&run["impact_loss"]) > 0.0, "{run:#}");
+        is_good(&run);
+    }
+    assert!(gained > 0);
+}
+
+/// Painlevé's rod ends the run with the name of its contact and the state, and runs below the friction of 4/3.
+#[test]
+fn a_rod_on_rough_ground_is_a_paradox_by_name() {
+    let run = simulate("machines/contacts/painleve_rod.machine", 0.3, &[]);
+    is_good(&run);
+    let run = simulate("machines/contacts/painleve_rod.machine", 1.0, &["mu=3"]);
+    let error = run["error"].as_str().unwrap_or_default();
+    assert!(
+        error.contains("the contact `tip`") && error.contains("Painlevé"),
+        "{run:#}"
+    );
+}
+
+/// Two corners of a box that falls flat meet at once, and a box on three feet in a line stands although nobody knows
+/// what each of them carries.
+#[test]
+fn several_contacts_meet_and_share_a_load() {
+    let spec = Scratch::new(
+        "feet.machine",
+        "machine Feet in plane {
+            parameters { e: 1 = 0, g: m/s^2 = 9.81 }
+            coordinates { x: m, y: m = 1.5, theta: rad, der(x): m/s = 1 }
+            bodies { box { mass: 3, inertia: 0.5, at: (x, y), angle: theta } }
+            gravity (0, -g);
+            contacts {
+                left   { point: (-0.5, -0.5), on: box, along: ground, restitution: e, friction: 0.3 },
+                middle { point: (0.1, -0.5), on: box, along: ground, restitution: e, friction: 0.3 },
+                right  { point: (0.5, -0.5), on: box, along: ground, restitution: e, friction: 0.3 },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 2.0, &[]);
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    let fall = (2.0 / 9.81_f64).sqrt();
+    close(number(&events(&run, "impact")[0]["t"]), fall, 1e-13);
+    close(number(&run["q"]["y"]), 0.5, 1e-12);
+    close(number(&run["q"]["theta"]), 0.0, 1e-12);
+    // Friction stops it in the impact: μ times the impulse is more than its momentum.
+    close(number(&run["q"]["x"]), fall, 1e-12);
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+}
+
+/// A ball that just touches a ceiling, and one that just does not.
+#[test]
+fn grazing_is_neither_missed_nor_doubled() {
+    for (height, impacts) in [(1.0 + 1e-9, 0), (1.0 - 1e-9, 1)] {
+        let spec = Scratch::new(
+            "graze.machine",
+            &format!(
+                "machine Graze in plane {{
+                    coordinates {{ y: m, der(y): m/s = sqrt(2*9.81) }}
+                    bodies {{ ball {{ mass: 1, at: (0, y) }} }}
+                    gravity (0, -9.81);
+                    contacts {{ ceiling {{ gap: {height:?} - y, restitution: 0.5 }} }}
+                }}"
+            ),
+        );
+        let run = simulate(spec.path(), 0.8, &[]);
+        is_good(&run);
+        assert_eq!(events(&run, "impact").len(), impacts, "{run:#}");
+    }
+}
+
+/// What starts inside of something is told, and by how a start on it is no impact.
+#[test]
+fn a_start_inside_of_something_is_an_error() {
+    let run = simulate("machines/contacts/bouncing_ball.machine", 0.1, &[]);
+    is_good(&run);
+    let spec = Scratch::new(
+        "inside.machine",
+        "machine Inside in plane {
+            coordinates { y: m = -0.1 }
+            bodies { ball { mass: 1, at: (0, y) } }
+            contacts { floor { gap: y, restitution: 0.5 } }
+        }",
+    );
+    let output = lagrangian(&["simulate", spec.path(), "--until", "1"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        !output.status.success() && said.contains("`floor`"),
+        "{said}"
+    );
+    assert!(said.contains("penetrated"), "{said}");
+}
+
+/// Random discs of random masses in a box without gravity: with e = 1 energy is kept, nothing leaves the box, and
+/// no disc goes through another.
+#[test]
+fn random_discs_in_a_box_keep_their_energy() {
+    let seed = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(1, |since| since.subsec_nanos() as u64 | 1);
+    println!("seed {seed}");
+    let mut state = seed;
+    let mut drawn = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1u64 << 53) as f64
+    };
+    for _ in 0..3 {
+        let mut coordinates = String::new();
+        let mut bodies = String::new();
+        let mut contacts = String::new();
+        let mut radii = Vec::new();
+        for k in 0..3 {
+            let radius = 0.05 + 0.1 * drawn();
+            let (x, y) = (-0.6 + 0.6 * k as f64, -0.5 + drawn());
+            let [vx, vy] = [0, 1].map(|_| 2.0 * drawn() - 1.0);
+            coordinates.push_str(&format!(
+                "x{k}: m = {x:?}, y{k}: m = {y:?}, der(x{k}): m/s = {vx:?}, der(y{k}): m/s = {vy:?},\n"
+            ));
+            let mass = 0.5 + drawn();
+            bodies.push_str(&format!("d{k} {{ mass: {mass:?}, at: (x{k}, y{k}) }},\n"));
+            for (wall, gap) in [
+                ("e", format!("1 - x{k} - {radius:?}")),
+                ("w", format!("1 + x{k} - {radius:?}")),
+                ("n", format!("1 - y{k} - {radius:?}")),
+                ("s", format!("1 + y{k} - {radius:?}")),
+            ] {
+                contacts.push_str(&format!("{wall}{k} {{ gap: {gap}, restitution: 1 }},\n"));
+            }
+            for (other, other_radius) in radii.iter().enumerate() {
+                let sum: f64 = radius + other_radius;
+                contacts.push_str(&format!(
+                    "p{k}_{other} {{ gap: sqrt((x{k} - x{other})^2 + (y{k} - y{other})^2) - {sum:?}, restitution: 1 }},\n"
+                ));
+            }
+            radii.push(radius);
+        }
+        let spec = Scratch::new(
+            "discs.machine",
+            &format!(
+                "machine Discs in plane {{
+                    coordinates {{ {coordinates} }}
+                    bodies {{ {bodies} }}
+                    contacts {{ {contacts} }}
+                }}"
+            ),
+        );
+        let run = simulate(spec.path(), 10.0, &[]);
+        assert_eq!(run["error"], Value::Null, "seed {seed}: {run:#}");
+        let impacts = events(&run, "impact");
+        assert!(!impacts.is_empty(), "seed {seed}");
+        let energy_lost = number(&run["impact_loss"]).abs();
+        // Each impact rounds an energy of about 1 J some ten times.
+        assert!(
+            energy_lost < 1e-14 * impacts.len() as f64,
+            "seed {seed}: {energy_lost}"
+        );
+        assert!(number(&run["energy_residual"]).abs() < 1e-12, "seed {seed}");
+        for (k, radius) in radii.iter().enumerate() {
+            for axis in ["x", "y"] {
+                let place = number(&run["q"][format!("{axis}{k}")]);
+                assert!(place.abs() <= 1.0 - radius + 1e-12, "seed {seed}");
+            }
+        }
+    }
+}

@@ -1,0 +1,284 @@
+//! `lagrangian library`: what a program in C gets from it is what `lagrangian evaluate` prints, alone and in lanes.
+
+use std::fs;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+/// Reads parameters and inputs, then a state, an angle among its coordinates, and one that makes it singular where it is 0, if
+/// there is one; prints the accelerations alone, and as one of four and of eight states, whose neighbours are undefined. Then
+/// every lane of states that differ is held against the state alone: all being well, and one being singular, far away, or
+/// undefined, or all before parameters are set.
+const PROGRAM: &str = r#"
+#include "libmachine.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void several(int lanes, int lane, const double *y, double t, const double *p) {
+    double all[2 * COORDINATES * 8], times[8], a[COORDINATES * 8];
+    for (int i = 0; i < 2 * COORDINATES * 8; ++i) all[i] = NAN;
+    for (int i = 0; i < 8; ++i) times[i] = 1e300;
+    for (int i = 0; i < 2 * COORDINATES; ++i) all[lanes * i + lane] = y[i];
+    times[lane] = t;
+    (lanes == 4 ? eval4 : eval8)(all, times, p, a);
+    for (int i = 0; i < COORDINATES; ++i) printf("%.17g\n", a[lanes * i + lane]);
+}
+
+enum Case { WELL, SINGULAR, FAR, UNDEFINED, CASES };
+
+/* The same bits, or both undefined. */
+static int same(double a, double b) { return isnan(a) ? isnan(b) : !memcmp(&a, &b, sizeof a); }
+
+static void each_as_alone(int lanes, int odd, enum Case what, int place, const double *y, double t, const double *p) {
+    double all[2 * COORDINATES * 8], times[8], a[COORDINATES * 8], states[8][2 * COORDINATES], alone[COORDINATES];
+    for (int lane = 0; lane < lanes; ++lane) {
+        times[lane] = t + 0.1 * lane;
+        for (int i = 0; i < 2 * COORDINATES; ++i) states[lane][i] = y[i] * (1 + 0.01 * lane);
+        if (lane == odd && what != WELL) states[lane][place] = what == SINGULAR ? 0 : what == FAR ? -1e300 : NAN;
+        for (int i = 0; i < 2 * COORDINATES; ++i) all[lanes * i + lane] = states[lane][i];
+    }
+    (lanes == 4 ? eval4 : eval8)(all, times, p, a);
+    for (int lane = 0; lane < lanes; ++lane) {
+        const int is_odd = lane == odd && what != WELL;
+        eval(states[lane], times[lane], p, alone);
+        for (int i = 0; i < COORDINATES; ++i) {
+            const double got = a[lanes * i + lane];
+            const int must_be = !is_odd || what == FAR ? isfinite(got) : what == UNDEFINED || isnan(got);
+            if (same(got, alone[i]) && must_be) continue;
+            fprintf(stderr, "case %d in lane %d of %d: lane %d, component %d is %.17g, alone %.17g\n", what, odd, lanes,
+                    lane, i, got, alone[i]);
+            exit(6);
+        }
+    }
+}
+
+int main(void) {
+    double p[PARAMETERS + INPUTS + 1], y[2 * COORDINATES], t, a[COORDINATES], all[8 * COORDINATES];
+    int places[CASES] = {0};
+    if (coordinates() != COORDINATES || parameters() != PARAMETERS || inputs() != INPUTS) return 2;
+    if (parameter_name(PARAMETERS) || parameter_name(-1) || !isnan(input_default(INPUTS))) return 3;
+    for (int i = 0; i < PARAMETERS + INPUTS; ++i)
+        if (scanf("%lf", &p[i]) != 1) return 4;
+    for (int i = 0; i < 2 * COORDINATES; ++i)
+        if (scanf("%lf", &y[i]) != 1) return 4;
+    if (scanf("%lf", &t) != 1) return 4;
+    if (scanf("%d %d", &places[FAR], &places[SINGULAR]) != 2) return 4;
+    places[UNDEFINED] = places[FAR];
+    eval(y, t, p, a);
+    for (int i = 0; i < COORDINATES; ++i)
+        if (!isnan(a[i])) return 5; /* nothing is set up */
+    double none[2 * COORDINATES * 8] = {0};
+    eval8(none, none, p, all);
+    for (int i = 0; i < COORDINATES * 8; ++i)
+        if (!isnan(all[i])) return 5;
+    eval_setup(p);
+    eval(y, t, p, a);
+    for (int i = 0; i < COORDINATES; ++i) printf("%.17g\n", a[i]);
+    several(4, 2, y, t, p);
+    several(8, 5, y, t, p);
+    for (int what = WELL; what < CASES; ++what)
+        for (int lanes = 4; lanes <= 8 && places[what] >= 0; lanes *= 2)
+            for (int odd = 0; odd < lanes; ++odd) each_as_alone(lanes, odd, what, places[what], y, t, p);
+    return 0;
+}
+"#;
+
+/// A folder that goes when the test is done.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Folder {
+        let path = std::env::temp_dir().join(format!("lagrangian-{}-{name}", std::process::id()));
+        fs::create_dir_all(&path).expect("a temporary folder");
+        Folder(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0); // a folder that stays does no harm
+    }
+}
+
+fn machine(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../machines/{name}.machine"))
+}
+
+fn lagrangian(arguments: &[&str], folder: &Folder) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+    command.args(arguments).current_dir(&folder.0);
+    command
+}
+
+/// What a command prints when it is given a text.
+fn answer(mut command: Command, text: &str) -> String {
+    let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = pipes.spawn().expect("the command runs");
+    let mut input = child.stdin.take().expect("a pipe");
+    input.write_all(text.as_bytes()).expect("a reader");
+    drop(input);
+    let output = child.wait_with_output().expect("the command ends");
+    assert!(output.status.success(), "{command:?}: {}", output.status);
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// Calls the library of a machine, its parameters a little off their defaults, and holds it against the interpreter.
+///
+/// `angle` is the number of a coordinate whose sine is taken, `distance` of one whose vanishing makes the mass matrix singular.
+fn check(name: &str, constants: &[&str], angle: usize, distance: Option<usize>) {
+    let folder = Folder::new(name);
+    let spec = machine(name);
+    let spec = spec.to_str().expect("a path in UTF-8");
+    let arguments = [
+        "library",
+        spec,
+        "--out",
+        "libmachine.so",
+        "--lanes",
+        "4,8",
+        "--json",
+    ];
+    let arguments = [&arguments, constants].concat();
+    let made: Value =
+        serde_json::from_str(&answer(lagrangian(&arguments, &folder), "")).expect("JSON");
+    let names = |list: &str| -> Vec<String> {
+        let names = made[list].as_array().expect("a list").iter();
+        names
+            .map(|name| name.as_str().expect("a name").to_owned())
+            .collect()
+    };
+    let (coordinates, parameters, inputs) =
+        (names("coordinates"), names("parameters"), names("inputs"));
+    fs::write(folder.0.join("program.c"), PROGRAM).expect("a temporary file");
+    let mut cc = Command::new("cc");
+    cc.args([
+        "program.c",
+        "-o",
+        "program",
+        "-L.",
+        "-lmachine",
+        "-Wl,-rpath,.",
+        "-lm",
+    ]);
+    answer(
+        {
+            cc.current_dir(&folder.0);
+            cc
+        },
+        "",
+    );
+
+    let number = |k: usize| ((k * 37 + 11) % 101) as f64 / 101.0; // in no pattern, in [0, 1)
+    let p: Vec<f64> = (0..parameters.len() + inputs.len())
+        .map(|k| 1.0 + number(k))
+        .collect();
+    let y: Vec<f64> = (0..2 * coordinates.len())
+        .map(|k| 0.5 + number(k + 50))
+        .collect();
+    let t = 0.75;
+    let (named, set) = p.split_at(parameters.len());
+    let map = |names: &[String], values: &[f64]| -> Value {
+        names
+            .iter()
+            .cloned()
+            .zip(values.iter().map(|x| json!(x)))
+            .collect::<serde_json::Map<_, _>>()
+            .into()
+    };
+    let (q, v) = y.split_at(coordinates.len());
+    let point = json!([{"t": t, "q": q, "v": v, "parameters": map(&parameters, named), "inputs": map(&inputs, set)}]);
+    let expected = answer(
+        lagrangian(
+            &[&["evaluate", spec, "--at", "-"], constants].concat(),
+            &folder,
+        ),
+        &point.to_string(),
+    );
+    let expected: Value = serde_json::from_str(&expected).expect("JSON");
+    let expected: Vec<f64> = expected[0]["accelerations"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|a| a.as_f64().expect("a number"))
+        .collect();
+
+    let given: Vec<String> = p
+        .iter()
+        .chain(&y)
+        .chain([&t])
+        .map(|x| format!("{x:e}"))
+        .chain([angle.to_string()])
+        .chain([distance.map_or("-1".to_owned(), |place| place.to_string())])
+        .collect();
+    let program = Command::new(folder.0.join("program"));
+    let printed = answer(
+        {
+            let mut program = program;
+            program.current_dir(&folder.0);
+            program
+        },
+        &given.join(" "),
+    );
+    let printed: Vec<f64> = printed
+        .lines()
+        .map(|line| line.parse().expect("a number"))
+        .collect();
+    let n = coordinates.len();
+    assert_eq!(printed.len(), 3 * n);
+    let greatest = expected.iter().fold(0.0, |most, a: &f64| a.abs().max(most));
+    for (i, (ours, expected)) in printed[..n].iter().zip(&expected).enumerate() {
+        // Both are stable; they differ by the rounding of at most 2000 operations in which the condition of these mass
+        // matrices, below 1e3, may show. Written with loops, it is the same operations in the same arithmetic.
+        let limit = match constants {
+            [] => 2000.0 * 1e3 * f64::EPSILON * greatest,
+            _ => 0.0,
+        };
+        assert!(
+            (ours - expected).abs() <= limit,
+            "{name} {i}: {ours} for {expected}"
+        );
+    }
+    assert_eq!(printed[n..2 * n], printed[..n], "{name}: one of four");
+    assert_eq!(printed[2 * n..], printed[..n], "{name}: one of eight");
+}
+
+#[test]
+fn a_driven_machine_is_what_the_interpreter_says() {
+    check("crusher9", &[], 4, Some(3));
+}
+
+/// So long that the repeated links are loops.
+#[test]
+fn a_chain_of_128_links_has_the_bits_of_the_straight_program() {
+    check("chain", &["--const", "N=128"], 0, None);
+}
+
+#[test]
+fn motors_of_an_arm_are_read_behind_its_parameters() {
+    check("six_joint_arm", &[], 1, None);
+}
+
+#[test]
+fn machines_that_constraints_close_accelerate_as_these_allow() {
+    check("closed_pendulum", &[], 1, None);
+    check("rolling_coin", &[], 1, None);
+}
+
+#[test]
+fn who_has_no_rustc_is_told() {
+    let folder = Folder::new("no-rustc");
+    let spec = machine("simple_pendulum");
+    let spec = spec.to_str().expect("a path in UTF-8");
+    let mut command = lagrangian(&["library", spec, "--out", "libmachine.so"], &folder);
+    let output = command
+        .env("RUSTC", "./no-such-rustc")
+        .output()
+        .expect("the command runs");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert!(said.contains("cannot run ./no-such-rustc"), "{said}");
+}

@@ -1,0 +1,13 @@
+//! The command line as a user calls it.
+
+mod brachistochrone;
+mod browser;
+mod collisions;
+mod command_line;
+mod constraints;
+mod contacts;
+mod library;
+mod modes;
+mod report;
+#[path = "../support/mod.rs"]
+mod support;

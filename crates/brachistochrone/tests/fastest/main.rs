@@ -1,0 +1,4 @@
+//! Fastest motions: the closed form, and the search without one.
+
+mod closed_form;
+mod direct;

@@ -1,0 +1,5 @@
+//! Emitted code: C against the interpreter, loops, and what is skipped.
+
+mod c;
+mod loops;
+mod skipping;

@@ -1,0 +1,7 @@
+//! Numbers: double-double, dual numbers, intervals.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod double_double;
+mod dual;
+mod interval;

@@ -1,0 +1,4 @@
+//! The language: its syntax, and what is resolved.
+
+mod resolve;
+mod syntax;

@@ -1,0 +1,154 @@
+//! Steps allocate nothing, and runs only what they keep.
+#![cfg(feature = "std")]
+
+use crate::by_hand::constrained::{Constrained, circle, parallelogram};
+use crate::by_hand::double_pendulum::DoublePendulum;
+use crate::by_hand::toy::oscillator;
+use lagrangian::{
+    DefaultInputs, EnergyIntegrals, InputFunction, METHODS, Machine, NoBalance, Simulation,
+    Stepper, System, Tolerance,
+};
+
+fn allocations(of: impl FnOnce()) -> u64 {
+    allocation_counter::measure(of).count_total
+}
+
+#[test]
+fn a_whole_run_of_the_core_allocates_nothing() {
+    let machine = DoublePendulum::default();
+    let start = machine.start();
+    for method in &METHODS {
+        let count = allocations(|| {
+            let system = machine.prepare();
+            let tolerance = Tolerance {
+                relative: 1e-8,
+                absolute: [1e-8; 2],
+            };
+            let start = (0.0, system.to_vector(&start.q), system.to_vector(&start.v));
+            let mut stepper = Stepper::new(
+                &system,
+                DefaultInputs,
+                NoBalance,
+                method,
+                tolerance,
+                start,
+                5.0,
+            )
+            .unwrap();
+            while !stepper.is_done() {
+                stepper.step().unwrap();
+                let piece = stepper.interpolant().unwrap();
+                assert!(piece.state_at(0.5).0[0].is_finite());
+            }
+            assert!(stepper.work().steps > 20);
+        });
+        // An implicit method has room for its matrices, made once: a run of any length takes as much.
+        let most = if method.tableau.spectrum.is_some() {
+            ROOM_OF_IMPLICIT
+        } else {
+            0
+        };
+        assert!(count <= most, "{}: {count}", method.tableau.name);
+    }
+}
+
+/// Vectors and matrices of an implicit method: those of its derivatives (8), of both factorizations (4)
+/// and of its stages (10), in one box.
+const ROOM_OF_IMPLICIT: u64 = 9 + 4 + 10 + 1;
+
+#[test]
+fn inputs_and_a_balance_of_energy_allocate_nothing() {
+    let machine = DoublePendulum::default();
+    let system = machine.prepare();
+    let count = allocations(|| {
+        let law = InputFunction(
+            |t: f64,
+             _: &crate::by_hand::double_pendulum::DoublePendulumCoordinates,
+             v: &crate::by_hand::double_pendulum::DoublePendulumCoordinates,
+             u: &mut crate::by_hand::double_pendulum::DoublePendulumInputs| {
+                u.torque = t.sin() - v.theta1;
+            },
+        );
+        let tolerance = Tolerance {
+            relative: 1e-8,
+            absolute: [1e-8; 2],
+        };
+        let start = (0.0, [0.1, 0.2], [0.0, 0.0]);
+        let balance = EnergyIntegrals::default();
+        let mut stepper =
+            Stepper::new(&system, law, balance, &METHODS[0], tolerance, start, 5.0).unwrap();
+        while !stepper.is_done() {
+            stepper.step().unwrap();
+        }
+        assert!(stepper.quadratures().work() != 0.0);
+    });
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn a_longer_run_that_keeps_nothing_allocates_no_more() {
+    let oscillator = oscillator();
+    for method in &METHODS {
+        let [short, long] = [10.0, 1000.0].map(|until| {
+            allocations(|| {
+                let run = Simulation::new(&oscillator)
+                    .method(method)
+                    .tolerance(1e-7)
+                    .forget_steps()
+                    .until(until)
+                    .run(oscillator.start())
+                    .unwrap();
+                assert!(run.statistics().steps > 10);
+            })
+        });
+        assert_eq!(short, long, "{}", method.tableau.name);
+    }
+}
+
+#[test]
+fn what_is_kept_of_a_run_grows_by_doubling() {
+    let oscillator = oscillator();
+    let count = allocations(|| {
+        let run = Simulation::new(&oscillator)
+            .until(1000.0)
+            .run(oscillator.start())
+            .unwrap();
+        assert!(run.statistics().steps > 1000);
+    });
+    assert!(count < 64, "{count}");
+}
+
+#[test]
+fn constraints_are_kept_without_allocating() {
+    fn count<const N: usize, const M: usize, const NN: usize>(
+        machine: Constrained<N, M, NN>,
+    ) -> u64 {
+        allocations(|| {
+            let tolerance = Tolerance {
+                relative: 1e-8,
+                absolute: [1e-8; N],
+            };
+            let (q, v) = machine.start;
+            let mut stepper = Stepper::new(
+                &machine,
+                DefaultInputs,
+                NoBalance,
+                &METHODS[0],
+                tolerance,
+                (0.0, q, v),
+                5.0,
+            )
+            .unwrap();
+            while !stepper.is_done() {
+                stepper.step().unwrap();
+                let (mut q, mut v) = stepper.interpolant().unwrap().state_at(0.5);
+                let t = 0.5 * (stepper.t_before() + stepper.t());
+                stepper.project(t, &mut q, &mut v).unwrap();
+            }
+            assert!(stepper.work().steps > 20);
+        })
+    }
+    assert_eq!(count(circle::<1>()), 0);
+    assert_eq!(count(circle::<3>()), 0);
+    assert_eq!(count(parallelogram(1.0)), 0);
+}
