@@ -4,11 +4,7 @@ use std::fmt::Display;
 
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::source::Sources;
-use serde_json::{Map, Value, json};
-
-use crate::diagnostics;
-use crate::interrupt;
-use crate::output;
+use serde_json::{Map, Value};
 
 /// Why a command did not do what it was asked.
 #[derive(Debug)]
@@ -42,41 +38,5 @@ impl Failure {
             Failure::Spec(_) => "the spec is wrong".to_owned(),
             Failure::Said | Failure::Interrupted => String::new(),
         }
-    }
-
-    /// Says why: for a reader on standard error, for a program on standard output. Returns the exit status.
-    pub fn report(self, json: bool) -> u8 {
-        let mut fields = Map::new();
-        let (status, message) = match self {
-            Failure::Said => return 1,
-            Failure::Interrupted => return interrupt::STATUS,
-            Failure::Spec(wrong) => {
-                let (report, sources) = *wrong;
-                if json {
-                    let entries = diagnostics::entries(&report, &sources);
-                    output::line(format_args!(
-                        "{:#}",
-                        json!({ "error": "the spec is wrong", "diagnostics": entries })
-                    ));
-                }
-                diagnostics::print(&report, &sources);
-                return 1;
-            }
-            Failure::Run(message) => (1, message),
-            Failure::Detailed(message, further) => {
-                fields = further;
-                (1, message)
-            }
-            Failure::Call(message) => (2, message),
-        };
-        if json {
-            let mut document = json!({ "error": message });
-            if let Some(document) = document.as_object_mut() {
-                document.extend(fields);
-            }
-            output::line(format_args!("{document:#}"));
-        }
-        output::complain(format_args!("error: {message}"));
-        status
     }
 }

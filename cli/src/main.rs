@@ -11,6 +11,7 @@ mod contacts;
 mod derive;
 mod diagnostics;
 mod evaluate;
+mod exit;
 mod failure;
 mod interrupt;
 mod library;

@@ -6,13 +6,12 @@ use lagrangian_native::Lanes;
 use lagrangian_program::{Arguments, Function};
 use memmap2::{Mmap, MmapMut};
 
+use super::arguments::SeveralArguments;
 pub use super::emit::Layout;
-use super::emit::{Assembled, assemble};
+use super::emit::{Assembled, HEADER, assemble};
 use super::lower::{Arithmetic, Base, Lowered};
-use super::{SeveralArguments, Unavailable, Work};
-
-/// The bytes in front of the room for values: addresses of arguments.
-pub const HEADER: usize = 128;
+use super::unavailable::Unavailable;
+use super::work::Work;
 
 /// What code is called as: time, coordinates, velocities, inputs, prepared values, the room. A bit for each lane: whether
 /// its guards hold.

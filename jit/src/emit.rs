@@ -10,11 +10,14 @@
 use iced_x86::{Code, Encoder, IcedError, Instruction as Encoded, MemoryOperand, Register};
 use lagrangian_program::Contracted;
 
-use super::code::HEADER;
+use super::Level;
 use super::encodings::{Encodings, encodings};
 use super::external;
 use super::lower::{Arithmetic, Base, Id, Instruction, Lowered, Node, Place, Predicate};
-use super::{Level, Work};
+use super::work::Work;
+
+/// The bytes in front of the room for values: addresses of arguments.
+pub const HEADER: usize = 128;
 
 /// For how many states at once code is, and how their numbers lie in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -26,6 +26,7 @@
 //! A call of bytes that were just written cannot be anything else. It is in `code.rs`, and in `external.rs`, which that
 //! code calls back.
 
+mod arguments;
 #[cfg(target_arch = "x86_64")]
 mod code;
 #[cfg(target_arch = "x86_64")]
@@ -41,15 +42,18 @@ mod lower;
 mod nowhere;
 mod running;
 mod several;
+mod unavailable;
 mod work;
 
 #[cfg(not(target_arch = "x86_64"))]
 use nowhere as code;
 
+pub use arguments::SeveralArguments;
 pub use code::{Code, Layout, Room};
-pub use library::{Library, Unavailable};
+pub use library::Library;
 pub use running::{Running, When};
-pub use several::{Several, SeveralArguments};
+pub use several::Several;
+pub use unavailable::Unavailable;
 pub use work::Work;
 
 use lagrangian_native::Number;

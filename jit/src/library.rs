@@ -1,41 +1,13 @@
 //! The functions of a program, each compiled when it is first asked for.
 
-use std::fmt;
-use std::io;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use lagrangian_program::{Function, Program, Role};
 
 use super::code::{Code, Layout};
+use super::unavailable::Unavailable;
 use super::{Level, work};
-
-/// Why there is no machine code.
-#[derive(Debug)]
-pub enum Unavailable {
-    /// The processor is none that code is made for, or the build wants the same bits everywhere.
-    Processor,
-    /// The system gives no pages that may be executable.
-    Pages(io::Error),
-    /// An instruction has no encoding: a mistake in this crate.
-    Encoding(String),
-}
-
-impl fmt::Display for Unavailable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unavailable::Processor => f.write_str(
-                "machine code is made for x86-64 with AVX2 and FMA, in builds without strict-libm",
-            ),
-            Unavailable::Pages(error) => {
-                write!(f, "the system gives no pages for machine code: {error}")
-            }
-            Unavailable::Encoding(error) => write!(f, "an instruction has no encoding: {error}"),
-        }
-    }
-}
-
-impl std::error::Error for Unavailable {}
 
 /// A program's functions as machine code, for one state or several at once. It is shared by all who run it.
 #[derive(Debug)]

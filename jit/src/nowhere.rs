@@ -6,7 +6,10 @@ use std::marker::PhantomData;
 use lagrangian_native::Lanes;
 use lagrangian_program::{Arguments, Function};
 
-use super::{Level, SeveralArguments, Unavailable, Work};
+use super::Level;
+use super::arguments::SeveralArguments;
+use super::unavailable::Unavailable;
+use super::work::Work;
 
 /// A function as machine code: there is none.
 #[derive(Debug)]

@@ -6,6 +6,7 @@ use lagrangian_native::Lanes;
 use lagrangian_program::{Interpreter, Role};
 
 use super::Library;
+use super::arguments::SeveralArguments;
 use super::code::{Results, Room, Rows};
 
 /// A machine in N lanes, 4 or 8, run by machine code.
@@ -23,21 +24,6 @@ pub struct Several<const N: usize> {
     room: Room,
     /// The function of the last call.
     last: usize,
-}
-
-/// The arguments of a call, those of N states side by side. What a function does not read may be empty.
-#[derive(Clone, Copy, Debug)]
-pub struct SeveralArguments<'a, const N: usize> {
-    /// The times.
-    pub t: Lanes<N>,
-    /// Coordinates.
-    pub q: &'a [Lanes<N>],
-    /// Velocities.
-    pub v: &'a [Lanes<N>],
-    /// Inputs.
-    pub u: &'a [Lanes<N>],
-    /// Accelerations.
-    pub a: &'a [Lanes<N>],
 }
 
 impl<const N: usize> Several<N> {

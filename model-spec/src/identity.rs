@@ -14,10 +14,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use lagrangian_scalar::{Residue, Scalar};
 use lagrangian_symbolic::{
-    Dag, Expr, Function, Node, Symbol, evaluate, evaluation_work, reachable, reverse, substitute,
+    Dag, Expr, Function, Node, Stage, Symbol, evaluate, evaluation_work, reachable, reverse,
+    substitute,
 };
-
-use crate::model::stage;
 
 /// How many points have to agree.
 const POINTS: usize = 3;
@@ -196,7 +195,7 @@ pub fn is_combination<'d>(dag: &'d Dag, rows: &[Vec<Expr<'d>>]) -> bool {
 pub fn as_function_of_parameters(expression: Expr<'_>) -> Option<Expr<'_>> {
     let mut settled = [expression];
     settle(expression.dag(), &mut settled);
-    (settled[0].stage() <= stage::PARAMETER && !settled[0].is_undefined()).then_some(settled[0])
+    (settled[0].stage() <= Stage::PARAMETER && !settled[0].is_undefined()).then_some(settled[0])
 }
 
 /// The symbols among `candidates` that stand in the expressions although none depends on them.
@@ -275,7 +274,7 @@ pub fn settle<'d>(dag: &'d Dag, expressions: &mut [Expr<'d>]) {
     for (expression, constant) in expressions.iter_mut().zip(constants) {
         if let Some(value) = constant {
             let symbols = expression.symbols().into_iter();
-            let varying = symbols.filter(|&symbol| dag.stage_of(symbol) > stage::PARAMETER);
+            let varying = symbols.filter(|&symbol| dag.stage_of(symbol) > Stage::PARAMETER);
             let zeros: Vec<_> = varying.map(|symbol| (symbol, dag.zero())).collect();
             let settled = substitute(dag, &[*expression], &zeros);
             if value == Residue::ZERO && is_zero(*expression) == Some(true) {
@@ -328,7 +327,7 @@ fn varying(dag: &Dag, expressions: &[Expr<'_>]) -> Vec<bool> {
     const CLEAR: f64 = 1e-6;
     let at = |point: u32| {
         evaluate(dag, expressions, |symbol| {
-            let fixed = dag.stage_of(symbol) <= stage::PARAMETER;
+            let fixed = dag.stage_of(symbol) <= Stage::PARAMETER;
             number(if fixed { 0 } else { point }, symbol)
         })
     };
@@ -368,7 +367,7 @@ pub fn random(seed: u64, symbol: Symbol) -> Residue {
 
 /// Parameters always the same, everything else new at every point.
 fn varied(dag: &Dag, seed: u64, symbol: Symbol) -> Residue {
-    let seed = if dag.stage_of(symbol) > stage::PARAMETER {
+    let seed = if dag.stage_of(symbol) > Stage::PARAMETER {
         seed
     } else {
         u64::MAX

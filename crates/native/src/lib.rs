@@ -36,6 +36,8 @@
 
 #![cfg_attr(not(feature = "std"), no_std)]
 
+#[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
+mod circular;
 mod lanes;
 #[cfg(not(all(target_arch = "aarch64", feature = "std", not(feature = "strict-libm"))))]
 mod plain;
@@ -80,7 +82,7 @@ use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};
 /// assert_eq!(one_more.store(), f64::EPSILON * f64::EPSILON); // what a rounded square has lost
 /// ```
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
-pub type Fused = register::Register<f64>;
+pub type Fused = vector::Register<f64>;
 
 /// A number that machines are evaluated on, and the arithmetic that is used for it.
 pub trait Number: Copy {
@@ -154,7 +156,7 @@ macro_rules! fastest {
                     feature = "std",
                     not(feature = "strict-libm")
                 ))]
-                return kernel.run::<register::Register<$fused>>();
+                return kernel.run::<vector::Register<$fused>>();
                 #[cfg(not(all(
                     target_arch = "aarch64",
                     feature = "std",

@@ -4,13 +4,9 @@
 use core::fmt;
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::vector::Vector;
+use crate::circular::Sines;
+use crate::vector::{Register, Vector};
 use crate::{Piece, Scalar};
-
-/// One number or several in a register, with fused multiply-add.
-#[derive(Clone, Copy)]
-#[repr(transparent)]
-pub struct Register<V>(pub(crate) V);
 
 impl<V: Vector> fmt::Debug for Register<V> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -65,7 +61,7 @@ macro_rules! each {
     };
 }
 
-impl<V: Vector> Scalar for Register<V> {
+impl<V: Sines> Scalar for Register<V> {
     type Stored = V::Stored;
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use lagrangian_scalar::{DoubleDouble, Kernel, Scalar};
 
-use crate::register::Register;
+use crate::vector::Register;
 use crate::x86::{self, Eight, Four, FourOfMany, Native, One, TwiceFour, Two};
 use crate::{Fused, Lanes, Number, sincos};
 

@@ -3,12 +3,12 @@
 
 use core::fmt::Debug;
 
-use crate::register::Register;
-use crate::sincos::{MOST, is_near, sin_cos_near};
 use crate::{Lanes, Piece, Scalar};
 
-/// Sines and cosines of several angles.
-pub type Circular<V, const K: usize> = [(Register<V>, Register<V>); K];
+/// One number or several in a register, with fused multiply-add.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub struct Register<V>(pub(crate) V);
 
 /// Numbers that a processor works on at once: 1, 2, 4 or 8 of them.
 ///
@@ -80,73 +80,11 @@ pub trait Vector: Copy {
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
     /// A function of every number and its counterpart by itself.
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
-    /// Sine and cosine by the scalar library of those angles that are above
-    /// [`MOST`](crate::sincos::MOST) or undefined; the others keep the given ones.
-    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self);
-
-    /// Sines and cosines of several angles.
-    #[inline(always)]
-    fn sin_cos_all<const K: usize>(angles: [Register<Self>; K]) -> Circular<Self, K> {
-        // One question for all of them: between questions a compiler moves nothing.
-        let (mut all, are_near) = Self::sin_cos_all_near(angles);
-        if !are_near {
-            for (pair, angle) in all.iter_mut().zip(angles) {
-                let (sin, cos) = Self::sin_cos_beyond(angle.0, pair.0.0, pair.1.0);
-                *pair = (Register(sin), Register(cos));
-            }
-        }
-        all
-    }
-    /// The same, unless an angle is above [`MOST`](crate::sincos::MOST) or undefined, and whether
-    /// none is.
-    #[inline(always)]
-    fn sin_cos_all_near<const K: usize>(angles: [Register<Self>; K]) -> (Circular<Self, K>, bool) {
-        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but
-        // the oldest.
-        let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
-        let Some(first) = angles.first() else {
-            return (all, true);
-        };
-        let mut are_near = is_near(first.0);
-        for (pair, angle) in all.iter_mut().zip(angles) {
-            let (sin, cos) = sin_cos_near(angle.0);
-            *pair = (Register(sin), Register(cos));
-            are_near = Self::both(are_near, is_near(angle.0));
-        }
-        (all, Self::all(are_near))
-    }
-
     /// The first number.
     fn first(self) -> f64;
 
     /// Runs a piece of a long function as a function that may use what this type stands for.
     fn call<P: Piece>(piece: P) -> P::Output;
-}
-
-/// [`Vector::sin_cos_beyond`] of one number.
-#[cold]
-#[inline(never)]
-pub fn sin_cos_beyond(angle: f64, sin: f64, cos: f64) -> (f64, f64) {
-    // Not a `>`, as an undefined angle is beyond too.
-    if angle.abs() <= MOST {
-        (sin, cos)
-    } else {
-        Scalar::sin_cos(angle)
-    }
-}
-
-/// [`Vector::sin_cos_beyond`] of several.
-#[cold]
-#[inline(never)]
-pub fn sin_cos_beyond_each<const N: usize>(
-    angles: Lanes<N>,
-    mut sin: Lanes<N>,
-    mut cos: Lanes<N>,
-) -> (Lanes<N>, Lanes<N>) {
-    for lane in 0..N {
-        (sin[lane], cos[lane]) = sin_cos_beyond(angles[lane], sin[lane], cos[lane]);
-    }
-    (sin, cos)
 }
 
 /// `a·b + c`, rounded once.
@@ -262,10 +200,6 @@ impl Vector for f64 {
         f(self, other)
     }
     #[inline(always)]
-    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
-        sin_cos_beyond(angle, sin, cos)
-    }
-    #[inline(always)]
     fn first(self) -> f64 {
         self
     }
@@ -371,11 +305,6 @@ impl<const N: usize> Vector for [f64; N] {
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         each(|i| f(self[i], other[i]))
-    }
-    #[inline(always)]
-    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
-        let (sin, cos) = sin_cos_beyond_each(Lanes(angle), Lanes(sin), Lanes(cos));
-        (sin.0, cos.0)
     }
     #[inline(always)]
     fn first(self) -> f64 {

@@ -7,13 +7,13 @@
 use core::arch::x86_64::*;
 use core::marker::PhantomData;
 
-use crate::register::Register;
+use crate::circular::{Circular, Sines, sin_cos_beyond_each};
 use crate::sincos::{is_near, sin_cos_near};
-use crate::vector::{Circular, Vector, sin_cos_beyond_each};
+use crate::vector::{Register, Vector};
 use crate::{Kernel, Lanes, Piece};
 
 /// A type of this module, and whether the processor has it.
-pub trait Native: Vector {
+pub trait Native: Sines {
     /// Whether the instructions are there. Asked of the processor once, and known to the compiler
     /// if it was told.
     fn is_here() -> bool;
@@ -32,7 +32,7 @@ pub fn run<V: Native, K: Kernel<V::Stored>>(kernel: K) -> Result<K::Output, K> {
 /// A kernel as one piece.
 struct Whole<V, K>(K, PhantomData<V>);
 
-impl<V: Vector, K: Kernel<V::Stored>> Piece for Whole<V, K> {
+impl<V: Sines, K: Kernel<V::Stored>> Piece for Whole<V, K> {
     type Output = K::Output;
 
     #[inline(always)]
@@ -164,6 +164,9 @@ macro_rules! register {
                 let (a, b) = (self.store(), other.store());
                 Self::load(Lanes(core::array::from_fn(|i| f(a[i], b[i]))))
             }
+        }
+
+        impl Sines for $name {
             #[inline(always)]
             fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
                 let (sin, cos) = sin_cos_beyond_each(angle.store(), sin.store(), cos.store());
@@ -353,12 +356,6 @@ impl Vector for TwiceFour {
         TwiceFour(self.0.zip(other.0, &f), self.1.zip(other.1, &f))
     }
     #[inline(always)]
-    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
-        let first = Four::sin_cos_beyond(angle.0, sin.0, cos.0);
-        let second = Four::sin_cos_beyond(angle.1, sin.1, cos.1);
-        (TwiceFour(first.0, second.0), TwiceFour(first.1, second.1))
-    }
-    #[inline(always)]
     fn first(self) -> f64 {
         self.0.first()
     }
@@ -460,8 +457,28 @@ impl Vector for One {
         One(f(self.0, other.0))
     }
     #[inline(always)]
+    fn first(self) -> f64 {
+        self.0
+    }
+    #[inline(always)]
+    fn call<P: Piece>(piece: P) -> P::Output {
+        Four::call(piece)
+    }
+}
+
+impl Sines for TwiceFour {
+    #[inline(always)]
     fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
-        let (sin, cos) = Vector::sin_cos_beyond(angle.0, sin.0, cos.0);
+        let first = Four::sin_cos_beyond(angle.0, sin.0, cos.0);
+        let second = Four::sin_cos_beyond(angle.1, sin.1, cos.1);
+        (TwiceFour(first.0, second.0), TwiceFour(first.1, second.1))
+    }
+}
+
+impl Sines for One {
+    #[inline(always)]
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let (sin, cos) = Sines::sin_cos_beyond(angle.0, sin.0, cos.0);
         (One(sin), One(cos))
     }
     #[inline(always)]
@@ -489,19 +506,11 @@ impl Vector for One {
     fn sin_cos_all_near<const K: usize>(angles: [Register<One>; K]) -> (Circular<One, K>, bool) {
         (Self::sin_cos_all(angles), true)
     }
-    #[inline(always)]
-    fn first(self) -> f64 {
-        self.0
-    }
-    #[inline(always)]
-    fn call<P: Piece>(piece: P) -> P::Output {
-        Four::call(piece)
-    }
 }
 
 /// Sine and cosine of all numbers of a register.
 #[inline(always)]
-fn sin_cos<V: Vector>(x: V) -> (V, V) {
+fn sin_cos<V: Sines>(x: V) -> (V, V) {
     let (sin, cos) = sin_cos_near(x);
     if V::all(is_near(x)) {
         (sin, cos)

@@ -103,21 +103,6 @@ fn work(op: &Op) -> u64 {
     }
 }
 
-/// How long after its operands the value of an operation is known.
-pub fn latency(op: &Op) -> u64 {
-    use symbolic::Function::{Abs, Max, Min, Sign, Sqrt};
-    match op {
-        Op::Constant(_) | Op::Pi | Op::Read(_) => 0,
-        Op::Add(..) | Op::Sub(..) | Op::Neg(_) | Op::Mul(..) => 40,
-        Op::Unary(Abs | Sign, _) | Op::Binary(Min | Max, ..) => 40,
-        Op::ProductError(..) => 40,
-        Op::SumError(..) => 160,
-        Op::Div(..) => 130,
-        Op::Unary(Sqrt, _) => 180,
-        Op::Sin(_) | Op::Cos(_) | Op::Unary(..) | Op::Binary(..) => 450,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::{Role, Shape, Source, Value};

@@ -4,7 +4,7 @@
 //! `a·b ± c` is one operation with one rounding. Whether it is done is the emitter's choice, which
 //! products it is done to is said here once, for the emitters and for the [cost](super::Cost).
 
-use super::cost::latency;
+use super::latency::latency;
 use super::{Function, Op, Value};
 
 /// An operand of an addition or a subtraction.

@@ -37,6 +37,7 @@ pub mod formula;
 mod fusion;
 pub mod graph;
 mod interpret;
+mod latency;
 mod listing;
 mod mutate;
 pub mod net;
@@ -61,7 +62,6 @@ pub use quantity::Role;
 pub use repeats::{Kind, Operand, Repeat, Step, Steps, early_angles};
 pub use rounding::Rounding;
 pub use schedule::LONGEST_SCHEDULED;
-pub use schedule::with_operands;
 
 /// A machine as straight-line arithmetic.
 #[derive(Clone, Debug, PartialEq)]
@@ -341,6 +341,25 @@ impl Op {
             | Op::Binary(_, a, b) => (Some(a), Some(b)),
         };
         a.into_iter().chain(b)
+    }
+
+    /// This operation on other operands: each is what `moved` makes of it.
+    #[must_use]
+    pub fn with_operands(&self, mut moved: impl FnMut(Value) -> Value) -> Op {
+        match *self {
+            Op::Constant(_) | Op::Pi | Op::Read(_) => self.clone(),
+            Op::Add(a, b) => Op::Add(moved(a), moved(b)),
+            Op::Sub(a, b) => Op::Sub(moved(a), moved(b)),
+            Op::Mul(a, b) => Op::Mul(moved(a), moved(b)),
+            Op::Div(a, b) => Op::Div(moved(a), moved(b)),
+            Op::Neg(a) => Op::Neg(moved(a)),
+            Op::ProductError(a, b) => Op::ProductError(moved(a), moved(b)),
+            Op::SumError(a, b) => Op::SumError(moved(a), moved(b)),
+            Op::Sin(a) => Op::Sin(moved(a)),
+            Op::Cos(a) => Op::Cos(moved(a)),
+            Op::Unary(function, a) => Op::Unary(function, moved(a)),
+            Op::Binary(function, a, b) => Op::Binary(function, moved(a), moved(b)),
+        }
     }
 }
 

@@ -16,7 +16,6 @@
 
 use rustc_hash::FxHashMap;
 
-use super::schedule::with_operands;
 use super::{Contracted, Contractions, Function, Op, Value};
 
 /// The fewest iterations of a repeat: fewer are shorter written out.
@@ -206,7 +205,7 @@ impl Steps {
                 (Kind::Circular, vec![*angle])
             }
             _ => (
-                Kind::Operation(with_operands(op, |_| Value(0))),
+                Kind::Operation(op.with_operands(|_| Value(0))),
                 op.operands().collect(),
             ),
         };

@@ -1,6 +1,5 @@
 //! A program without what nobody asks for.
 
-use super::schedule::with_operands;
 use super::{Function, Op, Program, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
@@ -99,7 +98,7 @@ fn without_the_unused(function: Function) -> Function {
     let mut left: Vec<Op> = Vec::new();
     for (index, op) in code.iter().enumerate().filter(|(index, _)| is_used[*index]) {
         place[index] = Value(left.len() as u32);
-        left.push(with_operands(op, |operand| place[operand.index()]));
+        left.push(op.with_operands(|operand| place[operand.index()]));
     }
     for value in &mut results {
         *value = place[value.index()];

@@ -14,9 +14,9 @@ use std::collections::BinaryHeap;
 use lagrangian_symbolic::Rational;
 use rustc_hash::FxHashMap;
 
-use super::cost::latency;
 use super::fusion::Contractions;
 use super::graph::{Graph, Id, Node, Scaled};
+use super::latency::latency;
 use super::net::{Index, Item, Leaf, Net, Signed, TIME, operands};
 use super::{Function, Op, Role, Shape, Source, Value, stages};
 
@@ -452,7 +452,7 @@ fn reorder(code: &[Op], roots: &[Value]) -> (Vec<Op>, Vec<Value>) {
         let mut write = |value: Value, op: &Op| {
             place[value.index()] = Some(Value(ordered.len() as u32));
             let moved = |operand: Value| place[operand.index()].expect("operands come first");
-            ordered.push(with_operands(op, moved));
+            ordered.push(op.with_operands(moved));
         };
         write(value, op);
         // Sine and cosine of one angle next to each other.
@@ -688,7 +688,7 @@ impl<'a> InOrder<'a> {
         self.place[index] = Some(Value(self.code.len() as u32));
         let moved = |operand: Value| self.place[operand.index()].expect("operands come first");
         self.code
-            .push(with_operands(&self.function.code[index], moved));
+            .push(self.function.code[index].with_operands(moved));
     }
 }
 
@@ -702,22 +702,4 @@ fn live(code: &[Op], roots: &[Value]) -> Vec<bool> {
         }
     }
     live
-}
-
-/// The same operation on other operands.
-pub fn with_operands(op: &Op, mut moved: impl FnMut(Value) -> Value) -> Op {
-    match *op {
-        Op::Constant(_) | Op::Pi | Op::Read(_) => op.clone(),
-        Op::Add(a, b) => Op::Add(moved(a), moved(b)),
-        Op::Sub(a, b) => Op::Sub(moved(a), moved(b)),
-        Op::Mul(a, b) => Op::Mul(moved(a), moved(b)),
-        Op::Div(a, b) => Op::Div(moved(a), moved(b)),
-        Op::Neg(a) => Op::Neg(moved(a)),
-        Op::ProductError(a, b) => Op::ProductError(moved(a), moved(b)),
-        Op::SumError(a, b) => Op::SumError(moved(a), moved(b)),
-        Op::Sin(a) => Op::Sin(moved(a)),
-        Op::Cos(a) => Op::Cos(moved(a)),
-        Op::Unary(function, a) => Op::Unary(function, moved(a)),
-        Op::Binary(function, a, b) => Op::Binary(function, moved(a), moved(b)),
-    }
 }

@@ -15,7 +15,6 @@
 use rustc_hash::FxHashMap;
 
 use super::net::{Index, Item, Net, POSITION, Signed, Stage, TIME, stage_of};
-use super::schedule::with_operands;
 use super::{Function, Guard, Op, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
@@ -232,7 +231,7 @@ impl Builder<'_> {
                 let operands: Vec<Value> = op.operands().collect();
                 let moved: Vec<Value> = operands.iter().map(|&o| self.value(o)).collect();
                 let moved: FxHashMap<Value, Value> = operands.into_iter().zip(moved).collect();
-                with_operands(op, |operand| moved[&operand])
+                op.with_operands(|operand| moved[&operand])
             }
         };
         self.code.push(op);

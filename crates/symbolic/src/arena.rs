@@ -5,8 +5,7 @@ use std::rc::Rc;
 
 use rustc_hash::FxHasher;
 
-use crate::construct::{Factor, Term};
-use crate::dag::{Function, Id, Node, Stage, Symbol};
+use crate::node::{Factor, Function, Id, Node, Stage, Symbol, Term};
 use crate::rational::Rational;
 
 /// The nodes, and a table that finds a node by its content without building it first.
@@ -329,5 +328,31 @@ impl BitSet {
     /// Whether an id is in.
     pub(crate) fn contains(&self, id: Id) -> bool {
         self.0[id.index() / 64] & (1 << (id.index() % 64)) != 0
+    }
+}
+
+impl Arena {
+    /// What the roots are built from, in order of age, without what lies below a node that is not
+    /// to be entered.
+    pub(crate) fn reachable(
+        &self,
+        roots: impl Iterator<Item = Id>,
+        enter: impl Fn(Id) -> bool,
+    ) -> Vec<Id> {
+        let mut seen = BitSet::new(self.len());
+        let mut found: Vec<Id> = roots
+            .filter(|&root| enter(root) && seen.insert(root))
+            .collect();
+        let mut next = 0;
+        while let Some(&id) = found.get(next) {
+            next += 1;
+            self.node(id).for_each_child(|child| {
+                if enter(child) && seen.insert(child) {
+                    found.push(child);
+                }
+            });
+        }
+        found.sort_unstable();
+        found
     }
 }

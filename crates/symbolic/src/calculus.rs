@@ -4,9 +4,8 @@
 //! stack.
 
 use crate::arena::{Arena, BitSet};
-use crate::construct::{Factor, Term};
-use crate::dag::{Dag, Function, Id, Node, Symbol};
-use crate::expr::Expr;
+use crate::dag::{Dag, Expr};
+use crate::node::{Factor, Function, Id, Node, Symbol, Term};
 use crate::rational::Rational;
 
 /// The derivative along one direction, by the forward sweep: `dE/dτ = Σ ∂E/∂s·ds/dτ`.
@@ -73,6 +72,15 @@ impl<'d> Tangent<'d> {
         }
         let second = self.twice.get(expression.id());
         self.dag.expr(second.unwrap_or(Arena::ZERO))
+    }
+}
+
+impl<'d> Expr<'d> {
+    /// The partial derivative with respect to a symbol.
+    ///
+    /// A [`Tangent`] is better where many expressions share their parts.
+    pub fn diff(self, symbol: Symbol) -> Expr<'d> {
+        Tangent::new(self.dag(), &[(symbol, self.dag().one())]).of(self)
     }
 }
 
@@ -554,8 +562,8 @@ impl Adjoints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dag::Stage;
     use crate::evaluate::evaluate;
+    use crate::node::Stage;
     use lagrangian_scalar::{Residue, Scalar};
 
     #[test]

@@ -4,13 +4,8 @@ use core::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::arena::{Arena, PARAMETER_FACTOR, SQUARED_SINE};
-use crate::dag::{Function, Id, Node};
+use crate::node::{Factor, Function, Id, Node, Term};
 use crate::rational::Rational;
-
-/// A term of a sum: a node and its coefficient.
-pub(crate) type Term = (Id, Rational);
-/// A factor of a product: a node and its power.
-pub(crate) type Factor = (Id, i32);
 
 /// Products of more factors than this are built as products of products, so that a row of n
 /// multiplications takes memory in proportion to n and not to n².

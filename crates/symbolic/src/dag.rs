@@ -33,185 +33,12 @@
 
 use core::cell::RefCell;
 use core::fmt;
-use std::rc::Rc;
+use core::hash::{Hash, Hasher};
+use std::collections::BTreeSet;
 
-use crate::arena::{Arena, BitSet};
-use crate::expr::Expr;
+use crate::arena::Arena;
+use crate::node::{Function, Id, Node, Stage, Symbol};
 use crate::rational::Rational;
-
-/// A node of a [`Dag`]. Children have smaller ids than what is built from them.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Id(pub(crate) u32);
-
-impl Id {
-    /// The position in the arena: 0, 1, 2, … in order of construction.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// A symbol of a [`Dag`]: an index into its table of symbols.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Symbol(pub(crate) u32);
-
-impl Symbol {
-    /// The position in the table: 0, 1, 2, … in order of declaration.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// When a value becomes known. The stage of an expression is the latest stage of its parts.
-///
-/// The algebra gives meaning to two of them only; later ones belong to who uses it.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Stage(pub u8);
-
-impl Stage {
-    /// Known while deriving.
-    pub const CONSTANT: Stage = Stage(0);
-    /// Known before anything runs, and the same all the time.
-    pub const PARAMETER: Stage = Stage(1);
-}
-
-/// A function of one or two arguments.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum Function {
-    /// Sine.
-    Sin,
-    /// Cosine.
-    Cos,
-    /// Tangent; rewritten to sin/cos when built.
-    Tan,
-    /// Inverse sine.
-    Asin,
-    /// Inverse cosine.
-    Acos,
-    /// Inverse tangent.
-    Atan,
-    /// `atan2(y, x)`: the angle of the point (x, y).
-    Atan2,
-    /// Hyperbolic sine.
-    Sinh,
-    /// Hyperbolic cosine.
-    Cosh,
-    /// Hyperbolic tangent.
-    Tanh,
-    /// e to a power.
-    Exp,
-    /// Natural logarithm.
-    Ln,
-    /// Square root.
-    Sqrt,
-    /// Absolute value.
-    Abs,
-    /// −1, 0 or 1.
-    Sign,
-    /// The smaller of two.
-    Min,
-    /// The larger of two.
-    Max,
-    /// `pow(x, y)` with an exponent that is no integer constant.
-    Pow,
-}
-
-impl Function {
-    /// Every function.
-    pub const ALL: [Function; 18] = [
-        Function::Sin,
-        Function::Cos,
-        Function::Tan,
-        Function::Asin,
-        Function::Acos,
-        Function::Atan,
-        Function::Atan2,
-        Function::Sinh,
-        Function::Cosh,
-        Function::Tanh,
-        Function::Exp,
-        Function::Ln,
-        Function::Sqrt,
-        Function::Abs,
-        Function::Sign,
-        Function::Min,
-        Function::Max,
-        Function::Pow,
-    ];
-
-    /// The name, as in a spec; `pow` stands for the operator `^`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Function::Sin => "sin",
-            Function::Cos => "cos",
-            Function::Tan => "tan",
-            Function::Asin => "asin",
-            Function::Acos => "acos",
-            Function::Atan => "atan",
-            Function::Atan2 => "atan2",
-            Function::Sinh => "sinh",
-            Function::Cosh => "cosh",
-            Function::Tanh => "tanh",
-            Function::Exp => "exp",
-            Function::Ln => "ln",
-            Function::Sqrt => "sqrt",
-            Function::Abs => "abs",
-            Function::Sign => "sign",
-            Function::Min => "min",
-            Function::Max => "max",
-            Function::Pow => "pow",
-        }
-    }
-
-    /// How many arguments it takes.
-    pub fn arity(self) -> usize {
-        match self {
-            Function::Atan2 | Function::Min | Function::Max | Function::Pow => 2,
-            _ => 1,
-        }
-    }
-}
-
-/// What a node is. Cheap to clone.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Node {
-    /// A rational number.
-    Constant(Rational),
-    /// π.
-    Pi,
-    /// A symbol.
-    Symbol(Symbol),
-    /// `Σ coefficient·term`, by id, coefficients not 0; the constant term is a multiple of the node
-    /// `1`. A single term with a coefficient other than 1 is a rational multiple.
-    Sum(Rc<[(Id, Rational)]>),
-    /// `Π factor^power`, by id, powers not 0, no constants among the factors; quotients are
-    /// negative powers. The one product with a constant in it is `0^-1`, the undefined value.
-    Product(Rc<[(Id, i32)]>),
-    /// A function of its arguments.
-    Function(Function, Rc<[Id]>),
-}
-
-impl Node {
-    /// What it holds: its children, and the machine words of numbers that do not fit into one.
-    pub(crate) fn operands(&self) -> usize {
-        match self {
-            Node::Constant(value) => value.words(),
-            Node::Pi | Node::Symbol(_) => 0,
-            Node::Sum(terms) => terms.iter().map(|(_, c)| 1 + c.words()).sum(),
-            Node::Product(factors) => factors.len(),
-            Node::Function(_, arguments) => arguments.len(),
-        }
-    }
-
-    /// Calls `visit` with every child.
-    pub fn for_each_child(&self, mut visit: impl FnMut(Id)) {
-        match self {
-            Node::Constant(_) | Node::Pi | Node::Symbol(_) => {}
-            Node::Sum(terms) => terms.iter().for_each(|&(id, _)| visit(id)),
-            Node::Product(factors) => factors.iter().for_each(|&(id, _)| visit(id)),
-            Node::Function(_, arguments) => arguments.iter().for_each(|&id| visit(id)),
-        }
-    }
-}
 
 /// A graph of expressions.
 pub struct Dag {
@@ -361,34 +188,118 @@ impl fmt::Debug for Dag {
     }
 }
 
+/// An expression: a node of a [`Dag`]. Two of them are equal exactly if they are one node.
+///
+/// An operation takes expressions of one graph only.
+#[derive(Clone, Copy)]
+pub struct Expr<'d> {
+    dag: &'d Dag,
+    id: Id,
+}
+
+impl<'d> Expr<'d> {
+    pub(crate) fn new(dag: &'d Dag, id: Id) -> Expr<'d> {
+        Expr { dag, id }
+    }
+
+    /// The node.
+    pub fn id(self) -> Id {
+        self.id
+    }
+
+    /// The graph.
+    pub fn dag(self) -> &'d Dag {
+        self.dag
+    }
+
+    /// What the node is.
+    pub fn node(self) -> Node {
+        self.dag.node(self.id)
+    }
+
+    /// When the value becomes known.
+    pub fn stage(self) -> Stage {
+        self.dag.arena.borrow().stage(self.id)
+    }
+
+    /// The symbol, if that is all.
+    pub fn as_symbol(self) -> Option<Symbol> {
+        match self.dag.arena.borrow().node(self.id) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    /// The value, if it is a rational constant.
+    pub fn as_constant(self) -> Option<Rational> {
+        match self.dag.arena.borrow().node(self.id) {
+            Node::Constant(value) => Some(value.clone()),
+            _ => None,
+        }
+    }
+
+    /// Whether it is the constant 0.
+    pub fn is_zero(self) -> bool {
+        self.id == Arena::ZERO
+    }
+
+    /// Whether it is the constant 1.
+    pub fn is_one(self) -> bool {
+        self.id == Arena::ONE
+    }
+
+    /// Whether it has no value: something in it divides by 0, takes a root or a logarithm that does
+    /// not exist, or needs a constant of more than [`MAX_BITS`](crate::MAX_BITS) bits.
+    pub fn is_undefined(self) -> bool {
+        self.id == Arena::UNDEFINED
+    }
+
+    /// Whether the symbol occurs in it.
+    pub fn depends_on(self, symbol: Symbol) -> bool {
+        let arena = self.dag.arena.borrow();
+        let mask = Arena::symbol_mask(symbol);
+        let target = arena.symbols[symbol.index()].id;
+        let mut below = arena.reachable([self.id].into_iter(), |id| arena.touches(id, mask));
+        below.retain(|&id| id == target);
+        !below.is_empty()
+    }
+
+    /// Every symbol that occurs in it.
+    pub fn symbols(self) -> BTreeSet<Symbol> {
+        let arena = self.dag.arena.borrow();
+        let below = arena.reachable([self.id].into_iter(), |id| arena.touches(id, u64::MAX));
+        let symbol = |id: Id| match arena.node(id) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        below.into_iter().filter_map(symbol).collect()
+    }
+
+    /// The expression that `build` makes in the arena of the graph.
+    pub(crate) fn with(self, build: impl FnOnce(&mut Arena) -> Id) -> Expr<'d> {
+        Expr {
+            dag: self.dag,
+            id: build(&mut self.dag.arena.borrow_mut()),
+        }
+    }
+}
+
+impl PartialEq for Expr<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id && core::ptr::eq(self.dag, other.dag)
+    }
+}
+
+impl Eq for Expr<'_> {}
+
+impl Hash for Expr<'_> {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.id.hash(state);
+    }
+}
+
 /// Every node that the roots are built from, themselves included, children before parents.
 pub fn reachable(dag: &Dag, roots: &[Expr<'_>]) -> Vec<Id> {
     let arena = dag.arena.borrow();
     arena.reachable(roots.iter().map(|root| root.id()), |_| true)
-}
-
-impl Arena {
-    /// What the roots are built from, in order of age, without what lies below a node that is not
-    /// to be entered.
-    pub(crate) fn reachable(
-        &self,
-        roots: impl Iterator<Item = Id>,
-        enter: impl Fn(Id) -> bool,
-    ) -> Vec<Id> {
-        let mut seen = BitSet::new(self.len());
-        let mut found: Vec<Id> = roots
-            .filter(|&root| enter(root) && seen.insert(root))
-            .collect();
-        let mut next = 0;
-        while let Some(&id) = found.get(next) {
-            next += 1;
-            self.node(id).for_each_child(|child| {
-                if enter(child) && seen.insert(child) {
-                    found.push(child);
-                }
-            });
-        }
-        found.sort_unstable();
-        found
-    }
 }

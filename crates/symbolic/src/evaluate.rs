@@ -2,8 +2,8 @@
 
 use lagrangian_scalar::{DoubleDouble, Scalar};
 
-use crate::dag::{Dag, Function, Id, Node, Symbol};
-use crate::expr::Expr;
+use crate::dag::{Dag, Expr};
+use crate::node::{Function, Id, Node, Symbol};
 
 /// The values of expressions, over any type of number; `value` is asked once for each symbol that
 /// occurs.

@@ -33,13 +33,15 @@ mod calculus;
 mod construct;
 mod evaluate;
 mod expr;
+mod measure;
+mod node;
 mod null_space;
 mod rational;
 
 pub use calculus::{Tangent, reverse, substitute};
-pub use dag::{Dag, Function, Id, Node, Stage, Symbol, reachable};
+pub use dag::{Dag, Expr, reachable};
 pub use evaluate::{Evaluation, evaluate, evaluation_work, nearest};
-pub use expr::Expr;
+pub use node::{Function, Id, Node, Stage, Symbol};
 pub use null_space::null_space;
 pub use print::{
     Math, Names, latex, latex_name, latex_words, markup_words, math, math_as_built, math_name,

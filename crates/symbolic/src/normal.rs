@@ -23,9 +23,9 @@ mod fold;
 mod polynomial;
 
 use crate::arena::Arena;
-use crate::dag::{Dag, Id, Node, Symbol};
-use crate::expr::Expr;
-use crate::print::{measure, total};
+use crate::dag::{Dag, Expr};
+use crate::measure::{measure, total};
+use crate::node::{Id, Node, Symbol};
 use crate::rational::Rational;
 use expand::Expander;
 use polynomial::{Monomial, Polynomial};
@@ -405,6 +405,6 @@ fn split_terms(arena: &mut Arena, id: Id) -> Vec<Id> {
 }
 
 fn is_circular(arena: &Arena, id: Id) -> bool {
-    use crate::dag::Function::{Cos, Sin};
+    use crate::node::Function::{Cos, Sin};
     matches!(arena.node(id), Node::Function(Sin | Cos, _))
 }

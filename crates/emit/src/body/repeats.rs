@@ -486,7 +486,7 @@ impl<L: Loops> Body<'_, L> {
                 }
                 Kind::Operation(op) => {
                     let mut operands = of.iter();
-                    let op = lagrangian_program::with_operands(op, |_| {
+                    let op = op.with_operands(|_| {
                         *operands
                             .next()
                             .expect("as many operands as the operation has")

@@ -5,8 +5,8 @@ use std::rc::Rc;
 use rustc_hash::FxHashMap;
 
 use crate::arena::Arena;
-use crate::construct::Factor;
-use crate::dag::{Function, Id, Node};
+use crate::node::Factor;
+use crate::node::{Function, Id, Node};
 use crate::normal::angles::Angles;
 use crate::normal::polynomial::{self, Monomial, Polynomial};
 use crate::rational::Rational;

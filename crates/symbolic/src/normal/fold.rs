@@ -1,8 +1,8 @@
 //! Joining what expanding took apart: the addition theorems, read from right to left.
 
 use crate::arena::Arena;
-use crate::construct::{Factor, Term};
-use crate::dag::{Function, Id, Node};
+use crate::node::{Factor, Term};
+use crate::node::{Function, Id, Node};
 use crate::normal::polynomial::{self, Monomial, Polynomial};
 use crate::rational::Rational;
 

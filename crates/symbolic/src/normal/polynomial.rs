@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::arena::Arena;
-use crate::construct::Factor;
-use crate::dag::Id;
+use crate::node::Factor;
+use crate::node::Id;
 use crate::rational::Rational;
 
 /// Powers of nodes, by id, none of them 0.

@@ -1,9 +1,16 @@
 //! LaTeX, for math mode.
 
-use crate::print::math::{Form, Mark, Sign};
+use crate::print::math::{Form, Mark, Math, Sign};
+
+impl Math {
+    /// In LaTeX, for math mode; `amsmath` knows every command.
+    pub fn latex(&self) -> String {
+        write(self.marks())
+    }
+}
 
 /// The marks, written front to back.
-pub(super) fn write(marks: &[Mark]) -> String {
+fn write(marks: &[Mark]) -> String {
     let mut out = String::new();
     // The forms that are open, and how many of their arguments are behind.
     let mut open: Vec<(Form, usize)> = Vec::new();

@@ -3,7 +3,7 @@
 use core::cmp::Reverse;
 
 use crate::arena::Arena;
-use crate::dag::{Function, Id, Node, Stage};
+use crate::node::{Function, Id, Node, Stage};
 use crate::rational::Rational;
 
 /// A term `±scale·node` of a sum.

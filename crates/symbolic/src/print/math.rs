@@ -2,8 +2,6 @@
 
 use std::borrow::Cow;
 
-use crate::print::{latex, mathml};
-
 /// A formula as it is set: what a page shows.
 ///
 /// A row of marks: letters, numbers and signs, and brackets around what is set in another way, `Open(Fraction)` above
@@ -233,21 +231,6 @@ impl Math {
     /// Whether nothing is in it.
     pub fn is_empty(&self) -> bool {
         self.marks.is_empty()
-    }
-
-    /// In LaTeX, for math mode; `amsmath` knows every command.
-    pub fn latex(&self) -> String {
-        latex::write(&self.marks)
-    }
-
-    /// As presentation MathML, the part of it that browsers draw: an element `math` for a line of text.
-    pub fn mathml(&self) -> String {
-        format!("<math>{}</math>", self.mathml_row())
-    }
-
-    /// The elements that stand inside of `math`, `mrow` or `mtd`.
-    pub fn mathml_row(&self) -> String {
-        mathml::write(&self.marks)
     }
 
     /// Whether it is one letter or word with an index.

@@ -2,10 +2,22 @@
 //!
 //! *MathML Core*, W3C: <https://www.w3.org/TR/mathml-core/>.
 
-use crate::print::math::{Form, Mark, Sign};
+use crate::print::math::{Form, Mark, Math, Sign};
+
+impl Math {
+    /// As presentation MathML, the part of it that browsers draw: an element `math` for a line of text.
+    pub fn mathml(&self) -> String {
+        format!("<math>{}</math>", self.mathml_row())
+    }
+
+    /// The elements that stand inside of `math`, `mrow` or `mtd`.
+    pub fn mathml_row(&self) -> String {
+        write(self.marks())
+    }
+}
 
 /// The elements, written front to back.
-pub(super) fn write(marks: &[Mark]) -> String {
+fn write(marks: &[Mark]) -> String {
     let counts = elements_of_arguments(marks);
     let tall = tall(marks);
     let mut out = String::new();

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::arena::Arena;
-use crate::dag::{Function, Id, Node};
+use crate::node::{Function, Id, Node};
 use crate::print::layout::{self, Order, Term};
 use crate::print::number::{Shape, shape};
 use crate::rational::Rational;

@@ -1,7 +1,7 @@
 //! From the graph to a formula on a page.
 
 use crate::arena::Arena;
-use crate::dag::{Function, Id, Node};
+use crate::node::{Function, Id, Node};
 use crate::print::layout::{self, Order, Term};
 use crate::print::math::{Form, Mark, Math, Sign};
 use crate::print::number::{Shape, shape};

@@ -1,0 +1,44 @@
+//! How a command that failed ends: what it says, and its exit status.
+
+use serde_json::{Map, json};
+
+use crate::failure::Failure;
+use crate::{diagnostics, interrupt, output};
+
+impl Failure {
+    /// Says why: for a reader on standard error, for a program on standard output. Returns the exit status.
+    pub fn report(self, json: bool) -> u8 {
+        let mut fields = Map::new();
+        let (status, message) = match self {
+            Failure::Said => return 1,
+            Failure::Interrupted => return interrupt::STATUS,
+            Failure::Spec(wrong) => {
+                let (report, sources) = *wrong;
+                if json {
+                    let entries = diagnostics::entries(&report, &sources);
+                    output::line(format_args!(
+                        "{:#}",
+                        json!({ "error": "the spec is wrong", "diagnostics": entries })
+                    ));
+                }
+                diagnostics::print(&report, &sources);
+                return 1;
+            }
+            Failure::Run(message) => (1, message),
+            Failure::Detailed(message, further) => {
+                fields = further;
+                (1, message)
+            }
+            Failure::Call(message) => (2, message),
+        };
+        if json {
+            let mut document = json!({ "error": message });
+            if let Some(document) = document.as_object_mut() {
+                document.extend(fields);
+            }
+            output::line(format_args!("{document:#}"));
+        }
+        output::complain(format_args!("error: {message}"));
+        status
+    }
+}

@@ -1,0 +1,88 @@
+//! Sines and cosines of several angles at once: the polynomials for those that are near, the scalar library for the others.
+
+use crate::sincos::{MOST, is_near, sin_cos_near};
+use crate::vector::{Register, Vector};
+use crate::{Lanes, Scalar};
+
+/// Sines and cosines of several angles.
+pub type Circular<V, const K: usize> = [(Register<V>, Register<V>); K];
+
+/// Numbers whose sines and cosines are known.
+pub trait Sines: Vector {
+    /// Sine and cosine by the scalar library of those angles that are above
+    /// [`MOST`] or undefined; the others keep the given ones.
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self);
+
+    /// Sines and cosines of several angles.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Register<Self>; K]) -> Circular<Self, K> {
+        // One question for all of them: between questions a compiler moves nothing.
+        let (mut all, are_near) = Self::sin_cos_all_near(angles);
+        if !are_near {
+            for (pair, angle) in all.iter_mut().zip(angles) {
+                let (sin, cos) = Self::sin_cos_beyond(angle.0, pair.0.0, pair.1.0);
+                *pair = (Register(sin), Register(cos));
+            }
+        }
+        all
+    }
+    /// Sines and cosines of several angles, unless one is above [`MOST`] or undefined: then anything for that one. And
+    /// whether none is.
+    #[inline(always)]
+    fn sin_cos_all_near<const K: usize>(angles: [Register<Self>; K]) -> (Circular<Self, K>, bool) {
+        // A loop, as `map` would not be inlined, and what is not inlined has no instructions but
+        // the oldest.
+        let mut all = [(Register(Self::ZERO), Register(Self::ONE)); K];
+        let Some(first) = angles.first() else {
+            return (all, true);
+        };
+        let mut are_near = is_near(first.0);
+        for (pair, angle) in all.iter_mut().zip(angles) {
+            let (sin, cos) = sin_cos_near(angle.0);
+            *pair = (Register(sin), Register(cos));
+            are_near = Self::both(are_near, is_near(angle.0));
+        }
+        (all, Self::all(are_near))
+    }
+}
+
+/// [`Sines::sin_cos_beyond`] of one number.
+#[cold]
+#[inline(never)]
+pub fn sin_cos_beyond(angle: f64, sin: f64, cos: f64) -> (f64, f64) {
+    // Not a `>`, as an undefined angle is beyond too.
+    if angle.abs() <= MOST {
+        (sin, cos)
+    } else {
+        Scalar::sin_cos(angle)
+    }
+}
+
+/// [`Sines::sin_cos_beyond`] of several.
+#[cold]
+#[inline(never)]
+pub fn sin_cos_beyond_each<const N: usize>(
+    angles: Lanes<N>,
+    mut sin: Lanes<N>,
+    mut cos: Lanes<N>,
+) -> (Lanes<N>, Lanes<N>) {
+    for lane in 0..N {
+        (sin[lane], cos[lane]) = sin_cos_beyond(angles[lane], sin[lane], cos[lane]);
+    }
+    (sin, cos)
+}
+
+impl Sines for f64 {
+    #[inline(always)]
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
+        sin_cos_beyond(angle, sin, cos)
+    }
+}
+
+impl<const N: usize> Sines for [f64; N] {
+    #[inline(always)]
+    fn sin_cos_beyond(angle: Self, sin: Self, cos: Self) -> (Self, Self) {
+        let (sin, cos) = sin_cos_beyond_each(Lanes(angle), Lanes(sin), Lanes(cos));
+        (sin.0, cos.0)
+    }
+}

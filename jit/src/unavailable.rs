@@ -1,0 +1,31 @@
+//! Why there is no machine code.
+
+use std::fmt;
+use std::io;
+
+/// Why there is no machine code.
+#[derive(Debug)]
+pub enum Unavailable {
+    /// The processor is none that code is made for, or the build wants the same bits everywhere.
+    Processor,
+    /// The system gives no pages that may be executable.
+    Pages(io::Error),
+    /// An instruction has no encoding: a mistake in this crate.
+    Encoding(String),
+}
+
+impl fmt::Display for Unavailable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unavailable::Processor => f.write_str(
+                "machine code is made for x86-64 with AVX2 and FMA, in builds without strict-libm",
+            ),
+            Unavailable::Pages(error) => {
+                write!(f, "the system gives no pages for machine code: {error}")
+            }
+            Unavailable::Encoding(error) => write!(f, "an instruction has no encoding: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for Unavailable {}
