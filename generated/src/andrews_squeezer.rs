@@ -187,7 +187,7 @@ impl Default for AndrewsSqueezer {
 }
 
 impl<S> AndrewsSqueezer<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> AndrewsSqueezer<R> {
         AndrewsSqueezer {
             m1: f(self.m1),
@@ -470,7 +470,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             beta: f(self.beta),

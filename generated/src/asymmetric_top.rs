@@ -85,7 +85,7 @@ impl Default for AsymmetricTop {
 }
 
 impl<S> AsymmetricTop<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> AsymmetricTop<R> {
         AsymmetricTop {
             m: f(self.m),
@@ -173,7 +173,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             yaw: f(self.yaw),

@@ -70,7 +70,7 @@ impl Default for BallInBowl {
 }
 
 impl<S> BallInBowl<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> BallInBowl<R> {
         BallInBowl {
             m: f(self.m),
@@ -191,7 +191,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

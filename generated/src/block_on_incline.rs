@@ -63,7 +63,7 @@ impl Default for BlockOnIncline {
 }
 
 impl<S> BlockOnIncline<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> BlockOnIncline<R> {
         BlockOnIncline {
             m: f(self.m),
@@ -146,7 +146,7 @@ impl<S: Copy> Coordinates<S> {
         Self { s: q[0] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { s: f(self.s) }
     }

@@ -71,7 +71,7 @@ impl Default for Bricard {
 }
 
 impl<S> Bricard<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Bricard<R> {
         Bricard {
             l: f(self.l),
@@ -208,7 +208,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { q: self.q.map(&f) }
     }

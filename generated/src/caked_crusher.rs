@@ -130,7 +130,7 @@ impl Default for CakedCrusher {
 }
 
 impl<S> CakedCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> CakedCrusher<R> {
         CakedCrusher {
             m: f(self.m),
@@ -406,7 +406,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

@@ -72,7 +72,7 @@ impl Default for CartPole {
 }
 
 impl<S> CartPole<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> CartPole<R> {
         CartPole {
             cart: f(self.cart),
@@ -165,7 +165,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),
@@ -188,7 +188,7 @@ impl Default for Inputs {
 }
 
 impl<S> Inputs<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
         Inputs { push: f(self.push) }
     }

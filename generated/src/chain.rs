@@ -56,7 +56,7 @@ impl Default for Chain {
 }
 
 impl<S> Chain<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Chain<R> {
         Chain {
             l: f(self.l),
@@ -205,7 +205,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { q: self.q.map(&f) }
     }

@@ -55,7 +55,7 @@ impl Default for ChainRelative {
 }
 
 impl<S> ChainRelative<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> ChainRelative<R> {
         ChainRelative {
             l: f(self.l),
@@ -195,7 +195,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { q: self.q.map(&f) }
     }

@@ -59,7 +59,7 @@ impl Default for ChaplyginSleigh {
 }
 
 impl<S> ChaplyginSleigh<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> ChaplyginSleigh<R> {
         ChaplyginSleigh {
             m: f(self.m),
@@ -139,7 +139,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

@@ -67,7 +67,7 @@ impl Default for ClosedPendulum {
 }
 
 impl<S> ClosedPendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> ClosedPendulum<R> {
         ClosedPendulum {
             l: f(self.l),
@@ -212,7 +212,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { q: self.q.map(&f) }
     }

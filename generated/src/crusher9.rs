@@ -125,7 +125,7 @@ impl Default for Crusher9 {
 }
 
 impl<S> Crusher9<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Crusher9<R> {
         Crusher9 {
             m: f(self.m),
@@ -340,7 +340,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

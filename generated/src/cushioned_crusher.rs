@@ -147,7 +147,7 @@ impl Default for CushionedCrusher {
 }
 
 impl<S> CushionedCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> CushionedCrusher<R> {
         CushionedCrusher {
             m: f(self.m),
@@ -383,7 +383,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

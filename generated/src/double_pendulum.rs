@@ -61,7 +61,7 @@ impl Default for DoublePendulum {
 }
 
 impl<S> DoublePendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> DoublePendulum<R> {
         DoublePendulum {
             m1: f(self.m1),
@@ -156,7 +156,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             theta1: f(self.theta1),

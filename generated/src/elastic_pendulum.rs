@@ -72,7 +72,7 @@ impl Default for ElasticPendulum {
 }
 
 impl<S> ElasticPendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> ElasticPendulum<R> {
         ElasticPendulum {
             m: f(self.m),
@@ -150,7 +150,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             r: f(self.r),

@@ -76,7 +76,7 @@ impl Default for FlyballGovernor {
 }
 
 impl<S> FlyballGovernor<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> FlyballGovernor<R> {
         FlyballGovernor {
             l: f(self.l),
@@ -199,7 +199,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             phi: f(self.phi),
@@ -223,7 +223,7 @@ impl Default for Inputs {
 }
 
 impl<S> Inputs<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
         Inputs {
             drive: f(self.drive),

@@ -80,7 +80,7 @@ impl Default for FourBar {
 }
 
 impl<S> FourBar<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> FourBar<R> {
         FourBar {
             a: f(self.a),
@@ -220,7 +220,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             crank: f(self.crank),

@@ -69,7 +69,7 @@ impl Default for FourBars {
 }
 
 impl<S> FourBars<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> FourBars<R> {
         FourBars {
             l: f(self.l),
@@ -177,7 +177,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             crank: self.crank.map(&f),

@@ -114,7 +114,7 @@ impl Default for FrozenCrusher {
 }
 
 impl<S> FrozenCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> FrozenCrusher<R> {
         FrozenCrusher {
             m: f(self.m),
@@ -300,7 +300,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

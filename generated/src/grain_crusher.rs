@@ -133,7 +133,7 @@ impl Default for GrainCrusher {
 }
 
 impl<S> GrainCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> GrainCrusher<R> {
         GrainCrusher {
             m: f(self.m),
@@ -410,7 +410,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

@@ -115,7 +115,7 @@ impl Default for GyroscopeInGimbals {
 }
 
 impl<S> GyroscopeInGimbals<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> GyroscopeInGimbals<R> {
         GyroscopeInGimbals {
             A1: f(self.A1),
@@ -230,7 +230,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             alpha: f(self.alpha),

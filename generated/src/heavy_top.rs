@@ -71,7 +71,7 @@ impl Default for HeavyTop {
 }
 
 impl<S> HeavyTop<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> HeavyTop<R> {
         HeavyTop {
             m: f(self.m),
@@ -161,7 +161,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             psi: f(self.psi),

@@ -78,7 +78,7 @@ impl Default for KapitzaPendulum {
 }
 
 impl<S> KapitzaPendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> KapitzaPendulum<R> {
         KapitzaPendulum {
             m: f(self.m),
@@ -162,7 +162,7 @@ impl<S: Copy> Coordinates<S> {
         Self { theta: q[0] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             theta: f(self.theta),

@@ -160,7 +160,7 @@ impl Default for MotorCrusher {
 }
 
 impl<S> MotorCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> MotorCrusher<R> {
         MotorCrusher {
             m: f(self.m),
@@ -363,7 +363,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

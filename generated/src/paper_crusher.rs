@@ -125,7 +125,7 @@ impl Default for PaperCrusher {
 }
 
 impl<S> PaperCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> PaperCrusher<R> {
         PaperCrusher {
             m: f(self.m),
@@ -315,7 +315,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

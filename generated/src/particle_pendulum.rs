@@ -64,7 +64,7 @@ impl Default for ParticlePendulum {
 }
 
 impl<S> ParticlePendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> ParticlePendulum<R> {
         ParticlePendulum {
             m1: f(self.m1),
@@ -178,7 +178,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x1: f(self.x1),

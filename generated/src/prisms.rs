@@ -67,7 +67,7 @@ impl Default for Prisms {
 }
 
 impl<S> Prisms<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Prisms<R> {
         Prisms {
             m: f(self.m),
@@ -183,7 +183,7 @@ impl<S: Copy> Coordinates<S> {
         Self { q1: q[0], q2: q[1] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             q1: f(self.q1),

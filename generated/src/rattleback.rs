@@ -83,7 +83,7 @@ impl Default for Rattleback {
 }
 
 impl<S> Rattleback<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Rattleback<R> {
         Rattleback {
             m: f(self.m),
@@ -205,7 +205,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

@@ -67,7 +67,7 @@ impl Default for RollingCoin {
 }
 
 impl<S> RollingCoin<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> RollingCoin<R> {
         RollingCoin {
             m: f(self.m),
@@ -176,7 +176,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

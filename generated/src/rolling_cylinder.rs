@@ -67,7 +67,7 @@ impl Default for RollingCylinder {
 }
 
 impl<S> RollingCylinder<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> RollingCylinder<R> {
         RollingCylinder {
             m: f(self.m),
@@ -168,7 +168,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             s: f(self.s),

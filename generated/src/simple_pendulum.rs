@@ -66,7 +66,7 @@ impl Default for SimplePendulum {
 }
 
 impl<S> SimplePendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SimplePendulum<R> {
         SimplePendulum {
             m: f(self.m),
@@ -132,7 +132,7 @@ impl<S: Copy> Coordinates<S> {
         Self { theta: q[0] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             theta: f(self.theta),

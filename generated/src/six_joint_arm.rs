@@ -88,7 +88,7 @@ impl Default for SixJointArm {
 }
 
 impl<S> SixJointArm<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SixJointArm<R> {
         SixJointArm {
             h: f(self.h),
@@ -300,7 +300,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { q: self.q.map(&f) }
     }
@@ -322,7 +322,7 @@ impl Default for Inputs {
 }
 
 impl<S> Inputs<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
         Inputs {
             tau: self.tau.map(&f),

@@ -85,7 +85,7 @@ impl Default for SliderCrank {
 }
 
 impl<S> SliderCrank<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SliderCrank<R> {
         SliderCrank {
             a: f(self.a),
@@ -205,7 +205,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             theta: f(self.theta),

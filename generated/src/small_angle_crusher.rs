@@ -108,7 +108,7 @@ impl Default for SmallAngleCrusher {
 }
 
 impl<S> SmallAngleCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SmallAngleCrusher<R> {
         SmallAngleCrusher {
             m: f(self.m),
@@ -311,7 +311,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

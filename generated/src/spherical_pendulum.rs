@@ -79,7 +79,7 @@ impl Default for SphericalPendulum {
 }
 
 impl<S> SphericalPendulum<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SphericalPendulum<R> {
         SphericalPendulum {
             m: f(self.m),
@@ -163,7 +163,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             phi: f(self.phi),

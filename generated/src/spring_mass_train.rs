@@ -75,7 +75,7 @@ impl Default for SpringMassTrain {
 }
 
 impl<S> SpringMassTrain<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> SpringMassTrain<R> {
         SpringMassTrain {
             m: f(self.m),
@@ -162,7 +162,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { u: self.u.map(&f) }
     }
@@ -182,7 +182,7 @@ impl Default for Inputs {
 }
 
 impl<S> Inputs<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
         Inputs { pull: f(self.pull) }
     }

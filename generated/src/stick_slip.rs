@@ -62,7 +62,7 @@ impl Default for StickSlip {
 }
 
 impl<S> StickSlip<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> StickSlip<R> {
         StickSlip {
             m: f(self.m),
@@ -134,7 +134,7 @@ impl<S: Copy> Coordinates<S> {
         Self { x: q[0] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates { x: f(self.x) }
     }

@@ -76,7 +76,7 @@ impl Default for TwoBodyOrbit {
 }
 
 impl<S> TwoBodyOrbit<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> TwoBodyOrbit<R> {
         TwoBodyOrbit {
             m1: f(self.m1),
@@ -161,7 +161,7 @@ impl<S: Copy> Coordinates<S> {
         Self { r: q[0], phi: q[1] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             r: f(self.r),

@@ -131,7 +131,7 @@ impl Default for TwoDebalanceCrusher {
 }
 
 impl<S> TwoDebalanceCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> TwoDebalanceCrusher<R> {
         TwoDebalanceCrusher {
             m: f(self.m),
@@ -320,7 +320,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

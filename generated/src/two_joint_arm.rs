@@ -91,7 +91,7 @@ impl Default for TwoJointArm {
 }
 
 impl<S> TwoJointArm<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> TwoJointArm<R> {
         TwoJointArm {
             l1: f(self.l1),
@@ -177,7 +177,7 @@ impl<S: Copy> Coordinates<S> {
         Self { q1: q[0], q2: q[1] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             q1: f(self.q1),
@@ -205,7 +205,7 @@ impl Default for Inputs {
 }
 
 impl<S> Inputs<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Inputs<R> {
         Inputs {
             tau1: f(self.tau1),

@@ -102,7 +102,7 @@ impl Default for VibratingCrusher {
 }
 
 impl<S> VibratingCrusher<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> VibratingCrusher<R> {
         VibratingCrusher {
             m: f(self.m),
@@ -280,7 +280,7 @@ impl<S: Copy> Coordinates<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

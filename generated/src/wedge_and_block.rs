@@ -58,7 +58,7 @@ impl Default for WedgeAndBlock {
 }
 
 impl<S> WedgeAndBlock<S> {
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> WedgeAndBlock<R> {
         WedgeAndBlock {
             M: f(self.M),
@@ -167,7 +167,7 @@ impl<S: Copy> Coordinates<S> {
         Self { x: q[0], s: q[1] }
     }
 
-    /// The same over other numbers.
+    /// These values as other numbers.
     pub fn map<R>(self, f: impl Fn(S) -> R) -> Coordinates<R> {
         Coordinates {
             x: f(self.x),

@@ -21,7 +21,7 @@ use lagrangian_symbolic::{
 /// How many points have to agree.
 const POINTS: usize = 3;
 
-/// The same where signs stand in an expression: a sign has two values, so that each point
+/// How many points have to agree where signs stand in an expression: a sign has two values, so that each point
 /// leaves a chance of ½.
 const POINTS_WITH_SIGNS: usize = 64;
 

@@ -82,7 +82,7 @@ pub struct Model<'d> {
     /// Whatever contributes to the equations beside the inertia of the bodies: springs, gravity, forces,
     /// constraints, section by section.
     pub elements: Vec<Element<'d>>,
-    /// The same machine with every guide of `sliding` relaxed: what the guided body is built on can
+    /// This machine with every guide of `sliding` relaxed: what the guided body is built on can
     /// move off, by two coordinates for each guide behind all others. It tells what holds the guides
     /// shut. None where nothing slides.
     pub relaxed: Option<Box<Model<'d>>>,
@@ -304,7 +304,7 @@ pub struct Body<'d> {
     pub inertia: Inertia<'d>,
     /// Its mass centre.
     pub at: Vec<Expr<'d>>,
-    /// The same mass centre along the axes of a frame, where the spec gives it so: `arm.point(0, 0,
+    /// The mass centre along the axes of a frame, where the spec gives it so: `arm.point(0, 0,
     /// l/2)`, or the frame's origin. In space the motion is shorter that way.
     pub local: Option<Local<'d>>,
     /// How it is turned.

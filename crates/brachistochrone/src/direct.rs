@@ -84,7 +84,7 @@ pub fn solve<T: Terrain>(terrain: T, from: &[f64], to: &[f64]) -> Result<Sought<
     Search::new().solve(terrain, from, to)
 }
 
-/// The same on so many equal stretches of time, for those who look at the error.
+/// [`solve`] on a given number of equal stretches of time, for studies of the error.
 ///
 /// # Errors
 /// As [`solve`].

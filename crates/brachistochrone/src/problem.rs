@@ -207,7 +207,7 @@ impl Problem {
 pub(super) struct Frame {
     /// Steepest descent, and the direction across it towards which the motion turns.
     pub(super) axes: [Vec<f64>; 2],
-    /// The same as covectors, `A f`.
+    /// The axes as covectors, `A f`.
     pub(super) coaxes: [Vec<f64>; 2],
     /// `R`: the acceleration down the steepest descent.
     pub(super) drive: f64,

@@ -20,7 +20,7 @@ pub use repeats::{Loops, Place, Plan, fill, runs, statements_with_loops};
 /// The longest expression that is put into another one.
 const LONGEST_INLINE: usize = 72;
 
-/// The same for one with a call of a method: longer ones are broken by rustfmt.
+/// The longest expression with a call of a method that is put into another one: longer ones are broken by rustfmt.
 const LONGEST_CALL: usize = 58;
 
 /// How a language writes what is no operator.
@@ -210,7 +210,7 @@ pub struct Unchecked {
     pub latest: usize,
 }
 
-/// The same without the guards: these are for the caller to check, after everything else.
+/// The statements of a function without its guards, which the caller checks after everything else.
 pub fn unchecked(
     writer: &mut Writer,
     language: &impl Language,

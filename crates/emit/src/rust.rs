@@ -99,7 +99,7 @@ pub fn expansion(program: &Proved, options: &Options) -> String {
     unproved_expansion(program, options)
 }
 
-/// The same of any program: of one that stands where a spec is wrong, and computes nothing.
+/// The expansion of any program: also of one that stands where a spec is wrong, and computes nothing.
 fn unproved_expansion(program: &Program, options: &Options) -> String {
     let emitter = Emitter::new(program, options);
     let (name, scalar) = (emitter.types.machine.clone(), emitter.types.scalar.clone());

@@ -84,7 +84,7 @@ pub struct Equations<'d> {
     pub applied: Vec<Expr<'d>>,
     /// `f = Q − h`, eq. (E7), in a form of its own that is shorter than the difference.
     pub forces: Vec<Expr<'d>>,
-    /// The same equations of motion before projection, where no coordinate is approximated.
+    /// The equations of motion before projection, where no coordinate is approximated.
     pub unprojected: Option<Unprojected<'d>>,
     /// The bilateral constraints, which the accelerations obey and `M`, `h`, `Q` and `f` know nothing
     /// of.
@@ -93,7 +93,7 @@ pub struct Equations<'d> {
     pub sliding: Vec<SlidingEquation<'d>>,
     /// The unilateral contacts, of which nothing else here knows anything.
     pub unilateral: Vec<UnilateralEquation<'d>>,
-    /// The same machine without the coordinates that constraints settle, if they settle any.
+    /// This machine without the coordinates that constraints settle, if they settle any.
     pub reduction: Option<Box<Reduction<'d>>>,
     /// The residual of the equations of motion where accelerations are given, `f − M a`, eq. (E25); with
     /// constraints `f − M a + Gᵀ λ`, and behind it `γ − G a`. Empty where no derivative is asked
@@ -200,7 +200,7 @@ impl<'d> Equations<'d> {
         equations
     }
 
-    /// The same, while the size of the graph is bounded.
+    /// The equations of a model, while the size of the graph is bounded.
     fn within_bounds(model: &Model<'d>, report: &mut Report) -> Option<Equations<'d>> {
         let approximations = Approximations::of(model);
         let derived = if approximations.is_empty() {
@@ -239,7 +239,7 @@ impl<'d> Equations<'d> {
         (!refused).then_some(equations)
     }
 
-    /// The same equations with `M` and `h` multiplied out; nothing if that takes too many terms.
+    /// These equations with `M` and `h` multiplied out; nothing if that takes too many terms.
     ///
     /// Where few coordinates hang on each other that is shorter: what a projection computes along
     /// one axis and projects back on it cancels. A double pendulum takes 29 multiplications and

@@ -47,7 +47,7 @@ pub fn lower<'d>(model: &Model<'d>, equations: &Equations<'d>) -> Program {
     lower_by(model, equations, expanded.as_ref(), &best)
 }
 
-/// The same with a choice of one's own: `choose` is given the programs for one function, two or
+/// [`lower`] with another choice: `choose` is given the programs for one function, two or
 /// more, and says which it is to be.
 ///
 /// `expanded` are the same equations, [multiplied out](Equations::expanded).
@@ -327,7 +327,7 @@ struct Origin<'a, 'd> {
     /// Some of the same quantities, multiplied out.
     expanded: &'a [Quantity<'d>],
     unprojected: Option<&'a Unprojected<'d>>,
-    /// The same of a machine that constraints close.
+    /// The equations before projection of a closed-loop mechanism.
     cut_open: Option<&'a Unprojected<'d>>,
     /// The derivatives of `f − M a` that are asked for, in one form or several, of the equations as
     /// they were derived or multiplied out.
@@ -336,7 +336,7 @@ struct Origin<'a, 'd> {
     sliding: &'a [SlidingEquation<'d>],
     /// The symbols of the multipliers in them.
     multipliers: &'a [Expr<'d>],
-    /// The same machine without the coordinates that constraints settle.
+    /// This machine without the coordinates that constraints settle.
     reduced: Option<Set<'a, 'd>>,
 }
 

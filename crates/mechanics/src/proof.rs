@@ -97,7 +97,7 @@ impl Proved {
         }
     }
 
-    /// The same machine with one function, as [`Program::restricted`]; proved to give the same.
+    /// This program with one function only, as [`Program::restricted`]; proved to give the values that it gave here.
     ///
     /// # Errors
     /// If it does not.
@@ -361,7 +361,7 @@ enum Found {
     Wrong(Disagreement),
     /// Too few points at which everything has a value.
     Nothing,
-    /// The same after so many comparisons, which are all that may be made.
+    /// As [`Found::Nothing`], after this number of comparisons, which are all that may be made.
     Exhausted(u64),
 }
 
@@ -440,7 +440,7 @@ struct Computed<R> {
 struct Prover<'a, 'd, R> {
     parts: Parts<'a, 'd>,
     interpreter: Interpreter<R>,
-    /// The same with the values of guards for accelerations.
+    /// Runs the accelerations for the values of their guards.
     guards: Interpreter<R>,
     /// The accelerations over dual numbers, where derivatives are to be compared.
     slopes: Option<Interpreter<Dual<R>>>,
@@ -587,7 +587,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.settle(role, index, Sum::of([found, -expected]))
     }
 
-    /// The same of a difference.
+    /// Compares a result by its difference from what is expected.
     fn settle(&self, role: Role, index: usize, difference: Sum<R>) -> Result<(), Verdict> {
         if !difference.value.is_finite() {
             return Err(Verdict::Elsewhere);
@@ -1035,7 +1035,7 @@ impl<'a, 'd, R: Number> Prover<'a, 'd, R> {
         self.check_balance(computed, &a, &multipliers, &computed.forces)
     }
 
-    /// The same for given accelerations, multipliers and forces.
+    /// `M a = f + Gᵀλ` and `G a = γ` for given accelerations, multipliers and forces.
     fn check_balance(
         &self,
         computed: &Computed<R>,

@@ -48,7 +48,7 @@ fn with_avx2<P: Piece>(piece: P) -> P::Output {
     piece.run()
 }
 
-/// The same of AVX-512.
+/// A function of its own that may use AVX-512, and everything that is inlined into it with it.
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
 fn with_avx512<P: Piece>(piece: P) -> P::Output {

@@ -167,7 +167,7 @@ fn prose(docs: &str) -> Vec<Block> {
         .collect()
 }
 
-/// The same as one line.
+/// What a doc comment says, as one line.
 fn line(docs: &str) -> Words {
     let mut words = Vec::new();
     let mut rest = docs.trim();

@@ -34,7 +34,7 @@ pub enum Basis {
     Expanded,
     /// Inertia and loads where they are, eliminated from the tips of the machine to the ground.
     Along,
-    /// The same, with as little as there can be between one division and the next.
+    /// As [`Basis::Along`], with as little as there can be between one division and the next.
     Ahead,
 }
 

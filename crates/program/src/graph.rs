@@ -51,7 +51,7 @@ pub enum Node {
     Product(Box<[(Id, i32)]>),
     /// A function of its arguments.
     Function(Function, Box<[Id]>),
-    /// The same value, but computed on its own: a factor of products, whatever it is a product of.
+    /// A value that is computed on its own: a factor of products, whatever it is a product of.
     Whole(Id),
 }
 
@@ -94,7 +94,7 @@ impl Scaled {
         self.core == Id::ONE
     }
 
-    /// The same with the other sign.
+    /// This value with the other sign.
     pub fn negated(self) -> Scaled {
         Scaled {
             negative: !self.negative,
@@ -464,7 +464,7 @@ impl Graph {
         }
     }
 
-    /// The same value with its sign in the factor.
+    /// A value with its sign in the factor.
     pub fn with_signed_factor(&mut self, x: Scaled) -> Scaled {
         let factor = match self.node(x.factor) {
             Node::Constant(value) if x.negative => {
@@ -538,7 +538,7 @@ impl Graph {
         roots.iter().map(value).collect()
     }
 
-    /// The same value, computed on its own wherever it is used: not multiplied out.
+    /// A value, computed on its own wherever it is used: not multiplied out.
     pub fn whole(&mut self, x: Scaled) -> Scaled {
         if x.is_known() {
             return x;

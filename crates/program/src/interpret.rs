@@ -140,7 +140,7 @@ impl<S: Scalar<Stored = S>> Interpreter<S> {
         self.call_in::<S>(role, arguments, results)
     }
 
-    /// The same in arithmetic on numbers `N`, which are kept as `S`: what generated code does for
+    /// [`call`](Self::call) in arithmetic on numbers `N`, which are kept as `S`: what generated code does for
     /// accelerations and their derivatives.
     ///
     /// # Panics

@@ -4,7 +4,7 @@ use super::{Function, Op, Program, Role, Shape, Source, Value};
 use lagrangian_units::Stages;
 
 impl Program {
-    /// The same machine with one function, beside [`prepare`](Program::prepare) and
+    /// This machine with one function, beside [`prepare`](Program::prepare) and
     /// [`start`](Program::start), and with those prepared values that this one reads.
     ///
     /// A mass matrix of n coordinates has n² prepared values; accelerations that are eliminated
@@ -48,7 +48,7 @@ impl Program {
 }
 
 impl Program {
-    /// The same with some of the functions, beside [`prepare`](Program::prepare) and
+    /// This machine with some of the functions, beside [`prepare`](Program::prepare) and
     /// [`start`](Program::start), and all prepared values.
     pub fn with_functions(&self, is_kept: impl Fn(Role) -> bool) -> Program {
         let functions = self.functions.iter().filter(|f| is_kept(f.role));

@@ -101,7 +101,7 @@ impl System {
         &self.matrix[start..start + self.coordinates]
     }
 
-    /// The same system with a regular M, where constraints hold what has no inertia: each of these
+    /// This system with a regular M, where constraints hold what has no inertia: each of these
     /// adds as much inertia along it as its coordinates have together.
     pub fn held_by_constraints(mut self, graph: &mut Graph) -> System {
         let n = self.coordinates;

@@ -109,9 +109,9 @@ pub trait Scalar:
     fn sin_cos_all<const K: usize>(angles: [Self; K]) -> [(Self, Self); K] {
         angles.map(Self::sin_cos)
     }
-    /// The same, and true; or anything and false, where one of several angles that lie side by side is too large for what
-    /// the others take. For who starts again, number by number, when something is wrong: to him it is one more question at
-    /// the end, and no way apart in the middle.
+    /// Sines and cosines of several angles, and true; or anything and false, where one of several angles that lie side by side
+    /// is too large for the polynomials that the others take. A caller that then evaluates again, one number after another,
+    /// has one branch at the end of its arithmetic instead of one at each angle.
     #[inline(always)]
     fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
         (Self::sin_cos_all(angles), true)

@@ -117,7 +117,7 @@ impl Arena {
         joined
     }
 
-    /// The same of terms by their nodes; those of `open` are to be looked at.
+    /// Joins squares among terms by their nodes; those of `open` are to be looked at.
     fn join_open_squares(
         &mut self,
         open: &mut BTreeSet<Id>,

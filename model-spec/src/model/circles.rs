@@ -75,7 +75,7 @@ pub fn contact<'d>(model: &Model<'d>, touching: &Touching, rate: &mut Tangent<'d
     )
 }
 
-/// The same of a circle that need not be one of the machine's.
+/// How a circle, which need not be one of the machine's, touches a surface.
 pub fn touch<'d>(
     model: &Model<'d>,
     circle: &Circle<'d>,

@@ -65,7 +65,7 @@ impl<'d> PrintedTerm<'d> {
         product(self.negative, factors)
     }
 
-    /// The same with the other sign.
+    /// This term with the other sign.
     pub fn opposite(&self) -> PrintedTerm<'d> {
         PrintedTerm {
             negative: !self.negative,

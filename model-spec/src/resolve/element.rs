@@ -41,7 +41,7 @@ impl<'d> Resolved<'d> {
         }
     }
 
-    /// The same, drawn.
+    /// This element with a drawing.
     pub fn drawn(self, drawing: Drawing<'d>) -> Resolved<'d> {
         Resolved {
             drawing: Some(drawing),

@@ -879,7 +879,7 @@ pub(super) fn declared_unit(quantity: &Quantity) -> Option<Unit> {
     Some(declared_measure(quantity)?.unit)
 }
 
-/// The same, with how many SI units it is.
+/// The unit of a declaration, with how many SI units it is.
 pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
     let mut measure = Measure::ONE;
     for factor in &quantity.unit.as_ref()?.factors {

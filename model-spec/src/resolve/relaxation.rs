@@ -1,4 +1,4 @@
-//! The same machine with its guides relaxed.
+//! A machine with its guides relaxed.
 //!
 //! A guide holds a body on a line, and what it takes to hold it is found by letting go: the frame of
 //! the body, and all that is built on it, may move off by a displacement that is a coordinate of its

@@ -26,7 +26,7 @@ pub(super) fn shown(expression: &Expression, index: Option<(&str, i64)>) -> Stri
     text
 }
 
-/// The same for a factor of a product: a sum in brackets.
+/// The text of a factor of a product: a sum stands in brackets.
 pub(super) fn shown_factor(expression: &Expression, index: Option<(&str, i64)>) -> String {
     let mut text = String::new();
     Writer {

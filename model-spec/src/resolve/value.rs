@@ -100,7 +100,7 @@ pub(crate) struct Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// The same place with another limit.
+    /// This place with another limit.
     pub fn within(self, limit: &'static Limit) -> Self {
         Scope {
             limit,
@@ -109,7 +109,7 @@ impl Scope<'_> {
         }
     }
 
-    /// The same place, where a unit is demanded.
+    /// This place, where a unit is demanded.
     pub fn hinting(self, hint: impl Into<Option<Unit>>) -> Self {
         let hint = hint.into();
         Scope { hint, ..self }

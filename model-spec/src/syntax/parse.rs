@@ -190,7 +190,7 @@ impl<'t> Parser<'t> {
         self.unexpected_because(expected, None);
     }
 
-    /// The same, with what to do about it.
+    /// The next word is not what was expected, and what to do about it.
     pub(super) fn unexpected_because(&mut self, expected: &str, help: Option<String>) {
         let known = self
             .peek()

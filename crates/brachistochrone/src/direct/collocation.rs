@@ -265,7 +265,7 @@ impl Path {
         self.stages.len()
     }
 
-    /// The same on twice as many stretches, by the polynomials of each.
+    /// This path on twice as many stretches, by the polynomials of each.
     pub fn halved(&self) -> Path {
         let points = Rule::new().points;
         let mut nodes = std::vec![self.nodes[0].clone()];

@@ -50,7 +50,7 @@ pub fn through(points: &[(f64, &[f64])], x: f64) -> Vec<f64> {
     polynomial(points, x)
 }
 
-/// The same, and its derivative by x.
+/// The value at x of the polynomial through points and its derivative by x, for each component.
 pub fn sloping(points: &[(f64, &[f64])], x: f64) -> Vec<Dual<f64>> {
     polynomial(
         points,

@@ -562,7 +562,7 @@ enum Kept {
     All(String, Vec<Value>),
     /// A variable, and the value of the last iteration.
     Last(String, Value),
-    /// The same, where the variable is carried anyway.
+    /// A variable that is carried anyway, and the value of the last iteration.
     Carried(String, Value),
 }
 

@@ -72,7 +72,7 @@ impl<'a> Emitter<'a> {
         needed.map(|(_, name, kind)| (name, kind)).collect()
     }
 
-    /// The same as a function declares them.
+    /// The arguments as a function declares them.
     fn declared(&self, needs: Reads) -> Vec<String> {
         self.arguments(needs)
             .iter()
@@ -291,7 +291,7 @@ impl<'a> Emitter<'a> {
         })
     }
 
-    /// The same without its checks of pivots, in registers.
+    /// The statements of a function without its checks of pivots, in registers.
     pub(super) fn unchecked(&mut self, function: &Function, wanted: &[String]) -> Unchecked {
         self.in_scope(true, |writer, language, scope| {
             body::unchecked(writer, language, function, scope, wanted)

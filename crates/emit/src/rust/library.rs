@@ -81,7 +81,7 @@ impl Emitter<'_> {
         self.writer.gap();
         self.writer
             .open(format!("impl<{scalar}: {copy}> {prepared}<{scalar}> {{"));
-        self.docs("The same over other numbers.");
+        self.docs("These values as other numbers.");
         self.writer.signature(
             "pub fn map<R>",
             &["&self".into(), format!("f: impl {fn_trait}({scalar}) -> R")],

@@ -61,7 +61,7 @@ impl Emitter<'_> {
             self.writer.gap();
             self.writer
                 .open(format!("impl<{scalar}> {name}<{scalar}> {{"));
-            self.docs("The same over other numbers: for lanes that share it, splat.");
+            self.docs("These values as other numbers: for lanes that share them, splat.");
             self.writer.signature(
                 "pub fn map<R>",
                 &["self".into(), format!("f: impl {fn_trait}({scalar}) -> R")],

@@ -51,7 +51,7 @@ impl Emitter<'_> {
     pub(super) fn map(&mut self, name: &str, group: &Group<'_>) {
         let scalar = self.types.scalar.clone();
         let fn_trait = self.types.known("Fn");
-        self.docs("The same over other numbers.");
+        self.docs("These values as other numbers.");
         let argument = if group.is_empty() { "_" } else { "f" };
         self.writer.signature(
             "pub fn map<R>",

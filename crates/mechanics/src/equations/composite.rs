@@ -81,7 +81,7 @@ impl<'d> Composite<'d> {
         }
     }
 
-    /// The same about the origin of a frame that sees this one's at `r`: `s + m r`, and `J` with
+    /// This body about the origin of a frame that sees this one's at `r`: `s + m r`, and `J` with
     /// `(2 r·s + m r²) 1 − (r sᵀ + s rᵀ + m r rᵀ)` more.
     fn shifted(&self, r: &Vector<'d>) -> Composite<'d> {
         let Composite {

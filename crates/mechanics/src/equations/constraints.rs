@@ -46,7 +46,7 @@ pub struct ConstraintEquation<'d> {
 }
 
 impl<'d> ConstraintEquation<'d> {
-    /// The same constraint, said in the coordinates of another model.
+    /// This constraint in the coordinates of another model.
     pub(super) fn restated(
         &self,
         model: &Model<'d>,

@@ -252,7 +252,7 @@ fn orthogonal(rows: &[Row]) -> Vec<Row> {
     pivoted(rows).into_iter().map(|(_, row)| row).collect()
 }
 
-/// The same, each with the place of the row that it comes from.
+/// [`orthogonal`] rows, each with the place of the row that it comes from.
 fn pivoted(rows: &[Row]) -> Vec<(usize, Row)> {
     let unit = |row: &Row| {
         let length = dot(row, row).sqrt();

@@ -209,7 +209,7 @@ pub(super) struct Twist<'d> {
 pub(super) struct Chains {
     /// The parents of what is asked for, and what is asked for, by pose.
     needed: Vec<bool>,
-    /// The same, where the origin's motion is asked for too.
+    /// Those of which the motion of the origin is asked for too.
     needed_origin: Vec<bool>,
 }
 
@@ -407,7 +407,7 @@ pub(super) fn acceleration_at<'d>(
     ])
 }
 
-/// The same for the origin of a frame that is shifted by `r`.
+/// The acceleration of the origin of a frame that is shifted by `r`.
 fn shifted_acceleration<'d>(
     here: &Twist<'d>,
     omega: &Vector<'d>,

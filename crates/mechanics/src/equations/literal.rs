@@ -222,7 +222,7 @@ impl<'m, 'd> Lagrange<'m, 'd> {
         self.values_with(expressions, at, &[])
     }
 
-    /// The same where some more symbols have values.
+    /// The values of expressions at a state, where some more symbols have values.
     pub fn values_with<R: Scalar>(
         &self,
         expressions: &[Expr<'d>],
@@ -925,7 +925,7 @@ fn on_circle<'d, R: Scalar>(
     [gap, Dual::constant(slip)]
 }
 
-/// The same of a circle on the first axis of a frame, on the side of the second.
+/// Gap and slip of a circle on the first axis of a frame, on the side of the second.
 fn on_line<'d, R: Scalar>(
     model: &Model<'d>,
     circle: &Circle<'d>,

@@ -46,7 +46,7 @@ pub(super) fn work_rate<'d>(
         .sum([force_power(projection), explicit, projection.drive_power()])
 }
 
-/// The same from energies, for any `T`: `P = Σ Fᵢ vᵢ + ∂V/∂t − ∂T/∂t + D(T₁ + 2 T₀)`.
+/// The power of forces and drives from energies, for any `T`: `P = Σ Fᵢ vᵢ + ∂V/∂t − ∂T/∂t + D(T₁ + 2 T₀)`.
 ///
 /// By Lagrange's equations `d/dt (Σ vᵢ ∂T/∂vᵢ − T) = Σ vᵢ Qᵢ − ∂T/∂t`. With `T = T₂ + T₁ + T₀` by
 /// powers of `v` the bracket is `T₂ − T₀`, and `T₁ + 2 T₀ = Σ m u·∂x/∂t` is what is missing to `T`;

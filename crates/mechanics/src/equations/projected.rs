@@ -485,7 +485,7 @@ impl<'a, 'd> Projection<'a, 'd> {
         }
     }
 
-    /// The same, and how they accelerate; with `gravity` the ground accelerates by `−g`.
+    /// How frames in space move at a rate, and how they accelerate; with `gravity` the ground accelerates by `−g`.
     fn motion(&self, rate: &mut Tangent<'d>, gravity: bool) -> (Vec<Twist<'d>>, Vec<Twist<'d>>) {
         let model = self.model;
         let gravity = model.gravity().filter(|_| gravity);

@@ -931,7 +931,7 @@ impl<'d> Front<'d> {
         }
     }
 
-    /// The same with names for the coefficients that are factors of its terms.
+    /// An expression with names for the coefficients that are factors of its terms.
     fn with_names(&self, e: Expr<'d>, names: &[(Expr<'d>, Expr<'d>)]) -> Expr<'d> {
         let named = |term: Expr<'d>| {
             let (_, factors) = factors_of(term);
@@ -1135,7 +1135,7 @@ impl<'d> Front<'d> {
         self.composition_within(id, usize::MAX)
     }
 
-    /// The same, if no more nodes than `most` lie between it and what it is built from.
+    /// [`composition`](Self::composition), if at most `most` nodes lie between the velocity and what it is built from.
     fn composition_within(&self, id: Id, mut most: usize) -> Option<Composition<'d>> {
         let mut parts: BTreeMap<Id, Vec<Expr<'d>>> = BTreeMap::new();
         let mut rest = Vec::new();
@@ -1169,7 +1169,7 @@ impl<'d> Front<'d> {
         })
     }
 
-    /// The same for the nodes that it is built from directly.
+    /// The nodes that a velocity is built from directly, with their coefficients.
     fn direct_parts(&self, id: Id) -> Option<Vec<(Id, Expr<'d>)>> {
         match self.dag.node(id) {
             Node::Sum(terms) => Some(
@@ -1221,7 +1221,7 @@ const LONGEST_EXPANSION: usize = 24;
 enum Reach {
     /// Earlier totals that are factors of products.
     TotalsInProducts,
-    /// The same, and again in what comes of it.
+    /// Earlier totals that are factors of products, and again in the products that this gives.
     Deep,
     /// Earlier totals.
     Totals,

@@ -83,7 +83,7 @@ pub enum Disagreement {
         /// The function.
         role: Role,
     },
-    /// The same after as many comparisons as the size of the machine allows.
+    /// No point was found within as many comparisons as the size of the machine allows.
     Exhausted {
         /// How many.
         comparisons: u64,
@@ -284,7 +284,7 @@ struct Point<'a, 'd> {
     program: &'a Program,
     model: &'a Model<'d>,
     interpreter: Interpreter<Residue>,
-    /// The same with the values of guards for accelerations.
+    /// Runs the accelerations for the values of their guards.
     guards: Interpreter<Residue>,
     /// The coordinates that constraints settle.
     settled: Vec<usize>,
@@ -370,7 +370,7 @@ impl<'a, 'd> Point<'a, 'd> {
         }
     }
 
-    /// The same, whether they have a value or not.
+    /// The values of expressions, given the accelerations, whether they are finite or not.
     fn evaluate_all(&self, expressions: &[Expr<'d>], a: &[Residue]) -> Vec<Residue> {
         let model = self.model;
         let mut values: FxHashMap<Symbol, Residue> = FxHashMap::default();

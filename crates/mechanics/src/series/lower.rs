@@ -146,7 +146,7 @@ impl<'m, 'd> Lowering<'m, 'd> {
         self.add_row(sum, coefficient, row)
     }
 
-    /// The same of a row; a row that is a multiple of another, or a sum, adds its terms.
+    /// Adds `coefficient·row` to a sum; a row that is a multiple of another, or a sum, adds its terms.
     fn add_row(
         &mut self,
         sum: &mut Vec<(Option<RowId>, RowId)>,

@@ -109,7 +109,7 @@ impl Row {
         }
     }
 
-    /// The same with its operands at other places.
+    /// This row with its operands at other places.
     fn moved(mut self, place: &[RowId]) -> Row {
         let to = |row: &mut RowId| *row = place[row.index()];
         match &mut self {
