@@ -1,11 +1,5 @@
 //! The balance of energy, integrated beside the motion.
 
-#[cfg(feature = "std")]
-mod explained;
-
-#[cfg(feature = "std")]
-pub(crate) use explained::Explained;
-
 use crate::System;
 use crate::compensated::Sum;
 use crate::methods::MAX_STAGES;

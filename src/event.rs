@@ -19,10 +19,10 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
+use crate::inputs::InputLaw;
 use crate::interpolant::Interpolant;
 use crate::roots;
-use crate::run::made;
-use crate::stepper::{InputLaw, Stepper};
+use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
 
 /// Where in a step the sign is looked at: events that come and go between two of these are missed.
@@ -445,4 +445,21 @@ pub(crate) fn last_positive(
 
 fn sign(x: f64) -> f64 {
     if x == 0.0 { 0.0 } else { x.signum() }
+}
+
+/// The motion within the last step.
+pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
+    interpolant: &'p mut Option<Interpolant<S::Vector>>,
+    stepper: &mut Stepper<'_, S, L, A>,
+    system: &S,
+) -> Result<&'p Interpolant<S::Vector>, Error> {
+    match interpolant {
+        Some(interpolant) => Ok(interpolant),
+        None => {
+            let made = stepper
+                .interpolant()
+                .map_err(|error| Error::of_step(error, system))?;
+            Ok(interpolant.insert(made))
+        }
+    }
 }

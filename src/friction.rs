@@ -25,10 +25,8 @@ use law::ROUNDING;
 use law::{Each, Layout, Paradox, Parts, Question, solve};
 pub(crate) use law::{Mode, Motion};
 
+use crate::system::MOST_CONTACTS;
 use crate::{Pivot, Singular, StepError, System, Vector};
-
-/// The most contacts of a machine.
-pub const MOST_CONTACTS: usize = 6;
 
 /// Slips below this, relative to the greatest of the same contact in the run, count as rest where
 /// another contact comes to rest.

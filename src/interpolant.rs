@@ -2,7 +2,7 @@
 
 use crate::methods::{MAX_STAGES, Method};
 use crate::stages::{stage_state, weigh};
-use crate::stepper::StepError;
+use crate::step_error::StepError;
 use crate::{Vector, compensated::Sum};
 
 /// The most coefficients that a polynomial has: four of the cubic, and those of the method.

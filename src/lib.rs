@@ -59,15 +59,18 @@ mod contact;
 mod friction;
 #[cfg(feature = "std")]
 mod implicit;
+mod inputs;
 mod interpolant;
 mod lanes;
 mod math;
 pub mod methods;
 mod stages;
+mod step_error;
 mod stepper;
 mod system;
 #[cfg(feature = "std")]
 mod taylor;
+mod tolerance;
 mod vector;
 
 #[cfg(feature = "interpreter")]
@@ -97,20 +100,20 @@ pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratur
 pub use constraints::{constraint_workspace, least_multipliers};
 pub use contact::{ContactTrouble, ImpactLaw, UnilateralContact};
 pub use friction::{
-    ContactForce, MOST_CONTACTS, accelerations_with_friction, contact_forces, contact_workspace,
+    ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,
 };
+pub use inputs::{DefaultInputs, InputFunction, InputLaw};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method, TAYLOR};
-pub use stepper::{
-    DefaultInputs, InputFunction, InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper,
-    Tolerance, Work,
-};
+pub use step_error::StepError;
+pub use stepper::{Stepper, Work};
 pub use system::{
-    Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, Machine, Outputs, Pivot,
-    Quantity, Singular, Staged, State, System,
+    Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, MOST_CONTACTS, Machine,
+    Outputs, Pivot, Quantity, Singular, Staged, State, System,
 };
+pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use vector::Vector;
 
 #[cfg(feature = "std")]

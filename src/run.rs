@@ -1,24 +1,29 @@
 //! The making of a run: step after step, with everything that the simulation was told to look at.
 
 pub(crate) mod contacts;
+mod explained;
 
 use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
 
-use crate::balance::{Energies, EnergyBalance, Explained, Quadratures};
+use crate::balance::{Energies, EnergyBalance, Quadratures};
 use crate::constraints::{Constraints, Miss, closest};
 use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
-use crate::event::{self, Crossing, Event, Terminal, Triple, state};
+use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
+use crate::inputs::InputLaw;
 use crate::interpolant::Interpolant;
 use crate::roots;
 use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
-use crate::stepper::{InputLaw, LEAST_RELATIVE_TOLERANCE, StepError, Stepper, Tolerance};
+use crate::step_error::StepError;
+use crate::stepper::Stepper;
+use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{Coordinates, Error, Machine, Pivot, Singular, State, System, Vector, Warning};
+use explained::Explained;
 
 /// Makes the run of a simulation; with an error if something ended it early.
 ///
@@ -623,23 +628,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             model.system,
             (stepper.t(), stepper.q().clone(), stepper.v().clone()),
         ))
-    }
-}
-
-/// The motion within the last step.
-pub(crate) fn made<'p, S: System, L: InputLaw<S>, A: Quadratures<S>>(
-    interpolant: &'p mut Option<Interpolant<S::Vector>>,
-    stepper: &mut Stepper<'_, S, L, A>,
-    system: &S,
-) -> Result<&'p Interpolant<S::Vector>, Error> {
-    match interpolant {
-        Some(interpolant) => Ok(interpolant),
-        None => {
-            let made = stepper
-                .interpolant()
-                .map_err(|error| Error::of_step(error, system))?;
-            Ok(interpolant.insert(made))
-        }
     }
 }
 

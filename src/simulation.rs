@@ -6,10 +6,10 @@ use std::vec::Vec;
 
 use crate::balance::{EnergyIntegrals, NoBalance};
 use crate::event::{Crossing, OfState, Watch};
+use crate::inputs::{DefaultInputs, InputFunction, InputLaw};
 use crate::methods::Method;
 use crate::run;
 use crate::solution::Solution;
-use crate::stepper::{DefaultInputs, InputFunction, InputLaw};
 use crate::{Coordinates, Error, Inputs, Machine, State};
 
 /// A run to be made: machine, end, tolerance, and what to watch for.

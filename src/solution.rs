@@ -9,11 +9,13 @@ use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::event::{Event, state};
 use crate::friction::{ContactForce, Contacts};
+use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
 use crate::run::contacts::{Kept, Phase};
 use crate::simulation::{Callbacks, Of, Resumed, Settings};
-use crate::stepper::{DefaultInputs, InputLaw, StepError, accelerations, project};
+use crate::step_error::StepError;
+use crate::stepper::{accelerations, project};
 use crate::{
     ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs,
     Quadratures, Simulation, State, Stepper, System, UnilateralForce, Vector, Warning,

@@ -10,8 +10,6 @@ mod meeting;
 #[cfg(feature = "std")]
 pub(crate) use meeting::{Cause, Happened};
 
-use core::fmt::{self, Display};
-
 use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
@@ -22,23 +20,20 @@ use crate::friction::Change;
 use crate::friction::Contacts;
 #[cfg(feature = "std")]
 use crate::implicit::Implicit;
+use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::math::{power, rough_power, sqrt};
 #[cfg(doc)]
 use crate::methods::Tableau;
 use crate::methods::{MAX_STAGES, Method, Row};
 use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
+use crate::step_error::StepError;
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
-use crate::{ContactTrouble, Singular, System, Vector};
+use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, SAFETY, Tolerance};
+use crate::{ContactTrouble, System, Vector};
 #[cfg(feature = "std")]
 use std::boxed::Box;
-
-/// Safety factor in the choice of the next step.
-pub(crate) const SAFETY: f64 = 0.9;
-
-/// Relative tolerances below this ask for more digits than `f64` has.
-pub const LEAST_RELATIVE_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 
 /// A test of stiffness follows every so many steps, as in DOP853.
 const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
@@ -47,211 +42,6 @@ const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 /// absolute: 10⁻¹⁶ in a constraint are 10⁻⁵ in the accelerations of a stage where the weakest row has 3·10⁻⁴
 /// of its length left, and a hundredth of that in what a step makes of them.
 const ACROSS: f64 = 1e-7;
-
-/// How a machine's inputs are set while it runs.
-///
-/// Must depend on its arguments alone: a step is tried more than once, and looks ahead. A law that
-/// reads a cell may change between steps, if the stepper is told
-/// ([`Stepper::inputs_changed`]): it goes on with the acceleration at the end of the last step, which
-/// is another one then.
-pub trait InputLaw<S: System> {
-    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
-    /// before.
-    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
-
-    /// Whether the inputs are the same at all times and states: then the motion may be expanded in a series. False by
-    /// default.
-    fn is_constant(&self) -> bool {
-        false
-    }
-}
-
-impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
-    #[inline(always)]
-    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
-        (**self).set(system, t, q, v, inputs);
-    }
-
-    fn is_constant(&self) -> bool {
-        (**self).is_constant()
-    }
-}
-
-/// The inputs keep the defaults of the description.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct DefaultInputs;
-
-impl<S: System> InputLaw<S> for DefaultInputs {
-    #[inline(always)]
-    fn set(&self, _: &S, _: f64, _: &S::Vector, _: &S::Vector, _: &mut S::Inputs) {}
-
-    fn is_constant(&self) -> bool {
-        true
-    }
-}
-
-/// The inputs are what a function makes of time and state: `|t, q, v, u| u.torque = -k * q.theta`.
-#[derive(Clone, Copy, Debug)]
-pub struct InputFunction<F>(pub F);
-
-impl<S, F> InputLaw<S> for InputFunction<F>
-where
-    S: System,
-    F: Fn(f64, &S::Coordinates, &S::Coordinates, &mut S::Inputs),
-{
-    #[inline]
-    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
-        *inputs = system.default_inputs();
-        (self.0)(
-            t,
-            &system.to_coordinates(q),
-            &system.to_coordinates(v),
-            inputs,
-        );
-    }
-}
-
-/// How exact a run shall be: the error of each step in a number `y` is kept below `absolute +
-/// relative · |y|`, in the mean over all coordinates and rates.
-#[derive(Clone, Debug)]
-pub struct Tolerance<V> {
-    /// Relative to the size of each number.
-    pub relative: f64,
-    /// For each coordinate, in its unit; its rate has the same, per second.
-    pub absolute: V,
-}
-
-/// Why a step could not be taken. Coordinates are given by their index.
-///
-/// A [`Simulation`](crate::Simulation) says the same in the words of the machine
-#[cfg_attr(feature = "std", doc = "([`Error::of_step`](crate::Error::of_step)).")]
-#[cfg_attr(not(feature = "std"), doc = "(with the feature `std`).")]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepError {
-    /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
-    /// not avoid it.
-    NotFinite {
-        /// The coordinate.
-        coordinate: usize,
-        /// Time, in s.
-        t: f64,
-    },
-    /// The mass matrix cannot be inverted at time `t`, and shorter steps do not avoid it.
-    Singular {
-        /// Where the elimination stopped.
-        singular: Singular,
-        /// Time, in s.
-        t: f64,
-    },
-    /// Constraints contradict each other, or have no solution near the state.
-    Inconsistent {
-        /// The one that is violated the most.
-        constraint: usize,
-        /// Its residual, relative to the size of its terms.
-        residual: f64,
-        /// Time, in s.
-        t: f64,
-    },
-    /// The method is [`TAYLOR`](crate::TAYLOR), and the machine does not know the series of its motion
-    /// ([`System::check_series`]), or it has inputs that change while it runs.
-    NoSeries {
-        /// Whether it is because of the inputs.
-        inputs: bool,
-        /// Time, in s.
-        t: f64,
-    },
-    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit or by
-    /// series, and there is no allocator (feature `std`).
-    NoWorkspace {
-        /// Time, in s.
-        t: f64,
-    },
-    /// The motion within the last step was asked for after [`Stepper::inputs_changed`], and the method
-    /// needs evaluations for it, which would not be those of that step. Ask before.
-    Changed {
-        /// Time, in s.
-        t: f64,
-    },
-    /// Unilateral contacts leave the run no way on, or are at work where only a
-    /// [`Simulation`](crate::Simulation) can follow them.
-    Contact {
-        /// One of them.
-        contact: usize,
-        /// Why.
-        trouble: ContactTrouble,
-        /// Time, in s.
-        t: f64,
-    },
-    /// The step has shrunk to the roundoff of time, and its error is still too great.
-    StepTooSmall {
-        /// The coordinate with the greatest error.
-        coordinate: usize,
-        /// Time, in s.
-        t: f64,
-        /// The step that was given up, in s.
-        step: f64,
-    },
-}
-
-impl Display for StepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            Self::NotFinite { coordinate, t } => write!(
-                f,
-                "the acceleration of coordinate number {} has no finite value at t = {t:e} s",
-                coordinate + 1
-            ),
-            Self::Singular { singular, t } => write!(f, "{singular}, at t = {t:e} s"),
-            Self::Inconsistent {
-                constraint,
-                residual,
-                t,
-            } => write!(
-                f,
-                "constraint number {} cannot be met near the state at t = {t:e} s: its residual is {residual:.1e} of \
-                 the size of its terms",
-                constraint + 1
-            ),
-            Self::NoSeries { inputs: true, t } => write!(
-                f,
-                "inputs that change while the machine runs have no Taylor series, at t = {t:e} s"
-            ),
-            Self::NoSeries { inputs: false, t } => {
-                write!(f, "the machine has no Taylor series, at t = {t:e} s")
-            }
-            Self::NoWorkspace { t } => write!(
-                f,
-                "there is no workspace for the constraints, or for a method that needs some, at t = {t:e} s"
-            ),
-            Self::Changed { t } => write!(
-                f,
-                "the motion before t = {t:e} s is to be looked at before the inputs are changed there"
-            ),
-            Self::Contact {
-                contact,
-                trouble,
-                t,
-            } => write!(
-                f,
-                "at t = {t:e} s, unilateral contact number {}: {}",
-                contact + 1,
-                trouble.words()
-            ),
-            Self::StepTooSmall {
-                coordinate,
-                t,
-                step,
-            } => write!(
-                f,
-                "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {} is still too \
-                 great",
-                coordinate + 1
-            ),
-        }
-    }
-}
-
-impl core::error::Error for StepError {}
 
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

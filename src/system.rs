@@ -8,6 +8,9 @@ use core::fmt::{self, Debug, Display};
 
 use crate::{UnilateralContact, Vector};
 
+/// The most guided contacts of a machine.
+pub const MOST_CONTACTS: usize = 6;
+
 /// The parameters of a machine: a plain struct with a named field for each.
 ///
 /// ```
@@ -259,8 +262,8 @@ pub trait System {
     ///
     /// By default what rounding does is not known, and both are the slip.
     fn slip_ranges(&self, t: f64, q: &Self::Vector, v: &Self::Vector, ranges: &mut [[f64; 2]]) {
-        let mut slips = [0.0; crate::MOST_CONTACTS];
-        let slips = &mut slips[..ranges.len().min(crate::MOST_CONTACTS)];
+        let mut slips = [0.0; MOST_CONTACTS];
+        let slips = &mut slips[..ranges.len().min(MOST_CONTACTS)];
         self.slips(t, q, v, slips);
         for (range, slip) in ranges.iter_mut().zip(slips) {
             *range = [*slip; 2];

@@ -12,7 +12,7 @@ use std::vec::Vec;
 use crate::compensated::two_sum;
 use crate::math::power;
 use crate::stages::Point;
-use crate::stepper::Tolerance;
+use crate::tolerance::Tolerance;
 use crate::{Singular, System, Vector};
 
 /// Coefficients of the accelerations for tolerances down to [`FINE`], and below.

@@ -4,14 +4,16 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-use super::{LastInterpolant, Run, VectorOf, made};
+use super::{LastInterpolant, Run, VectorOf};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
 use crate::contact::{Impact, Mode, Touching};
-use crate::event::{self, Crossing, Event, Triple, state};
+use crate::event::{self, Crossing, Event, Triple, made, state};
 use crate::friction::Margin;
+use crate::inputs::InputLaw;
 use crate::solution::Ending;
-use crate::stepper::{Cause, Happened, InputLaw, StepError};
+use crate::step_error::StepError;
+use crate::stepper::{Cause, Happened};
 use crate::{
     ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, Machine, System, Warning,
 };

@@ -3,10 +3,11 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{InputLaw, Model, Stepper};
+use super::{Model, Stepper};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
 use crate::contact::{ContactTrouble, Impact, Mode, Touching};
+use crate::inputs::InputLaw;
 use crate::stages::Point;
 use crate::{StepError, System, Vector};
 

@@ -3,8 +3,9 @@
 use std::vec;
 use std::vec::Vec;
 
+use crate::inputs::InputLaw;
 use crate::math::sqrt;
-use crate::stepper::{InputLaw, Stepper};
+use crate::stepper::Stepper;
 use crate::{Energies, Quadratures, System, Vector};
 
 /// Errors of steps are estimates, energies are bent, and bounds are taken at the ends of steps: by so much they

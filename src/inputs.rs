@@ -1,0 +1,66 @@
+//! How inputs are set while a machine runs.
+
+use crate::System;
+
+/// How a machine's inputs are set while it runs.
+///
+/// Must depend on its arguments alone: a step is tried more than once, and looks ahead. A law that
+/// reads a cell may change between steps, if the stepper is told
+/// ([`Stepper::inputs_changed`](crate::Stepper::inputs_changed)): it goes on with the acceleration at the end of the last step, which
+/// is another one then.
+pub trait InputLaw<S: System> {
+    /// Sets the inputs for an instant. `inputs` holds the defaults, or what this very law set
+    /// before.
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
+
+    /// Whether the inputs are the same at all times and states: then the motion may be expanded in a series. False by
+    /// default.
+    fn is_constant(&self) -> bool {
+        false
+    }
+}
+
+impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
+    #[inline(always)]
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        (**self).set(system, t, q, v, inputs);
+    }
+
+    fn is_constant(&self) -> bool {
+        (**self).is_constant()
+    }
+}
+
+/// The inputs keep the defaults of the description.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DefaultInputs;
+
+impl<S: System> InputLaw<S> for DefaultInputs {
+    #[inline(always)]
+    fn set(&self, _: &S, _: f64, _: &S::Vector, _: &S::Vector, _: &mut S::Inputs) {}
+
+    fn is_constant(&self) -> bool {
+        true
+    }
+}
+
+/// The inputs are what a function makes of time and state: `|t, q, v, u| u.torque = -k * q.theta`.
+#[derive(Clone, Copy, Debug)]
+pub struct InputFunction<F>(pub F);
+
+impl<S, F> InputLaw<S> for InputFunction<F>
+where
+    S: System,
+    F: Fn(f64, &S::Coordinates, &S::Coordinates, &mut S::Inputs),
+{
+    #[inline]
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        *inputs = system.default_inputs();
+        (self.0)(
+            t,
+            &system.to_coordinates(q),
+            &system.to_coordinates(v),
+            inputs,
+        );
+    }
+}

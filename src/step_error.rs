@@ -1,0 +1,139 @@
+//! Why a step could not be taken.
+
+use core::fmt::{self, Display};
+
+use crate::{ContactTrouble, Singular};
+#[cfg(doc)]
+use crate::{Stepper, System};
+
+/// Why a step could not be taken. Coordinates are given by their index.
+///
+/// A [`Simulation`](crate::Simulation) says the same in the words of the machine
+#[cfg_attr(feature = "std", doc = "([`Error::of_step`](crate::Error::of_step)).")]
+#[cfg_attr(not(feature = "std"), doc = "(with the feature `std`).")]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepError {
+    /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
+    /// not avoid it.
+    NotFinite {
+        /// The coordinate.
+        coordinate: usize,
+        /// Time, in s.
+        t: f64,
+    },
+    /// The mass matrix cannot be inverted at time `t`, and shorter steps do not avoid it.
+    Singular {
+        /// Where the elimination stopped.
+        singular: Singular,
+        /// Time, in s.
+        t: f64,
+    },
+    /// Constraints contradict each other, or have no solution near the state.
+    Inconsistent {
+        /// The one that is violated the most.
+        constraint: usize,
+        /// Its residual, relative to the size of its terms.
+        residual: f64,
+        /// Time, in s.
+        t: f64,
+    },
+    /// The method is [`TAYLOR`](crate::TAYLOR), and the machine does not know the series of its motion
+    /// ([`System::check_series`]), or it has inputs that change while it runs.
+    NoSeries {
+        /// Whether it is because of the inputs.
+        inputs: bool,
+        /// Time, in s.
+        t: f64,
+    },
+    /// [`System::with_workspace`] gives no workspace for the work on constraints; or the method is implicit or by
+    /// series, and there is no allocator (feature `std`).
+    NoWorkspace {
+        /// Time, in s.
+        t: f64,
+    },
+    /// The motion within the last step was asked for after [`Stepper::inputs_changed`], and the method
+    /// needs evaluations for it, which would not be those of that step. Ask before.
+    Changed {
+        /// Time, in s.
+        t: f64,
+    },
+    /// Unilateral contacts leave the run no way on, or are at work where only a
+    /// [`Simulation`](crate::Simulation) can follow them.
+    Contact {
+        /// One of them.
+        contact: usize,
+        /// Why.
+        trouble: ContactTrouble,
+        /// Time, in s.
+        t: f64,
+    },
+    /// The step has shrunk to the roundoff of time, and its error is still too great.
+    StepTooSmall {
+        /// The coordinate with the greatest error.
+        coordinate: usize,
+        /// Time, in s.
+        t: f64,
+        /// The step that was given up, in s.
+        step: f64,
+    },
+}
+
+impl Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NotFinite { coordinate, t } => write!(
+                f,
+                "the acceleration of coordinate number {} has no finite value at t = {t:e} s",
+                coordinate + 1
+            ),
+            Self::Singular { singular, t } => write!(f, "{singular}, at t = {t:e} s"),
+            Self::Inconsistent {
+                constraint,
+                residual,
+                t,
+            } => write!(
+                f,
+                "constraint number {} cannot be met near the state at t = {t:e} s: its residual is {residual:.1e} of \
+                 the size of its terms",
+                constraint + 1
+            ),
+            Self::NoSeries { inputs: true, t } => write!(
+                f,
+                "inputs that change while the machine runs have no Taylor series, at t = {t:e} s"
+            ),
+            Self::NoSeries { inputs: false, t } => {
+                write!(f, "the machine has no Taylor series, at t = {t:e} s")
+            }
+            Self::NoWorkspace { t } => write!(
+                f,
+                "there is no workspace for the constraints, or for a method that needs some, at t = {t:e} s"
+            ),
+            Self::Changed { t } => write!(
+                f,
+                "the motion before t = {t:e} s is to be looked at before the inputs are changed there"
+            ),
+            Self::Contact {
+                contact,
+                trouble,
+                t,
+            } => write!(
+                f,
+                "at t = {t:e} s, unilateral contact number {}: {}",
+                contact + 1,
+                trouble.words()
+            ),
+            Self::StepTooSmall {
+                coordinate,
+                t,
+                step,
+            } => write!(
+                f,
+                "the step shrank to {step:e} s at t = {t:e} s, and the error of coordinate number {} is still too \
+                 great",
+                coordinate + 1
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StepError {}
