@@ -2,9 +2,10 @@
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
 use lagrangian::{ContactEvent, ContactEventKind, Event, System, unilateral_forces};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
-use crate::simulate::{Run, shortest};
+use crate::numbers::{by_name, shortest};
+use crate::recording::Run;
 
 /// What a run has shown of a contact.
 struct Account {
@@ -106,10 +107,6 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
 }
 
 fn event(event: &ContactEvent<Named>) -> Value {
-    let by_name = |numbers: &Named| -> Value {
-        let pairs = numbers.iter().map(|(name, x)| (name.to_owned(), x.into()));
-        Value::Object(pairs.collect::<Map<_, _>>())
-    };
     let mut document = json!({
         "t": event.state.t,
         "contact": event.contact,

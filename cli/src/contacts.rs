@@ -10,7 +10,8 @@ use lagrangian_spec::model::Model;
 use lagrangian_symbolic::evaluate;
 use serde_json::{Map, Value, json};
 
-use crate::simulate::{Run, shortest};
+use crate::numbers::shortest;
+use crate::recording::Run;
 
 /// The rolling contacts of a machine, and what a run has shown of each.
 pub struct Contacts {

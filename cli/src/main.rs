@@ -16,6 +16,7 @@ mod failure;
 mod interrupt;
 mod library;
 mod modes;
+mod numbers;
 mod output;
 mod plot;
 mod progress;

@@ -1,5 +1,11 @@
 //! What a run leaves behind: one row for each instant, one column for each quantity.
 
+use lagrangian::Solution;
+use lagrangian::interpreted::InterpretedMachine;
+
+/// A run of a machine read from a spec.
+pub type Run = Solution<InterpretedMachine>;
+
 /// What a column holds; decides into which panel of the plot it goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {

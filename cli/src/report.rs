@@ -21,8 +21,8 @@ use serde_json::{Value, json};
 
 use crate::call;
 use crate::contacts::Found;
+use crate::recording::Run;
 use crate::recording::{Column, Kind, Recording, thin};
-use crate::simulate::Run;
 
 pub use page::{DRAWING, STYLE};
 pub use samples::{Samples, encoded, finer};

@@ -2,13 +2,13 @@
 
 use std::cell::Cell;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Ending, Energies, Error, Machine, Simulation, Solution, System, Warning};
+use lagrangian::{Ending, Energies, Error, Machine, Simulation, System, Warning};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::call;
 use crate::collisions;
@@ -16,10 +16,11 @@ use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::numbers::{by_name, shortest};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
-use crate::recording::{Column, Kind, Recording};
+use crate::recording::{Column, Kind, Recording, Run};
 use crate::report::{self, Report};
 use crate::{plot, table};
 
@@ -28,9 +29,6 @@ const SAMPLES: f64 = 1000.0;
 
 /// More rows than this are a slip of the hand: at nine coordinates they fill a gigabyte.
 const MOST_SAMPLES: f64 = 5e6;
-
-/// A run of a machine read from a spec.
-pub type Run = Solution<InterpretedMachine>;
 
 /// The files that a call asks for.
 struct Files {
@@ -425,15 +423,6 @@ fn residual_at(energies: &[Energies], t: f64) -> f64 {
     }
 }
 
-fn by_name(numbers: &Named) -> Value {
-    Value::Object(
-        numbers
-            .iter()
-            .map(|(name, value)| (name.to_owned(), value.into()))
-            .collect::<Map<_, _>>(),
-    )
-}
-
 fn document(
     run: &Run,
     contacts: &[Found],
@@ -478,14 +467,6 @@ fn document(
         }
     }
     document
-}
-
-/// The shortest text that reads back to the same number.
-pub fn shortest(x: f64) -> String {
-    match x.abs() {
-        size if size == 0.0 || (1e-4..1e9).contains(&size) => x.to_string(),
-        _ => format!("{x:e}"),
-    }
 }
 
 fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, contacts: &[Found]) {

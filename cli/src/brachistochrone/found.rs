@@ -8,9 +8,9 @@ use serde_json::{Map, Value, json};
 
 use super::landscape::Landscape;
 use super::tried;
+use crate::numbers::shortest;
 use crate::output;
 use crate::recording::{Column, Kind, Recording};
-use crate::simulate::shortest;
 
 /// The motion is told at so many moments after the start, after equal parts of the turn of its direction, or of the time.
 const MOMENTS: u32 = 200;

@@ -8,10 +8,11 @@ use serde_json::{Value, json};
 use super::figures;
 use super::found::Found;
 use crate::failure::Failure;
+use crate::numbers::shortest;
 use crate::recording::{Column, Kind, Recording};
 use crate::report::html::{self, Cell, text as safe};
 use crate::report::{self, DRAWING, STYLE, Samples, encoded, script};
-use crate::simulate::{record, shortest};
+use crate::simulate::record;
 
 const PAGE: &str = include_str!("page.html");
 const RACE: &str = include_str!("race.js");

@@ -11,7 +11,7 @@ use super::html::{self, Cell, text as safe};
 use super::samples::Samples;
 use super::scene::Scene;
 use crate::contacts::{Found, other_events};
-use crate::simulate::shortest;
+use crate::numbers::shortest;
 
 const PAGE: &str = include_str!("page.html");
 /// The style of all pages.

@@ -29,7 +29,6 @@ mod motion;
 mod pontryagin;
 mod rule;
 mod search;
-mod trial;
 mod ways;
 
 use lagrangian_scalar::Scalar;
@@ -38,9 +37,9 @@ use super::error::Unsolved;
 use super::linear::Matrix;
 use super::solution::Contact;
 
+pub use super::trial::{Outcome, Start, Trial};
 pub use motion::Sought;
 pub use search::Search;
-pub use trial::{Outcome, Start, Trial};
 
 /// `½ (A_αβ − A_βα)` below this part of the inertia of both is rounding.
 const SKEW: f64 = 1e-13;

@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Display};
 
-use super::direct::Trial;
+use super::trial::Trial;
 
 /// Why there is no fastest motion, or none that the formulas give.
 #[derive(Clone, Debug, PartialEq)]

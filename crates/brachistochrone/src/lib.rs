@@ -45,6 +45,7 @@ pub mod plane;
 mod problem;
 mod quadrature;
 mod solution;
+mod trial;
 
 pub use error::Unsolved;
 pub use problem::{Guide, Problem};

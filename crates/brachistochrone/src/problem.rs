@@ -2,8 +2,6 @@
 
 use super::error::Unsolved;
 use super::linear::{Cholesky, Matrix, dot, times};
-use super::plane::Arc;
-use super::solution::Brachistochrone;
 
 /// `½ (d_αβ − d_βα)` below this part of the inertia of both coordinates is rounding of whoever made `d`.
 const SKEW: f64 = 1e-13;
@@ -165,41 +163,6 @@ impl Problem {
         let columns = self.normal_coordinates();
         columns.iter().map(|column| dot(column, &momenta)).collect()
     }
-
-    /// The fastest motion from rest at one place to another.
-    ///
-    /// # Errors
-    /// Why there is none; see [`Unsolved`].
-    pub fn solve(&self, from: &[f64], to: &[f64]) -> Result<Brachistochrone, Unsolved> {
-        let n = self.coordinates();
-        check_list("the start", from, n)?;
-        check_list("the end", to, n)?;
-        let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
-        check_list("the way to the end", &way, n)?;
-        if way.iter().all(|x| *x == 0.0) {
-            return Err(Unsolved::SameEnds);
-        }
-        let frame = Frame::new(self, &way)?;
-        let arc = Arc::to(frame.angle, frame.kappa)
-            .map_err(|beyond| self.beyond(&way, frame.angle, beyond.reach))?;
-        Ok(Brachistochrone::new(self.clone(), frame, arc, from, to))
-    }
-
-    /// Why the end cannot be reached.
-    fn beyond(&self, way: &[f64], angle: f64, reach: f64) -> Unsolved {
-        let rise = dot(&self.slope, way);
-        let friction = dot(&self.loads, way);
-        if rise >= 0.0 {
-            return Unsolved::NotBelow { rise };
-        }
-        match rise + friction < 0.0 {
-            true => Unsolved::TurnsTooFar { angle, reach },
-            false => Unsolved::Held {
-                descent: -rise,
-                friction,
-            },
-        }
-    }
 }
 
 /// The plane in which the motion stays: orthonormal in the metric `A = a + sym d`.
@@ -220,7 +183,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    fn new(problem: &Problem, way: &[f64]) -> Result<Frame, Unsolved> {
+    pub(super) fn new(problem: &Problem, way: &[f64]) -> Result<Frame, Unsolved> {
         let n = way.len();
         let Problem { mass, reactive, .. } = problem;
         let inertia: Matrix = (0..n)
@@ -321,7 +284,7 @@ fn check(what: &'static str, matrix: &[Vec<f64>], n: usize) -> Result<(), Unsolv
     matrix.iter().try_for_each(|row| check_list(what, row, n))
 }
 
-fn check_list(what: &'static str, list: &[f64], n: usize) -> Result<(), Unsolved> {
+pub(super) fn check_list(what: &'static str, list: &[f64], n: usize) -> Result<(), Unsolved> {
     if list.len() != n || n == 0 {
         return Err(Unsolved::Size {
             what,

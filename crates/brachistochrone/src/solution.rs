@@ -1,8 +1,9 @@
 //! The fastest motion, and everything about it at any moment.
 
+use super::error::Unsolved;
 use super::linear::{dot, times};
 use super::plane::Arc;
-use super::problem::{Frame, Problem};
+use super::problem::{Frame, Problem, check_list};
 
 /// Moments at which [`Brachistochrone::lapses`] looks at the guides.
 const LOOKS: u32 = 256;
@@ -70,8 +71,45 @@ pub struct Lapse {
     pub least: f64,
 }
 
+impl Problem {
+    /// The fastest motion from rest at one place to another.
+    ///
+    /// # Errors
+    /// Why there is none; see [`Unsolved`].
+    pub fn solve(&self, from: &[f64], to: &[f64]) -> Result<Brachistochrone, Unsolved> {
+        let n = self.coordinates();
+        check_list("the start", from, n)?;
+        check_list("the end", to, n)?;
+        let way: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
+        check_list("the way to the end", &way, n)?;
+        if way.iter().all(|x| *x == 0.0) {
+            return Err(Unsolved::SameEnds);
+        }
+        let frame = Frame::new(self, &way)?;
+        let arc = Arc::to(frame.angle, frame.kappa)
+            .map_err(|beyond| self.beyond(&way, frame.angle, beyond.reach))?;
+        Ok(Brachistochrone::new(self.clone(), frame, arc, from, to))
+    }
+
+    /// Why the end cannot be reached.
+    fn beyond(&self, way: &[f64], angle: f64, reach: f64) -> Unsolved {
+        let rise = dot(&self.slope, way);
+        let friction = dot(&self.loads, way);
+        if rise >= 0.0 {
+            return Unsolved::NotBelow { rise };
+        }
+        match rise + friction < 0.0 {
+            true => Unsolved::TurnsTooFar { angle, reach },
+            false => Unsolved::Held {
+                descent: -rise,
+                friction,
+            },
+        }
+    }
+}
+
 impl Brachistochrone {
-    pub(super) fn new(
+    fn new(
         problem: Problem,
         frame: Frame,
         arc: Arc,

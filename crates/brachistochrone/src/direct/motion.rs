@@ -7,9 +7,9 @@ use super::collocation::{Path, Stage, advanced};
 use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
 use super::rule::{Rule, through};
-use super::trial::{Outcome, Trial};
 use crate::linear::{Cholesky, Lu, dot};
 use crate::solution::{Lapse, Moment, lapses};
+use crate::trial::{Outcome, Trial};
 
 /// Moments at which guides, and sudden turns, are looked at.
 const LOOKS: u32 = 64;

@@ -10,11 +10,11 @@ use super::descent::{Descent, Stop, Walk, Way};
 use super::frozen::{carried, frozen};
 use super::hamiltonian::Driven;
 use super::motion::Sought;
-use super::trial::{Outcome, Start, Trial};
 use super::ways::{PIECES, guessed, ways};
 use super::{SKEW, Terrain, between, rows, symmetric};
 use crate::error::Unsolved;
 use crate::linear::{Cholesky, Matrix, dot};
+use crate::trial::{Outcome, Start, Trial};
 
 /// The time is settled when halving changes it by less than this part; at order 8 it is then good to the last digits.
 const SETTLED: f64 = 1e-12;

@@ -2,9 +2,9 @@
 
 use super::Terrain;
 use super::descent::Way;
-use super::trial::Start;
 use super::{between, symmetric};
 use crate::linear::dot;
+use crate::trial::Start;
 
 /// So many straight pieces at first.
 pub const PIECES: usize = 16;
