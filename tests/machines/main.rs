@@ -1,11 +1,8 @@
-//! The library of machines: evaluated, run, and held against closed forms, publications and more digits.
+//! The machines of the library run, and are held against closed forms, publications and more digits.
 
-mod choice;
 mod crushers;
 mod friction;
-mod lanes;
 mod library;
-mod loops;
 mod mechanisms;
 mod motions;
 mod peers;

@@ -1,0 +1,12 @@
+//! The runtime on machines that the macro derives, and the examples.
+
+#[path = "../by_hand/mod.rs"]
+mod by_hand;
+mod constraints;
+mod derivatives;
+mod examples;
+mod sensitivities;
+mod stages;
+mod stiff_friction;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,8 @@
+//! What holds of every machine of the library, in several numbers: rounding, lanes, loops, the choice among programs.
+
+mod choice;
+mod lanes;
+mod loops;
+mod rounding;
+#[path = "../support/mod.rs"]
+mod support;
