@@ -455,6 +455,7 @@ fn shorten_mass_matrix<'d>(
         .iter_mut()
         .find(|quantity| quantity.role == Role::MassMatrix);
     if let Some(matrix) = matrix
+        && !is_mostly_formulas(model, machine)
         && let Some(composite) = articulated::mass_matrix(model, machine)
         && operations(model.dag, &composite) < operations(model.dag, &matrix.values)
     {
@@ -802,7 +803,11 @@ fn accelerations<'d>(lowering: &mut Lowering<'_, 'd>, source: Set<'_, 'd>) -> Ve
     let has_other = elimination.multiplications <= MOST_MULTIPLICATIONS;
     let mut drafts = Vec::new();
     for basis in [Basis::Along, Basis::Ahead] {
-        let Some(machine) = source.unprojected else {
+        // One way there has to be; where formulas are nearly all of the work, no second one.
+        let machine = source
+            .unprojected
+            .filter(|machine| !has_other || !is_mostly_formulas(source.model, machine));
+        let Some(machine) = machine else {
             break;
         };
         let matrix = &systems[0].1.matrix;
@@ -857,6 +862,21 @@ fn rounding_of(coefficient: Expr<'_>, rows: usize) -> Option<Expr<'_>> {
     // A power of 2 at least as large: the tolerance is no number of the equations.
     let halvings = -tolerance.log2().ceil() as i32;
     Some(dag.sum(squares) / dag.int(2).powi(halvings))
+}
+
+/// The most nodes that velocities and loads may take, and as many more for every pair of coordinates, where the
+/// order of elimination is looked for. A chain of 64 links takes some 20 for each pair.
+const FORMULAS: [usize; 2] = [20_000, 1_000];
+
+/// Whether velocities and loads are so long, for so few coordinates, that the order in which these are eliminated
+/// cannot matter: it changes what is multiplied for each pair of coordinates, not the formulas.
+fn is_mostly_formulas(model: &Model<'_>, machine: &Unprojected<'_>) -> bool {
+    let carriers = machine.inertia.iter().flat_map(|pair| [pair.u, pair.w]);
+    let loads = machine.loads.iter().flat_map(|&(u, load)| [u, load]);
+    let roots: Vec<Expr<'_>> = carriers.chain(loads).collect();
+    let coordinates = model.coordinates.len();
+    let pairs = coordinates * (coordinates + 1) / 2;
+    reachable(model.dag, &roots).len() > FORMULAS[0] + FORMULAS[1] * pairs
 }
 
 /// The most operands in a function for which a second way is tried: beyond it, each takes a second.

@@ -118,6 +118,22 @@ fn the_longest_definitions_end_within_bounds() {
     is_derived(what, &chained(first, rule, 10_000));
 }
 
+/// What is nested four times as deep takes four times the memory and work, and no sixteen times.
+#[test]
+fn nested_definitions_take_memory_in_proportion() {
+    for (what, first, rule) in [RULES[0], RULES[3], RULES[5]] {
+        let [short, long] = [150, 600].map(|n| {
+            let (used, codes) = compile(&chained(first, rule, n));
+            assert!(codes.is_empty(), "{what}: {codes:?}");
+            [used.bytes_max, used.bytes_total]
+        });
+        println!("{what}: {short:?} and {long:?} bytes");
+        for (short, long) in short.into_iter().zip(long) {
+            assert!(long < 6 * short, "{what}: {long} bytes after {short}");
+        }
+    }
+}
+
 #[test]
 fn products_of_many_factors_end_within_bounds() {
     is_derived(
@@ -161,4 +177,100 @@ fn many_constraints_end_within_bounds() {
     };
     is_derived("200 constraints", &constrained(200));
     is_derived("2000 constraints", &constrained(2000));
+}
+
+/// What damaged texts are made with, beside their own words.
+const WORDS: [&str; 30] = [
+    "0", "1", "-1", "1/0", "1e9", "1e308", "-", "+", "*", "/", "^", "(", ")", "[", "]", "{", "}",
+    ",", "..", "t", "pi", "N", "der", "sqrt", "norm", "ground", ".at", ".turn", "500", "é",
+];
+
+/// A machine of the library with a few words left out, doubled, exchanged or replaced, or with a few letters damaged.
+fn damaged(text: &str, random: &mut impl FnMut(usize) -> usize) -> String {
+    if random(4) == 0 {
+        let mut letters: Vec<char> = text.chars().collect();
+        for _ in 0..=random(4) {
+            let (at, other) = (random(letters.len()), random(letters.len()));
+            match random(3) {
+                0 => drop(letters.remove(at)),
+                1 => letters.swap(at, other),
+                _ => letters[at] = char::from_u32(random(0x2_0000) as u32).unwrap_or('\0'),
+            }
+        }
+        return letters.into_iter().collect();
+    }
+    let mut report = Report::new();
+    let tokens = lagrangian_spec::token::lex(Default::default(), text, &mut report);
+    let mut words: Vec<&str> = tokens
+        .iter()
+        .map(|token| &text[token.span.start as usize..token.span.end as usize])
+        .collect();
+    for _ in 0..=random(3) {
+        let (at, other) = (random(words.len()), random(words.len()));
+        match random(5) {
+            0 => drop(words.remove(at)),
+            1 => words.insert(at, words[at]),
+            2 => words.swap(at, other),
+            3 => words[at] = words[other],
+            _ => words[at] = WORDS[random(WORDS.len())],
+        }
+    }
+    words.join(" ")
+}
+
+/// `SEED=… DAMAGES=…` looks at so many of a seed.
+#[test]
+fn damaged_machines_end_within_bounds() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|n| n.parse::<u64>().ok());
+    let clock = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
+    let clock = clock.map_or(1, |clock| clock.as_nanos() as u64);
+    let (seed, count) = (
+        number("SEED").unwrap_or(clock),
+        number("DAMAGES").unwrap_or(60),
+    );
+    println!("SEED={seed}");
+    let machines = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../machines");
+    let files = std::fs::read_dir(machines).expect("the library is there");
+    let mut texts: Vec<(std::path::PathBuf, String)> = files
+        .filter_map(|file| Some(file.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|ending| ending == "machine"))
+        .filter_map(|path| Some((path.clone(), std::fs::read_to_string(path).ok()?)))
+        // Others take seconds where they are not damaged much.
+        .filter(|(_, text)| text.len() < 4000 && !text.contains("const"))
+        .collect();
+    texts.sort();
+    assert!(texts.len() > 10);
+    let mut state = seed;
+    let mut random = |below: usize| {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let mut derived = 0;
+    for round in 0..count {
+        let (path, text) = &texts[random(texts.len())];
+        let text = damaged(text, &mut random);
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let outcome = std::panic::catch_unwind(|| compile(&text));
+        let what = || format!("round {round} of SEED={seed}, {name}:\n{text}");
+        let Ok((used, codes)) = outcome else {
+            panic!("{}", what());
+        };
+        assert!(
+            used.bytes_max < MEMORY,
+            "{} bytes: {}",
+            used.bytes_max,
+            what()
+        );
+        assert!(
+            used.bytes_total < WORK,
+            "{} bytes: {}",
+            used.bytes_total,
+            what()
+        );
+        assert!(!codes.contains(&Code::Internal), "{}", what());
+        derived += usize::from(codes.is_empty());
+    }
+    println!("{derived} of {count} were derived");
 }

@@ -19,6 +19,10 @@ use rustc_hash::FxHashMap;
 use super::Source;
 use super::interpret::{binary, unary};
 
+/// Products of as many factors are factors of others as they stand. The slopes of what is nested n deep are products of up to
+/// n factors, which taken apart would be n² in all.
+const LONGEST_PRODUCT: usize = 64;
+
 /// A node of a [`Graph`]; operands have smaller ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Id(u32);
@@ -46,7 +50,7 @@ pub enum Node {
     Read(Source),
     /// At least two terms, by id, the first of them positive; or a single negative one.
     Sum(Box<[Term]>),
-    /// Factors and their powers, by id; no factor is a product, but for one that is known. Two
+    /// Factors and their powers, by id; no factor is a product, but for one that is known or long. Two
     /// factors at least, or one with a power other than 1.
     Product(Box<[(Id, i32)]>),
     /// A function of its arguments.
@@ -246,13 +250,13 @@ impl Graph {
         self.product(&[(numerator, 1), (denominator, -1)])
     }
 
-    /// The product of nodes, products taken apart and constants multiplied.
+    /// The product of nodes, products that are not long taken apart and constants multiplied.
     fn product_of(&mut self, list: &[(Id, i32)]) -> Id {
         let mut constant = Rational::ONE;
         let mut factors: Vec<(Id, i32)> = Vec::with_capacity(list.len() + 1);
         for &(id, power) in list {
             match self.node(id) {
-                Node::Product(inner) => {
+                Node::Product(inner) if inner.len() < LONGEST_PRODUCT => {
                     factors.extend(
                         inner
                             .iter()
@@ -446,7 +450,9 @@ impl Graph {
         // The factor stays one factor: all of it is known before.
         let mut factors = vec![(x.factor, 1)];
         match self.node(x.core) {
-            Node::Product(inner) => factors.extend_from_slice(inner),
+            Node::Product(inner) if inner.len() < LONGEST_PRODUCT => {
+                factors.extend_from_slice(inner);
+            }
             _ => factors.push((x.core, 1)),
         }
         factors.sort_unstable();

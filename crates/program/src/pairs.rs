@@ -14,7 +14,7 @@ use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
 
-use super::net::{Index, Item, Net, Stage};
+use super::net::{Index, Item, Net, Signed, Stage};
 
 /// The most changes to the table of pairs in one pass. A pass that needs more stops there: its code
 /// is right, only longer than it could be. A change takes some 50 ns; a spatial arm of six joints
@@ -96,36 +96,54 @@ struct Bags {
 }
 
 impl Bags {
-    fn new(net: &Net, kind: Kind) -> Bags {
+    fn new(net: &mut Net, kind: Kind) -> Bags {
+        let mut uses = vec![0_u32; net.items.len()];
+        for item in &net.items {
+            match (item, kind) {
+                (Item::Product { up, .. }, Kind::Products) => {
+                    up.iter().for_each(|&factor| uses[factor as usize] += 1);
+                }
+                (Item::Sum(terms), Kind::Sums) => {
+                    terms.iter().for_each(|term| uses[term.0 as usize] += 1);
+                }
+                _ => {}
+            }
+        }
+        let is_shared = |item: Index| uses[item as usize] > 1;
         let mut bags = Vec::new();
-        let mut uses: FxHashMap<Index, u32> = FxHashMap::default();
-        for (index, item) in net.items.iter().enumerate() {
+        for (index, item) in net.items.iter_mut().enumerate() {
+            // What shares less than two of its members has no pair in common with anything; those that are shared stand
+            // last in it, as in the others.
             let members = match (item, kind) {
-                (Item::Product { up, .. }, Kind::Products) => count_factors(up),
-                (Item::Sum(terms), Kind::Sums) => terms
-                    .iter()
-                    .map(|&(item, negative)| Member {
+                (Item::Product { up, .. }, Kind::Products) => {
+                    if up.iter().filter(|&&factor| is_shared(factor)).count() < 2 {
+                        up.sort_unstable_by_key(|&factor| (is_shared(factor), factor));
+                        continue;
+                    }
+                    count_factors(up)
+                }
+                (Item::Sum(terms), Kind::Sums) => {
+                    if terms.iter().filter(|term| is_shared(term.0)).count() < 2 {
+                        terms.sort_by_key(|term| is_shared(term.0));
+                        continue;
+                    }
+                    let member = |&(item, negative): &Signed| Member {
                         item,
                         negative,
                         count: 1,
-                    })
-                    .collect(),
+                    };
+                    terms.iter().map(member).collect()
+                }
                 _ => continue,
             };
-            for member in &members {
-                *uses.entry(member.item).or_default() += member.count;
-            }
+            let (members, alone) = members
+                .into_iter()
+                .partition(|member| is_shared(member.item));
             bags.push(Bag {
                 item: index as Index,
                 members,
-                alone: Vec::new(),
+                alone,
             });
-        }
-        for bag in &mut bags {
-            let members = std::mem::take(&mut bag.members);
-            (bag.members, bag.alone) = members
-                .into_iter()
-                .partition(|member| uses[&member.item] > 1);
         }
         Bags {
             kind,

@@ -352,17 +352,34 @@ impl Builder<'_> {
     /// Two products of the graph may turn out to be the same operations, so that x − x is seen only
     /// here.
     fn without_opposites(&self, terms: Vec<(Value, bool)>) -> Vec<(Value, bool)> {
-        let mut left: Vec<(Value, bool)> = Vec::with_capacity(terms.len());
+        let mut left: Vec<Option<(Value, bool)>> = Vec::with_capacity(terms.len());
+        // Where terms stand: a long sum would be searched for too long.
+        let mut places: FxHashMap<(Value, bool), Vec<usize>> = FxHashMap::default();
+        let is_long = terms.len() > SEARCHED;
+        if is_long {
+            places.reserve(terms.len());
+        }
         for (value, negative) in terms {
-            match left.iter().position(|term| *term == (value, !negative)) {
-                Some(opposite) => {
-                    left.remove(opposite);
-                }
+            let sought = (value, !negative);
+            let opposite = match is_long {
+                true => places.get_mut(&sought).and_then(Vec::pop),
+                false => left.iter().position(|term| *term == Some(sought)),
+            };
+            match opposite {
+                Some(opposite) => left[opposite] = None,
                 None if self.is_zero(value) => {}
-                None => left.push((value, negative)),
+                None => {
+                    if is_long {
+                        places
+                            .entry((value, negative))
+                            .or_default()
+                            .push(left.len());
+                    }
+                    left.push(Some((value, negative)));
+                }
             }
         }
-        left
+        left.into_iter().flatten().collect()
     }
 
     fn is_zero(&self, value: Value) -> bool {
@@ -404,6 +421,9 @@ impl Builder<'_> {
         }
     }
 }
+
+/// Sums of up to so many terms are searched term by term for those that take each other away.
+const SEARCHED: usize = 32;
 
 /// Whether a value is known once the parameters are, and computed by then.
 fn is_known(op: &Op) -> bool {

@@ -59,9 +59,28 @@ struct Passed {
     slope: f64,
 }
 
+/// The forces of a potential that resist at the ends of a motion from rest to rest.
+///
+/// Where nothing is lost, `½ W² + V(q)` stays, whatever the control. So a multiple of its gradient may be added to
+/// the multipliers, `p + α ∂V`, `λ + α W`, and nothing says which; and with W = 0 at the end the place there is
+/// level with the start by itself. These two take the places of λ = 0 and of one of the end's coordinates:
+///
+/// ```text
+/// p·∂V = 0 at the start        W = 0 at the end
+/// ```
+#[derive(Clone, Debug)]
+pub struct Level {
+    /// `∂V` at the start.
+    pub from: Vec<f64>,
+    /// The coordinate of the end that follows from the others: along it the potential rises most.
+    pub follows: usize,
+}
+
 /// A motion: its duration, the ends of equal stretches, and their Gauss points.
 #[derive(Clone, Debug)]
 pub struct Path {
+    /// Whether it ends at rest.
+    pub level: Option<Level>,
     pub time: f64,
     pub nodes: Vec<Vec<f64>>,
     pub stages: Vec<Vec<Stage>>,
@@ -120,6 +139,7 @@ impl Path {
             last = end.z;
         }
         Some(Path {
+            level: None,
             time,
             nodes,
             stages,
@@ -136,12 +156,14 @@ impl Path {
     /// λ̇ = −∂H/∂W = −(1 − λ F)/W − λ ∂F/∂W        F = Ẇ        λ = 1/F at rest, 0 at the end
     /// ```
     ///
+    /// or 0 half-way, if it ends at rest,
+    ///
     /// and p follows from H = 1 and ∂H/∂z = 0.
     pub fn along<T: Terrain>(
         system: &Driven<T>,
         way: &Way,
         walk: &Walk,
-        stretches: usize,
+        (stretches, level): (usize, Option<Level>),
     ) -> Option<Path> {
         let (n, m) = (system.n(), system.states());
         let time = walk.time();
@@ -178,9 +200,16 @@ impl Path {
             // The direction is the same with the rate divided by t.
             let v = u.iter().map(|u| 2.0 * u.value + t * u.derivative);
             let v: Vec<f64> = v.collect();
-            let z = system.control(&q, &v, before);
+            let (z, w) = match states.last() {
+                // At rest as soon before it.
+                Some(known) if level.is_some() && *t == time => (known.z.clone(), 0.0),
+                _ => {
+                    let z = system.control(&q, &v, before);
+                    let w = t * system.measure(&q, &v, &z);
+                    (z, w)
+                }
+            };
             before = z[0];
-            let w = t * system.measure(&q, &v, &z);
             let mut y = q.clone();
             y.push(w);
             y.resize(2 * m, 0.0);
@@ -199,16 +228,29 @@ impl Path {
             });
         }
         let mut lambdas = std::vec![0.0; moments.len()];
-        for k in (0..moments.len() - 1).rev() {
-            let half = 0.5 * (moments[k + 1] - moments[k]);
-            let [here, next] = [&states[k], &states[k + 1]];
+        let last = moments.len() - 1;
+        let zero = match level {
+            Some(_) => last / 2,
+            None => last,
+        };
+        // From one moment to the next to it, of the two the one where λ is known first.
+        let beside = |known: usize, k: usize, lambda: f64| {
+            let half = 0.5 * (moments[known] - moments[k]);
+            let [there, here] = [&states[known], &states[k]];
+            let ahead = lambda * (1.0 - half * (there.force / there.w - there.slope));
+            (ahead + half * (1.0 / here.w + 1.0 / there.w))
+                / (1.0 + half * (here.force / here.w - here.slope))
+        };
+        for k in (0..zero).rev() {
             lambdas[k] = match k {
-                0 => 1.0 / here.force,
-                _ => {
-                    let known = lambdas[k + 1] * (1.0 - half * (next.force / next.w - next.slope));
-                    (known + half * (1.0 / here.w + 1.0 / next.w))
-                        / (1.0 + half * (here.force / here.w - here.slope))
-                }
+                0 => 1.0 / states[k].force,
+                _ => beside(k + 1, k, lambdas[k + 1]),
+            };
+        }
+        for k in zero + 1..=last {
+            lambdas[k] = match k == last {
+                true => 1.0 / states[k].force,
+                false => beside(k - 1, k, lambdas[k - 1]),
             };
         }
         let mut found: Vec<Stage> = Vec::new();
@@ -217,6 +259,10 @@ impl Path {
             let (p, z) = match (k, found.last()) {
                 // At rest as soon after it.
                 (0, Some(after)) => (after.y[m..m + n].to_vec(), after.z.clone()),
+                _ if k == last && level.is_some() => {
+                    let before = &states[k - 1];
+                    system.multipliers(&before.q, before.w, &before.z, lambdas[k - 1])?
+                }
                 _ => system.multipliers(q, *w, z, lambdas[k])?,
             };
             let mut y = q.clone();
@@ -238,6 +284,7 @@ impl Path {
         }
         nodes.push(last.y);
         Some(Path {
+            level,
             time,
             nodes,
             stages,
@@ -293,6 +340,7 @@ impl Path {
             nodes.push(self.nodes[k + 1].clone());
         }
         Path {
+            level: self.level.clone(),
             time: self.time,
             nodes,
             stages,
@@ -344,11 +392,15 @@ impl Path {
     /// Whether it moves on all the way, and its multiplier of speed is positive.
     fn is_motion(&self, system: &impl Pontryagin) -> bool {
         let m = system.states();
-        let inner = &self.nodes[1..];
-        let before = &self.nodes[..self.nodes.len() - 1];
-        self.time > 0.0
-            && inner.iter().all(|y| y[m - 1] > 0.0)
-            && before.iter().all(|y| y[2 * m - 1] > 0.0)
+        let count = self.stretches();
+        let moves = match self.level {
+            Some(_) => &self.nodes[1..count],
+            None => &self.nodes[1..],
+        };
+        let before = &self.nodes[..count];
+        // Which multiplier goes with energy that nothing changes is a matter of convention.
+        let saves = self.level.is_some() || before.iter().all(|y| y[2 * m - 1] > 0.0);
+        self.time > 0.0 && moves.iter().all(|y| y[m - 1] > 0.0) && saves
     }
 
     /// The greatest value of each number.
@@ -424,7 +476,15 @@ impl Path {
             take((last[i] - to[i]) / scales[i]);
         }
         take(first[n] / scales[n]);
-        take(last[2 * m - 1] / scales[2 * m - 1]);
+        match &self.level {
+            Some(level) => {
+                take(last[n] / scales[n]);
+                let shares = (0..n).map(|i| level.from[i] * scales[m + i]);
+                let size: f64 = shares.map(f64::abs).sum();
+                take(dot(&level.from, &first[m..m + n]) / size);
+            }
+            None => take(last[2 * m - 1] / scales[2 * m - 1]),
+        }
         let (value, slopes) = system.slopes(last, &self.last);
         take(value - 1.0);
         slopes[2 * m..].iter().for_each(|x| take(*x));
@@ -460,12 +520,28 @@ impl Path {
             matrix.push(row[1..].to_vec());
             right.push(change - row[0]);
         };
+        let follows = self.level.as_ref().map(|level| level.follows);
         for i in 0..n {
             demand(&chain[0][i], from[i] - start[i]);
-            demand(&last[i], to[i] - end[i]);
+            if follows != Some(i) {
+                demand(&last[i], to[i] - end[i]);
+            }
         }
         demand(&chain[0][n], -start[n]);
-        demand(&last[2 * m - 1], -end[2 * m - 1]);
+        match &self.level {
+            Some(level) => {
+                demand(&last[n], -end[n]);
+                let along: Vec<f64> = (0..width)
+                    .map(|column| {
+                        (0..n)
+                            .map(|i| level.from[i] * chain[0][m + i][column])
+                            .sum()
+                    })
+                    .collect();
+                demand(&along, -dot(&level.from, &start[m..m + n]));
+            }
+            None => demand(&last[2 * m - 1], -end[2 * m - 1]),
+        }
         let by_end: Vec<f64> = (0..width)
             .map(|column| (0..2 * m).map(|i| slopes[i] * last[i][column]).sum())
             .collect();
@@ -531,6 +607,7 @@ impl Path {
         let nodes = self.nodes.iter().zip(&step.nodes);
         let stages = self.stages.iter().zip(&step.stages);
         Path {
+            level: self.level.clone(),
             time: self.time + part * step.time,
             nodes: nodes.map(|(y, change)| added(y, change)).collect(),
             stages: stages

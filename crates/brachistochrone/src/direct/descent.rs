@@ -109,12 +109,18 @@ pub struct Descent<'a, T> {
     terrain: Counted<'a, T>,
     /// Whether turns cost speed, or save friction.
     rough: bool,
+    /// Whether ways end at rest, as nothing is lost and the end is level with the start.
+    level: bool,
 }
 
 impl<'a, T: Terrain> Descent<'a, T> {
-    pub fn new(terrain: Counted<'a, T>, rough: bool) -> Self {
+    pub fn new(terrain: Counted<'a, T>, rough: bool, level: bool) -> Self {
         let rough = rough && terrain.coordinates() == 2;
-        Descent { terrain, rough }
+        Descent {
+            terrain,
+            rough,
+            level,
+        }
     }
 
     /// Time of a piece, and the energy at its end; `kinetic` is `None` at rest, `before` where no corner stands at the start.
@@ -170,6 +176,24 @@ impl<'a, T: Terrain> Descent<'a, T> {
         [two / (first + last), after]
     }
 
+    /// Time of a piece at whose end there is rest.
+    fn stopping<N: Scalar>(&self, kinetic: N, start: &[N], end: &[N]) -> N {
+        let n = start.len();
+        let half = N::from_f64(0.5);
+        let middle: Vec<N> = start
+            .iter()
+            .zip(end)
+            .map(|(a, b)| half * (*a + *b))
+            .collect();
+        let along: Vec<N> = start.iter().zip(end).map(|(a, b)| *b - *a).collect();
+        let inertia = self.terrain.inertia(&middle);
+        let mass = (0..n * n).fold(N::ZERO, |sum, k| {
+            sum + inertia[k] * along[k / n] * along[k % n]
+        });
+        let two = N::from_f64(2.0);
+        two / (two * kinetic / mass).sqrt()
+    }
+
     /// What a corner does to the energy.
     fn turned<N: Scalar>(&self, before: &[N], corner: &[N], along: &[N]) -> N {
         let inertia = self.terrain.inertia(corner);
@@ -194,7 +218,16 @@ impl<'a, T: Terrain> Descent<'a, T> {
         let mut kinetic = Some(added).filter(|added| *added > 0.0);
         for (k, pair) in way.places.windows(2).enumerate() {
             let before = k.checked_sub(1).map(|k| way.places[k].as_slice());
-            let [time, after] = self.piece(kinetic, before, &pair[0], &pair[1]);
+            let [mut time, mut after] = self.piece(kinetic, before, &pair[0], &pair[1]);
+            // At the end all of the energy has gone, whatever the pieces add up to.
+            if self.level
+                && added == 0.0
+                && k + 2 == way.places.len()
+                && let Some(kinetic) = kinetic
+            {
+                time = self.stopping(kinetic, &pair[0], &pair[1]);
+                after = f64::MIN_POSITIVE;
+            }
             if !(time > 0.0 && time.is_finite() && after > 0.0 && after.is_finite()) {
                 return None;
             }
@@ -231,6 +264,13 @@ impl<'a, T: Terrain> Descent<'a, T> {
                 let (before, rest) = numbers.split_at((k - first) * n);
                 let (start, end) = rest.split_at(n);
                 let before = (!before.is_empty()).then_some(before);
+                if self.level
+                    && added == 0.0
+                    && k + 1 == count
+                    && let Some(kinetic) = kinetic
+                {
+                    return weight * self.stopping(kinetic, start, end).derivative;
+                }
                 let [time, after] = self.piece(kinetic, before, start, end);
                 weight * time.derivative + by_energy * after.derivative
             };

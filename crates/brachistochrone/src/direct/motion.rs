@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Terrain;
-use super::collocation::{Path, Stage, advanced};
+use super::collocation::{Level, Path, Stage, advanced};
 use super::hamiltonian::Driven;
 use super::pontryagin::Pontryagin;
 use super::rule::{Rule, through};
@@ -278,6 +278,9 @@ impl<T: Terrain> Sought<T> {
         let Some(transitions) = path.transitions(system) else {
             return Some(moment(last));
         };
+        if let Some(level) = &path.level {
+            return self.conjugate_to_start(&transitions, level).map(moment);
+        }
         // At the end q stays and λ is 0; p and W change so that H stays 1.
         let (_, slopes) = system.slopes(&path.nodes[last], &path.last);
         let free: Vec<usize> = (n..m + n).collect();
@@ -304,6 +307,40 @@ impl<T: Terrain> Sought<T> {
             };
             if *sign.get_or_insert(positive) != positive {
                 return Some(moment(k));
+            }
+        }
+        None
+    }
+
+    /// The same of a motion that ends at rest, where nothing is lost: it can be gone backwards too, so extremals from the
+    /// start are looked at, which all have its energy. They differ by their multipliers p, but for the multiple of `∂V`
+    /// that changes nothing, and n of their places, q̇ among them, are to stay independent.
+    fn conjugate_to_start(&self, transitions: &[Vec<Vec<f64>>], level: &Level) -> Option<usize> {
+        let (system, path) = (&self.system, &self.path);
+        let n = system.n();
+        let m = n + 1;
+        let by_size = |i: &usize, j: &usize| level.from[*i].abs().total_cmp(&level.from[*j].abs());
+        let steepest = (0..n).max_by(by_size)?;
+        let unit = |i: usize| -> Vec<f64> {
+            (0..2 * m)
+                .map(|k| if k == m + i { 1.0 } else { 0.0 })
+                .collect()
+        };
+        let mut family: Vec<Vec<f64>> = (0..n).filter(|i| *i != steepest).map(unit).collect();
+        let mut sign = None;
+        for (k, transition) in transitions[..transitions.len() - 1].iter().enumerate() {
+            let forward = |change: &Vec<f64>| -> Vec<f64> {
+                transition.iter().map(|row| dot(row, change)).collect()
+            };
+            family = family.iter().map(forward).collect();
+            let (_, slopes) = system.slopes(&path.nodes[k + 1], &path.stages[k + 1][0].z);
+            let mut columns: Vec<Vec<f64>> = family.iter().map(|y| y[..n].to_vec()).collect();
+            columns.push(slopes[m..m + n].to_vec());
+            let Some(positive) = Lu::new(columns).map(|factors| factors.is_positive()) else {
+                return Some(k + 1);
+            };
+            if *sign.get_or_insert(positive) != positive {
+                return Some(k + 1);
             }
         }
         None

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use lagrangian_scalar::Dual;
 
 use super::budget::{Budget, Counted};
-use super::collocation::Path;
+use super::collocation::{Level, Path};
 use super::descent::{Descent, Stop, Walk, Way};
 use super::frozen::{carried, frozen};
 use super::hamiltonian::Driven;
@@ -118,11 +118,17 @@ impl Search {
         let falls = is_potential(&terrain, &starts);
         // What a potential takes, no way gives back. Level ends are a matter of rounding.
         let looks = rise.work <= 1e-9 * rise.size || !falls || skew.1 > SKEW;
+        let is_level = rise.work.abs() <= 1e-9 * rise.size.max(drop(&terrain, &starts));
+        let level = match is_level && skew.1 <= SKEW && conserves(&terrain, &starts) {
+            true => level(&terrain, from, to),
+            false => None,
+        };
         let hunt = Hunt {
             system: Driven::new(counted.clone(), frame.clone()),
-            descent: Descent::new(counted, skew.1 > SKEW),
+            descent: Descent::new(counted, skew.1 > SKEW, level.is_some()),
             budget: &budget,
             ends: [from, to],
+            level,
             stretches: self.stretches,
         };
         let mut tried = Vec::new();
@@ -185,6 +191,8 @@ struct Hunt<'a, T> {
     descent: Descent<'a, T>,
     budget: &'a Budget,
     ends: [&'a [f64]; 2],
+    /// Where the end is level with the start, and nothing is lost on the way.
+    level: Option<Level>,
     stretches: Option<usize>,
 }
 
@@ -198,7 +206,8 @@ impl<T: Terrain> Hunt<'_, T> {
             tried[trial].outcome = outcome;
             found.extend(smooth);
         }
-        if found.is_empty() {
+        // Closed forms have no multipliers at level ends.
+        if found.is_empty() && self.level.is_none() {
             let (outcome, smooth) = self.thawed(tried.len());
             tried.push(Trial {
                 start: Start::Frozen,
@@ -266,7 +275,7 @@ impl<T: Terrain> Hunt<'_, T> {
             }
             let stretches = self.stretches.unwrap_or(stretches);
             let [from, to] = self.ends;
-            let path = Path::along(&self.system, &way, &walk, stretches);
+            let path = Path::along(&self.system, &way, &walk, (stretches, self.level.clone()));
             let path = path.and_then(|path| path.corrected(&self.system, from, to, self.budget));
             // Newton's method may have gone elsewhere.
             let near = |path: &Path| (path.time / walk.time() - 1.0).abs() < NEAR;
@@ -452,6 +461,43 @@ fn rise(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Rise {
     rise
 }
 
+/// By how much the deepest of some places is below the start, in J: what levels are measured by.
+fn drop(terrain: &impl Terrain, ways: &[(Start, Way)]) -> f64 {
+    let ends = ways.iter().flat_map(|(_, way)| way.places.split_first());
+    let depths = ends.flat_map(|(start, others)| {
+        let middle = others.get(others.len() / 2);
+        middle.map(|place| rise(terrain, start, place).work.abs())
+    });
+    depths.fold(0.0, f64::max)
+}
+
+/// What is known of the ends of a motion from rest to rest; `None` where nothing drives at one of them.
+fn level(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Option<Level> {
+    let rest = std::vec![0.0; from.len()];
+    let [from, to] = [from, to].map(|q| terrain.resistance(q, &rest));
+    let drives = |force: &[f64]| force.iter().any(|f| *f != 0.0);
+    let by_size = |i: &usize, j: &usize| to[*i].abs().total_cmp(&to[*j].abs());
+    let follows = (0..to.len()).max_by(by_size)?;
+    (drives(&from) && drives(&to)).then_some(Level { from, follows })
+}
+
+/// Whether nothing is lost and nothing gained at the places of these ways: there is a potential, and in motion
+/// `v·R(q, v) = v·R(q, 0) + ½ v·∂A[v] v` in either sense.
+fn conserves(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
+    ways.iter().all(|(_, way)| {
+        let places = way.places.iter().step_by(3);
+        places
+            .into_iter()
+            .all(|q| loses(terrain, q) && !takes(terrain, q))
+    })
+}
+
+/// Whether motion takes energy at a place, but for what a potential and inertia take and give.
+fn takes(terrain: &impl Terrain, q: &[f64]) -> bool {
+    let gains = gains(terrain, q);
+    gains.iter().any(|[gain, size]| *gain < -1e-9 * size)
+}
+
 /// Whether what resists is a potential's force, and whatever depends on velocities gives no energy: at all places of these ways.
 fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
     ways.iter().all(|(_, way)| {
@@ -464,23 +510,14 @@ fn is_potential(terrain: &impl Terrain, ways: &[(Start, Way)]) -> bool {
 fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
     let n = q.len();
     let still = std::vec![Dual::constant(0.0); n];
-    let along = |v: &[f64]| -> Vec<Dual<f64>> {
-        let pairs = q.iter().zip(v);
-        pairs
-            .map(|(value, derivative)| Dual {
-                value: *value,
-                derivative: *derivative,
-            })
-            .collect()
-    };
-    let unit = |i: usize, x: f64| {
+    let unit = |i: usize| {
         let mut unit = std::vec![0.0; n];
-        unit[i] = x;
+        unit[i] = 1.0;
         unit
     };
     let slopes: Vec<Vec<f64>> = (0..n)
         .map(|i| {
-            let force = terrain.resistance(&along(&unit(i, 1.0)), &still);
+            let force = terrain.resistance(&dual(q, &unit(i)), &still);
             force.iter().map(|f| f.derivative).collect()
         })
         .collect();
@@ -492,16 +529,37 @@ fn loses(terrain: &impl Terrain, q: &[f64]) -> bool {
         let [one, other] = [slopes[k / n][k % n], slopes[k % n][k / n]];
         (one - other).abs() > 1e-9 * size
     });
-    let feeds = (0..2 * n).any(|k| {
-        let v = unit(k / 2, if k % 2 == 0 { 1.0 } else { -1.0 });
+    let feeds = gains(terrain, q)
+        .iter()
+        .any(|[gain, size]| *gain > 1e-9 * size);
+    !curls && !feeds
+}
+
+/// `v·R(q, 0) + ½ v·∂A[v] v − v·R(q, v)` for velocities along each coordinate and against it, and the size of its terms.
+fn gains(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
+    let n = q.len();
+    let gain = |k: usize| {
+        let mut v = std::vec![0.0; n];
+        v[k / 2] = if k % 2 == 0 { 1.0 } else { -1.0 };
         let [moving, rest] =
             [v.clone(), std::vec![0.0; n]].map(|rate| dot(&terrain.resistance(q, &rate), &v));
-        let inertia = terrain.inertia(&along(&v));
+        let inertia = terrain.inertia(&dual(q, &v));
         let bent: f64 = (0..n * n)
             .map(|e| inertia[e].derivative * v[e / n] * v[e % n])
             .sum();
         let gain = rest + 0.5 * bent - moving;
-        gain > 1e-9 * (rest.abs() + bent.abs() + moving.abs())
-    });
-    !curls && !feeds
+        [gain, rest.abs() + bent.abs() + moving.abs()]
+    };
+    (0..2 * n).map(gain).collect()
+}
+
+/// A place that moves at this rate.
+fn dual(q: &[f64], v: &[f64]) -> Vec<Dual<f64>> {
+    let pairs = q.iter().zip(v);
+    pairs
+        .map(|(value, derivative)| Dual {
+            value: *value,
+            derivative: *derivative,
+        })
+        .collect()
 }

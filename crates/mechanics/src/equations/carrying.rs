@@ -19,8 +19,10 @@
 //!
 //! A body may also be free to move along the guide on its own, and yet be written by the coordinate of
 //! the guided body. Then (E38) holds, and what holds the body across the guide is as open. So of a body
-//! that moves with a coordinate of a guide it is asked that this guide carries it, or that another one
-//! does which that coordinate moves.
+//! that moves with a coordinate of a guide it is asked that this guide carries it, that another one
+//! does which that coordinate moves, or that it can be moved across the guide while all else rests, alone or
+//! with others of its kind: then whatever ties it has no part across the guide (virtual work), in whatever mixture of
+//! coordinates its place is written.
 //!
 //! Whatever else depends on coordinates (constraints, springs, points of forces) is held against the
 //! same `c` and `α`: what depends on where the guided body is changes by (E38) as the bodies do. What
@@ -533,7 +535,7 @@ impl<T: Number> Motion<T> {
         found
     }
 
-    /// Bodies that are free along a guide, are written by its coordinate, and are held across it by
+    /// Bodies that are free along a guide, are written by its coordinate, and are held across it, but by
     /// nothing that the spec names.
     fn loose(&self, model: &Model<'_>) -> Vec<Diagnostic> {
         let sliding = model.sliding();
@@ -547,8 +549,8 @@ impl<T: Number> Motion<T> {
             });
             base.is_some_and(|base| self.moves(base, &[i]))
         };
-        let mut found = Vec::new();
-        for part in &self.parts {
+        let mut found: Vec<(usize, usize)> = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
             let What::Body(body) = part.what else {
                 continue;
             };
@@ -565,11 +567,33 @@ impl<T: Number> Motion<T> {
                     && !guides.iter().any(holds)
             };
             let of_guide = |guide: &&usize| (0..self.coordinates).any(|i| is_loose(guide, i));
-            if let Some(&guide) = guides.iter().find(of_guide) {
-                found.push(untied(model, guide, part.what));
-            }
+            let of_guides = guides.iter().filter(of_guide);
+            found.extend(of_guides.map(|&guide| (index, guide)));
         }
-        found
+        // Those that hang together move together.
+        let all: Vec<usize> = found.iter().map(|(part, _)| *part).collect();
+        found.retain(|&(part, guide)| {
+            !self.is_free_across(guide, &[part]) && !self.is_free_across(guide, &all)
+        });
+        found.dedup_by_key(|(part, _)| *part);
+        let untied = |(part, guide): (usize, usize)| untied(model, guide, self.parts[part].what);
+        found.into_iter().map(untied).collect()
+    }
+
+    /// Whether some parts can be moved across a guide as one while everything else rests and no guide opens. By
+    /// virtual work, the forces that tie them to each other and to all else have no sum across the guide then.
+    fn is_free_across(&self, guide: usize, parts: &[usize]) -> bool {
+        let [x, y] = self.directions[guide];
+        let mut target = Vec::new();
+        for (index, part) in self.parts.iter().enumerate() {
+            // Two components of a place, and an angle where it matters.
+            let moved = [-y, x, T::ZERO];
+            let is_moved = parts.contains(&index);
+            let rows = moved.iter().take(part.rows.len());
+            target.extend(rows.map(|&by| if is_moved { by } else { T::ZERO }));
+        }
+        let columns = self.columns[..self.coordinates].to_vec();
+        combination(columns, target, self.size).is_some()
     }
 
     /// The bodies that are tied to what a guide carries by nothing that the spec names: without them

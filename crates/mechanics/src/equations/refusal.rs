@@ -173,9 +173,9 @@ pub(super) fn refuse_unturned(model: &Model<'_>, report: &mut Report) -> bool {
 /// eliminating it takes three million operations.
 pub const MOST_COORDINATES: usize = 256;
 
-/// The most nodes and operands that the expressions of a machine may have: an operand takes 8 to 24
-/// bytes, a node 64, so that they stay below half a gigabyte.
-pub(super) const MOST_SIZE: usize = 8_000_000;
+/// The most nodes and operands that the expressions of a machine may have: with all that is made of them on the way
+/// to a program, each takes 100 to 350 bytes and some 2 µs, so that a gigabyte and 10 s suffice.
+pub(super) const MOST_SIZE: usize = 2_500_000;
 
 /// Refuses machines of more than [`MOST_COORDINATES`] coordinates, at the first one too many. True
 /// if refused.

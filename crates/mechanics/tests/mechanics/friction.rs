@@ -521,3 +521,75 @@ fn a_force_on_a_coordinate_that_moves_more_than_a_guide_carries_is_refused_in_an
         }
     }
 }
+
+/// A cart at `a + b` along the floor, and what else there is, in coordinates that are no cart's and no bob's alone.
+fn mixed(bodies: &str, guides: &str) -> String {
+    format!(
+        "machine Mixed in plane {{
+            parameters {{ m: kg = 1, M: kg = 2, l: m = 1, mu: 1 = 0.2, g: m/s^2 = 9.81 }}
+            coordinates {{ a: m, b: m, c: m = 0.3, phi: rad = 0.2 }}
+            frames {{ cart = ground.shift(a + b, 0) }}
+            bodies {{ cart {{ mass: M, frame: cart }}, pin {{ mass: m, at: (0, c) }}, {bodies} }}
+            gravity (0, -g);
+            sliding {{ {RAIL} {guides} }}
+        }}"
+    )
+}
+
+#[test]
+fn bodies_that_nothing_holds_across_a_guide_may_share_its_coordinates() {
+    let away = "arm { mass: m, at: (0, l*phi) }";
+    for (bodies, is_right) in [
+        // A particle that flies, and one that is held at a height, nobody says by what.
+        ("bob { mass: m, at: (a - b, l*phi) }".to_owned(), true),
+        (format!("bob {{ mass: m, at: (a - b, l) }}, {away}"), false),
+        // Straight up and down is across, and along is not.
+        (format!("bob {{ mass: m, at: (l, a - b) }}, {away}"), true),
+        // Two on a rod: neither can move alone.
+        (
+            "bob { mass: m, at: (a - b, 2*c) }, hand { mass: m, at: (a - b + l*sin(phi), 2*c - l*cos(phi)) }"
+                .to_owned(),
+            false,
+        ),
+    ] {
+        let found = codes(&mixed(&bodies, ""));
+        let are_untied = found.iter().all(|(code, _)| *code == Code::Untied);
+        assert!(are_untied && found.is_empty() == is_right, "{bodies}: {found:?}");
+    }
+    // The same two, with nothing else that moves by c.
+    let rod = mixed(
+        "bob { mass: m, at: (a - b, c) }, hand { mass: m, at: (a - b + l*sin(phi), c - l*cos(phi)) }",
+        "",
+    );
+    let rod = rod.replace("pin { mass: m, at: (0, c) }, ", "");
+    assert!(codes(&rod).is_empty(), "{:?}", codes(&rod));
+    // What the guide carries is the cart alone.
+    for text in [rod, mixed("bob { mass: m, at: (a - b, l*phi) }", "")] {
+        derived(&text, |model, equations| {
+            let [big, g] = ["M", "g"].map(|name| symbol(model, name));
+            let contact = &equations.sliding[0];
+            let zero = model.dag.zero();
+            let mut pairs = vec![("load", contact.load, big * g)];
+            let by = contact.by_accelerations.iter();
+            pairs.extend(by.map(|by| ("acceleration", *by, zero)));
+            assert_equal(model, equations, &pairs);
+        });
+    }
+}
+
+#[test]
+fn one_motion_has_several_reactions_where_nobody_says_what_holds_a_body() {
+    // A block of the same places on the cart, or on a rail of its own: so written by formulas alone it is refused.
+    let on_cart = "block { mass: m, at: cart.point(-2*b, l) }, arm { mass: m, at: (0, l*phi) }";
+    let on_rail = "block { mass: m, at: (a - b, l) }, arm { mass: m, at: (0, l*phi) }";
+    let rail = ", upper { body: block, on: ground, direction: (1, 0), friction: mu }";
+    assert!(!codes(&mixed(on_rail, "")).is_empty());
+    for (text, carries_both) in [(mixed(on_cart, ""), true), (mixed(on_rail, rail), false)] {
+        derived(&text, |model, equations| {
+            let [m, big, g] = ["m", "M", "g"].map(|name| symbol(model, name));
+            let carried = if carries_both { m + big } else { big };
+            let pairs = [("load", equations.sliding[0].load, carried * g)];
+            assert_equal(model, equations, &pairs);
+        });
+    }
+}
