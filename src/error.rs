@@ -9,6 +9,30 @@ use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
+    /// A spec has mistakes, or cannot be read.
+    #[cfg(feature = "interpreter")]
+    Spec {
+        /// What is wrong, by position: none is left out but those beyond a limit.
+        diagnostics: std::vec::Vec<crate::interpreted::Diagnostic>,
+        /// How many more there are.
+        omitted: usize,
+    },
+    /// There is no parameter, coordinate or input of a name.
+    UnknownName(crate::UnknownName),
+    /// Parameters have no value: the spec gives no default, and nobody set them.
+    #[cfg(feature = "interpreter")]
+    MissingParameters(crate::interpreted::MissingParameters),
+    /// Machine code is asked for and cannot be had here.
+    #[cfg(feature = "interpreter")]
+    NoMachineCode(crate::interpreted::NoMachineCode),
+    /// A further force is to act on a machine with friction at guides ([`Adapted`](crate::Adapted)).
+    HasFriction(crate::HasFriction),
+    /// The balance of energy is to be kept of a system that does not say what its energies are
+    /// ([`System::kinetic_energy`], [`System::potential_energy`]).
+    EnergiesUnknown {
+        /// Time, in s.
+        t: f64,
+    },
     /// A simulation has no end: `until` was not called.
     NoEnd,
     /// A setting of the simulation has a value that makes no sense.
@@ -396,6 +420,31 @@ fn name_of(quantity: Option<Quantity<'_>>) -> String {
 impl Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            #[cfg(feature = "interpreter")]
+            Self::Spec {
+                diagnostics,
+                omitted,
+            } => {
+                for (i, diagnostic) in diagnostics.iter().enumerate() {
+                    write!(f, "{}{diagnostic}", if i == 0 { "" } else { "\n" })?;
+                }
+                match omitted {
+                    0 => Ok(()),
+                    _ => write!(f, "\n{omitted} more errors are not shown"),
+                }
+            }
+            Self::UnknownName(unknown) => write!(f, "{unknown}"),
+            #[cfg(feature = "interpreter")]
+            Self::MissingParameters(missing) => write!(f, "{missing}"),
+            #[cfg(feature = "interpreter")]
+            Self::NoMachineCode(none) => write!(f, "{none}"),
+            Self::HasFriction(error) => write!(f, "{error}"),
+            Self::EnergiesUnknown { t } => write!(
+                f,
+                "no balance of energy can be kept: the system does not say what its kinetic and potential energies are at t = {t} \
+                 s; leave out `energy_balance(true)`, or give it both",
+                t = Short(*t)
+            ),
             Self::NoEnd => {
                 write!(f, "the simulation has no end: say `until(…)`, in seconds")
             }
@@ -674,6 +723,32 @@ impl Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+impl From<crate::UnknownName> for Error {
+    fn from(error: crate::UnknownName) -> Self {
+        Self::UnknownName(error)
+    }
+}
+
+impl From<crate::HasFriction> for Error {
+    fn from(error: crate::HasFriction) -> Self {
+        Self::HasFriction(error)
+    }
+}
+
+#[cfg(feature = "interpreter")]
+impl From<crate::interpreted::MissingParameters> for Error {
+    fn from(error: crate::interpreted::MissingParameters) -> Self {
+        Self::MissingParameters(error)
+    }
+}
+
+#[cfg(feature = "interpreter")]
+impl From<crate::interpreted::NoMachineCode> for Error {
+    fn from(error: crate::interpreted::NoMachineCode) -> Self {
+        Self::NoMachineCode(error)
+    }
+}
 
 /// What a run has to say, although it ended well.
 #[derive(Clone, Debug, PartialEq)]

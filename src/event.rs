@@ -282,7 +282,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         let Some(interpolant) = interpolant else {
             continue;
         };
-        let at = |theta| {
+        let at = |theta| -> Result<_, Error> {
             Ok(state(
                 system,
                 state_at(system, stepper, interpolant, theta)?,

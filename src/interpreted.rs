@@ -20,8 +20,11 @@ use lagrangian_spec::model::{self, Variable};
 use lagrangian_spec::token::normalized;
 
 mod engine;
+mod reading;
 
+pub use crate::names::UnknownName;
 pub use engine::{Engine, NoMachineCode};
+pub use reading::{Diagnostic, Note, Reading};
 
 use crate::{
     Assumption, Constraint, Differentiate, ImpactLaw, Linearize, Machine, Number, Pivot, Quantity,
@@ -80,15 +83,6 @@ pub struct InterpretedSystem {
     enclosing: RefCell<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
     expander: RefCell<Option<Expander<f64>>>,
-}
-
-/// No parameter, coordinate or input has this name.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownName {
-    /// The name.
-    pub name: String,
-    /// What there is.
-    pub known: Vec<String>,
 }
 
 /// Parameters to which neither the spec nor anybody else gave a value.
@@ -234,6 +228,10 @@ impl Machine for InterpretedMachine {
 
     fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
         quantities(&self.names.parameters).zip(self.parameters.iter().copied())
+    }
+
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        self.parameters.get_mut(index)
     }
 
     fn prepare(&self) -> InterpretedSystem {
@@ -912,19 +910,6 @@ impl fmt::Debug for Named {
     }
 }
 
-impl fmt::Display for UnknownName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "there is no `{}`; there is: {}",
-            self.name,
-            self.known.join(", ")
-        )
-    }
-}
-
-impl core::error::Error for UnknownName {}
-
 impl fmt::Display for MissingParameters {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verb = if self.names.len() == 1 { "has" } else { "have" };
@@ -958,10 +943,10 @@ fn assign<'a>(
     if found {
         Ok(())
     } else {
-        Err(UnknownName {
-            name: name.to_string(),
-            known,
-        })
+        Err(UnknownName::new(
+            name,
+            known.iter().map(String::as_str),
+        ))
     }
 }
 

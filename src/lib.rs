@@ -47,15 +47,18 @@
 //! | `jit` | these at compiled speed, by machine code that is made while the program runs |
 //! | `strict-libm` | the same bits on every machine: no fused multiply-add, `libm`'s sines |
 //! | `nalgebra` | vectors and matrices of that crate at the interface |
+//! | `serde` | states, solutions, statistics, events, balances and messages are serialized |
 #![no_std]
 
 #[cfg(feature = "std")]
 extern crate std;
 
+mod adapted;
 mod balance;
 mod compensated;
 mod constraints;
 mod contact;
+mod forward;
 mod friction;
 #[cfg(feature = "std")]
 mod implicit;
@@ -86,6 +89,8 @@ mod error;
 #[cfg(feature = "std")]
 mod event;
 #[cfg(feature = "std")]
+mod names;
+#[cfg(feature = "std")]
 mod roots;
 #[cfg(feature = "std")]
 mod run;
@@ -96,6 +101,7 @@ mod simulation;
 #[cfg(feature = "std")]
 mod solution;
 
+pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
 pub use contact::{ContactTrouble, ImpactLaw, UnilateralContact};
@@ -126,6 +132,8 @@ pub use equations::check_equations;
 pub use error::{Error, KeptContradiction, Warning};
 #[cfg(feature = "std")]
 pub use event::{Crossing, Event};
+#[cfg(feature = "std")]
+pub use names::UnknownName;
 #[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]

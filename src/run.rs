@@ -129,6 +129,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         .contacts
         .extend(contacts.map(|known| (start.t, known)));
     run.enter_energies();
+    if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
+        return Err(Error::EnergiesUnknown { t: start.t });
+    }
     run.meet_at_start()?;
     let (ending, error) = match run.go() {
         Ok(ending) => (ending, None),

@@ -16,6 +16,7 @@ use std::string::{String, ToString};
 use std::vec;
 use std::vec::Vec;
 
+use crate::forward::forward;
 use crate::{
     Assumption, Coordinates, Differentiate, Error, Machine, Quantity, Singular, State, System,
     Vector,
@@ -332,8 +333,26 @@ impl<S: Differentiate> SensitiveSystem<S> {
     }
 
     /// Writes the machine's own part of a vector.
-    fn put(own: &S::Vector, vector: &mut [f64]) {
+    fn copy(own: &S::Vector, vector: &mut [f64]) {
         for (to, from) in vector.iter_mut().zip(own.as_slice()) {
+            *to = *from;
+        }
+    }
+
+    fn wrapped(&self) -> &S {
+        &self.system
+    }
+
+    fn put(&self, to: &mut Vec<f64>, write: impl FnOnce(&mut S::Vector)) {
+        let mut own = S::Vector::zeros(self.dimension);
+        write(&mut own);
+        Self::copy(&own, to);
+    }
+
+    fn put_matrix(&self, to: &mut Vec<f64>, write: impl FnOnce(&mut S::Matrix)) {
+        let mut own = S::Matrix::zeros(self.dimension * self.dimension);
+        write(&mut own);
+        for (to, from) in to.iter_mut().zip(own.as_slice()) {
             *to = *from;
         }
     }
@@ -372,7 +391,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         // What is missing is 0, and what is too much is not there.
         let parts = core::iter::once(value).chain(by);
         for (part, to) in parts.zip(vector.chunks_mut(self.dimension.max(1))) {
-            Self::put(&self.system.to_vector(part), to);
+            Self::copy(&self.system.to_vector(part), to);
         }
         vector
     }
@@ -395,7 +414,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         let (own_q, own_v) = (self.own(q), self.own(v));
         self.system
             .differentiate(t, &own_q, &own_v, u, &mut own, by_q, by_v, others)?;
-        Self::put(&own, a);
+        Self::copy(&own, a);
         let (by_q, by_v) = (by_q.as_slice(), by_v.as_slice());
         for (k, variable) in self.variables.iter().enumerate() {
             let part = (k + 1) * n..(k + 2) * n;
@@ -420,85 +439,21 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         0
     }
 
-    fn mass_matrix(&self, t: f64, q: &Vec<f64>, matrix: &mut Vec<f64>) {
-        let mut own = S::Matrix::zeros(self.dimension * self.dimension);
-        self.system.mass_matrix(t, &self.own(q), &mut own);
-        for (to, from) in matrix.iter_mut().zip(own.as_slice()) {
-            *to = *from;
-        }
-    }
-
-    fn bias(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, bias: &mut Vec<f64>) {
-        let mut own = S::Vector::zeros(self.dimension);
-        self.system.bias(t, &self.own(q), &self.own(v), &mut own);
-        Self::put(&own, bias);
-    }
-
-    fn applied(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs, applied: &mut Vec<f64>) {
-        let mut own = S::Vector::zeros(self.dimension);
-        self.system
-            .applied(t, &self.own(q), &self.own(v), u, &mut own);
-        Self::put(&own, applied);
-    }
-
-    fn forces(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs, forces: &mut Vec<f64>) {
-        let mut own = S::Vector::zeros(self.dimension);
-        self.system
-            .forces(t, &self.own(q), &self.own(v), u, &mut own);
-        Self::put(&own, forces);
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>) -> f64 {
-        self.system.kinetic_energy(t, &self.own(q), &self.own(v))
-    }
-
-    fn potential_energy(&self, t: f64, q: &Vec<f64>, u: &S::Inputs) -> f64 {
-        self.system.potential_energy(t, &self.own(q), u)
-    }
-
-    fn dissipation(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs) -> f64 {
-        self.system.dissipation(t, &self.own(q), &self.own(v), u)
-    }
-
-    fn work_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, a: &Vec<f64>, u: &S::Inputs) -> f64 {
-        self.system
-            .work_rate(t, &self.own(q), &self.own(v), &self.own(a), u)
-    }
-
-    fn dissipation_rate(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, u: &S::Inputs) -> f64 {
-        self.system
-            .dissipation_rate(t, &self.own(q), &self.own(v), u)
-    }
-
-    fn default_inputs(&self) -> S::Inputs {
-        self.system.default_inputs()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &S::Inputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
-        self.system.input_values(inputs)
-    }
-
-    fn outputs(
-        &self,
-        t: f64,
-        q: &Vec<f64>,
-        v: &Vec<f64>,
-        a: &Vec<f64>,
-        u: &S::Inputs,
-    ) -> S::Outputs {
-        self.system
-            .outputs(t, &self.own(q), &self.own(v), &self.own(a), u)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &S::Outputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
-        self.system.output_values(outputs)
-    }
+    forward!(
+        mass_matrix,
+        bias,
+        applied,
+        forces,
+        kinetic_energy,
+        potential_energy,
+        dissipation,
+        work_rate,
+        dissipation_rate,
+        default_inputs,
+        input_values,
+        outputs,
+        output_values,
+    );
 
     fn assumptions(
         &self,

@@ -36,6 +36,67 @@ pub trait Machine {
     /// Simulations refuse parameters that are not finite, by name.
     fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)>;
 
+    /// The parameter with this number, in the order of [`parameters`](Self::parameters), to be changed. By default there is
+    /// none: what a machine by hand does not hand out cannot be set by name.
+    fn parameter_mut(&mut self, _index: usize) -> Option<&mut f64> {
+        None
+    }
+
+    /// The value of the parameter of this name; of a member of a family, `m[2]`.
+    ///
+    /// # Errors
+    /// If there is no such name: with the one that was probably meant.
+    #[cfg(feature = "std")]
+    fn get(&self, name: &str) -> Result<f64, crate::UnknownName> {
+        let found = self.parameters().find(|(of, _)| of.name == name);
+        match found {
+            Some((_, value)) => Ok(value),
+            None => Err(crate::UnknownName::new(
+                name,
+                self.parameters().map(|(of, _)| of.name),
+            )),
+        }
+    }
+
+    /// Sets the parameter of this name; the name of a family sets all its members.
+    ///
+    /// # Errors
+    /// If there is no such name: with the one that was probably meant. Then everything stays as it is.
+    ///
+    /// ```
+    /// use lagrangian::Machine;
+    /// use lagrangian_machines::DoublePendulum;
+    ///
+    /// let mut pendulum = DoublePendulum::default();
+    /// pendulum.set("l1", 0.5)?;
+    /// assert_eq!((pendulum.l1, pendulum.get("l1")?), (0.5, 0.5));
+    /// let unknown = pendulum.set("11", 0.5).unwrap_err();
+    /// assert_eq!(unknown.near.as_deref(), Some("l1"));
+    /// # Ok::<(), lagrangian::UnknownName>(())
+    /// ```
+    #[cfg(feature = "std")]
+    fn set(&mut self, name: &str, value: f64) -> Result<(), crate::UnknownName> {
+        let meant = |of: &str| of == name || of.split_once('[').is_some_and(|(base, _)| base == name);
+        let names: std::vec::Vec<std::string::String> =
+            self.parameters().map(|(of, _)| of.name.into()).collect();
+        let mut found = false;
+        for (index, of) in names.iter().enumerate() {
+            if meant(of)
+                && let Some(parameter) = self.parameter_mut(index)
+            {
+                *parameter = value;
+                found = true;
+            }
+        }
+        if found {
+            return Ok(());
+        }
+        let can_be_set = |(index, _): &(usize, &std::string::String)| self.parameter_mut(*index).is_some();
+        let known: std::vec::Vec<_> = names.iter().enumerate().filter(can_be_set).collect();
+        let known = known.iter().map(|(_, name)| name.as_str());
+        Err(crate::UnknownName::new(name, known))
+    }
+
     /// Computes what depends on the parameters alone, once.
     fn prepare(&self) -> Self::System;
 
@@ -57,6 +118,48 @@ pub type Outputs<M> = <<M as Machine>::System as System>::Outputs;
 ///
 /// Integrators call [`accelerations`](Self::accelerations) and nothing else, unless asked for more:
 /// a quantity that nobody asks for costs nothing.
+///
+/// Written by hand, a system needs its five types, its coordinates, its accelerations, and the inputs and outputs as they are by
+/// default. What it does not say of itself is either nothing (no constraints, no damping) or not known, which is not a number:
+/// whoever asks is told.
+///
+/// ```
+/// use lagrangian::{Quantity, Singular, System};
+///
+/// /// Duffing's oscillator, x″ = x − x³.
+/// #[derive(Clone)]
+/// struct Duffing;
+///
+/// impl System for Duffing {
+///     type Vector = [f64; 1];
+///     type Matrix = [f64; 1];
+///     type Coordinates = f64;
+///     type Inputs = ();
+///     type Outputs = ();
+///
+///     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
+///         [Quantity { name: "x", unit: "m" }].into_iter()
+///     }
+///
+///     fn to_coordinates(&self, vector: &[f64; 1]) -> f64 {
+///         vector[0]
+///     }
+///
+///     fn to_vector(&self, x: &f64) -> [f64; 1] {
+///         [*x]
+///     }
+///
+///     fn accelerations(&self, _t: f64, q: &[f64; 1], _v: &[f64; 1], _u: &(), a: &mut [f64; 1]) -> Result<(), Singular> {
+///         a[0] = q[0] - q[0].powi(3);
+///         Ok(())
+///     }
+///
+///     fn default_inputs(&self) {}
+///
+///     fn outputs(&self, _t: f64, _q: &[f64; 1], _v: &[f64; 1], _a: &[f64; 1], _u: &()) {}
+/// }
+/// assert!(Duffing.kinetic_energy(0.0, &[1.0], &[0.0]).is_nan());
+/// ```
 pub trait System {
     /// One number per coordinate, in the order of the description: `[f64; N]` or `Vec<f64>`.
     type Vector: Vector;
@@ -105,23 +208,33 @@ pub trait System {
         self.coordinates().len()
     }
 
-    /// Mass matrix `M(q, t)`, row after row.
-    fn mass_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut Self::Matrix);
+    /// Mass matrix `M(q, t)`, row after row. By default it is not known: not a number.
+    ///
+    /// Needed for constraints, for contacts and by whatever takes the equations apart.
+    fn mass_matrix(&self, _t: f64, _q: &Self::Vector, matrix: &mut Self::Matrix) {
+        matrix.as_mut_slice().fill(f64::NAN);
+    }
 
-    /// Bias `h(q, v, t)`: every velocity product and explicit-time term of the inertia forces.
-    fn bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, bias: &mut Self::Vector);
+    /// Bias `h(q, v, t)`: every velocity product and explicit-time term of the inertia forces. By default it is not
+    /// known: not a number.
+    fn bias(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, bias: &mut Self::Vector) {
+        bias.as_mut_slice().fill(f64::NAN);
+    }
 
-    /// Applied generalized forces `Q(q, v, t, u) = −∂V/∂q − ∂D/∂v + …`.
+    /// Applied generalized forces `Q(q, v, t, u) = −∂V/∂q − ∂D/∂v + …`. By default they are not known: not a number.
     fn applied(
         &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
         applied: &mut Self::Vector,
-    );
+    ) {
+        applied.as_mut_slice().fill(f64::NAN);
+    }
 
-    /// The right-hand side `f = Q − h` of `M a = f`.
+    /// The right-hand side `f = Q − h` of `M a = f`. By default the difference of [`applied`](Self::applied) and
+    /// [`bias`](Self::bias).
     fn forces(
         &self,
         t: f64,
@@ -129,41 +242,66 @@ pub trait System {
         v: &Self::Vector,
         u: &Self::Inputs,
         forces: &mut Self::Vector,
-    );
+    ) {
+        let mut bias = forces.zeros_like();
+        self.bias(t, q, v, &mut bias);
+        self.applied(t, q, v, u, forces);
+        for (force, bias) in forces.as_mut_slice().iter_mut().zip(bias.as_slice()) {
+            *force -= bias;
+        }
+    }
 
-    /// Kinetic energy `T`, in J.
-    fn kinetic_energy(&self, t: f64, q: &Self::Vector, v: &Self::Vector) -> f64;
+    /// Kinetic energy `T`, in J. By default it is not known: not a number, and a run has no balance of energy.
+    fn kinetic_energy(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector) -> f64 {
+        f64::NAN
+    }
 
-    /// Potential energy `V`, in J.
-    fn potential_energy(&self, t: f64, q: &Self::Vector, u: &Self::Inputs) -> f64;
+    /// Potential energy `V`, in J. By default it is not known: not a number, and a run has no balance of energy.
+    fn potential_energy(&self, _t: f64, _q: &Self::Vector, _u: &Self::Inputs) -> f64 {
+        f64::NAN
+    }
 
-    /// Rayleigh's dissipation function `D`, in W.
-    fn dissipation(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs) -> f64;
+    /// Rayleigh's dissipation function `D`, in W. By default 0: nothing is damped.
+    fn dissipation(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _u: &Self::Inputs) -> f64 {
+        0.0
+    }
 
     /// Power, in W, of everything that is neither in `T + V` nor in `D`: drives (explicit time),
     /// applied forces, inputs, and constraints that move (`−λ·∂g/∂t`, of whatever multipliers hold
-    /// these accelerations). Along every motion `d(T + V)/dt = work_rate − dissipation_rate`.
+    /// these accelerations). Along every motion `d(T + V)/dt = work_rate − dissipation_rate`. By default 0, which a balance
+    /// of energy shows where it is not so.
     fn work_rate(
         &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        a: &Self::Vector,
-        u: &Self::Inputs,
-    ) -> f64;
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _a: &Self::Vector,
+        _u: &Self::Inputs,
+    ) -> f64 {
+        0.0
+    }
 
-    /// Power lost in the dampers, `Σ vᵢ ∂D/∂vᵢ`, in W.
-    fn dissipation_rate(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs)
-    -> f64;
+    /// Power lost in the dampers, `Σ vᵢ ∂D/∂vᵢ`, in W. By default 0.
+    fn dissipation_rate(
+        &self,
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+    ) -> f64 {
+        0.0
+    }
 
     /// The inputs as they are while nobody sets them: the defaults of the description.
     fn default_inputs(&self) -> Self::Inputs;
 
-    /// Names, units and values of inputs, in the order of the description.
+    /// Names, units and values of inputs, in the order of the description. None are told by default.
     fn input_values(
         &self,
-        inputs: &Self::Inputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)>;
+        _inputs: &Self::Inputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        core::iter::empty()
+    }
 
     /// The outputs of the description.
     fn outputs(
@@ -175,23 +313,27 @@ pub trait System {
         u: &Self::Inputs,
     ) -> Self::Outputs;
 
-    /// Names, units and values of outputs, in the order of the description.
+    /// Names, units and values of outputs, in the order of the description. None are told by default.
     fn output_values(
         &self,
-        outputs: &Self::Outputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)>;
+        _outputs: &Self::Outputs,
+    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        core::iter::empty()
+    }
 
     /// The facts that the description assumes, and by how much they hold here. Empty if it assumes
-    /// nothing.
+    /// nothing, as by default.
     ///
     /// The equations may have been shortened by them, so a run ends where one of them ends.
     fn assumptions(
         &self,
-        t: f64,
-        q: &Self::Vector,
-        v: &Self::Vector,
-        u: &Self::Inputs,
-    ) -> impl ExactSizeIterator<Item = Assumption<'_>>;
+        _t: f64,
+        _q: &Self::Vector,
+        _v: &Self::Vector,
+        _u: &Self::Inputs,
+    ) -> impl ExactSizeIterator<Item = Assumption<'_>> {
+        core::iter::empty()
+    }
 
     /// The bilateral constraints, in the order of the rows below. None by default, and a machine
     /// without any has nothing to say in the methods that follow.

@@ -1786,6 +1786,54 @@ impl ::lagrangian::Machine for AndrewsSqueezer {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m1),
+            1 => Some(&mut self.m2),
+            2 => Some(&mut self.m3),
+            3 => Some(&mut self.m4),
+            4 => Some(&mut self.m5),
+            5 => Some(&mut self.m6),
+            6 => Some(&mut self.m7),
+            7 => Some(&mut self.I1),
+            8 => Some(&mut self.I2),
+            9 => Some(&mut self.I3),
+            10 => Some(&mut self.I4),
+            11 => Some(&mut self.I5),
+            12 => Some(&mut self.I6),
+            13 => Some(&mut self.I7),
+            14 => Some(&mut self.xa),
+            15 => Some(&mut self.ya),
+            16 => Some(&mut self.xb),
+            17 => Some(&mut self.yb),
+            18 => Some(&mut self.xc),
+            19 => Some(&mut self.yc),
+            20 => Some(&mut self.d),
+            21 => Some(&mut self.da),
+            22 => Some(&mut self.e),
+            23 => Some(&mut self.ea),
+            24 => Some(&mut self.zf),
+            25 => Some(&mut self.fa),
+            26 => Some(&mut self.rr),
+            27 => Some(&mut self.ra),
+            28 => Some(&mut self.ss),
+            29 => Some(&mut self.sa),
+            30 => Some(&mut self.sb),
+            31 => Some(&mut self.sc),
+            32 => Some(&mut self.sd),
+            33 => Some(&mut self.zt),
+            34 => Some(&mut self.ta),
+            35 => Some(&mut self.tb),
+            36 => Some(&mut self.u),
+            37 => Some(&mut self.ua),
+            38 => Some(&mut self.ub),
+            39 => Some(&mut self.c0),
+            40 => Some(&mut self.l0),
+            41 => Some(&mut self.mom),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

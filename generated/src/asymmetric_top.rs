@@ -569,6 +569,16 @@ impl ::lagrangian::Machine for AsymmetricTop {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.A),
+            2 => Some(&mut self.B),
+            3 => Some(&mut self.C),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -936,6 +936,18 @@ impl ::lagrangian::Machine for BallInBowl {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.r),
+            2 => Some(&mut self.J),
+            3 => Some(&mut self.R),
+            4 => Some(&mut self.Omega),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

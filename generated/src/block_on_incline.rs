@@ -426,6 +426,18 @@ impl ::lagrangian::Machine for BlockOnIncline {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.alpha),
+            2 => Some(&mut self.rate),
+            3 => Some(&mut self.mu),
+            4 => Some(&mut self.mu0),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

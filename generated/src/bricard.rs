@@ -2503,6 +2503,16 @@ impl ::lagrangian::Machine for Bricard {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l),
+            1 => Some(&mut self.w),
+            2 => Some(&mut self.m),
+            3 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -504,6 +504,19 @@ impl ::lagrangian::Machine for CartPole {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.cart),
+            1 => Some(&mut self.pole),
+            2 => Some(&mut self.l),
+            3 => Some(&mut self.J),
+            4 => Some(&mut self.rail),
+            5 => Some(&mut self.hinge),
+            6 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

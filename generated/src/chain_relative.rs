@@ -1207,6 +1207,16 @@ impl ::lagrangian::Machine for ChainRelative {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l),
+            1 => Some(&mut self.m),
+            2 => Some(&mut self.J),
+            3 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -448,6 +448,15 @@ impl ::lagrangian::Machine for ChaplyginSleigh {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.J),
+            2 => Some(&mut self.a),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

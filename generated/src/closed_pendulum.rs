@@ -1204,6 +1204,17 @@ impl ::lagrangian::Machine for ClosedPendulum {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l),
+            1 => Some(&mut self.m),
+            2 => Some(&mut self.J),
+            3 => Some(&mut self.d),
+            4 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

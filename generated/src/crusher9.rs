@@ -1062,6 +1062,37 @@ impl ::lagrangian::Machine for Crusher9 {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.J),
+            2 => Some(&mut self.m0),
+            3 => Some(&mut self.e),
+            4 => Some(&mut self.x0),
+            5 => Some(&mut self.y0),
+            6 => Some(&mut self.w),
+            7 => Some(&mut self.m1),
+            8 => Some(&mut self.J1),
+            9 => Some(&mut self.m2),
+            10 => Some(&mut self.J2),
+            11 => Some(&mut self.cx),
+            12 => Some(&mut self.cy),
+            13 => Some(&mut self.xc),
+            14 => Some(&mut self.yc),
+            15 => Some(&mut self.bx),
+            16 => Some(&mut self.by),
+            17 => Some(&mut self.xb),
+            18 => Some(&mut self.yb),
+            19 => Some(&mut self.k1),
+            20 => Some(&mut self.d1),
+            21 => Some(&mut self.r1),
+            22 => Some(&mut self.k2),
+            23 => Some(&mut self.d2),
+            24 => Some(&mut self.r2),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -1534,6 +1534,37 @@ impl ::lagrangian::Machine for CrushingCrusher {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.m0),
+            2 => Some(&mut self.m1),
+            3 => Some(&mut self.m2),
+            4 => Some(&mut self.J),
+            5 => Some(&mut self.J0),
+            6 => Some(&mut self.J1),
+            7 => Some(&mut self.J2),
+            8 => Some(&mut self.e),
+            9 => Some(&mut self.x0),
+            10 => Some(&mut self.y0),
+            11 => Some(&mut self.omega),
+            12 => Some(&mut self.cx),
+            13 => Some(&mut self.cy),
+            14 => Some(&mut self.bx),
+            15 => Some(&mut self.by),
+            16 => Some(&mut self.xc),
+            17 => Some(&mut self.yc),
+            18 => Some(&mut self.R),
+            19 => Some(&mut self.r1),
+            20 => Some(&mut self.rho),
+            21 => Some(&mut self.r2),
+            22 => Some(&mut self.delta),
+            23 => Some(&mut self.whirl1),
+            24 => Some(&mut self.whirl2),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

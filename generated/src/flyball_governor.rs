@@ -648,6 +648,18 @@ impl ::lagrangian::Machine for FlyballGovernor {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l),
+            1 => Some(&mut self.b),
+            2 => Some(&mut self.m),
+            3 => Some(&mut self.M),
+            4 => Some(&mut self.J),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -762,6 +762,21 @@ impl ::lagrangian::Machine for FourBar {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.a),
+            1 => Some(&mut self.b),
+            2 => Some(&mut self.c),
+            3 => Some(&mut self.d),
+            4 => Some(&mut self.m1),
+            5 => Some(&mut self.m2),
+            6 => Some(&mut self.m3),
+            7 => Some(&mut self.g),
+            8 => Some(&mut self.omega),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -965,6 +965,16 @@ impl ::lagrangian::Machine for FourBars {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l),
+            1 => Some(&mut self.m),
+            2 => Some(&mut self.g),
+            3 => Some(&mut self.v0),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -550,6 +550,24 @@ impl ::lagrangian::Machine for GyroscopeInGimbals {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.A1),
+            1 => Some(&mut self.A2),
+            2 => Some(&mut self.B2),
+            3 => Some(&mut self.C2),
+            4 => Some(&mut self.A3),
+            5 => Some(&mut self.C3),
+            6 => Some(&mut self.m1),
+            7 => Some(&mut self.m2),
+            8 => Some(&mut self.m3),
+            9 => Some(&mut self.w),
+            10 => Some(&mut self.d),
+            11 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

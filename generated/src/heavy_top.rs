@@ -459,6 +459,17 @@ impl ::lagrangian::Machine for HeavyTop {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.l),
+            2 => Some(&mut self.A),
+            3 => Some(&mut self.C),
+            4 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

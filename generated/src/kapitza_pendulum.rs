@@ -432,6 +432,17 @@ impl ::lagrangian::Machine for KapitzaPendulum {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.l),
+            2 => Some(&mut self.a),
+            3 => Some(&mut self.omega),
+            4 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -582,6 +582,17 @@ impl ::lagrangian::Machine for ParticlePendulum {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m1),
+            1 => Some(&mut self.m2),
+            2 => Some(&mut self.l1),
+            3 => Some(&mut self.l2),
+            4 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -419,6 +419,18 @@ impl ::lagrangian::Machine for Prisms {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.M),
+            2 => Some(&mut self.alpha),
+            3 => Some(&mut self.mu1),
+            4 => Some(&mut self.mu2),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

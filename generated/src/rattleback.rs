@@ -1327,6 +1327,22 @@ impl ::lagrangian::Machine for Rattleback {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.a),
+            2 => Some(&mut self.b),
+            3 => Some(&mut self.c),
+            4 => Some(&mut self.h),
+            5 => Some(&mut self.A),
+            6 => Some(&mut self.B),
+            7 => Some(&mut self.C),
+            8 => Some(&mut self.D),
+            9 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

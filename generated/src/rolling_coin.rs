@@ -761,6 +761,17 @@ impl ::lagrangian::Machine for RollingCoin {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.r),
+            2 => Some(&mut self.g),
+            3 => Some(&mut self.C),
+            4 => Some(&mut self.A),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -514,6 +514,17 @@ impl ::lagrangian::Machine for RollingCylinder {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.J),
+            2 => Some(&mut self.R),
+            3 => Some(&mut self.r),
+            4 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -1523,6 +1523,24 @@ impl ::lagrangian::Machine for SixJointArm {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.h),
+            1 => Some(&mut self.a),
+            2 => Some(&mut self.b),
+            3 => Some(&mut self.c),
+            4 => Some(&mut self.m1),
+            5 => Some(&mut self.m2),
+            6 => Some(&mut self.m3),
+            7 => Some(&mut self.m4),
+            8 => Some(&mut self.m5),
+            9 => Some(&mut self.m6),
+            10 => Some(&mut self.friction),
+            11 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -695,6 +695,21 @@ impl ::lagrangian::Machine for SliderCrank {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.a),
+            1 => Some(&mut self.b),
+            2 => Some(&mut self.m1),
+            3 => Some(&mut self.m2),
+            4 => Some(&mut self.m3),
+            5 => Some(&mut self.J1),
+            6 => Some(&mut self.J2),
+            7 => Some(&mut self.g),
+            8 => Some(&mut self.omega),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -325,6 +325,18 @@ impl ::lagrangian::Machine for StickSlip {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.k),
+            2 => Some(&mut self.v_b),
+            3 => Some(&mut self.mu),
+            4 => Some(&mut self.mu0),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -435,6 +435,15 @@ impl ::lagrangian::Machine for TwoBodyOrbit {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m1),
+            1 => Some(&mut self.m2),
+            2 => Some(&mut self.G),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -532,6 +532,21 @@ impl ::lagrangian::Machine for TwoJointArm {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.l1),
+            1 => Some(&mut self.l2),
+            2 => Some(&mut self.c1),
+            3 => Some(&mut self.c2),
+            4 => Some(&mut self.m1),
+            5 => Some(&mut self.m2),
+            6 => Some(&mut self.J1),
+            7 => Some(&mut self.J2),
+            8 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -939,6 +939,30 @@ impl ::lagrangian::Machine for VibratingCrusher {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.m),
+            1 => Some(&mut self.m0),
+            2 => Some(&mut self.m1),
+            3 => Some(&mut self.m2),
+            4 => Some(&mut self.J),
+            5 => Some(&mut self.J0),
+            6 => Some(&mut self.J1),
+            7 => Some(&mut self.J2),
+            8 => Some(&mut self.e),
+            9 => Some(&mut self.x0),
+            10 => Some(&mut self.y0),
+            11 => Some(&mut self.omega),
+            12 => Some(&mut self.cx),
+            13 => Some(&mut self.cy),
+            14 => Some(&mut self.bx),
+            15 => Some(&mut self.by),
+            16 => Some(&mut self.xc),
+            17 => Some(&mut self.yc),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

@@ -398,6 +398,18 @@ impl ::lagrangian::Machine for WedgeAndBlock {
         quantities(&PARAMETERS, values)
     }
 
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        match index {
+            0 => Some(&mut self.M),
+            1 => Some(&mut self.m),
+            2 => Some(&mut self.alpha),
+            3 => Some(&mut self.mu1),
+            4 => Some(&mut self.mu2),
+            5 => Some(&mut self.g),
+            _ => None,
+        }
+    }
+
     fn prepare(&self) -> Prepared {
         Self::prepare(self)
     }

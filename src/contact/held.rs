@@ -4,7 +4,8 @@ use std::vec;
 use std::vec::Vec;
 
 use super::{Mode, Touching, UnilateralContact};
-use crate::{Assumption, Constraint, Quantity, Singular, System};
+use crate::forward::forward;
+use crate::{Constraint, System};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
@@ -20,6 +21,22 @@ impl<'a, S: System> Held<'a, S> {
             system,
             directions: touching.held(),
         }
+    }
+
+    fn wrapped(&self) -> &S {
+        self.system
+    }
+
+    fn own<'v>(&self, vector: &'v S::Vector) -> &'v S::Vector {
+        vector
+    }
+
+    fn put(&self, to: &mut S::Vector, write: impl FnOnce(&mut S::Vector)) {
+        write(to);
+    }
+
+    fn put_matrix(&self, to: &mut S::Matrix, write: impl FnOnce(&mut S::Matrix)) {
+        write(to);
     }
 
     /// Writes what the machine says of its own constraints, and behind it what is picked of both directions of its
@@ -73,110 +90,26 @@ impl<S: System> System for Held<'_, S> {
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
-        self.system.coordinates()
-    }
-
-    fn to_coordinates(&self, vector: &S::Vector) -> S::Coordinates {
-        self.system.to_coordinates(vector)
-    }
-
-    fn to_vector(&self, coordinates: &S::Coordinates) -> S::Vector {
-        self.system.to_vector(coordinates)
-    }
-
-    fn accelerations(
-        &self,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
-        u: &S::Inputs,
-        a: &mut S::Vector,
-    ) -> Result<(), Singular> {
-        self.system.accelerations(t, q, v, u, a)
-    }
-
-    fn mass_matrix(&self, t: f64, q: &S::Vector, matrix: &mut S::Matrix) {
-        self.system.mass_matrix(t, q, matrix);
-    }
-
-    fn bias(&self, t: f64, q: &S::Vector, v: &S::Vector, bias: &mut S::Vector) {
-        self.system.bias(t, q, v, bias);
-    }
-
-    fn applied(
-        &self,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
-        u: &S::Inputs,
-        applied: &mut S::Vector,
-    ) {
-        self.system.applied(t, q, v, u, applied);
-    }
-
-    fn forces(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs, forces: &mut S::Vector) {
-        self.system.forces(t, q, v, u, forces);
-    }
-
-    fn kinetic_energy(&self, t: f64, q: &S::Vector, v: &S::Vector) -> f64 {
-        self.system.kinetic_energy(t, q, v)
-    }
-
-    fn potential_energy(&self, t: f64, q: &S::Vector, u: &S::Inputs) -> f64 {
-        self.system.potential_energy(t, q, u)
-    }
-
-    fn dissipation(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> f64 {
-        self.system.dissipation(t, q, v, u)
-    }
-
-    fn work_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &S::Vector, u: &S::Inputs) -> f64 {
-        self.system.work_rate(t, q, v, a, u)
-    }
-
-    fn dissipation_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> f64 {
-        self.system.dissipation_rate(t, q, v, u)
-    }
-
-    fn default_inputs(&self) -> S::Inputs {
-        self.system.default_inputs()
-    }
-
-    fn input_values(
-        &self,
-        inputs: &S::Inputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
-        self.system.input_values(inputs)
-    }
-
-    fn outputs(
-        &self,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
-        a: &S::Vector,
-        u: &S::Inputs,
-    ) -> S::Outputs {
-        self.system.outputs(t, q, v, a, u)
-    }
-
-    fn output_values(
-        &self,
-        outputs: &S::Outputs,
-    ) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
-        self.system.output_values(outputs)
-    }
-
-    fn assumptions(
-        &self,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
-        u: &S::Inputs,
-    ) -> impl ExactSizeIterator<Item = Assumption<'_>> {
-        self.system.assumptions(t, q, v, u)
-    }
+    forward!(
+        coordinates,
+        to_coordinates,
+        to_vector,
+        accelerations,
+        mass_matrix,
+        bias,
+        applied,
+        forces,
+        kinetic_energy,
+        potential_energy,
+        dissipation,
+        work_rate,
+        dissipation_rate,
+        default_inputs,
+        input_values,
+        outputs,
+        output_values,
+        assumptions,
+    );
 
     fn constraints(&self) -> impl ExactSizeIterator<Item = Constraint<'_>> {
         let names: Vec<UnilateralContact<'_>> = self.system.unilateral_contacts().collect();

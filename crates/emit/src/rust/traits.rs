@@ -128,6 +128,7 @@ impl Emitter<'_> {
             body.expression("let values = ", &values, ";");
             body.line("quantities(&PARAMETERS, values)");
         });
+        self.parameter_mut();
         self.method("prepare", &[], Some(&prepared), |body| {
             body.line("Self::prepare(self)")
         });
@@ -135,6 +136,46 @@ impl Emitter<'_> {
         self.method("start", &[], Some(&state), |body| {
             body.line("Self::start(self)")
         });
+        self.writer.close("}");
+    }
+
+    /// The parameters by number, where there are any.
+    fn parameter_mut(&mut self) {
+        if self.parameters.is_empty() {
+            return;
+        }
+        let [usize, f64, option] = ["usize", "f64", "Option"].map(|name| self.types.known(name));
+        let mut arms = Vec::new();
+        for field in &self.parameters.fields {
+            let in_a_row = field.slots.windows(2).all(|pair| pair[1] == pair[0] + 1);
+            match (field.is_family, field.slots.as_slice()) {
+                (true, [first, .., last]) if in_a_row => arms.push((
+                    *first,
+                    format!(
+                        "{first}..={last} => self.{}.get_mut(index - {first}),",
+                        field.ident
+                    ),
+                )),
+                (is_family, slots) => arms.extend(slots.iter().enumerate().map(|(member, slot)| {
+                    let member = match is_family {
+                        true => format!("[{member}]"),
+                        false => String::new(),
+                    };
+                    (*slot, format!("{slot} => Some(&mut self.{}{member}),", field.ident))
+                })),
+            }
+        }
+        arms.sort();
+        self.writer.gap();
+        self.writer.open(format!(
+            "fn parameter_mut(&mut self, index: {usize}) -> {option}<&mut {f64}> {{"
+        ));
+        self.writer.open("match index {");
+        for (_, arm) in arms {
+            self.writer.line(arm);
+        }
+        self.writer.line("_ => None,");
+        self.writer.close("}");
         self.writer.close("}");
     }
 

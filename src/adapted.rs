@@ -1,0 +1,345 @@
+//! A machine with a force more than its description says.
+
+use core::fmt::{self, Debug};
+
+use crate::constraints::algebra::{backward, cholesky, forward as solve_lower};
+use crate::forward::forward;
+use crate::{
+    Coordinates, Inputs, Machine, Pivot, Quantity, Singular, State, StepError, System, Vector,
+    least_multipliers,
+};
+
+/// A machine, and a generalized force `τ` beside those of its description: what no section of the language says, as a
+/// measured characteristic, a controller's own model, or a force taken out by its opposite.
+///
+/// The function is given time, coordinates, rates and inputs, and adds to a force for each coordinate, which begins at 0: in N
+/// for a length, in N·m for an angle. With it `M a = f + τ + Gᵀ λ`, the power `Σ τᵢ vᵢ` is part of the
+/// [work](System::work_rate), and the balance of energy closes as it does without. Accelerations cost a factorization of the mass
+/// matrix more than those of the machine.
+///
+/// It is a [`Machine`] itself: whatever runs machines runs it. What is derived from the description alone is not there:
+/// neither a Taylor series nor derivatives of the accelerations.
+///
+#[cfg_attr(all(feature = "macros", feature = "std"), doc = "```")]
+#[cfg_attr(not(all(feature = "macros", feature = "std")), doc = "```ignore")]
+/// use lagrangian::{Adapted, Machine, Simulation};
+///
+/// lagrangian::machine! {
+///     machine Ball in plane {
+///         parameters { m: kg = 0.5, g: m/s^2 = 10 }
+///         coordinates { y: m }
+///         bodies { ball { mass: m, at: (0, y) } }
+///         gravity (0, -g);
+///     }
+/// }
+///
+/// // Drag that grows with the square of the speed: the ball comes to fall at √(m g/c).
+/// let c = 0.05;
+/// let falling = Adapted::new(Ball::default(), move |_t, _q, v, _u, force| force.y = -c * v.y * v.y.abs())?;
+/// let run = Simulation::new(&falling).until(20.0).energy_balance(true).run(falling.start())?;
+/// assert!((run.end().v.y + (0.5 * 10.0 / c).sqrt()).abs() < 1e-7);
+/// # Ok::<(), lagrangian::Error>(())
+/// ```
+#[derive(Clone, Copy)]
+pub struct Adapted<M, F> {
+    machine: M,
+    force: F,
+}
+
+const NO_WORKSPACE: Singular = Singular {
+    at: Pivot::NoWorkspace,
+    ratio: 0.0,
+};
+
+/// The machine has guided contacts, whose normal reactions answer to every force: only the forces of the description are
+/// among them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HasFriction;
+
+impl fmt::Display for HasFriction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "a machine with friction at guides takes no further force: the reactions of its guides are derived from the forces \
+             of its description; write the force there"
+        )
+    }
+}
+
+impl core::error::Error for HasFriction {}
+
+impl<M, F> Adapted<M, F>
+where
+    M: Machine,
+    F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &Inputs<M>, &mut Coordinates<M>) + Clone,
+{
+    /// `machine` with the force that `force(t, q, v, u, τ)` adds to `τ`.
+    ///
+    /// # Errors
+    /// If the machine has friction at guides.
+    pub fn new(machine: M, force: F) -> Result<Self, HasFriction> {
+        match machine.prepare().contacts().len() {
+            0 => Ok(Self { machine, force }),
+            _ => Err(HasFriction),
+        }
+    }
+
+    /// The machine without the further force.
+    pub fn machine(&self) -> &M {
+        &self.machine
+    }
+}
+
+impl<M: Debug, F> Debug for Adapted<M, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("Adapted");
+        shown
+            .field("machine", &self.machine)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<M, F> Machine for Adapted<M, F>
+where
+    M: Machine,
+    F: Fn(f64, &Coordinates<M>, &Coordinates<M>, &Inputs<M>, &mut Coordinates<M>) + Clone,
+{
+    type System = AdaptedSystem<M::System, F>;
+
+    fn name(&self) -> &str {
+        self.machine.name()
+    }
+
+    fn parameters(&self) -> impl ExactSizeIterator<Item = (Quantity<'_>, f64)> {
+        self.machine.parameters()
+    }
+
+    fn parameter_mut(&mut self, index: usize) -> Option<&mut f64> {
+        self.machine.parameter_mut(index)
+    }
+
+    fn prepare(&self) -> Self::System {
+        AdaptedSystem {
+            system: self.machine.prepare(),
+            force: self.force.clone(),
+        }
+    }
+
+    fn start(&self) -> State<Coordinates<M>> {
+        self.machine.start()
+    }
+}
+
+/// The equations of motion of an [`Adapted`] machine.
+#[derive(Clone, Copy)]
+pub struct AdaptedSystem<S, F> {
+    system: S,
+    force: F,
+}
+
+impl<S: Debug, F> Debug for AdaptedSystem<S, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = f.debug_struct("AdaptedSystem");
+        shown.field("system", &self.system).finish_non_exhaustive()
+    }
+}
+
+impl<S, F> AdaptedSystem<S, F>
+where
+    S: System,
+    F: Fn(f64, &S::Coordinates, &S::Coordinates, &S::Inputs, &mut S::Coordinates),
+{
+    fn wrapped(&self) -> &S {
+        &self.system
+    }
+
+    fn own<'v>(&self, vector: &'v S::Vector) -> &'v S::Vector {
+        vector
+    }
+
+    fn put(&self, to: &mut S::Vector, write: impl FnOnce(&mut S::Vector)) {
+        write(to);
+    }
+
+    fn put_matrix(&self, to: &mut S::Matrix, write: impl FnOnce(&mut S::Matrix)) {
+        write(to);
+    }
+
+    /// The further force `τ`.
+    fn further(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs) -> S::Vector {
+        let named = |vector: &S::Vector| self.system.to_coordinates(vector);
+        let mut force = named(&q.zeros_like());
+        (self.force)(t, &named(q), &named(v), u, &mut force);
+        self.system.to_vector(&force)
+    }
+
+    /// All accelerations and multipliers, where constraints take up a part of the force.
+    fn constrained(
+        &self,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        a: &mut S::Vector,
+        multipliers: &mut [f64],
+    ) -> Result<(), Singular> {
+        least_multipliers(self, t, q, v, u, a, multipliers).map_err(|error| match error {
+            StepError::Singular { singular, .. } => singular,
+            StepError::Inconsistent { constraint, .. } => Singular::constraint(constraint, 0.0, 1.0),
+            _ => NO_WORKSPACE,
+        })
+    }
+
+    /// Whether the machine takes the power of its reactions from its accelerations, as one whose constraints move by
+    /// themselves does: `v·Gᵀλ = v·(M a − f)`. The further force is in that already.
+    ///
+    /// Its work rate is then linear in `a` with the slope `M v` more than that of its drives, which is `∂T/∂v` at rest:
+    /// along `v` these are `2 T₂` and `T₁`, the parts of `T` of second and first order in `v`.
+    fn counts_all_that_holds(
+        &self,
+        (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+        a: &S::Vector,
+        work_rate: f64,
+    ) -> bool {
+        let mut back = v.clone();
+        back.as_mut_slice().iter_mut().for_each(|v| *v = -*v);
+        let [forth, back, rest] =
+            [v, &back, &q.zeros_like()].map(|v| self.system.kinetic_energy(t, q, v));
+        let (first, twice_second) = (0.5 * (forth - back), forth + back - 2.0 * rest);
+        if twice_second == 0.0 {
+            return false;
+        }
+        // Far enough that rounding of the work rate is nothing beside the difference.
+        let far = 1.0 + work_rate.abs() / twice_second;
+        let mut ahead = a.clone();
+        for (a, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
+            *a += far * v;
+        }
+        let slope = (self.system.work_rate(t, q, v, &ahead, u) - work_rate) / far;
+        slope - first > 0.5 * twice_second
+    }
+
+    fn add(to: &mut S::Vector, from: &S::Vector) {
+        for (to, from) in to.as_mut_slice().iter_mut().zip(from.as_slice()) {
+            *to += from;
+        }
+    }
+}
+
+impl<S, F> System for AdaptedSystem<S, F>
+where
+    S: System,
+    F: Fn(f64, &S::Coordinates, &S::Coordinates, &S::Inputs, &mut S::Coordinates),
+{
+    type Vector = S::Vector;
+    type Matrix = S::Matrix;
+    type Coordinates = S::Coordinates;
+    type Inputs = S::Inputs;
+    type Outputs = S::Outputs;
+
+    forward!(
+        coordinates,
+        to_coordinates,
+        to_vector,
+        equations,
+        mass_matrix,
+        bias,
+        kinetic_energy,
+        potential_energy,
+        dissipation,
+        dissipation_rate,
+        default_inputs,
+        input_values,
+        outputs,
+        output_values,
+        assumptions,
+        constraints,
+        constraint_positions,
+        constraint_rates,
+        constraint_matrix,
+        constraint_drift,
+        unilateral_contacts,
+        gaps,
+        contact_rates,
+        contact_matrix,
+        contact_drift,
+        contact_coefficients,
+        kept_at_start,
+        with_workspace,
+    );
+
+    /// Those of the machine and `M⁻¹ τ`; where constraints take up a part of `τ`, all of them anew.
+    fn accelerations(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+        a: &mut S::Vector,
+    ) -> Result<(), Singular> {
+        let m = self.system.constraints().len();
+        if m != 0 {
+            return self.with_workspace(m, |multipliers| match multipliers {
+                Some(multipliers) => self.constrained((t, q, v, u), a, &mut multipliers[..m]),
+                None => Err(NO_WORKSPACE),
+            });
+        }
+        self.system.accelerations(t, q, v, u, a)?;
+        let mut by_force = self.further(t, q, v, u);
+        let n = q.as_slice().len();
+        let mut matrix = S::Matrix::zeros(n * n);
+        if matrix.as_slice().len() != n * n {
+            // Without a mass matrix there is no answer to a force.
+            return Err(Singular::new(0, 0.0, 1.0));
+        }
+        self.system.mass_matrix(t, q, &mut matrix);
+        let mut shares = q.zeros_like();
+        cholesky(matrix.as_mut_slice(), shares.as_mut_slice())?;
+        solve_lower(matrix.as_slice(), by_force.as_mut_slice());
+        backward(matrix.as_slice(), by_force.as_mut_slice());
+        Self::add(a, &by_force);
+        Ok(())
+    }
+
+    fn applied(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+        applied: &mut S::Vector,
+    ) {
+        self.system.applied(t, q, v, u, applied);
+        Self::add(applied, &self.further(t, q, v, u));
+    }
+
+    fn forces(&self, t: f64, q: &S::Vector, v: &S::Vector, u: &S::Inputs, forces: &mut S::Vector) {
+        self.system.forces(t, q, v, u, forces);
+        Self::add(forces, &self.further(t, q, v, u));
+    }
+
+    fn work_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &S::Vector, u: &S::Inputs) -> f64 {
+        let force = self.further(t, q, v, u);
+        let own = self.system.work_rate(t, q, v, a, u);
+        if self.system.constraints().len() != 0 && self.counts_all_that_holds((t, q, v, u), a, own) {
+            return own;
+        }
+        let rows = force.as_slice().iter().zip(v.as_slice());
+        own + rows.map(|(force, v)| force * v).sum::<f64>()
+    }
+
+    fn multipliers(
+        &self,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        u: &S::Inputs,
+        multipliers: &mut [f64],
+    ) -> Result<(), Singular> {
+        if multipliers.is_empty() {
+            return Ok(());
+        }
+        self.constrained((t, q, v, u), &mut q.zeros_like(), multipliers)
+    }
+
+    fn check_series(&self) -> Result<(), &str> {
+        Err("a further force acts on it, which is not part of its description")
+    }
+}

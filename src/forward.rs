@@ -1,0 +1,193 @@
+//! What a system that wraps another one hands on to it, written once.
+
+/// Methods of [`System`](crate::System) that ask the system inside, by name.
+///
+/// The wrapper says by methods of its own what is inside, and how vectors become those of it: `wrapped(&self)` is the
+/// system; `own(&self, vector)` is a vector of it, by value or by reference; `put` and `put_matrix` have a function write
+/// one, `(&self, to, |own| …)`. Names of coordinates, facts, constraints and contacts are handed on by wrappers whose vectors
+/// are those of what they wrap.
+macro_rules! forward {
+    ($($method:ident),+ $(,)?) => { $(crate::forward::forward!(@ $method);)+ };
+
+    (@ coordinates) => {
+        fn coordinates(&self) -> impl ExactSizeIterator<Item = crate::Quantity<'_>> {
+            self.wrapped().coordinates()
+        }
+    };
+    (@ to_coordinates) => {
+        fn to_coordinates(&self, vector: &Self::Vector) -> Self::Coordinates {
+            self.wrapped().to_coordinates(vector)
+        }
+    };
+    (@ to_vector) => {
+        fn to_vector(&self, coordinates: &Self::Coordinates) -> Self::Vector {
+            self.wrapped().to_vector(coordinates)
+        }
+    };
+    (@ accelerations) => {
+        #[inline(always)]
+        fn accelerations(
+            &self,
+            t: f64,
+            q: &Self::Vector,
+            v: &Self::Vector,
+            u: &Self::Inputs,
+            a: &mut Self::Vector,
+        ) -> Result<(), crate::Singular> {
+            self.wrapped().accelerations(t, q, v, u, a)
+        }
+    };
+    (@ equations) => {
+        fn equations(&self) -> usize {
+            self.wrapped().equations()
+        }
+    };
+    (@ mass_matrix) => {
+        fn mass_matrix(&self, t: f64, q: &Self::Vector, matrix: &mut Self::Matrix) {
+            let q = self.own(q);
+            self.put_matrix(matrix, |own| self.wrapped().mass_matrix(t, &q, own));
+        }
+    };
+    (@ bias) => {
+        fn bias(&self, t: f64, q: &Self::Vector, v: &Self::Vector, bias: &mut Self::Vector) {
+            let (q, v) = (self.own(q), self.own(v));
+            self.put(bias, |own| self.wrapped().bias(t, &q, &v, own));
+        }
+    };
+    (@ applied) => { crate::forward::forward!(@ of_inputs applied); };
+    (@ forces) => { crate::forward::forward!(@ of_inputs forces); };
+    (@ of_inputs $method:ident) => {
+        fn $method(
+            &self,
+            t: f64,
+            q: &Self::Vector,
+            v: &Self::Vector,
+            u: &Self::Inputs,
+            forces: &mut Self::Vector,
+        ) {
+            let (q, v) = (self.own(q), self.own(v));
+            self.put(forces, |own| self.wrapped().$method(t, &q, &v, u, own));
+        }
+    };
+    (@ kinetic_energy) => {
+        fn kinetic_energy(&self, t: f64, q: &Self::Vector, v: &Self::Vector) -> f64 {
+            self.wrapped().kinetic_energy(t, &self.own(q), &self.own(v))
+        }
+    };
+    (@ potential_energy) => {
+        fn potential_energy(&self, t: f64, q: &Self::Vector, u: &Self::Inputs) -> f64 {
+            self.wrapped().potential_energy(t, &self.own(q), u)
+        }
+    };
+    (@ dissipation) => { crate::forward::forward!(@ power dissipation); };
+    (@ dissipation_rate) => { crate::forward::forward!(@ power dissipation_rate); };
+    (@ power $method:ident) => {
+        fn $method(&self, t: f64, q: &Self::Vector, v: &Self::Vector, u: &Self::Inputs) -> f64 {
+            self.wrapped().$method(t, &self.own(q), &self.own(v), u)
+        }
+    };
+    (@ work_rate) => {
+        fn work_rate(
+            &self,
+            t: f64,
+            q: &Self::Vector,
+            v: &Self::Vector,
+            a: &Self::Vector,
+            u: &Self::Inputs,
+        ) -> f64 {
+            self.wrapped()
+                .work_rate(t, &self.own(q), &self.own(v), &self.own(a), u)
+        }
+    };
+    (@ default_inputs) => {
+        fn default_inputs(&self) -> Self::Inputs {
+            self.wrapped().default_inputs()
+        }
+    };
+    (@ input_values) => {
+        fn input_values(
+            &self,
+            inputs: &Self::Inputs,
+        ) -> impl ExactSizeIterator<Item = (crate::Quantity<'_>, f64)> {
+            self.wrapped().input_values(inputs)
+        }
+    };
+    (@ outputs) => {
+        fn outputs(
+            &self,
+            t: f64,
+            q: &Self::Vector,
+            v: &Self::Vector,
+            a: &Self::Vector,
+            u: &Self::Inputs,
+        ) -> Self::Outputs {
+            self.wrapped()
+                .outputs(t, &self.own(q), &self.own(v), &self.own(a), u)
+        }
+    };
+    (@ output_values) => {
+        fn output_values(
+            &self,
+            outputs: &Self::Outputs,
+        ) -> impl ExactSizeIterator<Item = (crate::Quantity<'_>, f64)> {
+            self.wrapped().output_values(outputs)
+        }
+    };
+    (@ assumptions) => {
+        fn assumptions(
+            &self,
+            t: f64,
+            q: &Self::Vector,
+            v: &Self::Vector,
+            u: &Self::Inputs,
+        ) -> impl ExactSizeIterator<Item = crate::Assumption<'_>> {
+            self.wrapped().assumptions(t, q, v, u)
+        }
+    };
+    (@ constraints) => {
+        fn constraints(&self) -> impl ExactSizeIterator<Item = crate::Constraint<'_>> {
+            self.wrapped().constraints()
+        }
+    };
+    (@ unilateral_contacts) => {
+        fn unilateral_contacts(
+            &self,
+        ) -> impl ExactSizeIterator<Item = crate::UnilateralContact<'_>> {
+            self.wrapped().unilateral_contacts()
+        }
+    };
+    (@ constraint_positions) => { crate::forward::forward!(@ of_place constraint_positions); };
+    (@ constraint_matrix) => { crate::forward::forward!(@ of_place constraint_matrix); };
+    (@ gaps) => { crate::forward::forward!(@ of_place gaps); };
+    (@ of_place $method:ident) => {
+        fn $method(&self, t: f64, q: &Self::Vector, to: &mut [f64]) {
+            self.wrapped().$method(t, q, to);
+        }
+    };
+    (@ constraint_rates) => { crate::forward::forward!(@ of_state constraint_rates); };
+    (@ constraint_drift) => { crate::forward::forward!(@ of_state constraint_drift); };
+    (@ contact_rates) => { crate::forward::forward!(@ of_state contact_rates); };
+    (@ contact_drift) => { crate::forward::forward!(@ of_state contact_drift); };
+    (@ contact_coefficients) => { crate::forward::forward!(@ of_state contact_coefficients); };
+    (@ of_state $method:ident) => {
+        fn $method(&self, t: f64, q: &Self::Vector, v: &Self::Vector, to: &mut [f64]) {
+            self.wrapped().$method(t, q, v, to);
+        }
+    };
+    (@ contact_matrix) => { crate::forward::forward!(@ of_place contact_matrix); };
+    (@ kept_at_start) => {
+        fn kept_at_start(&self) -> impl ExactSizeIterator<Item = &str> {
+            self.wrapped().kept_at_start()
+        }
+    };
+    (@ with_workspace) => {
+        fn with_workspace<R>(
+            &self,
+            length: usize,
+            work: impl FnOnce(Option<&mut [f64]>) -> R,
+        ) -> R {
+            self.wrapped().with_workspace(length, work)
+        }
+    };
+}
+pub(crate) use forward;

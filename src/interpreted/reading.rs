@@ -1,0 +1,316 @@
+//! From the text of a spec to a machine that runs, or to everything that is wrong with the text.
+
+use core::fmt::{self, Display};
+use std::format;
+use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
+use std::thread;
+use std::vec;
+use std::vec::Vec;
+
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_mechanics::{Compiled, Proved};
+use lagrangian_program::series::NoSeries;
+use lagrangian_spec::diagnostic::{self, Code, Report, Severity};
+use lagrangian_spec::source::{Disk, Files, Sources, Span};
+use lagrangian_symbolic::{Dag, Rational};
+
+use super::InterpretedMachine;
+use crate::Error;
+
+/// The stack of the thread that derives. Nothing recurses deeply, but unoptimized code has large frames, and the caller's
+/// own thread may be a small one.
+const STACK: usize = 64 << 20;
+
+/// A spec to be read, with the settings of the reading; what
+/// [`InterpretedMachine::from_text`] and [`InterpretedMachine::read`] begin.
+#[derive(Clone, Debug)]
+#[must_use = "a machine comes of it by `build()`"]
+pub struct Reading {
+    spec: Spec,
+    constants: Vec<(String, f64)>,
+    series: bool,
+}
+
+/// Where a spec is.
+#[derive(Clone, Debug)]
+enum Spec {
+    File(PathBuf),
+    Text { name: String, text: String },
+}
+
+/// A message about a spec: what is wrong, where, and what to write instead.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Diagnostic {
+    /// The kind of mistake, `unknown-name`: the same from version to version. The reference lists them.
+    pub code: String,
+    /// What is wrong: expected, found.
+    pub message: String,
+    /// What to change.
+    pub help: Option<String>,
+    /// The file, or the name that the text was given.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, in characters, from 1.
+    pub column: usize,
+    /// The words that are wrong.
+    pub words: String,
+    /// Other places that explain it.
+    pub notes: Vec<Note>,
+}
+
+/// A place that explains a message about another one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Note {
+    /// The file.
+    pub file: String,
+    /// The line, from 1.
+    pub line: usize,
+    /// The column, in characters, from 1.
+    pub column: usize,
+    /// What stands there.
+    pub message: String,
+}
+
+impl InterpretedMachine {
+    /// The machine of a spec in a file.
+    ///
+    /// # Errors
+    /// [`Error::Spec`], with everything that is wrong with the spec.
+    ///
+    /// ```no_run
+    /// use lagrangian::interpreted::InterpretedMachine;
+    /// use lagrangian::{Machine, Simulation};
+    ///
+    /// let crusher = InterpretedMachine::from_file("machines/vibrating_crusher.machine")?;
+    /// let run = Simulation::new(&crusher).until(1.0).run(crusher.start())?;
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn from_file(path: impl AsRef<Path>) -> Result<InterpretedMachine, Error> {
+        Self::read(path).build()
+    }
+
+    /// The same with settings: [`Reading::constant`] and others; then [`build`](Reading::build).
+    pub fn read(path: impl AsRef<Path>) -> Reading {
+        Reading::of(Spec::File(path.as_ref().into()))
+    }
+
+    /// The machine of a spec in a string; what the spec extends is read from files beside the working directory.
+    ///
+    /// ```
+    /// use lagrangian::Error;
+    /// use lagrangian::interpreted::InterpretedMachine;
+    ///
+    /// let text = "machine Chain in plane {
+    ///     constants { N = 2 }
+    ///     parameters { m: kg = 1, l: m = 1, g: m/s^2 = 9.81 }
+    ///     coordinates { theta[1..N]: rad = 0.5 }
+    ///     frames {
+    ///         end[0] = ground,
+    ///         end[i in 1..N] = end[i-1].shift(l*sin(theta[i]), -l*cos(theta[i])),
+    ///     }
+    ///     bodies { ball[i in 1..N] { mass: m, at: end[i].origin } }
+    ///     gravity (0, -g);
+    /// }";
+    /// let mut chain = InterpretedMachine::from_text(text).constant("N", 3).build()?;
+    /// assert_eq!(chain.program().dimension(), 3);
+    /// chain.set("l", 0.5)?;
+    ///
+    /// let wrong = text.replace("sin(theta[i])", "sine(theta[i])");
+    /// let Err(Error::Spec { diagnostics, .. }) = InterpretedMachine::from_text(wrong).build() else {
+    ///     panic!("there is no `sine`");
+    /// };
+    /// assert_eq!((diagnostics[0].code.as_str(), diagnostics[0].line), ("unknown-function", 7));
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn from_text(text: impl Into<String>) -> Reading {
+        Reading::of(Spec::Text {
+            name: "spec".into(),
+            text: text.into(),
+        })
+    }
+}
+
+impl Reading {
+    fn of(spec: Spec) -> Reading {
+        Reading {
+            spec,
+            constants: Vec::new(),
+            series: false,
+        }
+    }
+
+    /// What messages call a text, and beside which files that it extends are looked for; `spec` if nobody says.
+    pub fn named(mut self, name: impl Into<String>) -> Reading {
+        if let Spec::Text { name: known, .. } = &mut self.spec {
+            *known = name.into();
+        }
+        self
+    }
+
+    /// Gives a constant of the spec another value: sizes of families, `N`, mostly.
+    pub fn constant(mut self, name: impl Into<String>, value: impl Into<f64>) -> Reading {
+        self.constants.push((name.into(), value.into()));
+        self
+    }
+
+    /// Derives the Taylor series of the motion too, which the method [`TAYLOR`](crate::TAYLOR) needs.
+    pub fn with_series(mut self) -> Reading {
+        self.series = true;
+        self
+    }
+
+    /// Reads the spec, derives its equations, and proves the program that computes them.
+    ///
+    /// # Errors
+    /// [`Error::Spec`], with everything that is wrong with the spec.
+    pub fn build(self) -> Result<InterpretedMachine, Error> {
+        let derived = thread::Builder::new()
+            .stack_size(STACK)
+            .spawn(move || self.derive())
+            .map(thread::JoinHandle::join);
+        match derived {
+            Ok(Ok(machine)) => {
+                let (program, series) = machine?;
+                let machine = InterpretedMachine::new(program);
+                Ok(match series {
+                    Some(series) => machine.with_series(series),
+                    None => machine,
+                })
+            }
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => Err(unreadable("", format!("no thread to derive it in: {error}"))),
+        }
+    }
+
+    fn derive(self) -> Result<(Proved, Option<Result<ProvedSeries, NoSeries>>), Error> {
+        let (name, text) = match self.spec {
+            Spec::Text { name, text } => (name, text),
+            Spec::File(path) => {
+                let path = path.to_string_lossy();
+                Disk.read(&path, None)
+                    .map_err(|reason| unreadable(&path, reason))?
+            }
+        };
+        let mut constants = Vec::new();
+        for (constant, value) in self.constants {
+            let Some(value) = Rational::parse_decimal(&value.to_string()) else {
+                let message = format!("the constant `{constant}` is to be {value}, which is no number");
+                return Err(refused(&name, Code::NumberOutOfRange, message));
+            };
+            constants.push((constant, value));
+        }
+        let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+        let model = lagrangian_spec::model(
+            &dag,
+            &name,
+            &text,
+            &constants,
+            &mut Disk,
+            &mut sources,
+            &mut report,
+        );
+        match model.and_then(|model| Compiled::new(model, &mut report)) {
+            Some(compiled) => {
+                let series = self.series.then(|| ProvedSeries::derive(&compiled.model));
+                Ok((compiled.program, series))
+            }
+            None => Err(everything_wrong(&report, &sources)),
+        }
+    }
+}
+
+/// The errors of a report; warnings are for whoever edits the spec.
+fn everything_wrong(report: &Report, sources: &Sources) -> Error {
+    let place = |span: Span| {
+        let (line, column) = sources.line_column(span);
+        (sources.name(span.source).to_string(), line, column)
+    };
+    let of = |diagnostic: &diagnostic::Diagnostic| {
+        let (file, line, column) = place(diagnostic.span);
+        let notes = diagnostic.notes.iter().map(|(span, message)| {
+            let (file, line, column) = place(*span);
+            let message = message.clone();
+            Note {
+                file,
+                line,
+                column,
+                message,
+            }
+        });
+        Diagnostic {
+            code: diagnostic.code.as_str().into(),
+            message: diagnostic.message.clone(),
+            help: diagnostic.help.clone(),
+            file,
+            line,
+            column,
+            words: sources.words(diagnostic.span).into(),
+            notes: notes.collect(),
+        }
+    };
+    let errors = report.diagnostics().into_iter();
+    let errors = errors.filter(|diagnostic| diagnostic.code.severity() == Severity::Error);
+    Error::Spec {
+        diagnostics: errors.map(of).collect(),
+        omitted: report.omitted(),
+    }
+}
+
+/// The error of a file that cannot be read.
+fn unreadable(file: &str, reason: String) -> Error {
+    let message = format!("cannot read `{file}`: {reason}");
+    refused(file, Code::UnreadableFile, message)
+}
+
+/// An error that no place in the text is to blame for.
+fn refused(file: &str, code: Code, message: String) -> Error {
+    Error::Spec {
+        diagnostics: vec![Diagnostic {
+            code: code.as_str().into(),
+            message,
+            help: None,
+            file: file.into(),
+            line: 1,
+            column: 1,
+            words: String::new(),
+            notes: Vec::new(),
+        }],
+        omitted: 0,
+    }
+}
+
+/// `chain.machine:6:27: error: there is no function `sine` [unknown-function]`; then the help and other places, indented.
+impl Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            code,
+            message,
+            help,
+            file,
+            line,
+            column,
+            notes,
+            ..
+        } = self;
+        write!(f, "{file}:{line}:{column}: error: {message} [{code}]")?;
+        if let Some(help) = help {
+            write!(f, "\n    help: {help}")?;
+        }
+        for Note {
+            file,
+            line,
+            column,
+            message,
+        } in notes
+        {
+            write!(f, "\n    note: {file}:{line}:{column}: {message}")?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,58 @@
+//! A name that does not exist, and the one that was probably meant.
+
+use core::fmt::{self, Display};
+use std::string::String;
+use std::vec::Vec;
+
+/// No parameter, coordinate or input has this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct UnknownName {
+    /// The name.
+    pub name: String,
+    /// The one that was probably meant, if one is near.
+    pub near: Option<String>,
+    /// What there is.
+    pub known: Vec<String>,
+}
+
+impl UnknownName {
+    /// The error that there is no `name` among the `known` ones.
+    pub fn new<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
+        let known: Vec<String> = known.into_iter().map(String::from).collect();
+        // Near is the same but for case, or at most one slip in three characters.
+        let allowed = (name.chars().count() / 3).max(1);
+        let slips = |known: &&String| {
+            strsim::osa_distance(&known.to_lowercase(), &name.to_lowercase())
+        };
+        // The work is the product of the lengths; and one letter is one slip away from every other.
+        let near = known
+            .iter()
+            .filter(|known| name.len() <= LONGEST && known.len() <= LONGEST)
+            .min_by_key(slips)
+            .filter(|known| slips(known) <= allowed)
+            .filter(|known| slips(known) == 0 || name.chars().count().max(known.chars().count()) > 1);
+        Self {
+            name: name.into(),
+            near: near.cloned(),
+            known,
+        }
+    }
+}
+
+/// Longer names, in bytes, are not compared.
+const LONGEST: usize = 256;
+
+impl Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "there is no `{}`; ", self.name)?;
+        match &self.near {
+            Some(near) => write!(f, "did you mean `{near}`?"),
+            None if self.known.is_empty() => write!(f, "nothing can be set by name"),
+            None => write!(f, "there is: {}", self.known.join(", ")),
+        }
+    }
+}
+
+impl core::error::Error for UnknownName {}
