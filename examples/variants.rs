@@ -5,34 +5,10 @@
 //! ```
 
 use lagrangian::interpreted::InterpretedMachine;
-use lagrangian::{Machine, Simulation};
-use lagrangian_mechanics::Compiled;
-use lagrangian_spec::diagnostic::Report;
-use lagrangian_spec::source::{Disk, Files, Sources};
-
-type Failure = Box<dyn std::error::Error>;
-
-/// The machine of a spec, or everything that is wrong with it.
-pub fn read(path: &str) -> Result<InterpretedMachine, Failure> {
-    let (name, text) = Disk.read(path, None)?;
-    let (dag, mut sources, mut report) = (Default::default(), Sources::new(), Report::new());
-    let model = lagrangian_spec::model(
-        &dag,
-        &name,
-        &text,
-        &[],
-        &mut Disk,
-        &mut sources,
-        &mut report,
-    );
-    match model.and_then(|model| Compiled::new(model, &mut report)) {
-        Some(compiled) => Ok(InterpretedMachine::new(compiled.program)),
-        None => Err(report.render(&sources).into()),
-    }
-}
+use lagrangian::{Error, Machine, Simulation};
 
 /// The greatest crushing force of the first second, in N.
-pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Failure> {
+pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Error> {
     let run = Simulation::new(crusher)
         .until(1.0)
         .every(1e-3)
@@ -46,8 +22,8 @@ pub fn greatest_force(crusher: &InterpretedMachine) -> Result<f64, Failure> {
 }
 
 /// Prints the greatest force for four speeds.
-pub fn main() -> Result<(), Failure> {
-    let mut crusher = read("machines/cushioned_crusher.machine")?;
+pub fn main() -> Result<(), Error> {
+    let mut crusher = InterpretedMachine::from_file("machines/cushioned_crusher.machine")?;
     println!("omega [rad/s]  greatest crushing force [kN]");
     for omega in [100.0, 120.0, 140.0, 160.0] {
         crusher.set("omega", omega)?;

@@ -41,6 +41,7 @@ use crate::{
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
 #[derive(Clone, Copy)]
+#[must_use = "it is a machine: a simulation runs it"]
 pub struct Adapted<M, F> {
     machine: M,
     force: F,
@@ -54,6 +55,7 @@ const NO_WORKSPACE: Singular = Singular {
 /// The machine has guided contacts, whose normal reactions answer to every force: only the forces of the description are
 /// among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct HasFriction;
 
 impl fmt::Display for HasFriction {
@@ -182,7 +184,9 @@ where
     ) -> Result<(), Singular> {
         least_multipliers(self, t, q, v, u, a, multipliers).map_err(|error| match error {
             StepError::Singular { singular, .. } => singular,
-            StepError::Inconsistent { constraint, .. } => Singular::constraint(constraint, 0.0, 1.0),
+            StepError::Inconsistent { constraint, .. } => {
+                Singular::constraint(constraint, 0.0, 1.0)
+            }
             _ => NO_WORKSPACE,
         })
     }
@@ -318,7 +322,8 @@ where
     fn work_rate(&self, t: f64, q: &S::Vector, v: &S::Vector, a: &S::Vector, u: &S::Inputs) -> f64 {
         let force = self.further(t, q, v, u);
         let own = self.system.work_rate(t, q, v, a, u);
-        if self.system.constraints().len() != 0 && self.counts_all_that_holds((t, q, v, u), a, own) {
+        if self.system.constraints().len() != 0 && self.counts_all_that_holds((t, q, v, u), a, own)
+        {
             return own;
         }
         let rows = force.as_slice().iter().zip(v.as_slice());

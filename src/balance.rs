@@ -6,8 +6,9 @@ use crate::methods::MAX_STAGES;
 
 /// What is integrated beside a motion: nothing, or the integrals of its energy balance.
 ///
-/// The two implementations are [`NoBalance`], which compiles to nothing, and [`EnergyIntegrals`].
-pub trait Quadratures<S: System>: Clone {
+/// The two implementations are [`NoBalance`], which compiles to nothing, and [`EnergyIntegrals`]; there are no others, since
+/// the steps of a run and its quadratures are made by the same weights.
+pub trait Quadratures<S: System>: Clone + sealed::Sealed {
     /// Takes the rates at one stage of a step.
     #[doc(hidden)]
     fn stage(
@@ -39,6 +40,13 @@ pub trait Quadratures<S: System>: Clone {
 
     /// The integrals of the energy balance, if it is kept.
     fn integrals(&self) -> Option<&EnergyIntegrals>;
+}
+
+mod sealed {
+    /// What nobody else implements.
+    pub trait Sealed {}
+    impl Sealed for super::NoBalance {}
+    impl Sealed for super::EnergyIntegrals {}
 }
 
 /// No energy balance is kept, and none costs anything.
@@ -155,6 +163,8 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
 /// `residual = (T + V)(now) − (T + V)(then) − work + dissipated` is 0 for exact equations, solved
 /// exactly; a wrong term in the equations of motion or in an energy shows here.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct EnergyBalance {
     /// Kinetic and potential energy at the start, in J.
     pub start: f64,
@@ -199,6 +209,8 @@ impl EnergyBalance {
 
 /// Energies of a machine at an instant of a run whose balance is kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Energies {
     /// Time, in s.
     pub t: f64,

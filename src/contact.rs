@@ -59,6 +59,7 @@ pub struct UnilateralContact<'a> {
 /// How rates after an impact follow from those before it. `e` and `eₜ` are the coefficients of restitution along
 /// the normal and along the tangent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ImpactLaw {
     /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`, `−Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ⁻)`; with `eₜ = e` this is Moreau's law. It may
     /// create energy where these differ.
@@ -74,6 +75,8 @@ pub enum ImpactLaw {
 
 /// Why contacts leave a run no way on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum ContactTrouble {
     /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
     Paradox,

@@ -7,6 +7,7 @@ use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
 
 /// Why a run could not begin, or not go on.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum Error {
     /// A spec has mistakes, or cannot be read.
@@ -266,6 +267,7 @@ pub enum Error {
 
 /// A constraint that a start cannot meet while some of its numbers are kept.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct KeptContradiction {
     /// The constraint.
     pub constraint: String,
@@ -366,6 +368,11 @@ impl Error {
                 q: std::vec::Vec::new(),
                 v: std::vec::Vec::new(),
             },
+            StepError::NoTime { t } => Self::StartNotFinite {
+                name: "t".into(),
+                value: t,
+            },
+            StepError::OutsideStep { t, from, to } => Self::OutsideRun { t, from, to },
             StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
             StepError::StepTooSmall {
@@ -752,6 +759,7 @@ impl From<crate::interpreted::NoMachineCode> for Error {
 
 /// What a run has to say, although it ended well.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Warning {
     /// The relative tolerance asks for more digits than there are, and was raised.

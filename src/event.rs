@@ -19,8 +19,9 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::inputs::InputLaw;
+use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
+use crate::observation::{Observation, Sight};
 use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
@@ -34,6 +35,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Crossing {
     /// From below zero to above.
     Rising,
@@ -45,6 +47,8 @@ pub enum Crossing {
 
 /// An event that happened.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Event<C> {
     /// Which.
     pub name: String,
@@ -59,18 +63,28 @@ pub struct Event<C> {
 /// A function of the state that a user gave.
 pub(crate) type OfState<'a, M, T> = Box<dyn FnMut(&State<Coordinates<M>>) -> T + 'a>;
 
+/// Everything about a machine in a state, if it is asked for.
+pub(crate) type Observe<'x, M> = &'x dyn Fn() -> Result<Observation<M>, Error>;
+
+/// A function that is watched: of a state, and of what can be observed in it.
+pub(crate) type Watched<'a, M> =
+    Box<dyn FnMut(&State<Coordinates<M>>, Observe<'_, M>) -> Result<f64, Error> + 'a>;
+
 /// An event to watch for.
 pub(crate) struct Watch<'a, M: Machine> {
     pub name: String,
     pub crossing: Crossing,
-    pub ends_run: bool,
-    pub function: OfState<'a, M, f64>,
+    /// How many more times it may happen: the last of them ends the run. Any number, if there is none.
+    pub left: Option<usize>,
+    pub function: Watched<'a, M>,
     /// The sign that the function has had last, 0 from where it was zero.
     pub side: f64,
     /// What the function must exceed before its sign counts, after it was zero to rounding.
     pub leave: f64,
     /// Whether its sign at the start is known.
     pub begun: bool,
+    /// Whether the run starts from this very event.
+    pub at_zero: bool,
 }
 
 /// A change of sign within the last step.
@@ -92,9 +106,24 @@ pub(crate) struct Terminal {
 }
 
 impl<M: Machine> Watch<'_, M> {
+    /// Counts one more of these events; says whether it ends the run.
+    pub fn counts(&mut self) -> bool {
+        match &mut self.left {
+            None => false,
+            Some(left) => {
+                *left = left.saturating_sub(1);
+                *left == 0
+            }
+        }
+    }
+
     /// The function's value, which must be a number.
-    pub fn value(&mut self, state: &State<Coordinates<M>>) -> Result<f64, Error> {
-        let value = (self.function)(state);
+    pub fn value(
+        &mut self,
+        state: &State<Coordinates<M>>,
+        observe: Observe<'_, M>,
+    ) -> Result<f64, Error> {
+        let value = (self.function)(state, observe)?;
         if value.is_nan() {
             return Err(Error::EventNotFinite {
                 event: self.name.clone(),
@@ -105,8 +134,14 @@ impl<M: Machine> Watch<'_, M> {
     }
 
     /// Looks at the function at the start of a run. `at_zero` says that it starts from this very event.
-    pub fn begin(&mut self, state: &State<Coordinates<M>>, at_zero: bool) -> Result<(), Error> {
-        let value = self.value(state)?;
+    pub fn begin(
+        &mut self,
+        state: &State<Coordinates<M>>,
+        at_zero: bool,
+        observe: Observe<'_, M>,
+    ) -> Result<(), Error> {
+        let value = self.value(state, observe)?;
+        self.at_zero = at_zero;
         self.side = if at_zero { 0.0 } else { sign(value) };
         self.begun = false;
         Ok(())
@@ -119,13 +154,24 @@ impl<M: Machine> Watch<'_, M> {
     /// with the move is a jump of the function, which has the right sign on either side.
     fn settle<L: InputLaw<M::System>, A: Quadratures<M::System>>(
         &mut self,
-        system: &M::System,
-        stepper: &Stepper<'_, M::System, L, A>,
+        sight: &Sight<'_, M::System, L>,
+        stepper: &StepperOf<'_, M, L, A>,
     ) -> Result<(), Error> {
+        let system = sight.system;
+        let mut value_of = |state: &State<Coordinates<M>>| {
+            let observe = || sight.observe::<M, A>(stepper, state);
+            (self.function)(state, &observe)
+        };
         self.begun = true;
         let (t, q, v) = (stepper.t_before(), stepper.q_before(), stepper.v_before());
         let a = stepper.a_before();
-        let value = self.value(&state(system, (t, q.clone(), v.clone())))?;
+        let value = value_of(&state(system, (t, q.clone(), v.clone())))?;
+        if value.is_nan() {
+            return Err(Error::EventNotFinite {
+                event: self.name.clone(),
+                t,
+            });
+        }
         let tick = ROUNDING * t.abs().max(stepper.last_step().abs());
         let n = q.as_slice().len();
         let (mut smooth, mut jumps) = (0.0, 0.0);
@@ -146,7 +192,7 @@ impl<M: Machine> Watch<'_, M> {
                             *v += times * (ROUNDING * v.abs() + rate * tick);
                         }
                     }
-                    ((self.function)(&state(system, (t, q, v))) - value).abs()
+                    (value_of(&state(system, (t, q, v))).unwrap_or(f64::NAN) - value).abs()
                 });
                 // What is not a number there says nothing.
                 moved[0].max(moved[1])
@@ -210,21 +256,29 @@ impl<M: Machine> Watch<'_, M> {
 /// that ends the run, which is the answer.
 pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
     watches: &mut [Watch<'_, M>],
-    system: &M::System,
-    stepper: &mut Stepper<'_, M::System, L, A>,
+    sight: &Sight<'_, M::System, L>,
+    stepper: &mut StepperOf<'_, M, L, A>,
     interpolant: &mut Option<Interpolant<<M::System as System>::Vector>>,
     events: &mut Vec<Event<Coordinates<M>>>,
 ) -> Result<Option<Terminal>, Error> {
+    let system = sight.system;
     let mut found = Vec::new();
     let roundoff = theta_roundoff(stepper);
     for (index, watch) in watches.iter_mut().enumerate() {
         if !watch.begun {
-            watch.settle(system, stepper)?;
+            watch.settle(sight, stepper)?;
         }
         let before = (watch.side, watch.leave);
         let mut suspected = false;
+        let value = |watch: &mut Watch<'_, M>, stepper: &StepperOf<'_, M, L, A>, state| {
+            watch.value(&state, &|| sight.observe::<M, A>(stepper, &state))
+        };
         let look = |watch: &mut Watch<'_, M>, theta: f64| {
-            watch.value(&state(system, interpolated_at(stepper, theta)))
+            value(
+                watch,
+                stepper,
+                state(system, interpolated_at(stepper, theta)),
+            )
         };
         let is_series = stepper.coefficients().is_some();
         if !is_series {
@@ -241,10 +295,8 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         (watch.side, watch.leave) = before;
         let interpolant = made(interpolant, stepper, system)?;
         let exact = |watch: &mut Watch<'_, M>, theta: f64| {
-            watch.value(&state(
-                system,
-                state_at(system, stepper, interpolant, theta)?,
-            ))
+            let at = state_at(system, stepper, interpolant, theta)?;
+            value(watch, stepper, state(system, at))
         };
         let looks = match is_series {
             true => &*roots::looks(|theta| exact(watch, theta))?,
@@ -288,7 +340,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
                 state_at(system, stepper, interpolant, theta)?,
             ))
         };
-        if !watch.ends_run {
+        if !watch.counts() {
             events.push(Event {
                 name: watch.name.clone(),
                 crossing,
@@ -296,7 +348,10 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
             });
             continue;
         }
-        let slope = slope(theta, roundoff, |theta| Ok((watch.function)(&at(theta)?)))?;
+        let slope = slope(theta, roundoff, |theta| {
+            let at = at(theta)?;
+            (watch.function)(&at, &|| sight.observe::<M, A>(stepper, &at))
+        })?;
         return Ok(Some(Terminal {
             watch: index,
             crossing,
@@ -331,6 +386,9 @@ fn slope(
 }
 
 pub(crate) type Triple<V> = (f64, V, V);
+
+/// The stepper of a run.
+type StepperOf<'s, M, L, A> = Stepper<'s, <M as Machine>::System, Held<'s, L, crate::Inputs<M>>, A>;
 
 /// Time and state at a fraction of the last step, good enough to see an event.
 pub(crate) fn interpolated_at<S: System, L: InputLaw<S>, A: Quadratures<S>>(

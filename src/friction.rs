@@ -52,6 +52,7 @@ pub const fn contact_workspace(coordinates: usize, constraints: usize, contacts:
 
 /// A contact at a state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactForce {
     /// How fast it slides along its direction, in m/s.
     pub slip: f64,

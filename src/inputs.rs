@@ -64,3 +64,51 @@ where
         );
     }
 }
+
+/// The inputs are what was set last, and stay so.
+#[derive(Clone, Debug)]
+pub struct HeldInputs<I>(pub I);
+
+impl<S: System> InputLaw<S> for HeldInputs<S::Inputs> {
+    #[inline(always)]
+    fn set(&self, _: &S, _: f64, _: &S::Vector, _: &S::Vector, inputs: &mut S::Inputs) {
+        inputs.clone_from(&self.0);
+    }
+
+    fn is_constant(&self) -> bool {
+        true
+    }
+}
+
+/// The law of a simulation, or what a sampled controller holds in its place.
+#[cfg(feature = "std")]
+#[derive(Debug)]
+pub(crate) struct Held<'r, L, I> {
+    pub law: &'r L,
+    pub held: Option<I>,
+}
+
+#[cfg(feature = "std")]
+impl<L, I: Clone> Clone for Held<'_, L, I> {
+    fn clone(&self) -> Self {
+        Self {
+            law: self.law,
+            held: self.held.clone(),
+        }
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System, L: InputLaw<S>> InputLaw<S> for Held<'_, L, S::Inputs> {
+    #[inline(always)]
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        match &self.held {
+            None => self.law.set(system, t, q, v, inputs),
+            Some(held) => inputs.clone_from(held),
+        }
+    }
+
+    fn is_constant(&self) -> bool {
+        self.held.is_some() || self.law.is_constant()
+    }
+}

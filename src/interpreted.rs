@@ -3,7 +3,6 @@
 //! Interpreted they are slower than emitted code by a factor of about ten, and otherwise the same: the same operations
 //! in the same order. With the feature `jit` an [`Engine`] makes machine code of what is called often, which is as fast.
 
-use core::cell::RefCell;
 use core::fmt;
 use std::string::{String, ToString};
 use std::sync::Arc;
@@ -21,6 +20,8 @@ use lagrangian_spec::token::normalized;
 
 mod engine;
 mod reading;
+
+use crate::room::Room;
 
 pub use crate::names::UnknownName;
 pub use engine::{Engine, NoMachineCode};
@@ -73,20 +74,28 @@ pub struct InterpretedSystem {
     program: Arc<Program>,
     names: Arc<Names>,
     inputs: Vec<f64>,
-    /// Registers that a call writes; a system is used by one thread at a time.
-    interpreter: RefCell<Interpreter<f64>>,
-    /// What runs the same in its place, where it can.
-    compiled: RefCell<engine::Compiled>,
+    /// What calls write to.
+    running: Room<Running>,
     /// The parameters, and the same program over intervals once it is asked for; of machines with
     /// contacts.
     parameters: Vec<f64>,
-    enclosing: RefCell<Option<Interpreter<Interval>>>,
+    enclosing: Room<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
-    expander: RefCell<Option<Expander<f64>>>,
+    expander: Room<Option<Expander<f64>>>,
+}
+
+/// What runs the functions of a system.
+#[derive(Clone, Debug)]
+struct Running {
+    /// With the registers that a call writes.
+    interpreter: Interpreter<f64>,
+    /// What runs the same in its place, where it can.
+    compiled: engine::Compiled,
 }
 
 /// Parameters to which neither the spec nor anybody else gave a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MissingParameters {
     /// Their names.
     pub names: Vec<String>,
@@ -240,15 +249,17 @@ impl Machine for InterpretedMachine {
             program: self.program.clone(),
             names: self.names.clone(),
             inputs: self.inputs.clone(),
-            compiled: RefCell::new(self.machine_code.prepared(&interpreter)),
-            interpreter: RefCell::new(interpreter),
+            running: Room::new(Running {
+                compiled: self.machine_code.prepared(&interpreter),
+                interpreter,
+            }),
             parameters: match self.program.contacts.is_empty() {
                 true => Vec::new(),
                 false => self.parameters.clone(),
             },
-            enclosing: RefCell::new(None),
+            enclosing: Room::new(None),
             series: self.series.clone(),
-            expander: RefCell::new(None),
+            expander: Room::new(None),
         }
     }
 
@@ -276,20 +287,8 @@ impl InterpretedSystem {
         arguments: Arguments<'_, f64>,
         results: &mut [f64],
     ) -> Result<(), Singular> {
-        if self.compiled.borrow_mut().call(role, arguments, results) {
-            return Ok(());
-        }
-        let mut interpreter = self.interpreter.borrow_mut();
-        let called = match role.is_fast() {
-            // In the arithmetic of compiled machines, to the last bit.
-            true => f64::run(Call {
-                interpreter: &mut interpreter,
-                role,
-                arguments,
-                results,
-            }),
-            false => interpreter.call(role, arguments, results),
-        };
+        let mut running = self.running.enter();
+        let called = running.call(role, arguments, results);
         called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
 
@@ -304,6 +303,33 @@ impl InterpretedSystem {
         match self.call(role, arguments, &mut result) {
             Ok(()) => result[0],
             Err(_) => f64::NAN,
+        }
+    }
+}
+
+impl Running {
+    fn call(
+        &mut self,
+        role: Role,
+        arguments: Arguments<'_, f64>,
+        results: &mut [f64],
+    ) -> Result<(), program::Singular> {
+        let Self {
+            interpreter,
+            compiled,
+        } = self;
+        if compiled.call(role, arguments, results) {
+            return Ok(());
+        }
+        match role.is_fast() {
+            // In the arithmetic of compiled machines, to the last bit.
+            true => f64::run(Call {
+                interpreter,
+                role,
+                arguments,
+                results,
+            }),
+            false => interpreter.call(role, arguments, results),
         }
     }
 }
@@ -409,11 +435,11 @@ impl System for InterpretedSystem {
         let (Ok(series), Some(order)) = (&self.series, coefficients.len().checked_sub(2)) else {
             return Ok(());
         };
-        let mut expander = self.expander.borrow_mut();
+        let mut expander = self.expander.enter();
         let known = expander.take().filter(|known| known.order() == order);
         let expander = expander.insert(known.unwrap_or_else(|| {
-            let parameters = self.interpreter.borrow();
-            Expander::new(series.clone(), parameters.parameters(), order)
+            let running = self.running.enter();
+            Expander::new(series.clone(), running.interpreter.parameters(), order)
         }));
         let expanded = f64::run(Expand {
             expander,
@@ -620,7 +646,7 @@ impl System for InterpretedSystem {
     fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
         let near = |x: f64| Interval::new(x.next_down(), x.next_up());
         let list = |numbers: &[f64]| numbers.iter().map(|x| near(*x)).collect::<Vec<_>>();
-        let mut enclosing = self.enclosing.borrow_mut();
+        let mut enclosing = self.enclosing.enter();
         let enclosing = enclosing
             .get_or_insert_with(|| Interpreter::new(&self.program, &list(&self.parameters)));
         let mut slips = vec![Interval::UNKNOWN; ranges.len()];
@@ -716,9 +742,9 @@ impl Staged for InterpretedSystem {
             let (values, q) = (before.values.clone(), q.clone());
             return Ok(Stage { values, q });
         }
-        let t = self.stand(Role::AtTime, &before.values);
         let mut values = self.room(Role::AtPosition);
-        self.call(Role::AtPosition, at(t, q, &[], &[]), &mut values)?;
+        let stage = (Role::AtTime, before.values.as_slice());
+        self.call_after(stage, (Role::AtPosition, [q, &[], &[]]), &mut values)?;
         let q = Vec::new();
         Ok(Stage { values, q })
     }
@@ -737,11 +763,11 @@ impl Staged for InterpretedSystem {
             true => Role::Accelerations,
             false => Role::AccelerationsAt,
         };
-        let t = match self.program.stages.coordinates {
-            true => self.stand(Role::AtPosition, values),
-            false => self.stand(Role::AtTime, values),
+        let before = match self.program.stages.coordinates {
+            true => Role::AtPosition,
+            false => Role::AtTime,
         };
-        self.call(role, at(t, q, v, &u.values), a)
+        self.call_after((before, values), (role, [q, v, &u.values]), a)
     }
 }
 
@@ -761,14 +787,25 @@ impl InterpretedSystem {
         vec![0.0; function.map_or(0, |function| function.results.len())]
     }
 
-    /// Hands on what a stage has left; or the time, where it is no stage.
-    fn stand(&self, role: Role, values: &[f64]) -> f64 {
-        if role == Role::AtTime && !self.program.stages.time {
-            return values[0];
-        }
-        self.interpreter.borrow_mut().stand(role, values);
-        self.compiled.borrow_mut().stand(role, values);
-        f64::NAN // nobody reads the time any more
+    /// Runs a function with what a stage has left; or with the time, where that is no stage. Both at once: in between, another
+    /// thread could hand on what it has.
+    fn call_after(
+        &self,
+        (stage, left): (Role, &[f64]),
+        (role, [q, v, u]): (Role, [&[f64]; 3]),
+        results: &mut [f64],
+    ) -> Result<(), Singular> {
+        let mut running = self.running.enter();
+        let t = match stage == Role::AtTime && !self.program.stages.time {
+            true => left[0],
+            false => {
+                running.interpreter.stand(stage, left);
+                running.compiled.stand(stage, left);
+                f64::NAN // nobody reads the time any more
+            }
+        };
+        let called = running.call(role, at(t, q, v, u), results);
+        called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
 }
 
@@ -841,7 +878,7 @@ impl InterpretedSystem {
         let duals = |values: &[f64]| -> Vec<Dual<f64>> {
             values.iter().copied().map(Dual::constant).collect()
         };
-        let parameters = duals(self.interpreter.borrow().parameters());
+        let parameters = duals(self.running.enter().interpreter.parameters());
         let mut interpreter = Interpreter::new(&self.program, &parameters);
         let [mut q, mut v, u] = state.map(duals);
         let n = q.len();
@@ -904,6 +941,22 @@ impl Named {
     }
 }
 
+/// A map from names to numbers.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Named {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.iter())
+    }
+}
+
+/// A map from the names of the parameters to their values.
+#[cfg(feature = "serde")]
+impl serde::Serialize for InterpretedMachine {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.parameters().map(|(of, value)| (of.name, value)))
+    }
+}
+
 impl fmt::Debug for Named {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_map().entries(self.iter()).finish()
@@ -943,10 +996,7 @@ fn assign<'a>(
     if found {
         Ok(())
     } else {
-        Err(UnknownName::new(
-            name,
-            known.iter().map(String::as_str),
-        ))
+        Err(UnknownName::new(name, known.iter().map(String::as_str)))
     }
 }
 

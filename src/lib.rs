@@ -91,6 +91,10 @@ mod event;
 #[cfg(feature = "std")]
 mod names;
 #[cfg(feature = "std")]
+mod observation;
+#[cfg(feature = "std")]
+mod room;
+#[cfg(feature = "std")]
 mod roots;
 #[cfg(feature = "std")]
 mod run;
@@ -109,12 +113,12 @@ pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,
 };
-pub use inputs::{DefaultInputs, InputFunction, InputLaw};
+pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method, TAYLOR};
 pub use step_error::StepError;
-pub use stepper::{Stepper, Work};
+pub use stepper::{ControlledStepper, Stepper, StepperBuilder, Work};
 pub use system::{
     Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, MOST_CONTACTS, Machine,
     Outputs, Pivot, Quantity, Singular, Staged, State, System,
@@ -135,11 +139,13 @@ pub use event::{Crossing, Event};
 #[cfg(feature = "std")]
 pub use names::UnknownName;
 #[cfg(feature = "std")]
+pub use observation::Observation;
+#[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]
 pub use simulation::{Progress, Simulation};
 #[cfg(feature = "std")]
-pub use solution::{Ending, Observation, Solution, Statistics};
+pub use solution::{Ending, Solution, Statistics};
 
 #[cfg(feature = "macros")]
 pub use lagrangian_macros::machine;

@@ -51,6 +51,17 @@ pub struct Method {
 }
 
 impl Method {
+    /// Dormand and Prince's method of order 8, the default.
+    pub const DOP853: &'static Self = &METHODS[0];
+    /// Dormand and Prince's method of order 5: for coarse tolerances, and steps that are short anyhow.
+    pub const DOPRI5: &'static Self = &METHODS[1];
+    /// Bogacki and Shampine's method of order 3.
+    pub const BS32: &'static Self = &METHODS[2];
+    /// The implicit method of Radau of order 5, for stiff machines.
+    pub const RADAU5: &'static Self = &METHODS[3];
+    /// Steps by [Taylor series](TAYLOR).
+    pub const TAYLOR: &'static Self = &TAYLOR;
+
     /// Prepares a published method for machines, whose positions follow from their velocities, if its
     /// tableau is what it says: rows have their lengths and add up to their nodes, and the weights of
     /// the new point, of the estimates of the error and of dense output meet every order condition up

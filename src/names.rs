@@ -23,16 +23,17 @@ impl UnknownName {
         let known: Vec<String> = known.into_iter().map(String::from).collect();
         // Near is the same but for case, or at most one slip in three characters.
         let allowed = (name.chars().count() / 3).max(1);
-        let slips = |known: &&String| {
-            strsim::osa_distance(&known.to_lowercase(), &name.to_lowercase())
-        };
+        let slips =
+            |known: &&String| strsim::osa_distance(&known.to_lowercase(), &name.to_lowercase());
         // The work is the product of the lengths; and one letter is one slip away from every other.
         let near = known
             .iter()
             .filter(|known| name.len() <= LONGEST && known.len() <= LONGEST)
             .min_by_key(slips)
             .filter(|known| slips(known) <= allowed)
-            .filter(|known| slips(known) == 0 || name.chars().count().max(known.chars().count()) > 1);
+            .filter(|known| {
+                slips(known) == 0 || name.chars().count().max(known.chars().count()) > 1
+            });
         Self {
             name: name.into(),
             near: near.cloned(),

@@ -2,7 +2,9 @@
 
 pub(crate) mod contacts;
 mod explained;
+pub(crate) mod sampled;
 
+use sampled::Sampling;
 use std::string::String;
 use std::time::Instant;
 use std::vec::Vec;
@@ -13,16 +15,17 @@ use crate::equations::check_equations;
 use crate::error::{KeptContradiction, constraint_name};
 use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
-use crate::inputs::InputLaw;
+use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
+use crate::observation::Sight;
 use crate::roots;
 use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
 use crate::step_error::StepError;
-use crate::stepper::Stepper;
+use crate::stepper::{Stepper, Whose};
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
-use crate::{Coordinates, Error, Machine, Pivot, Singular, State, System, Vector, Warning};
+use crate::{Coordinates, Error, Inputs, Machine, Pivot, Singular, State, System, Vector, Warning};
 use explained::Explained;
 
 /// Makes the run of a simulation; with an error if something ended it early.
@@ -58,6 +61,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             needed: "after the start: what friction or an impact has stopped cannot be run backward",
         });
     }
+    if let Some(sampled) = &callbacks.sampled {
+        sampled.check(start.t, until, law.is_constant())?;
+    }
     let tolerance = settings.tolerance(&system)?;
     let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
     check_start(&system, start.t, &q, &v)?;
@@ -71,13 +77,17 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     };
     let ended = resumed.filter(|resumed| resumed.t == start.t);
     let ended = ended.and_then(|resumed| resumed.event);
-    for watch in &mut callbacks.watches {
-        watch.begin(&start, ended.as_ref() == Some(&watch.name))?;
-    }
-
+    let sampling = callbacks.sampled.as_ref().map(|of| of.begin(&system));
+    let held = sampling.is_some().then(|| system.default_inputs());
     let model = Model {
         system: &system,
-        law: &law,
+        sight: Sight {
+            system: &system,
+            law: Held {
+                law: &law,
+                held: held.clone(),
+            },
+        },
         start: (start.t, &q),
     };
     if let Some((_, assumption)) = model.ended_assumption((start.t, q.clone(), v.clone())) {
@@ -88,8 +98,8 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     }
     let at_start = (start.t, q.clone(), v.clone());
     let mut stepper = Stepper::begun(
-        &system,
-        &law,
+        Whose::Borrowed(&system),
+        model.sight.law.clone(),
         quadratures,
         settings.method,
         tolerance,
@@ -104,6 +114,13 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     if let Some(step) = settings.first_step {
         stepper.set_first_step(step);
     }
+    for watch in &mut callbacks.watches {
+        let observe = || model.sight.observe::<M, A>(&stepper, &start);
+        watch.begin(&start, ended.as_ref() == Some(&watch.name), &observe)?;
+    }
+    for stream in &mut callbacks.streams {
+        stream.begin(&start);
+    }
 
     let mut run = Run {
         model,
@@ -112,8 +129,11 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         callbacks: &mut callbacks,
         start: start.t,
         until,
+        stop: until,
+        sampling,
         next_step: None,
         record: Record {
+            held: held.map(|held| (start.t, held)).into_iter().collect(),
             steps: settings.keep_steps.then(|| Steps::new(settings.method)),
             samples: settings.every.map(|_| start.clone()).into_iter().collect(),
             events: Vec::new(),
@@ -133,7 +153,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         return Err(Error::EnergiesUnknown { t: start.t });
     }
     run.meet_at_start()?;
-    let (ending, error) = match run.go() {
+    let (ending, error) = match run.go_to_end() {
         Ok(ending) => (ending, None),
         Err(error) => (Ending::Error, Some(error)),
     };
@@ -142,9 +162,11 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         stepper,
         record,
         next_step,
+        callbacks,
         ..
     } = run;
     let Record {
+        held,
         steps,
         mut samples,
         events,
@@ -160,6 +182,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     );
     if settings.every.is_some() && end.t != start.t {
         samples.push(end.clone());
+    }
+    for stream in &mut callbacks.streams {
+        stream.end(&end);
     }
     let work = stepper.work();
     let balance = balance(&stepper, &energies, &explained, kinetic_energy);
@@ -191,6 +216,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         constraints: stepper.constraints().clone(),
         contacts,
         unilateral,
+        held,
         start,
         end,
         steps,
@@ -212,11 +238,15 @@ const MOST_CHANGES_AT_ONCE: usize = 3 * crate::MOST_CONTACTS;
 /// A run in the making.
 struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> {
     model: Model<'r, M::System, L>,
-    stepper: Stepper<'r, M::System, &'r L, A>,
+    stepper: Stepper<'r, M::System, Held<'r, L, Inputs<M>>, A>,
     settings: &'r Settings,
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
     until: f64,
+    /// Where the stepper is to stop: where a sampled controller acts, or at the end.
+    stop: f64,
+    /// What a sampled controller has set, if there is one.
+    sampling: Option<Sampling<Inputs<M>>>,
     /// The length of the step that an event ended.
     next_step: Option<f64>,
     record: Record<M>,
@@ -224,6 +254,8 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
 
 /// What is kept of a run.
 struct Record<M: Machine> {
+    /// What a sampled controller has set, and since when.
+    held: Vec<(f64, Inputs<M>)>,
     steps: Option<Steps<VectorOf<M>>>,
     samples: Vec<State<Coordinates<M>>>,
     events: Vec<Event<Coordinates<M>>>,
@@ -244,7 +276,20 @@ type VectorOf<M> = <<M as Machine>::System as System>::Vector;
 type LastInterpolant<M> = Option<Interpolant<VectorOf<M>>>;
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Steps to the end, or to what ends the run before.
+    /// Goes to the end, or to what ends the run before.
+    fn go_to_end(&mut self) -> Result<Ending, Error> {
+        loop {
+            if let Some(ending) = self.sample()? {
+                return Ok(ending);
+            }
+            let ending = self.go()?;
+            if ending != Ending::End || self.stepper.t() == self.until {
+                return Ok(ending);
+            }
+        }
+    }
+
+    /// Steps to where it is to stop, or to what ends the run before.
     fn go(&mut self) -> Result<Ending, Error> {
         // What will have ended the run, once the end of the stepper is reached.
         let mut ending = Ok(Ending::End);
@@ -390,7 +435,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 .explain(error, self.stepper.q(), self.stepper.v()));
         }
         let before = self.stepper.contacts().clone();
-        let changed = self.stepper.change(change, is_at_once, self.until, step);
+        let changed = self.stepper.change(change, is_at_once, self.stop, step);
         if let Err(error) = changed {
             return Err(self
                 .model
@@ -400,8 +445,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             steps.jump(&self.stepper);
             self.enter_energies();
         }
+        self.note_contacts(before);
+        Ok(())
+    }
+
+    /// Takes note of what contacts with friction do now.
+    fn note_contacts(&mut self, before: Option<Contacts>) {
+        let t = self.stepper.t();
         let Some(now) = self.stepper.contacts() else {
-            return Ok(());
+            return;
         };
         let names = self.model.system.contacts().enumerate();
         for (k, name) in names {
@@ -426,7 +478,6 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             });
         }
         self.record.contacts.push((t, now.clone()));
-        Ok(())
     }
 
     /// When an assumption of the description ended in the last step, and which. It may hold again
@@ -481,7 +532,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         } = self;
         event::find(
             &mut callbacks.watches,
-            model.system,
+            &model.sight,
             stepper,
             interpolant,
             &mut record.events,
@@ -514,8 +565,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 (t, self.stepper.q().clone(), self.stepper.v().clone()),
             );
             let watch = &mut self.callbacks.watches[found.watch];
+            let observe = || self.model.sight.observe::<M, A>(&self.stepper, &state);
             let correction = match found.slope {
-                Some(slope) if is_step => -watch.value(&state)? / slope,
+                Some(slope) if is_step => -watch.value(&state, &observe)? / slope,
                 _ => 0.0,
             };
             let next = t + correction;
@@ -564,32 +616,52 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// The samples within the last step; that at the end of the run is added there.
+    /// The samples within the last step, to be kept or to be streamed; those at the end of the run are added there.
     fn keep_samples(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
-        let Some(interval) = self.settings.every else {
-            return Ok(());
-        };
-        let interval = interval.copysign(self.until - self.start);
-        loop {
-            let t = self.start + self.record.samples.len() as f64 * interval;
-            let now = self.stepper.t();
-            if is_beyond(t, self.until, interval) || (t - now) * interval > 0.0 {
-                return Ok(());
+        if let Some(interval) = self.settings.every {
+            while let Some(t) = self.next_sample(interval, self.record.samples.len()) {
+                let state = self.state_within(t, interpolant)?;
+                self.record.samples.push(state);
             }
-            let (q, v) = if t == now {
-                (self.stepper.q().clone(), self.stepper.v().clone())
-            } else {
-                let system = self.model.system;
-                let (mut q, mut v) = made(interpolant, &mut self.stepper, system)?.state(t);
-                self.stepper
-                    .project(t, &mut q, &mut v)
-                    .map_err(|error| Error::of_step(error, system))?;
-                (q, v)
-            };
-            self.record
-                .samples
-                .push(state(self.model.system, (t, q, v)));
         }
+        for number in 0..self.callbacks.streams.len() {
+            loop {
+                let stream = &self.callbacks.streams[number];
+                let Some(t) = self.next_sample(stream.interval, stream.count) else {
+                    break;
+                };
+                let state = self.state_within(t, interpolant)?;
+                self.callbacks.streams[number].take(&state);
+            }
+        }
+        Ok(())
+    }
+
+    /// When the next of many samples is, of which so many were taken, if it is within the last step.
+    fn next_sample(&self, interval: f64, count: usize) -> Option<f64> {
+        let interval = interval.copysign(self.until - self.start);
+        let t = self.start + count as f64 * interval;
+        let is_later = (t - self.stepper.t()) * interval > 0.0;
+        (!is_beyond(t, self.until, interval) && !is_later).then_some(t)
+    }
+
+    /// The state at a time within the last step.
+    fn state_within(
+        &mut self,
+        t: f64,
+        interpolant: &mut LastInterpolant<M>,
+    ) -> Result<State<Coordinates<M>>, Error> {
+        let system = self.model.system;
+        let (q, v) = if t == self.stepper.t() {
+            (self.stepper.q().clone(), self.stepper.v().clone())
+        } else {
+            let (mut q, mut v) = made(interpolant, &mut self.stepper, system)?.state(t);
+            self.stepper
+                .project(t, &mut q, &mut v)
+                .map_err(|error| Error::of_step(error, system))?;
+            (q, v)
+        };
+        Ok(state(system, (t, q, v)))
     }
 
     /// Enters the energies of now, if their balance is kept.
@@ -635,26 +707,26 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 }
 
 /// A system with its inputs.
-#[derive(Clone, Copy)]
 struct Model<'r, S: System, L> {
     system: &'r S,
-    law: &'r L,
+    sight: Sight<'r, S, L>,
     /// The time and the coordinates at which the run began.
     start: (f64, &'r S::Vector),
 }
 
 impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     fn inputs(&self, t: f64, q: &S::Vector, v: &S::Vector) -> S::Inputs {
-        let mut inputs = self.system.default_inputs();
-        self.law.set(self.system, t, q, v, &mut inputs);
-        inputs
+        self.sight.inputs(t, q, v)
     }
 
     /// Whether every assumption holds at the end of the last step and at the control points of its
     /// cubic: then one that is linear in the coordinates holds between them. A machine without
     /// assumptions pays nothing for looking.
     #[inline]
-    fn plainly_holds<A: Quadratures<S>>(&self, stepper: &Stepper<'_, S, &L, A>) -> bool {
+    fn plainly_holds<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+    ) -> bool {
         let holds = |t: f64, q: &S::Vector, v: &S::Vector| {
             // Facts do not depend on inputs: those of now are as good as any.
             let mut facts = self.system.assumptions(t, q, v, stepper.inputs());
@@ -944,6 +1016,9 @@ impl Settings {
         )?;
         if let Some(interval) = self.every {
             check("every", interval, positive(interval), "greater than 0")?;
+        }
+        for interval in &self.observed_every {
+            check("observe", *interval, positive(*interval), "greater than 0")?;
         }
         Ok(until)
     }

@@ -11,12 +11,12 @@
 //! It is of second order, as the motion is. So the motion and its derivatives are one more
 //! [`System`], and all that is done to systems can be done to it.
 
-use core::cell::RefCell;
 use std::string::{String, ToString};
 use std::vec;
 use std::vec::Vec;
 
 use crate::forward::forward;
+use crate::room::Room;
 use crate::{
     Assumption, Coordinates, Differentiate, Error, Machine, Quantity, Singular, State, System,
     Vector,
@@ -71,6 +71,7 @@ use crate::{
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
 #[derive(Debug)]
+#[must_use = "it is a machine: a simulation runs it"]
 pub struct Sensitive<'m, M> {
     machine: &'m M,
     variables: Vec<Variable>,
@@ -79,8 +80,20 @@ pub struct Sensitive<'m, M> {
     names: Vec<(String, String)>,
 }
 
+impl<M> Clone for Sensitive<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            machine: self.machine,
+            variables: self.variables.clone(),
+            known: self.known,
+            names: self.names.clone(),
+        }
+    }
+}
+
 /// A value with its derivatives.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Varied<C> {
     /// The value.
     pub value: C,
@@ -284,7 +297,7 @@ impl<M: Machine<System: Differentiate>> Machine for Sensitive<'_, M> {
             names: self.names.clone(),
             dimension: n,
             variables: self.variables.clone(),
-            scratch: RefCell::new(Scratch {
+            scratch: Room::new(Scratch {
                 matrices: [
                     <M::System as System>::Matrix::zeros(n * n),
                     <M::System as System>::Matrix::zeros(n * n),
@@ -310,7 +323,7 @@ pub struct SensitiveSystem<S: System> {
     names: Vec<(String, String)>,
     dimension: usize,
     variables: Vec<Variable>,
-    scratch: RefCell<Scratch<S::Matrix>>,
+    scratch: Room<Scratch<S::Matrix>>,
 }
 
 /// What an evaluation writes.
@@ -343,13 +356,13 @@ impl<S: Differentiate> SensitiveSystem<S> {
         &self.system
     }
 
-    fn put(&self, to: &mut Vec<f64>, write: impl FnOnce(&mut S::Vector)) {
+    fn put(&self, to: &mut [f64], write: impl FnOnce(&mut S::Vector)) {
         let mut own = S::Vector::zeros(self.dimension);
         write(&mut own);
         Self::copy(&own, to);
     }
 
-    fn put_matrix(&self, to: &mut Vec<f64>, write: impl FnOnce(&mut S::Matrix)) {
+    fn put_matrix(&self, to: &mut [f64], write: impl FnOnce(&mut S::Matrix)) {
         let mut own = S::Matrix::zeros(self.dimension * self.dimension);
         write(&mut own);
         for (to, from) in to.iter_mut().zip(own.as_slice()) {
@@ -405,7 +418,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         a: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = self.dimension;
-        let mut scratch = self.scratch.borrow_mut();
+        let mut scratch = self.scratch.enter();
         let Scratch {
             matrices: [by_q, by_v],
             others,

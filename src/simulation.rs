@@ -5,10 +5,11 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::balance::{EnergyIntegrals, NoBalance};
-use crate::event::{Crossing, OfState, Watch};
+use crate::event::{Crossing, OfState, Watch, Watched};
 use crate::inputs::{DefaultInputs, InputFunction, InputLaw};
 use crate::methods::Method;
-use crate::run;
+use crate::observation::Observation;
+use crate::run::{self, sampled::Sampled};
 use crate::solution::Solution;
 use crate::{Coordinates, Error, Inputs, Machine, State};
 
@@ -33,6 +34,7 @@ use crate::{Coordinates, Error, Inputs, Machine, State};
 /// }
 /// # Ok::<(), lagrangian::Error>(())
 /// ```
+#[must_use = "a simulation does nothing until `run(start)`"]
 pub struct Simulation<'a, M: Machine, L = DefaultInputs> {
     pub(crate) of: Of<'a, M>,
     pub(crate) law: L,
@@ -73,6 +75,8 @@ pub(crate) struct Settings {
     /// What the description says where nobody says anything.
     pub kept: Option<Vec<String>>,
     pub every: Option<f64>,
+    /// The intervals at which somebody observes.
+    pub observed_every: Vec<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
     /// Whether both tolerances were given as one.
@@ -84,6 +88,41 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub watches: Vec<Watch<'a, M>>,
     pub progress: Option<Box<dyn FnMut(Progress) + 'a>>,
     pub stop: Option<OfState<'a, M, bool>>,
+    pub sampled: Option<Sampled<'a, M>>,
+    pub streams: Vec<Stream<'a, M>>,
+}
+
+/// Somebody who is shown the states of a run as it goes.
+pub(crate) struct Stream<'a, M: Machine> {
+    /// Between two of them, in s.
+    pub interval: f64,
+    /// How many were shown.
+    pub count: usize,
+    /// When the last of them was.
+    last: f64,
+    observer: OfState<'a, M, ()>,
+}
+
+impl<M: Machine> Stream<'_, M> {
+    /// Shows the start of a run.
+    pub fn begin(&mut self, start: &State<Coordinates<M>>) {
+        self.count = 0;
+        self.take(start);
+    }
+
+    /// Shows a state.
+    pub fn take(&mut self, state: &State<Coordinates<M>>) {
+        self.count += 1;
+        self.last = state.t;
+        (self.observer)(state);
+    }
+
+    /// Shows the end of a run, if that was not shown.
+    pub fn end(&mut self, end: &State<Coordinates<M>>) {
+        if end.t != self.last {
+            self.take(end);
+        }
+    }
 }
 
 impl<M: Machine> Default for Callbacks<'_, M> {
@@ -92,12 +131,16 @@ impl<M: Machine> Default for Callbacks<'_, M> {
             watches: Vec::new(),
             progress: None,
             stop: None,
+            sampled: None,
+            streams: Vec::new(),
         }
     }
 }
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Progress {
     /// Time reached, in s.
     pub t: f64,
@@ -131,6 +174,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 max_steps: 10_000_000,
                 kept: None,
                 every: None,
+                observed_every: Vec::new(),
                 keep_steps: true,
                 energy_balance: false,
                 one_tolerance: true,
@@ -275,7 +319,43 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         crossing: Crossing,
         function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
     ) -> Self {
-        self.watch(name, crossing, false, Box::new(function))
+        self.watch(name, crossing, None, of_state::<M>(function))
+    }
+
+    /// The same of what can be observed: outputs, accelerations, multipliers, forces of contacts. Costs an evaluation at each
+    /// look, four times a step.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use lagrangian::{Crossing, Simulation};
+    ///
+    /// lagrangian::machine! {
+    ///     machine Swing in plane {
+    ///         parameters { m: kg = 1, l: m = 1, g: m/s^2 = 10 }
+    ///         coordinates { theta: rad = pi/2 }
+    ///         bodies { bob { mass: m, at: l*(sin(theta), -cos(theta)) } }
+    ///         gravity (0, -g);
+    ///         outputs { rope: N = m*(g*cos(theta) + l*der(theta)^2) }
+    ///     }
+    /// }
+    ///
+    /// // Let go from the horizontal, the force in the rope is 3 m g cos θ: it is 15 N at 60°.
+    /// let swing = Swing::default();
+    /// let run = Simulation::new(&swing)
+    ///     .until(1.0)
+    ///     .event_on("half of the most", Crossing::Rising, |seen| seen.outputs.rope - 15.0)
+    ///     .run(swing.start())?;
+    /// let angle = run.events()[0].state.q.theta;
+    /// assert!((angle.to_degrees() - 60.0).abs() < 1e-6);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn event_on(
+        self,
+        name: &str,
+        crossing: Crossing,
+        function: impl FnMut(&Observation<M>) -> f64 + 'a,
+    ) -> Self {
+        self.watch(name, crossing, None, of_observation::<M>(function))
     }
 
     /// Ends the run when `function` changes its sign: at the state where it is 0, to the rounding of time
@@ -286,26 +366,129 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         crossing: Crossing,
         function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
     ) -> Self {
-        self.watch(name, crossing, true, Box::new(function))
+        self.until_nth_event(1, name, crossing, function)
+    }
+
+    /// Ends the run when `function` changes its sign for the `n`th time; at the first, if `n` is 0.
+    pub fn until_nth_event(
+        self,
+        n: usize,
+        name: &str,
+        crossing: Crossing,
+        function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
+    ) -> Self {
+        self.watch(name, crossing, Some(n), of_state::<M>(function))
+    }
+
+    /// Ends the run when `function` of what can be observed changes its sign; see [`event_on`](Self::event_on).
+    pub fn until_event_on(
+        self,
+        name: &str,
+        crossing: Crossing,
+        function: impl FnMut(&Observation<M>) -> f64 + 'a,
+    ) -> Self {
+        self.watch(name, crossing, Some(1), of_observation::<M>(function))
     }
 
     fn watch(
         mut self,
         name: &str,
         crossing: Crossing,
-        ends_run: bool,
-        function: OfState<'a, M, f64>,
+        left: Option<usize>,
+        function: Watched<'a, M>,
     ) -> Self {
         self.callbacks.watches.push(Watch {
             name: name.into(),
             crossing,
-            ends_run,
+            left,
             function,
             side: 0.0,
             leave: 0.0,
             begun: false,
+            at_zero: false,
         });
         self
+    }
+
+    /// Shows `observer` the states at the start, every `interval` seconds after it and at the end, as the run goes; nothing is
+    /// kept of them. Several may observe.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// use lagrangian::Simulation;
+    ///
+    /// let ball = by_hand::ball();
+    /// let mut heights = Vec::new();
+    /// let run = Simulation::new(&ball).until(0.5).forget_steps();
+    /// run.observe(0.25, |state| heights.push(state.q[0])).run(ball.start())?;
+    /// assert_eq!(heights.len(), 3);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn observe(
+        mut self,
+        interval: f64,
+        observer: impl FnMut(&State<Coordinates<M>>) + 'a,
+    ) -> Self {
+        self.settings.observed_every.push(interval);
+        self.callbacks.streams.push(Stream {
+            interval,
+            count: 0,
+            last: f64::NAN,
+            observer: Box::new(observer),
+        });
+        self
+    }
+
+    /// Lets a controller look at the machine at the start and every `period` seconds after it, and set its inputs, which hold
+    /// until it looks again: what a computer does, in one run with one solution. It is called once for each look, in the order
+    /// of time, so it may have a state of its own: a filter, an integral. `inputs` holds what it set before; at first the
+    /// defaults.
+    ///
+    /// A step ends at each look. Samples are taken forward in time, and there are no [`inputs`](Simulation::inputs) beside
+    /// them.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// # use by_hand::Toy;
+    /// use lagrangian::Simulation;
+    ///
+    /// // A mass of 1 kg on which a computer pushes against its velocity, ten times a second: each time a tenth of it is left.
+    /// let mass = Toy::new(([0.0], [1.0]), |_, _, _, u, _| [u]);
+    /// let run = Simulation::new(&mass)
+    ///     .until(0.5)
+    ///     .sampled(0.1, |state, force| *force = -9.0 * state.v[0])
+    ///     .run(mass.start())?;
+    /// assert!((run.end().v[0] - 1e-5).abs() < 1e-12);
+    /// // x = Σ (v₀ + v₁)/2 · 0.1 s
+    /// assert!((run.at(0.1)?.q[0] - 0.055).abs() < 1e-12);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn sampled(
+        mut self,
+        period: f64,
+        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a,
+    ) -> Self {
+        self.callbacks.sampled = Some(Sampled {
+            period,
+            delay: 0.0,
+            controller: Box::new(controller),
+        });
+        self
+    }
+
+    /// The same, where what is set begins to act `delay` seconds after the look: the time that the computer takes, or its line.
+    /// It may be longer than the period. Until then the inputs have their defaults.
+    pub fn sampled_with_delay(
+        self,
+        period: f64,
+        delay: f64,
+        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a,
+    ) -> Self {
+        let mut simulation = self.sampled(period, controller);
+        if let Some(sampled) = &mut simulation.callbacks.sampled {
+            sampled.delay = delay;
+        }
+        simulation
     }
 
     /// Calls `callback` after every step.
@@ -343,4 +526,18 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             run::run(self, start, NoBalance)
         }
     }
+}
+
+/// A function of the state, to be watched.
+fn of_state<'a, M: Machine>(
+    mut function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
+) -> Watched<'a, M> {
+    Box::new(move |state, _| Ok(function(state)))
+}
+
+/// A function of what can be observed, to be watched.
+fn of_observation<'a, M: Machine>(
+    mut function: impl FnMut(&Observation<M>) -> f64 + 'a,
+) -> Watched<'a, M> {
+    Box::new(move |_, observe| Ok(function(&observe()?)))
 }

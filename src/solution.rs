@@ -8,17 +8,18 @@ use crate::compensated::Sum;
 use crate::constraints::Constraints;
 use crate::contact::Mode;
 use crate::event::{Event, state};
-use crate::friction::{ContactForce, Contacts};
+use crate::friction::Contacts;
 use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
+use crate::observation::{Known, Observation};
 use crate::run::contacts::{Kept, Phase};
 use crate::simulation::{Callbacks, Of, Resumed, Settings};
 use crate::step_error::StepError;
-use crate::stepper::{accelerations, project};
+use crate::stepper::project;
 use crate::{
-    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Outputs,
-    Quadratures, Simulation, State, Stepper, System, UnilateralForce, Vector, Warning,
+    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Quadratures,
+    Simulation, State, Stepper, System, Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -26,7 +27,6 @@ use crate::{
 /// Between the ends of its steps the motion is known as well as at them: [`at`](Self::at) evaluates
 /// the continuous extension of the method. What that needs is kept;
 /// [`forget_steps`](crate::Simulation::forget_steps) leaves it out.
-#[derive(Clone)]
 pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) system: M::System,
     pub(crate) law: L,
@@ -47,12 +47,42 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) constraints: Option<Constraints<VectorOf<M>>>,
     /// The states of the contacts, and since when.
     pub(crate) contacts: Vec<(f64, Contacts)>,
+    /// What a sampled controller set, and since when.
+    pub(crate) held: Vec<(f64, Inputs<M>)>,
     /// What unilateral contacts did.
     pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
 }
 
+impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
+    fn clone(&self) -> Self {
+        Self {
+            system: self.system.clone(),
+            law: self.law.clone(),
+            method: self.method,
+            start: self.start.clone(),
+            end: self.end.clone(),
+            steps: self.steps.clone(),
+            samples: self.samples.clone(),
+            events: self.events.clone(),
+            energies: self.energies.clone(),
+            balance: self.balance,
+            statistics: self.statistics,
+            warnings: self.warnings.clone(),
+            ending: self.ending.clone(),
+            settings: self.settings.clone(),
+            next_step: self.next_step,
+            constraints: self.constraints.clone(),
+            contacts: self.contacts.clone(),
+            held: self.held.clone(),
+            unilateral: self.unilateral.clone(),
+        }
+    }
+}
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Ending {
     /// At the time it was to last until.
     End,
@@ -66,6 +96,8 @@ pub enum Ending {
 
 /// What a run cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Statistics {
     /// Steps taken.
     pub steps: usize,
@@ -81,34 +113,6 @@ pub struct Statistics {
     pub stiff_since: Option<f64>,
     /// Time on the clock, in s.
     pub seconds: f64,
-}
-
-/// Everything about a machine at an instant.
-#[derive(Clone, Debug)]
-pub struct Observation<M: Machine> {
-    /// Time, in s.
-    pub t: f64,
-    /// Coordinates.
-    pub q: Coordinates<M>,
-    /// Rates.
-    pub v: Coordinates<M>,
-    /// Accelerations.
-    pub a: Coordinates<M>,
-    /// Inputs.
-    pub inputs: Inputs<M>,
-    /// Outputs.
-    pub outputs: Outputs<M>,
-    /// Multipliers of the constraints, in their order: those of least norm where constraints depend
-    /// on each other.
-    pub multipliers: Vec<f64>,
-    /// The contacts that stick and slide, in their order.
-    pub contacts: Vec<ContactForce>,
-    /// The unilateral contacts, in their order.
-    pub unilateral: Vec<UnilateralForce>,
-    /// Kinetic energy, in J.
-    pub kinetic_energy: f64,
-    /// Potential energy, in J.
-    pub potential_energy: f64,
 }
 
 impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
@@ -159,46 +163,13 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     /// Accelerations, inputs, outputs and energies of the machine in a given state, with the inputs
     /// of this run.
     pub fn observe_state(&self, state: &State<Coordinates<M>>) -> Result<Observation<M>, Error> {
-        let State { t, .. } = *state;
         let (q, v) = (
             self.system.to_vector(&state.q),
             self.system.to_vector(&state.v),
         );
-        let mut a = q.zeros_like();
-        let u = self
-            .accelerations(t, &q, &v, &mut a)
-            .map_err(|e| Error::of_step(e, &self.system))?;
-        let (multipliers, contacts) = match self.contacts_at(t) {
-            None => (self.multipliers(t, &q, &v, &u), Vec::new()),
-            Some(known) => {
-                let mut multipliers = std::vec![0.0; self.system.constraints().len()];
-                let mut forces = std::vec![ContactForce::default(); self.system.contacts().len()];
-                let at = (t, &q, &v, &u);
-                let found = known.forces(&self.system, at, &mut multipliers, &mut forces);
-                let found = found.map_err(|singular| StepError::Singular { singular, t });
-                (found.map(|()| multipliers), forces)
-            }
-        };
-        let multipliers = multipliers.map_err(|e| Error::of_step(e, &self.system))?;
-        let unilateral = match self.phase_at(t) {
-            None => Vec::new(),
-            Some(phase) => (phase.touching)
-                .forces(&self.system, (t, &q, &v, &u), &mut a)
-                .map_err(|e| Error::of_step(e, &self.system))?,
-        };
-        Ok(Observation {
-            t,
-            multipliers,
-            contacts,
-            unilateral,
-            q: state.q.clone(),
-            v: state.v.clone(),
-            a: self.system.to_coordinates(&a),
-            outputs: self.system.outputs(t, &q, &v, &a, &u),
-            kinetic_energy: self.system.kinetic_energy(t, &q, &v),
-            potential_energy: self.system.potential_energy(t, &q, &u),
-            inputs: u,
-        })
+        let inputs = self.inputs(state.t, &q, &v);
+        self.known_at(state.t)
+            .observe::<M>(&self.system, state, inputs)
     }
 
     /// The energies at several times, if the simulation was told to keep their balance; cheapest if
@@ -223,9 +194,22 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
     }
 
     fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
+        let after = self.held.partition_point(|(since, _)| *since <= t);
+        if let Some((_, held)) = after.checked_sub(1).and_then(|at| self.held.get(at)) {
+            return held.clone();
+        }
         let mut inputs = self.system.default_inputs();
         self.law.set(&self.system, t, q, v, &mut inputs);
         inputs
+    }
+
+    /// What the run knew of constraints and contacts at a time.
+    fn known_at(&self, t: f64) -> Known<'_, VectorOf<M>> {
+        Known {
+            constraints: &self.constraints,
+            contacts: self.contacts_at(t),
+            touching: self.phase_at(t).map(|phase| &phase.touching),
+        }
     }
 
     fn accelerations(
@@ -236,27 +220,8 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         a: &mut VectorOf<M>,
     ) -> Result<Inputs<M>, StepError> {
         let u = self.inputs(t, q, v);
-        let Self {
-            system,
-            constraints,
-            ..
-        } = self;
-        if let Some(phase) = self.phase_at(t) {
-            let at = (t, q, v, &u);
-            phase.touching.accelerations(system, at, a)?;
-            return Ok(u);
-        }
-        match constraints {
-            Some(known) if known.redundant => {
-                let mut known = known.clone();
-                known.choose_as_many(system, t, q)?;
-                known.accelerations(system, t, q, v, &u, a)?;
-            }
-            _ => {
-                let contacts = self.contacts_at(t).cloned();
-                accelerations(system, (constraints, &contacts), (t, q, v, &u), a)?;
-            }
-        }
+        self.known_at(t)
+            .accelerations(&self.system, (t, q, v, &u), a)?;
         Ok(u)
     }
 
@@ -265,32 +230,6 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
         let after = self.contacts.partition_point(|(since, _)| *since <= t);
         let (_, known) = self.contacts.get(after.saturating_sub(1))?;
         Some(known)
-    }
-
-    fn multipliers(
-        &self,
-        t: f64,
-        q: &VectorOf<M>,
-        v: &VectorOf<M>,
-        u: &Inputs<M>,
-    ) -> Result<Vec<f64>, StepError> {
-        let mut multipliers = std::vec![0.0; self.system.constraints().len()];
-        if let Some(phase) = self.phase_at(t) {
-            return phase.touching.multipliers(&self.system, (t, q, v, u));
-        }
-        match &self.constraints {
-            None => {}
-            Some(known) if known.redundant => {
-                let mut known = known.clone();
-                known.choose_as_many(&self.system, t, q)?;
-                known.multipliers(&self.system, t, q, v, u, &mut multipliers)?;
-            }
-            Some(_) => self
-                .system
-                .multipliers(t, q, v, u, &mut multipliers)
-                .map_err(|singular| StepError::Singular { singular, t })?,
-        }
-        Ok(multipliers)
     }
 
     /// A state within the run, on the constraints.
@@ -405,6 +344,14 @@ impl<M: Machine, L> Solution<M, L> {
         &self.events
     }
 
+    /// How many events of this name happened.
+    pub fn event_count(&self, name: &str) -> usize {
+        self.events
+            .iter()
+            .filter(|event| event.name == name)
+            .count()
+    }
+
     /// What happened to the unilateral contacts, in order.
     pub fn contact_events(&self) -> &[ContactEvent<Coordinates<M>>] {
         &self.unilateral.events
@@ -453,6 +400,30 @@ impl<M: Machine, L> Solution<M, L> {
     /// The equations of motion that were integrated.
     pub fn system(&self) -> &M::System {
         &self.system
+    }
+}
+
+/// What happened, without what would make [`Solution::at`] possible: ask for [`samples`](Simulation::every) where the motion is
+/// to be told.
+#[cfg(feature = "serde")]
+impl<M: Machine<System: System<Coordinates: serde::Serialize>>, L> serde::Serialize
+    for Solution<M, L>
+{
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        use serde::ser::SerializeStruct;
+        let mut fields = serializer.serialize_struct("Solution", 11)?;
+        fields.serialize_field("method", self.method.tableau.name)?;
+        fields.serialize_field("start", &self.start)?;
+        fields.serialize_field("end", &self.end)?;
+        fields.serialize_field("ending", &self.ending)?;
+        fields.serialize_field("samples", &self.samples)?;
+        fields.serialize_field("events", &self.events)?;
+        fields.serialize_field("contact_events", &self.unilateral.events)?;
+        fields.serialize_field("energies", &self.energies)?;
+        fields.serialize_field("energy_balance", &self.balance)?;
+        fields.serialize_field("statistics", &self.statistics)?;
+        fields.serialize_field("warnings", &self.warnings)?;
+        fields.end()
     }
 }
 

@@ -12,7 +12,22 @@ use crate::{Stepper, System};
 #[cfg_attr(feature = "std", doc = "([`Error::of_step`](crate::Error::of_step)).")]
 #[cfg_attr(not(feature = "std"), doc = "(with the feature `std`).")]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum StepError {
+    /// A stepper is to go to a time that is infinite or not a number.
+    NoTime {
+        /// That time.
+        t: f64,
+    },
+    /// The motion within the last step was asked for at a time outside of it.
+    OutsideStep {
+        /// That time, in s.
+        t: f64,
+        /// When the step began, in s.
+        from: f64,
+        /// When it ended, in s.
+        to: f64,
+    },
     /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
     /// not avoid it.
     NotFinite {
@@ -81,6 +96,11 @@ pub enum StepError {
 impl Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
+            Self::NoTime { t } => write!(f, "{t} is no time to go to"),
+            Self::OutsideStep { t, from, to } => write!(
+                f,
+                "t = {t:e} s is outside of the last step, which goes from {from:e} s to {to:e} s"
+            ),
             Self::NotFinite { coordinate, t } => write!(
                 f,
                 "the acceleration of coordinate number {} has no finite value at t = {t:e} s",

@@ -7,8 +7,12 @@ mod implicitly;
 mod in_series;
 #[cfg(feature = "std")]
 mod meeting;
+mod owned;
 #[cfg(feature = "std")]
 pub(crate) use meeting::{Cause, Happened};
+
+pub(crate) use owned::Whose;
+pub use owned::{ControlledStepper, StepperBuilder};
 
 use crate::balance::{NoBalance, Quadratures};
 use crate::compensated::{Sum, two_sum};
@@ -45,6 +49,8 @@ const ACROSS: f64 = 1e-7;
 
 /// Counts of the work done.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct Work {
     /// Steps taken.
     pub steps: usize,
@@ -98,7 +104,7 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
 /// The equations of motion with their inputs.
 #[derive(Clone, Debug)]
 struct Model<'s, S: System, L> {
-    system: &'s S,
+    system: Whose<'s, S>,
     law: L,
     inputs: S::Inputs,
     /// None if the machine has no constraints.
@@ -133,6 +139,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         start: (f64, S::Vector, S::Vector),
         end: f64,
     ) -> Result<Self, StepError> {
+        Self::check(system, &start)?;
+        let system = Whose::Borrowed(system);
+        Self::begun(system, law, quadratures, method, tolerance, start, end)
+    }
+
+    /// Whether a stepper alone can follow a machine.
+    fn check(system: &S, start: &(f64, S::Vector, S::Vector)) -> Result<(), StepError> {
         // What closes, opens and sticks is found by whoever looks for events.
         if system.unilateral_contacts().len() != 0 {
             return Err(StepError::Contact {
@@ -141,12 +154,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 t: start.0,
             });
         }
-        Self::begun(system, law, quadratures, method, tolerance, start, end)
+        Ok(())
     }
 
     /// The same for whoever looks for impacts.
     pub(crate) fn begun(
-        system: &'s S,
+        system: Whose<'s, S>,
         law: L,
         quadratures: A,
         method: &'static Method,
@@ -157,7 +170,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         #[cfg(feature = "std")]
         let implicit = {
             let spectrum = method.tableau.spectrum;
-            spectrum.map(|spectrum| Box::new(Implicit::new(system, spectrum)))
+            spectrum.map(|spectrum| Box::new(Implicit::new(system.get(), spectrum)))
         };
         #[cfg(not(feature = "std"))]
         if method.tableau.spectrum.is_some() || method.by_series {
@@ -174,8 +187,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let mut start = Point::new(t, q, v);
         let mut constraints = None;
         if system.constraints().len() != 0 {
-            let known = constraints.insert(Constraints::new(system, &start.q, &start.v));
-            known.begin(system, &mut start.place(), None)?;
+            let known = constraints.insert(Constraints::new(system.get(), &start.q, &start.v));
+            known.begin(system.get(), &mut start.place(), None)?;
         }
         let mut stepper = Self {
             method,
@@ -224,20 +237,21 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             work,
             ..
         } = &mut stepper;
-        if system.contacts().len() != 0 {
+        if model.system.contacts().len() != 0 {
             let Model { law, inputs, .. } = model;
+            let system = model.system.get();
             law.set(system, now.t, &now.q, &now.v, inputs);
             let contacts = Contacts::begin(system, now.t, &now.q, &now.v, inputs)?;
             model.contacts = Some(contacts);
         }
         #[cfg(feature = "std")]
-        if system.unilateral_contacts().len() != 0 {
-            model.touching = Some(Touching::new(system));
+        if model.system.unilateral_contacts().len() != 0 {
+            model.touching = Some(Touching::new(model.system.get()));
         }
         let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
         if let Some(constraints) = &mut model.constraints
             && found.is_err()
-            && constraints.meet_fork(system, [(now.t, &now.q); 2])
+            && constraints.meet_fork(model.system.get(), [(now.t, &now.q); 2])
         {
             model.accelerations(now.t, &now.q, &now.v, &mut k[0], work)?;
         } else {
@@ -247,7 +261,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             && constraints.redundant
         {
             let at = (now.t, &now.q, &now.v, &model.inputs);
-            constraints.check_accelerations(system, at, &k[0])?;
+            constraints.check_accelerations(model.system.get(), at, &k[0])?;
         }
         model.take_rates(quadratures, 0, (now.t, &now.q, &now.v, &k[0]));
         Ok(stepper)
@@ -402,11 +416,11 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let Self { model, now, k, .. } = self;
         model
             .law
-            .set(model.system, now.t, &now.q, &now.v, &mut model.inputs);
+            .set(model.system.get(), now.t, &now.q, &now.v, &mut model.inputs);
         if let Some(contacts) = &mut model.contacts {
             let place = now.place();
             let at = (place.t, &*place.q[0], &model.inputs);
-            contacts.change(model.system, at, place.v, change, is_at_once)?;
+            contacts.change(model.system.get(), at, place.v, change, is_at_once)?;
         }
         let newest = self.newest;
         let work = &mut self.work;
@@ -506,6 +520,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.changed = true;
     }
 
+    /// The same at once, the inputs having jumped: with the accelerations that follow, what sticks and slides decided anew,
+    /// and the work that the jump does on the potential energy.
+    #[cfg(feature = "std")]
+    pub(crate) fn jump_inputs(&mut self, law: L) -> Result<(), StepError> {
+        let (t, q, v) = (self.now.t, &self.now.q, &self.now.v);
+        let Self {
+            model, quadratures, ..
+        } = self;
+        let energy = |model: &mut Model<'s, S, L>| {
+            model.set_inputs(t, q, v);
+            model.system.potential_energy(t, q, &model.inputs)
+        };
+        let before = quadratures.integrals().map(|_| energy(model));
+        model.law = law;
+        if let Some(before) = before {
+            let work = energy(model) - before;
+            quadratures.add_at_once(work, 0.0);
+        }
+        self.look_again()
+    }
+
     /// Goes on to another end, later or earlier than now.
     pub fn set_end(&mut self, end: f64) {
         self.end = end;
@@ -548,8 +583,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let at = (now.t, &now.q, &now.v);
         if model.system.contacts().len() != 0 {
             let Model { law, inputs, .. } = model;
-            law.set(model.system, now.t, &now.q, &now.v, inputs);
-            let contacts = Contacts::begin(model.system, now.t, &now.q, &now.v, inputs)?;
+            law.set(model.system.get(), now.t, &now.q, &now.v, inputs);
+            let contacts = Contacts::begin(model.system.get(), now.t, &now.q, &now.v, inputs)?;
             model.contacts = Some(contacts);
         }
         model.accelerations(at.0, at.1, at.2, &mut k[*newest], work)?;
@@ -684,10 +719,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     pub fn project(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
         #[cfg(feature = "std")]
         if let Some(touching) = &self.model.touching {
-            let held = touching.machine(self.model.system);
+            let held = touching.machine(self.model.system.get());
             return project(&held, &self.model.constraints, t, q, v);
         }
-        project(self.model.system, &self.model.constraints, t, q, v)
+        project(self.model.system.get(), &self.model.constraints, t, q, v)
     }
 
     /// Makes now the beginning of a step.
@@ -795,7 +830,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             *q += h * v;
         }
         let poses = [(before.t, &before.q), (before.t + h, &*ahead)];
-        constraints.meet_fork(model.system, poses)
+        constraints.meet_fork(model.system.get(), poses)
     }
 
     /// Makes the step just tried the last step.
@@ -876,7 +911,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 let (t, q) = (self.now.t, &self.now.q);
                 let mut along = error.clone();
                 if constraints
-                    .keep_along(self.model.system, t, q, &mut along)
+                    .keep_along(self.model.system.get(), t, q, &mut along)
                     .is_err()
                 {
                     along.clone_from(error);
@@ -1090,16 +1125,16 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         work: &mut Work,
     ) -> Result<(), StepError> {
         work.evaluations += 1;
-        self.law.set(self.system, t, q, v, &mut self.inputs);
+        self.law.set(self.system.get(), t, q, v, &mut self.inputs);
         let known = (&self.constraints, &self.contacts);
         let at = (t, q, v, &self.inputs);
         #[cfg(feature = "std")]
         match &self.touching {
-            Some(touching) => touching.accelerations(self.system, at, a)?,
-            None => accelerations(self.system, known, at, a)?,
+            Some(touching) => touching.accelerations(self.system.get(), at, a)?,
+            None => accelerations(self.system.get(), known, at, a)?,
         }
         #[cfg(not(feature = "std"))]
-        accelerations(self.system, known, at, a)?;
+        accelerations(self.system.get(), known, at, a)?;
         // The sum of what is not finite is not finite, and one test is cheaper than many.
         let sum: f64 = a.as_slice().iter().sum();
         if sum.is_finite() {
@@ -1114,7 +1149,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Sets the inputs for a state.
     #[cfg(feature = "std")]
     fn set_inputs(&mut self, t: f64, q: &S::Vector, v: &S::Vector) {
-        self.law.set(self.system, t, q, v, &mut self.inputs);
+        self.law.set(self.system.get(), t, q, v, &mut self.inputs);
     }
 
     /// The acceleration at the new point.
@@ -1139,7 +1174,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if self.system.unilateral_contacts().len() != 0
             && let Some(touching) = &self.touching
         {
-            let held = touching.machine(self.system);
+            let held = touching.machine(self.system.get());
             return match &mut self.constraints {
                 Some(constraints) if held.constraints().len() != 0 => {
                     constraints.project(&held, &mut now.place())
@@ -1149,7 +1184,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         }
         let moved = match &mut self.constraints {
             Some(constraints) if self.system.constraints().len() != 0 => {
-                constraints.project(self.system, &mut now.place())?
+                constraints.project(self.system.get(), &mut now.place())?
             }
             _ => false,
         };
@@ -1158,7 +1193,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         {
             let place = now.place();
             let at = (place.t, &*place.q[0], &self.inputs);
-            contacts.hold(self.system, at, place.v)?;
+            contacts.hold(self.system.get(), at, place.v)?;
         }
         Ok(moved)
     }
@@ -1169,7 +1204,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if self.system.contacts().len() != 0
             && let Some(contacts) = &mut self.contacts
         {
-            contacts.accept(self.system, now.t, &now.q, &now.v);
+            contacts.accept(self.system.get(), now.t, &now.q, &now.v);
         }
         #[cfg(feature = "std")]
         if self.system.unilateral_contacts().len() != 0 {
@@ -1182,11 +1217,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if let Some(constraints) = &mut self.constraints {
             constraints.accept(&now.q, &now.v);
             if constraints.at_fork {
-                constraints.pass_fork(self.system, now.t, &now.q);
+                constraints.pass_fork(self.system.get(), now.t, &now.q);
             }
             if constraints.redundant {
                 // Where that fails, the rows of before will do, or the next step will say why not.
-                let _ = constraints.choose_again(self.system, now.t, &now.q);
+                let _ = constraints.choose_again(self.system.get(), now.t, &now.q);
             }
         }
     }
@@ -1198,13 +1233,13 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         stage: usize,
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
     ) {
-        quadratures.stage(stage, self.system, at, &self.inputs);
+        quadratures.stage(stage, self.system.get(), at, &self.inputs);
         if self.system.contacts().len() != 0
             && let Some(contacts) = &self.contacts
             && quadratures.integrals().is_some()
         {
             let (t, q, v, _) = at;
-            let [work, lost] = contacts.power(self.system, (t, q, v, &self.inputs));
+            let [work, lost] = contacts.power(self.system.get(), (t, q, v, &self.inputs));
             quadratures.add(stage, work, lost);
         }
         #[cfg(feature = "std")]
@@ -1213,7 +1248,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             && quadratures.integrals().is_some()
         {
             let (t, q, v, _) = at;
-            let [work, lost] = touching.power(self.system, (t, q, v, &self.inputs));
+            let [work, lost] = touching.power(self.system.get(), (t, q, v, &self.inputs));
             quadratures.add(stage, work, lost);
         }
     }

@@ -70,13 +70,14 @@ pub trait Machine {
     /// let mut pendulum = DoublePendulum::default();
     /// pendulum.set("l1", 0.5)?;
     /// assert_eq!((pendulum.l1, pendulum.get("l1")?), (0.5, 0.5));
-    /// let unknown = pendulum.set("11", 0.5).unwrap_err();
+    /// let unknown = pendulum.set("L1", 0.5).unwrap_err();
     /// assert_eq!(unknown.near.as_deref(), Some("l1"));
     /// # Ok::<(), lagrangian::UnknownName>(())
     /// ```
     #[cfg(feature = "std")]
     fn set(&mut self, name: &str, value: f64) -> Result<(), crate::UnknownName> {
-        let meant = |of: &str| of == name || of.split_once('[').is_some_and(|(base, _)| base == name);
+        let meant =
+            |of: &str| of == name || of.split_once('[').is_some_and(|(base, _)| base == name);
         let names: std::vec::Vec<std::string::String> =
             self.parameters().map(|(of, _)| of.name.into()).collect();
         let mut found = false;
@@ -91,7 +92,8 @@ pub trait Machine {
         if found {
             return Ok(());
         }
-        let can_be_set = |(index, _): &(usize, &std::string::String)| self.parameter_mut(*index).is_some();
+        let can_be_set =
+            |(index, _): &(usize, &std::string::String)| self.parameter_mut(*index).is_some();
         let known: std::vec::Vec<_> = names.iter().enumerate().filter(can_be_set).collect();
         let known = known.iter().map(|(_, name)| name.as_str());
         Err(crate::UnknownName::new(name, known))
@@ -138,7 +140,7 @@ pub type Outputs<M> = <<M as Machine>::System as System>::Outputs;
 ///     type Outputs = ();
 ///
 ///     fn coordinates(&self) -> impl ExactSizeIterator<Item = Quantity<'_>> {
-///         [Quantity { name: "x", unit: "m" }].into_iter()
+///         [Quantity::new("x", "m")].into_iter()
 ///     }
 ///
 ///     fn to_coordinates(&self, vector: &[f64; 1]) -> f64 {
@@ -539,6 +541,11 @@ pub trait System {
 ///
 /// Implemented by the code of a description with `derivatives { coordinates, rates }`, and by the
 /// interpreter for every machine.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know how its accelerations change with the state",
+    label = "needs the derivatives of the accelerations",
+    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine"
+)]
 pub trait Linearize: System {
     /// The accelerations `a(t, q, v, u)`, and row after row their derivatives `∂aᵢ/∂qⱼ` and
     /// `∂aᵢ/∂vⱼ`: exact but for rounding, no differences.
@@ -606,6 +613,11 @@ pub trait Linearize: System {
 /// # #[cfg(not(feature = "macros"))]
 /// # fn main() {}
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "the accelerations of `{Self}` are not evaluated in stages",
+    label = "needs stages",
+    note = "add the line `stages {{ time, coordinates }}` to the description of the machine, or one of the two"
+)]
 pub trait Staged: System {
     /// Whatever the next stage needs of the time.
     type AtTime: Clone + Debug;
@@ -638,6 +650,12 @@ pub trait Staged: System {
 ///
 /// Implemented by the code of a description with `derivatives { coordinates, rates, … }`, and by the
 /// interpreter.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not know how its accelerations change with the state, parameters and inputs",
+    label = "needs the derivatives of the accelerations",
+    note = "add the line `derivatives {{ coordinates, rates }}` to the description of the machine, with the names of the parameters and \
+            with `inputs`, where it is to be differentiated by these"
+)]
 pub trait Differentiate: Linearize {
     /// Names and units of the inputs and parameters by which accelerations are differentiated, in
     /// the order of the columns: those that the description's `derivatives` asks for.
@@ -664,6 +682,7 @@ pub trait Differentiate: Linearize {
 
 /// Where a machine is and how fast it moves, at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct State<C> {
     /// Time, in s.
     pub t: f64,
@@ -680,6 +699,13 @@ pub struct Quantity<'a> {
     pub name: &'a str,
     /// The SI unit; `1` for a bare number.
     pub unit: &'a str,
+}
+
+impl<'a> Quantity<'a> {
+    /// A number of this name, in this unit.
+    pub const fn new(name: &'a str, unit: &'a str) -> Self {
+        Self { name, unit }
+    }
 }
 
 /// A fact that a description assumes (`assume { s1 > 0 }`), and by how much it holds.
@@ -730,6 +756,7 @@ pub struct Singular {
 
 /// A row of the equations of motion `M a = f + Gᵀ λ`, `G a = γ`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Pivot {
     /// That of the coordinate with this index.
     Coordinate(usize),

@@ -246,6 +246,7 @@ fn overflow(run: &Run) -> Option<String> {
         potential,
         work,
         dissipated,
+        ..
     } = overflowed;
     let named = [
         ("kinetic energy", kinetic),

@@ -1,7 +1,8 @@
 //! What stands inside the brackets: settings, and perhaps a machine after them.
 
 use lagrangian_symbolic::Rational;
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
 use syn::parse::{ParseStream, Parser};
 use syn::{Error, Ident, LitStr, Result, Token, ext::IdentExt};
 
@@ -15,6 +16,19 @@ pub struct Arguments {
     pub runtime: String,
     /// What follows the settings: a machine, unless it comes from a file.
     pub machine: TokenStream,
+    /// Attributes before the machine.
+    pub attributes: Attributes,
+}
+
+/// The attributes of a machine that are no documentation, by what they are for.
+#[derive(Default)]
+pub struct Attributes {
+    /// `cfg`: for every item.
+    pub items: TokenStream,
+    /// Lints, for the module.
+    pub module: TokenStream,
+    /// All others, as `derive`: for the structs whose fields the machine names.
+    pub structs: TokenStream,
 }
 
 impl Arguments {
@@ -30,7 +44,9 @@ fn arguments(input: ParseStream<'_>) -> Result<Arguments> {
         constants: Vec::new(),
         runtime: "::lagrangian".into(),
         machine: TokenStream::new(),
+        attributes: Attributes::default(),
     };
+    let mut docs = arguments.attributes.read(input)?;
     while is_setting(input) {
         let name = input.call(Ident::parse_any)?;
         input.parse::<Token![=]>()?;
@@ -57,9 +73,32 @@ fn arguments(input: ParseStream<'_>) -> Result<Arguments> {
             Err(Error::new(proc_macro2::Span::call_site(), message))
         }
         _ => {
-            arguments.machine = input.parse()?;
+            docs.extend(arguments.attributes.read(input)?);
+            docs.extend(input.parse::<TokenStream>()?);
+            arguments.machine = docs;
             Ok(arguments)
         }
+    }
+}
+
+impl Attributes {
+    /// Takes the attributes that come next; documentation is the answer, for it belongs to the machine.
+    fn read(&mut self, input: ParseStream<'_>) -> Result<TokenStream> {
+        let mut docs = TokenStream::new();
+        while input.peek(Token![#]) && input.peek2(syn::token::Bracket) {
+            let hash = input.parse::<Token![#]>()?;
+            let group = input.parse::<Group>()?;
+            let name = group.stream().into_iter().next();
+            let name = name.map_or_else(String::new, |name| name.to_string());
+            let to = match name.as_str() {
+                "doc" => &mut docs,
+                "cfg" => &mut self.items,
+                "allow" | "expect" | "warn" | "deny" | "forbid" => &mut self.module,
+                _ => &mut self.structs,
+            };
+            quote!(#hash #group).to_tokens(to);
+        }
+        Ok(docs)
     }
 }
 

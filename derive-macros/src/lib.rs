@@ -7,6 +7,7 @@ mod errors;
 mod files;
 mod tokens;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::thread;
 
@@ -18,11 +19,11 @@ use lagrangian_spec::source::{Files, SourceId, Sources};
 use lagrangian_spec::syntax::{Ident, Spec};
 use lagrangian_spec::token::Token;
 use lagrangian_symbolic::{Dag, Rational};
-use proc_macro2::{Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Span, TokenStream, TokenTree};
 use quote::quote;
 use syn::LitStr;
 
-use arguments::Arguments;
+use arguments::{Arguments, Attributes};
 use files::Tracked;
 use tokens::Flat;
 
@@ -51,6 +52,10 @@ const STACK: usize = 64 << 20;
 /// What comes out for `machine Oscillator` is a module `oscillator` and a type `Oscillator`, the struct of its parameters.
 /// The module holds the functions of the machine (`oscillator::accelerations`, `mass_matrix`, …), generic over the number
 /// they compute with, and the structs `Coordinates`, `Inputs`, `Outputs` and `Prepared`, which implements `System`.
+///
+/// Attributes before `machine`, or before `file`, go where they belong: `#[derive(serde::Serialize)]` and whatever else is
+/// about structs to those whose fields the machine names (parameters, coordinates, inputs, outputs), lints to the module, `cfg`
+/// to everything. The structs stand in the module, so a name that is imported beside the machine is written in full there.
 ///
 /// `crate = path,` in front says where the runtime is, if it is not `::lagrangian`.
 #[proc_macro]
@@ -83,6 +88,8 @@ struct Outcome {
     text: String,
     /// The name of the machine, and where it stands.
     name: Ident,
+    /// The names of parameters, coordinates, inputs and outputs, and where they stand; in a file, nowhere.
+    fields: Vec<Ident>,
     read: Vec<PathBuf>,
 }
 
@@ -107,6 +114,7 @@ fn expand(arguments: Arguments) -> TokenStream {
     };
     let options = rust::Options {
         runtime: arguments.runtime,
+        marks: true,
         ..rust::Options::default()
     };
     let job = Job {
@@ -131,8 +139,14 @@ fn expand(arguments: Arguments) -> TokenStream {
         Some(file) => (file.span(), file.span()),
         None => flat.ends(span),
     };
+    let attributes = arguments.attributes;
     let rust = match outcome.text.parse() {
-        Ok(tokens) => named(tokens, &outcome.name.text, place(outcome.name.span).0),
+        Ok(tokens) => {
+            let rust = named(tokens, &outcome.name.text, place(outcome.name.span).0);
+            let fields = outcome.fields.iter();
+            let fields = fields.map(|of| (lagrangian_emit::identifier(&of.text), place(of.span).0));
+            opened(rust, &attributes, &fields.collect())
+        }
         Err(error) => {
             let message = format!(
                 "the compiler of machines wrote what is no Rust ({error}); please report it"
@@ -171,6 +185,7 @@ fn compile(job: Job) -> Result<Outcome, String> {
         options,
     } = job;
     let mut files = Tracked::default();
+    let is_here = matches!(input, Input::Tokens(_));
     let spec = match input {
         Input::Tokens(tokens) => Spec::parse(&tokens, SourceId::default(), &mut report),
         Input::File(path) => {
@@ -182,6 +197,14 @@ fn compile(job: Job) -> Result<Outcome, String> {
         }
     };
     let name = spec.name.clone();
+    let sections = [
+        &spec.parameters,
+        &spec.coordinates,
+        &spec.inputs,
+        &spec.outputs,
+    ];
+    let items = sections.into_iter().flatten().filter(|_| is_here);
+    let fields = items.map(|item| item.name.base.clone()).collect();
     let stub = rust::stub(&spec, &options);
     let dag = Dag::new();
     let model = Model::resolve(
@@ -208,6 +231,7 @@ fn compile(job: Job) -> Result<Outcome, String> {
         report,
         text,
         name,
+        fields,
         read: files.read,
     })
 }
@@ -244,4 +268,76 @@ fn named(tokens: TokenStream, name: &str, place: Span) -> TokenStream {
         tree
     };
     tokens.into_iter().map(with_place).collect()
+}
+
+/// The marked structs have the attributes of the user, and fields that stand where the user has written them: a lint, an error
+/// and an editor that looks for the definition find them there.
+fn opened(
+    tokens: TokenStream,
+    attributes: &Attributes,
+    fields: &BTreeMap<String, Span>,
+) -> TokenStream {
+    let Attributes {
+        items,
+        module,
+        structs,
+    } = attributes;
+    let mut opened = quote!(#items #module);
+    for tree in tokens {
+        match tree {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::Brace => {
+                let inside = with_marks(group.stream(), structs, fields);
+                opened.extend(regrouped(&group, inside));
+                opened.extend(items.clone());
+            }
+            other => opened.extend([other]),
+        }
+    }
+    opened
+}
+
+/// The items of the module.
+fn with_marks(
+    tokens: TokenStream,
+    structs: &TokenStream,
+    fields: &BTreeMap<String, Span>,
+) -> TokenStream {
+    let mut with_marks = TokenStream::new();
+    let mut is_marked = false;
+    let mut tokens = tokens.into_iter().peekable();
+    while let Some(tree) = tokens.next() {
+        match (tree, tokens.peek()) {
+            (TokenTree::Punct(hash), Some(TokenTree::Group(group)))
+                if hash.as_char() == '#' && group.stream().to_string() == rust::MARK =>
+            {
+                tokens.next();
+                with_marks.extend(structs.clone());
+                is_marked = true;
+            }
+            (TokenTree::Group(group), _) if is_marked && group.delimiter() == Delimiter::Brace => {
+                is_marked = false;
+                let mut is_name = false;
+                let placed = group.stream().into_iter().map(|mut tree| {
+                    if let TokenTree::Ident(ident) = &mut tree {
+                        if let Some(place) = fields.get(&ident.to_string()).filter(|_| is_name) {
+                            ident.set_span(place.resolved_at(ident.span()));
+                        }
+                        is_name = *ident == "pub";
+                    }
+                    tree
+                });
+                let placed = placed.collect();
+                with_marks.extend(regrouped(&group, placed));
+            }
+            (other, _) => with_marks.extend([other]),
+        }
+    }
+    with_marks
+}
+
+/// A group with other tokens inside.
+fn regrouped(group: &Group, inside: TokenStream) -> [TokenTree; 1] {
+    let mut other = Group::new(group.delimiter(), inside);
+    other.set_span(group.span());
+    [other.into()]
 }

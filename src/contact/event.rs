@@ -6,6 +6,8 @@ use crate::State;
 
 /// What happened to a unilateral contact.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ContactEvent<C> {
     /// The contact.
     pub contact: String,
@@ -23,6 +25,8 @@ pub struct ContactEvent<C> {
 
 /// What happens to unilateral contacts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum ContactEventKind {
     /// It takes part in an impact.
     Impact,
@@ -54,6 +58,8 @@ impl ContactEventKind {
 
 /// What an impact did to a contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub struct ContactImpact {
     /// The rate at which the gap opens before and after, in m/s.
     pub gap_rate: [f64; 2],

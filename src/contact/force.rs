@@ -8,6 +8,7 @@ use crate::{StepError, System};
 
 /// A unilateral contact at a state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct UnilateralForce {
     /// How far it is open, in m.
     pub gap: f64,

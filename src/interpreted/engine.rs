@@ -8,6 +8,7 @@ use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
 /// What runs the functions of an [`InterpretedMachine`](super::InterpretedMachine). The results have the same bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Engine {
     /// The interpreter, which is everywhere.
     #[default]
@@ -20,6 +21,7 @@ pub enum Engine {
 
 /// There is no machine code here.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct NoMachineCode {
     /// Why.
     pub why: String,

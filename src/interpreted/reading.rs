@@ -184,7 +184,10 @@ impl Reading {
                 })
             }
             Ok(Err(panic)) => std::panic::resume_unwind(panic),
-            Err(error) => Err(unreadable("", format!("no thread to derive it in: {error}"))),
+            Err(error) => Err(unreadable(
+                "",
+                format!("no thread to derive it in: {error}"),
+            )),
         }
     }
 
@@ -200,7 +203,8 @@ impl Reading {
         let mut constants = Vec::new();
         for (constant, value) in self.constants {
             let Some(value) = Rational::parse_decimal(&value.to_string()) else {
-                let message = format!("the constant `{constant}` is to be {value}, which is no number");
+                let message =
+                    format!("the constant `{constant}` is to be {value}, which is no number");
                 return Err(refused(&name, Code::NumberOutOfRange, message));
             };
             constants.push((constant, value));

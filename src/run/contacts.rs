@@ -199,8 +199,13 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         self.watch_jumps()
     }
 
-    fn meet_now(&mut self, cause: Cause, step: f64, at_start: bool) -> Result<(), Error> {
-        let met = self.stepper.meet(cause, self.until, step);
+    pub(super) fn meet_now(
+        &mut self,
+        cause: Cause,
+        step: f64,
+        at_start: bool,
+    ) -> Result<(), Error> {
+        let met = self.stepper.meet(cause, self.stop, step);
         let happened = match met {
             Ok(happened) => happened,
             Err(error) => {
@@ -324,7 +329,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     }
 
     /// Functions that are watched may have jumped with the rates.
-    fn watch_jumps(&mut self) -> Result<Option<Ending>, Error> {
+    pub(super) fn watch_jumps(&mut self) -> Result<Option<Ending>, Error> {
         let (t, q, v) = (
             self.stepper.t(),
             self.stepper.q().clone(),
@@ -332,8 +337,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         );
         let now = state(self.model.system, (t, q, v));
         let mut ending = None;
+        let observe = || self.model.sight.observe::<M, A>(&self.stepper, &now);
         for watch in &mut self.callbacks.watches {
-            let value = watch.value(&now)?;
+            let value = watch.value(&now, &observe)?;
             let before = watch.side;
             if !watch.begun || before == 0.0 || value == 0.0 || value.signum() == before {
                 continue;
@@ -351,7 +357,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 crossing,
                 state: now.clone(),
             });
-            if watch.ends_run && ending.is_none() {
+            if watch.counts() && ending.is_none() {
                 ending = Some(Ending::Event(watch.name.clone()));
             }
         }

@@ -14,7 +14,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let Some(taylor) = taylor else { return Ok(()) };
         model.set_inputs(now.t, &now.q, &now.v);
         taylor
-            .expand(model.system, now, &model.inputs, false)
+            .expand(model.system.get(), now, &model.inputs, false)
             .map_err(|singular| StepError::Singular { singular, t: now.t })
     }
 
@@ -99,7 +99,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         }
         work.evaluations += 1;
         taylor
-            .expand(model.system, now, &model.inputs, true)
+            .expand(model.system.get(), now, &model.inputs, true)
             .map_err(|singular| StepError::Singular { singular, t: now.t })?;
         taylor.accelerations(true, &mut k[stages]);
         if let Some(coordinate) = not_finite(&k[stages], &k[stages]) {

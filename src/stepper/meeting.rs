@@ -60,28 +60,29 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     ) -> Result<Happened, StepError> {
         let Self { model, now, .. } = self;
         let mut happened = Happened::default();
-        let energy = |now: &Point<S::Vector>| model.system.kinetic_energy(now.t, &now.q, &now.v);
-        let (t, energy_before) = (now.t, energy(now));
+        let energy = |model: &Model<'_, S, L>, now: &Point<S::Vector>| {
+            model.system.kinetic_energy(now.t, &now.q, &now.v)
+        };
+        let (t, energy_before) = (now.t, energy(model, now));
         let Some(mut touching) = model.touching.clone() else {
             return Ok(happened);
         };
         happened.before = touching.modes().to_vec();
-        let system = model.system;
         model.set_inputs(t, &now.q, &now.v);
         let known = match cause {
             Cause::Lifts(k) => Some((k, Mode::Open)),
             Cause::Breaks(k) => {
                 let at = (t, &now.q, &now.v, &model.inputs);
-                let friction = touching.reaction(system, at)?.forces[k][1];
+                let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
                 Some((k, Mode::Slides(-friction.signum())))
             }
             Cause::Asked | Cause::Stops(_) => None,
         };
         let stops = |k: usize| cause == Cause::Stops(k);
 
-        let (mut touches, _) = touching.near(system, t, &now.q, &now.v);
+        let (mut touches, _) = touching.near(model.system.get(), t, &now.q, &now.v);
         for round in 0.. {
-            let (near, closes) = touching.near(system, t, &now.q, &now.v);
+            let (near, closes) = touching.near(model.system.get(), t, &now.q, &now.v);
             touches = near;
             let Some(contact) = closes.iter().position(|closes| *closes) else {
                 break;
@@ -94,15 +95,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     t,
                 });
             }
-            let impacts = touching.impact(system, t, &now.q, &mut now.v, &touches)?;
+            let impacts = touching.impact(model.system.get(), t, &now.q, &mut now.v, &touches)?;
             now.v_low.as_mut_slice().fill(0.0);
             happened.impacts.extend(impacts);
         }
         let told: f64 = happened.impacts.iter().map(|impact| impact.loss).sum();
-        let energy_after = energy(now);
+        let energy_after = energy(model, now);
 
         model.set_inputs(t, &now.q, &now.v);
-        let mut closed = touching.lasting(system, t, &now.q, &now.v, &touches);
+        let mut closed = touching.lasting(model.system.get(), t, &now.q, &now.v, &touches);
         let mut free = now.v.zeros_like();
         if !happened.impacts.is_empty() {
             // What the machine does with all open that has been hit: how long the next flight is.
@@ -111,15 +112,19 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 .map(|(closed, mode)| if *closed { *mode } else { Mode::Open })
                 .collect();
             flying.set_modes(modes);
-            flying.accelerations(system, (t, &now.q, &now.v, &model.inputs), &mut free)?;
+            flying.accelerations(
+                model.system.get(),
+                (t, &now.q, &now.v, &model.inputs),
+                &mut free,
+            )?;
         }
         let mut hit: Vec<usize> = happened.impacts.iter().map(|i| i.contact).collect();
         hit.sort_unstable();
         hit.dedup();
         for contact in hit.into_iter().filter(|k| !closed[*k]).collect::<Vec<_>>() {
             let place = (t, &now.q, &now.v);
-            let falls = Touching::falls(system, place, contact, free.as_slice());
-            if let Some(left) = touching.ends_bouncing(system, place, contact, falls) {
+            let falls = Touching::falls(model.system.get(), place, contact, free.as_slice());
+            if let Some(left) = touching.ends_bouncing(model.system.get(), place, contact, falls) {
                 closed[contact] = true;
                 happened.ended.push((contact, left));
             } else if falls < 0.0 {
@@ -139,29 +144,29 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             };
         }
         touching.set_modes(held);
-        hold(system, &touching, now)?;
-        let mut resting = touching.resting(system, t, &now.q, &now.v);
+        hold(model.system.get(), &touching, now)?;
+        let mut resting = touching.resting(model.system.get(), t, &now.q, &now.v);
         for (k, resting) in resting.iter_mut().enumerate() {
             *resting |= stops(k) || touching.modes()[k] == Mode::Sticks;
         }
         let modes = touching.settled(
-            system,
+            model.system.get(),
             (t, &now.q, &now.v, &model.inputs),
             &closed,
             &resting,
             known,
         )?;
         touching.set_modes(modes);
-        model.constraints = hold(system, &touching, now)?;
+        model.constraints = hold(model.system.get(), &touching, now)?;
         happened.after = touching.modes().to_vec();
         model.touching = Some(touching);
 
         if !happened.ended.is_empty() {
-            happened.lost_at_end = energy_after - energy(now);
+            happened.lost_at_end = energy_after - energy(model, now);
         }
         let lost = told + happened.lost_at_end;
         // What impulses do beyond losses is work of what moves by itself.
-        let gained = energy(now) - energy_before;
+        let gained = energy(model, now) - energy_before;
         if !happened.impacts.is_empty() {
             self.quadratures.add_at_once(gained + lost, lost);
         }
@@ -202,7 +207,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             constraints.accept(&now.q, &now.v);
             if constraints.redundant {
                 // Where that fails, the rows of before will do, or the next step will say why not.
-                let held = touching.machine(self.system);
+                let held = touching.machine(self.system.get());
                 let _ = constraints.choose_again(&held, now.t, &now.q);
             }
         }

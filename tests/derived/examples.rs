@@ -9,16 +9,34 @@ mod balance;
 mod bounce;
 #[path = "../../examples/computed_torque.rs"]
 mod computed_torque;
+#[path = "../../examples/drag.rs"]
+mod drag;
+#[path = "../../examples/edited_spec.rs"]
+mod edited_spec;
 #[path = "../../examples/energy.rs"]
 mod energy;
+#[path = "../../examples/fit.rs"]
+mod fit;
+#[path = "../../examples/generic.rs"]
+mod generic;
 #[path = "../../examples/isolation.rs"]
 mod isolation;
+#[path = "../../examples/lqr.rs"]
+mod lqr;
+#[path = "../../examples/microcontroller.rs"]
+mod microcontroller;
 #[path = "../../examples/numbers.rs"]
 mod numbers;
+#[path = "../../examples/own_method.rs"]
+mod own_method;
 #[path = "../../examples/pendulum.rs"]
 mod pendulum;
+#[path = "../../examples/realtime.rs"]
+mod realtime;
 #[path = "../../examples/single_steps.rs"]
 mod single_steps;
+#[path = "../../examples/sweep.rs"]
+mod sweep;
 #[path = "../../examples/variants.rs"]
 mod variants;
 
@@ -137,7 +155,10 @@ fn single_steps_follow_the_cosine() {
 #[test]
 fn a_spec_runs_without_a_compiler() {
     variants::main().unwrap();
-    let mut crusher = variants::read("machines/cushioned_crusher.machine").unwrap();
+    let mut crusher = lagrangian::interpreted::InterpretedMachine::from_file(
+        "machines/cushioned_crusher.machine",
+    )
+    .unwrap();
     // The same spec, compiled: the same operations in the same order.
     let machine = lagrangian_machines::CushionedCrusher {
         omega: 110.0,
@@ -151,5 +172,152 @@ fn a_spec_runs_without_a_compiler() {
     }
     crusher.set("omega", 110.0).unwrap();
     assert_eq!(variants::greatest_force(&crusher).unwrap(), greatest);
-    assert!(variants::read("machines/no-such.machine").is_err());
+}
+
+#[test]
+fn the_regulator_is_that_of_riccati_and_balances() {
+    lqr::main().unwrap();
+    let k = lqr::gain().unwrap();
+    // At its optimum, no change of the gain makes the motion from the start cheaper: the linearized one, cost by cost.
+    let machine = lqr::Balancer::default();
+    let g = machine.g;
+    // At rest upright, M x″ = u − m g θ and l θ″ = −(u − (M + m) g θ)/M.
+    let (a_x, a_theta) = (
+        -machine.m * g / machine.M,
+        (machine.M + machine.m) * g / (machine.M * machine.l),
+    );
+    let (b_x, b_theta) = (1.0 / machine.M, -1.0 / (machine.M * machine.l));
+    let cost = |k: [f64; 4]| {
+        let (mut x, mut sum) = ([0.3, 0.1, 0.0, 0.0], 0.0);
+        for _ in 0..4000 {
+            let u = -(0..4).map(|i| k[i] * x[i]).sum::<f64>();
+            sum += 10.0 * x[0] * x[0] + 10.0 * x[1] * x[1] + x[2] * x[2] + x[3] * x[3] + u * u;
+            // A look later, in a hundred steps of the trapezoidal rule's accuracy.
+            const PARTS: usize = 100;
+            let h = 0.02 / PARTS as f64;
+            for _ in 0..PARTS {
+                let rates = |x: [f64; 4]| {
+                    [
+                        x[2],
+                        x[3],
+                        a_x * x[1] + b_x * u,
+                        a_theta * x[1] + b_theta * u,
+                    ]
+                };
+                let middle: [f64; 4] = core::array::from_fn(|i| x[i] + 0.5 * h * rates(x)[i]);
+                x = core::array::from_fn(|i| x[i] + h * rates(middle)[i]);
+            }
+        }
+        sum
+    };
+    let best = cost(k);
+    assert!(best.is_finite());
+    for i in 0..4 {
+        for by in [0.97, 1.03] {
+            let mut other = k;
+            other[i] *= by;
+            assert!(cost(other) > best, "{i} {by}: {} {best}", cost(other));
+        }
+    }
+    let [x, theta] = lqr::balanced(10.0).unwrap();
+    assert!(x.abs() < 1e-2 && theta.abs() < 1e-2, "{x} {theta}");
+}
+
+#[test]
+fn the_farthest_throw_without_drag_is_at_half_a_right_angle() {
+    sweep::main().unwrap();
+    let mut ball = sweep::Ball::default();
+    let (with_drag, _) = sweep::best(&ball, 89).unwrap();
+    ball.drag = 0.0;
+    let (angle, range) = sweep::best(&ball, 89).unwrap();
+    assert!((angle.to_degrees() - 45.0).abs() < 1e-9 && with_drag < angle);
+    // v²/g
+    assert!((range - 900.0 / 9.81).abs() < 1e-6);
+}
+
+#[test]
+fn a_loop_in_real_time_is_a_run() {
+    realtime::main().unwrap();
+    let mut last = None;
+    realtime::ticks(500, |state, _| last = Some(*state)).unwrap();
+    let machine = lagrangian_machines::DoublePendulum::default();
+    let run = lagrangian::Simulation::new(&machine)
+        .tolerance(1e-12)
+        .until(0.5);
+    let run = run.run(machine.start()).unwrap();
+    let (found, exact) = (last.unwrap(), run.end());
+    for (found, exact) in found.q.to_array().iter().zip(exact.q.to_array()) {
+        assert!((found - exact).abs() < limit(1e-8), "{found} {exact}");
+    }
+}
+
+#[test]
+fn a_fit_finds_the_parameters_again() {
+    fit::main().unwrap();
+    let other = fit::Pendulum {
+        l: 0.93,
+        b: 0.07,
+        ..Default::default()
+    };
+    let found = fit::fit(fit::Pendulum::default(), &fit::angles(&other).unwrap()).unwrap();
+    assert!((found.l - 0.93).abs() < 1e-8 && (found.b - 0.07).abs() < 1e-8);
+}
+
+#[test]
+fn a_slip_in_an_edited_spec_has_its_place() {
+    edited_spec::main().unwrap();
+    let text =
+        "machine M in plane {\n  coordinates { x: m }\n  bodies { b { mass: 1, at: (xx, 0) } }\n}";
+    let error = edited_spec::last_angle(text, 1).unwrap_err();
+    let marks = edited_spec::marks(&error);
+    assert!(
+        marks
+            .iter()
+            .any(|(line, column, _)| (*line, *column) == (3, 30)),
+        "{marks:?}"
+    );
+}
+
+#[test]
+fn motions_part_as_machines_do() {
+    generic::main().unwrap();
+    // An oscillator of 1 rad/s: after a quarter of its period, (cos t, −sin t) of the same length.
+    let oscillator = crate::by_hand::toy::oscillator();
+    let grown = generic::parting(&oscillator, std::f64::consts::FRAC_PI_2).unwrap();
+    assert!((grown - 1.0).abs() < 1e-4, "{grown}");
+}
+
+#[test]
+fn a_method_of_ones_own_has_its_order() {
+    own_method::main().unwrap();
+    let method = own_method::three_eighths().unwrap();
+    let (exact, _) = own_method::swing(lagrangian::Method::DOP853, 1e-13).unwrap();
+    let [coarse, fine] =
+        [1e-6, 1e-9].map(|tolerance| own_method::swing(method, tolerance).unwrap());
+    assert!((fine.0 - exact).abs() < limit(1e-9));
+    // The error of a step falls as h⁴: a thousandth of it takes 1000^(1/4) = 5.6 times the steps.
+    let more = fine.1 as f64 / coarse.1 as f64;
+    assert!((4.0..7.5).contains(&more), "{more}");
+}
+
+#[test]
+fn firmware_follows_its_shaft() {
+    microcontroller::main().unwrap();
+    let machine = microcontroller::Drive::default();
+    let mut model = microcontroller::firmware::Model::new(&machine).unwrap();
+    let mut twist = 0.0;
+    for _ in 0..5000 {
+        twist = model.tick(1.0).unwrap();
+    }
+    // Both turn with 1/(J₁ + J₂); the shaft carries what the wheel takes of it.
+    let exact = machine.wheel / (machine.motor + machine.wheel) / machine.stiffness;
+    assert!((twist - exact).abs() < 1e-4, "{twist} {exact}");
+}
+
+#[test]
+fn drag_of_a_table_takes_the_energy() {
+    drag::main().unwrap();
+    let [(early, _), (late, balance)] = [5.0, 15.0].map(|t| drag::swing(t).unwrap());
+    assert!(late < early && early < 1.5);
+    assert!(balance.work < -0.01 && balance.residual().abs() < 1e-7);
 }

@@ -5,7 +5,7 @@ use crate::by_hand::constrained::{Constrained, circle, parallelogram};
 use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::toy::oscillator;
 use lagrangian::{
-    DefaultInputs, EnergyIntegrals, InputFunction, METHODS, Machine, NoBalance, Simulation,
+    DefaultInputs, EnergyIntegrals, InputFunction, METHODS, Machine, Method, NoBalance, Simulation,
     Stepper, System, Tolerance,
 };
 
@@ -151,4 +151,26 @@ fn constraints_are_kept_without_allocating() {
     assert_eq!(count(circle::<1>()), 0);
     assert_eq!(count(circle::<3>()), 0);
     assert_eq!(count(parallelogram(1.0)), 0);
+}
+
+#[test]
+fn a_loop_around_a_stepper_of_its_own_allocates_nothing() {
+    let machine = DoublePendulum::default();
+    for method in [Method::DOP853, Method::DOPRI5, Method::BS32] {
+        let count = allocations(|| {
+            let stepper = Stepper::builder(machine.prepare())
+                .method(method)
+                .tolerance(1e-8);
+            let mut stepper = stepper.start(machine.start()).unwrap();
+            for tick in 1..=1000 {
+                let mut inputs = *stepper.inputs();
+                inputs.torque = -stepper.state().v.theta1;
+                stepper.set_inputs(inputs);
+                stepper.advance_to(f64::from(tick) * 1e-3).unwrap();
+                let middle = 0.5 * (stepper.t_before() + stepper.t());
+                assert!(stepper.state_at(middle).unwrap().q.theta1.is_finite());
+            }
+        });
+        assert_eq!(count, 0, "{}", method.tableau.name);
+    }
 }

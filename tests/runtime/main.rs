@@ -1,15 +1,19 @@
 //! The runtime on systems by hand: motions, events, energy, methods, mistakes.
 
 mod accuracy;
+mod adapted;
 mod allocations;
 #[path = "../by_hand/mod.rs"]
 mod by_hand;
+mod control;
 mod energy;
 mod events;
 mod matrices;
 mod methods;
 mod mistakes;
 mod simulation;
+mod specs;
 mod stiff;
 #[path = "../support/mod.rs"]
 mod support;
+mod travel;

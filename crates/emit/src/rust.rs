@@ -45,7 +45,13 @@ pub struct Options {
     pub longest_whole: usize,
     /// The fewest steps of a function in which what repeats itself is written as a loop.
     pub shortest_rolled: usize,
+    /// Whether the structs whose fields a description names (parameters, coordinates, inputs, outputs) are marked by an
+    /// attribute, [`MARK`], in whose place the macro puts those of its user.
+    pub marks: bool,
 }
+
+/// Stands before a struct whose fields a description names, where they are marked.
+pub const MARK: &str = "fields_of_the_description";
 
 /// The fewest steps of a function in which what repeats itself is written as a loop.
 ///
@@ -61,6 +67,7 @@ impl Default for Options {
             formulas: BTreeMap::new(),
             longest_whole: super::cut::LONGEST_WHOLE,
             shortest_rolled: SHORTEST_ROLLED,
+            marks: false,
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The structs of a module: parameters, coordinates, inputs, outputs, prepared values.
 
-use super::Emitter;
 use super::docs::{field_docs, prose};
 use super::language::{number, vanishes};
 use super::types::{Group, Types, literal};
+use super::{Emitter, MARK};
 use crate::layout::Layout;
 use crate::names::{Field, flat};
 use lagrangian_program::Function;
@@ -21,6 +21,9 @@ impl Emitter<'_> {
         let f64 = self.types.known("f64");
         self.writer.gap();
         self.docs(docs);
+        if self.options.marks {
+            self.writer.line(format!("#[{MARK}]"));
+        }
         if group.is_empty() && (name == self.types.inputs || name == self.types.outputs) {
             self.writer
                 .line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");

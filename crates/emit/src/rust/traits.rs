@@ -156,13 +156,18 @@ impl Emitter<'_> {
                         field.ident
                     ),
                 )),
-                (is_family, slots) => arms.extend(slots.iter().enumerate().map(|(member, slot)| {
-                    let member = match is_family {
-                        true => format!("[{member}]"),
-                        false => String::new(),
-                    };
-                    (*slot, format!("{slot} => Some(&mut self.{}{member}),", field.ident))
-                })),
+                (is_family, slots) => {
+                    arms.extend(slots.iter().enumerate().map(|(member, slot)| {
+                        let member = match is_family {
+                            true => format!("[{member}]"),
+                            false => String::new(),
+                        };
+                        (
+                            *slot,
+                            format!("{slot} => Some(&mut self.{}{member}),", field.ident),
+                        )
+                    }))
+                }
             }
         }
         arms.sort();

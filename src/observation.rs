@@ -1,0 +1,190 @@
+//! Everything about a machine at an instant of a run.
+
+use std::vec;
+use std::vec::Vec;
+
+use crate::constraints::Constraints;
+use crate::contact::Touching;
+use crate::friction::{ContactForce, Contacts};
+use crate::inputs::{Held, InputLaw};
+use crate::step_error::StepError;
+use crate::stepper::{Stepper, accelerations};
+use crate::{
+    Coordinates, Error, Inputs, Machine, Outputs, Quadratures, State, System, UnilateralForce,
+    Vector,
+};
+
+/// Everything about a machine at an instant.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Observation<M: Machine> {
+    /// Time, in s.
+    pub t: f64,
+    /// Coordinates.
+    pub q: Coordinates<M>,
+    /// Rates.
+    pub v: Coordinates<M>,
+    /// Accelerations.
+    pub a: Coordinates<M>,
+    /// Inputs.
+    pub inputs: Inputs<M>,
+    /// Outputs.
+    pub outputs: Outputs<M>,
+    /// Multipliers of the constraints, in their order: those of least norm where constraints depend
+    /// on each other.
+    pub multipliers: Vec<f64>,
+    /// The contacts that stick and slide, in their order.
+    pub contacts: Vec<ContactForce>,
+    /// The unilateral contacts, in their order.
+    pub unilateral: Vec<UnilateralForce>,
+    /// Kinetic energy, in J.
+    pub kinetic_energy: f64,
+    /// Potential energy, in J.
+    pub potential_energy: f64,
+}
+
+/// What a run knows of constraints and contacts at an instant: which rows are kept, what sticks and what is closed.
+pub(crate) struct Known<'x, V> {
+    pub constraints: &'x Option<Constraints<V>>,
+    pub contacts: Option<&'x Contacts>,
+    pub touching: Option<&'x Touching>,
+}
+
+/// A system with the law of its inputs: what can be seen of it as a run goes.
+pub(crate) struct Sight<'r, S: System, L> {
+    pub system: &'r S,
+    pub law: Held<'r, L, S::Inputs>,
+}
+
+impl<S: System, L: InputLaw<S>> Sight<'_, S, L> {
+    pub fn inputs(&self, t: f64, q: &S::Vector, v: &S::Vector) -> S::Inputs {
+        let mut inputs = self.system.default_inputs();
+        self.law.set(self.system, t, q, v, &mut inputs);
+        inputs
+    }
+
+    /// Everything about the machine in a state within the last step.
+    pub fn observe<M: Machine<System = S>, A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        state: &State<S::Coordinates>,
+    ) -> Result<Observation<M>, Error> {
+        let known = Known {
+            constraints: stepper.constraints(),
+            contacts: stepper.contacts().as_ref(),
+            touching: stepper.touching().as_ref(),
+        };
+        let (q, v) = (
+            self.system.to_vector(&state.q),
+            self.system.to_vector(&state.v),
+        );
+        known.observe::<M>(self.system, state, self.inputs(state.t, &q, &v))
+    }
+}
+
+/// Time, coordinates, rates and inputs.
+type At<'x, S> = (
+    f64,
+    &'x <S as System>::Vector,
+    &'x <S as System>::Vector,
+    &'x <S as System>::Inputs,
+);
+
+impl<V: Vector> Known<'_, V> {
+    /// The accelerations at a state, as the run finds them.
+    pub fn accelerations<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+        a: &mut V,
+    ) -> Result<(), StepError> {
+        let (t, q, v, u) = at;
+        if let Some(touching) = self.touching {
+            return touching.accelerations(system, at, a);
+        }
+        match self.constraints {
+            Some(known) if known.redundant => {
+                let mut known = known.clone();
+                known.choose_as_many(system, t, q)?;
+                known.accelerations(system, t, q, v, u, a)
+            }
+            known => accelerations(system, (known, &self.contacts.cloned()), at, a),
+        }
+    }
+
+    fn multipliers<S: System<Vector = V>>(
+        &self,
+        system: &S,
+        at: At<'_, S>,
+    ) -> Result<Vec<f64>, StepError> {
+        let (t, q, v, u) = at;
+        if let Some(touching) = self.touching {
+            return touching.multipliers(system, at);
+        }
+        let mut multipliers = vec![0.0; system.constraints().len()];
+        match self.constraints {
+            None => {}
+            Some(known) if known.redundant => {
+                let mut known = known.clone();
+                known.choose_as_many(system, t, q)?;
+                known.multipliers(system, t, q, v, u, &mut multipliers)?;
+            }
+            Some(_) => system
+                .multipliers(t, q, v, u, &mut multipliers)
+                .map_err(|singular| StepError::Singular { singular, t })?,
+        }
+        Ok(multipliers)
+    }
+
+    /// Everything about the machine in a state.
+    pub fn observe<M: Machine<System: System<Vector = V>>>(
+        &self,
+        system: &M::System,
+        state: &State<Coordinates<M>>,
+        inputs: Inputs<M>,
+    ) -> Result<Observation<M>, Error> {
+        self.found::<M>(system, state, inputs)
+            .map_err(|error| Error::of_step(error, system))
+    }
+
+    fn found<M: Machine<System: System<Vector = V>>>(
+        &self,
+        system: &M::System,
+        state: &State<Coordinates<M>>,
+        u: Inputs<M>,
+    ) -> Result<Observation<M>, StepError> {
+        let t = state.t;
+        let (q, v) = (system.to_vector(&state.q), system.to_vector(&state.v));
+        let mut a = q.zeros_like();
+        let at = (t, &q, &v, &u);
+        self.accelerations(system, at, &mut a)?;
+        let (multipliers, contacts) = match self.contacts {
+            None => (self.multipliers(system, at)?, Vec::new()),
+            Some(known) => {
+                let mut multipliers = vec![0.0; system.constraints().len()];
+                let mut forces = vec![ContactForce::default(); system.contacts().len()];
+                known
+                    .forces(system, at, &mut multipliers, &mut forces)
+                    .map_err(|singular| StepError::Singular { singular, t })?;
+                (multipliers, forces)
+            }
+        };
+        let unilateral = match self.touching {
+            None => Vec::new(),
+            Some(touching) => touching.forces(system, at, &mut a)?,
+        };
+        Ok(Observation {
+            t,
+            multipliers,
+            contacts,
+            unilateral,
+            q: state.q.clone(),
+            v: state.v.clone(),
+            a: system.to_coordinates(&a),
+            outputs: system.outputs(t, &q, &v, &a, &u),
+            kinetic_energy: system.kinetic_energy(t, &q, &v),
+            potential_energy: system.potential_energy(t, &q, &u),
+            inputs: u,
+        })
+    }
+}

@@ -1,0 +1,108 @@
+//! Specs that are read while the program runs.
+#![cfg(feature = "interpreter")]
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Error, Machine, Simulation, TAYLOR};
+
+const CHAIN: &str = "machine Chain in plane {
+    constants { N = 2 }
+    parameters { m: kg = 1, l: m = 0.5, g: m/s^2 = 9.81 }
+    coordinates { theta[1..N]: rad = 0.5 }
+    frames { end[0] = ground, end[i in 1..N] = end[i-1].shift(l*sin(theta[i]), -l*cos(theta[i])) }
+    bodies { ball[i in 1..N] { mass: m, at: end[i].origin } }
+    gravity (0, -g);
+}";
+
+#[test]
+fn a_text_is_read_with_its_constants() {
+    let chain = InterpretedMachine::from_text(CHAIN)
+        .constant("N", 5)
+        .build()
+        .unwrap();
+    assert_eq!(chain.program().dimension(), 5);
+    for wrong in [f64::NAN, f64::INFINITY] {
+        let error = InterpretedMachine::from_text(CHAIN)
+            .constant("N", wrong)
+            .build();
+        let Err(Error::Spec { diagnostics, .. }) = error else {
+            panic!("{wrong} is no constant");
+        };
+        assert_eq!(diagnostics[0].code, "number-out-of-range");
+    }
+    let error = InterpretedMachine::from_text(CHAIN)
+        .constant("n", 5)
+        .build()
+        .unwrap_err();
+    assert!(error.to_string().contains("did you mean `N`?"), "{error}");
+}
+
+#[test]
+fn a_file_is_read_as_the_library_has_it() {
+    let crusher = InterpretedMachine::from_file("machines/vibrating_crusher.machine").unwrap();
+    let compiled = lagrangian_machines::VibratingCrusher::default();
+    let run = Simulation::new(&crusher)
+        .until(0.05)
+        .run(crusher.start())
+        .unwrap();
+    let same = Simulation::new(&compiled)
+        .until(0.05)
+        .run(compiled.start())
+        .unwrap();
+    assert_eq!(run.end().q.values, same.end().q.to_array());
+}
+
+#[test]
+fn everything_wrong_with_a_text_has_its_place() {
+    let text = CHAIN
+        .replace("l*sin(", "l*sine(")
+        .replace("mass: m,", "mas: m,");
+    let Err(Error::Spec {
+        diagnostics,
+        omitted,
+    }) = InterpretedMachine::from_text(text)
+        .named("chain.machine")
+        .build()
+    else {
+        panic!("two words are wrong");
+    };
+    let told: Vec<_> = diagnostics
+        .iter()
+        .map(|of| {
+            (
+                of.code.as_str(),
+                of.file.as_str(),
+                of.line,
+                of.words.as_str(),
+            )
+        })
+        .collect();
+    assert!(
+        told.contains(&("unknown-function", "chain.machine", 5, "sine")),
+        "{told:?}"
+    );
+    assert!(
+        told.contains(&("unknown-field", "chain.machine", 6, "mas")),
+        "{told:?}"
+    );
+    let sine = &diagnostics[told.iter().position(|of| of.3 == "sine").unwrap()];
+    // `    frames { end[0] = ground, end[i in 1..N] = end[i-1].shift(l*` stands before it.
+    assert_eq!(sine.column, 65);
+    assert_eq!(omitted, 0);
+    let error = InterpretedMachine::from_file("machines/nowhere.machine").unwrap_err();
+    assert!(error.to_string().contains("unreadable-file"), "{error}");
+}
+
+#[test]
+fn what_a_caller_needs_is_one_error() {
+    fn runs() -> Result<f64, Error> {
+        let mut chain = InterpretedMachine::from_text(CHAIN).with_series().build()?;
+        chain.set("l", 0.25)?;
+        chain.check_parameters()?;
+        let run = Simulation::new(&chain).method(&TAYLOR).until(1.0);
+        Ok(run.run(chain.start())?.end().t)
+    }
+    assert_eq!(runs(), Ok(1.0));
+    let mut chain = InterpretedMachine::from_text(CHAIN).build().unwrap();
+    let unknown = chain.set("L", 1.0).unwrap_err();
+    assert_eq!(unknown.near.as_deref(), Some("l"));
+}
