@@ -540,7 +540,7 @@ fn gains(terrain: &impl Terrain, q: &[f64]) -> Vec<[f64; 2]> {
     let n = q.len();
     let gain = |k: usize| {
         let mut v = std::vec![0.0; n];
-        v[k / 2] = if k % 2 == 0 { 1.0 } else { -1.0 };
+        v[k / 2] = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         let [moving, rest] =
             [v.clone(), std::vec![0.0; n]].map(|rate| dot(&terrain.resistance(q, &rate), &v));
         let inertia = terrain.inertia(&dual(q, &v));

@@ -30,7 +30,13 @@ impl Terrain for Particle {
     }
     fn inertia<N: Scalar>(&self, _: &[N]) -> Vec<N> {
         let n = self.dimension;
-        let entry = |k: usize| if k % (n + 1) == 0 { N::ONE } else { N::ZERO };
+        let entry = |k: usize| {
+            if k.is_multiple_of(n + 1) {
+                N::ONE
+            } else {
+                N::ZERO
+            }
+        };
         (0..n * n).map(entry).collect()
     }
     fn resistance<N: Scalar>(&self, q: &[N], v: &[N]) -> Vec<N> {
