@@ -1,7 +1,6 @@
 //! How do I design a controller and run it as a computer does? A pole on a cart, held by a linear-quadratic regulator at 50 Hz.
 use lagrangian::{Error, Sensitive, Simulation};
 use std::array::from_fn;
-
 lagrangian::machine! {
     /// A pole, hinged to a cart that a motor pushes; the angle is measured from the upward vertical.
     machine Balancer in plane {
