@@ -4,6 +4,7 @@
 //! open      g > 0,  λ = 0
 //! closed    g = 0,  0 ≤ λₙ ⊥ dγₙ/dt ≥ 0,  −λₜ ∈ μ λₙ Sgn γₜ,  at rest −λₜ ∈ μ₀ λₙ Sgn dγₜ/dt
 //! impact    M (v⁺ − v⁻) = Σ wₙ Λₙ + Σ wₜ Λₜ + Gᵀ Λ_G,  and a law of impact
+//! yielding  g < 0,  λₙ = N(−g, −γₙ) ≥ 0,  friction as above
 //! ```
 //!
 //! A machine says how far its contacts are open, at which rates `γ` they open and slip, and how these depend on
@@ -11,49 +12,72 @@
 //! slips and what sticks is a state of the run: between two events it stays as it is, the motion is smooth, and
 //! closed contacts are further constraints, kept as those of the machine are. Where a gap closes, a force vanishes,
 //! or a slip stops, all closed contacts are asked together, by a linear complementarity problem that is solved by
-//! pivoting ([`lcp`]). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
+//! pivoting (`lcp`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
 //! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
 
 #[cfg(feature = "std")]
-mod delassus;
-#[cfg(feature = "std")]
-mod force;
-#[cfg(feature = "std")]
-mod held;
-#[cfg(feature = "std")]
-mod impact;
-#[cfg(feature = "std")]
-pub(crate) mod lcp;
-#[cfg(feature = "std")]
-mod problem;
-#[cfg(feature = "std")]
-mod routh;
-#[cfg(feature = "std")]
-mod touching;
+mod nonsmooth;
 
 #[cfg(feature = "std")]
-mod event;
-
+pub use nonsmooth::{
+    ContactEvent, ContactEventKind, ContactImpact, UnilateralForce, unilateral_forces,
+};
 #[cfg(feature = "std")]
-pub use event::{ContactEvent, ContactEventKind, ContactImpact};
-#[cfg(feature = "std")]
-pub use force::{UnilateralForce, unilateral_forces};
-#[cfg(feature = "std")]
-pub(crate) use held::Held;
-#[cfg(feature = "std")]
-pub(crate) use impact::Impact;
-#[cfg(feature = "std")]
-pub(crate) use touching::{Mode, Touching};
+pub(crate) use nonsmooth::{Impact, Jam, Mode, Touching};
 
 /// A unilateral contact of a machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnilateralContact<'a> {
     /// The name in the description.
     pub name: &'a str,
-    /// How it bounces.
+    /// How it bounces, if it does.
     pub law: ImpactLaw,
+    /// Whether with the others or one after the other.
+    pub order: ImpactOrder,
+    /// What becomes of it where its friction leaves no motion.
+    pub painleve: Painleve,
+    /// By which law it presses, if it yields.
+    pub compliance: Option<Compliance>,
     /// Whether there is friction; without it the slip is 0.
     pub rubs: bool,
+}
+
+/// Whether contacts that are closed take part in one impact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactOrder {
+    /// All at once.
+    #[default]
+    AtOnce,
+    /// One after the other, the one that closes fastest first, until none closes.
+    Sequence,
+}
+
+/// What becomes of a contact whose friction leaves no motion: P. Painlevé's paradox.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Painleve {
+    /// The run ends.
+    #[default]
+    Error,
+    /// An impact without a collision, along Routh's path, ends the slip: the contact sticks or opens. Where it could
+    /// open as well as be pressed, it opens. (F. Génot, B. Brogliato, Eur. J. Mech. A 18 (1999) 653–677.)
+    Impact,
+}
+
+/// The force in a contact that yields, of the depth `d` of its penetration and of how fast that grows. It is never
+/// negative: where it would be the contact opens. Its two parameters stand in the place of the coefficients of
+/// restitution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compliance {
+    /// `k d + b ḋ`, of a stiffness in N/m and a damping coefficient in N s/m.
+    Linear,
+    /// `K d^(3/2)`, of a stiffness in N/m^(3/2).
+    Hertz,
+    /// `K d^(3/2) (1 + c ḋ)`, of a stiffness in N/m^(3/2) and a damping in s/m. (K. H. Hunt, F. R. E. Crossley, J. Appl.
+    /// Mech. 42 (1975) 440–445.)
+    HuntCrossley,
+    /// `k₁ d` where the layer is pressed for the first time; along `k₂` back and up again to the greatest depth `d*` so
+    /// far, so that a thickness of `d* (1 − k₁/k₂)` is lost. (O. R. Walton, R. L. Braun, J. Rheol. 30 (1986) 949–980.)
+    Layer,
 }
 
 /// How rates after an impact follow from those before it. `e` and `eₜ` are the coefficients of restitution along

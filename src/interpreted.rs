@@ -28,9 +28,9 @@ pub use engine::{Engine, NoMachineCode};
 pub use reading::{Diagnostic, Note, Reading};
 
 use crate::{
-    Assumption, Constraint, Differentiate, ImpactLaw, Linearize, Machine, Number, Pivot, Quantity,
-    Singular, Staged, State, System, UnilateralContact, accelerations_with_friction,
-    multipliers_with_friction,
+    Assumption, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Linearize, Machine,
+    Number, Painleve, Pivot, Quantity, Singular, Staged, State, System, UnilateralContact,
+    accelerations_with_friction, multipliers_with_friction,
 };
 
 /// A machine whose equations are interpreted, with the values of its parameters.
@@ -611,6 +611,20 @@ impl System for InterpretedSystem {
                     model::ImpactLaw::PoissonGlocker => ImpactLaw::PoissonGlocker,
                     model::ImpactLaw::Stronge => ImpactLaw::Stronge,
                 },
+                order: match contact.order {
+                    model::ImpactOrder::AtOnce => ImpactOrder::AtOnce,
+                    model::ImpactOrder::Sequence => ImpactOrder::Sequence,
+                },
+                painleve: match contact.painleve {
+                    model::Painleve::Error => Painleve::Error,
+                    model::Painleve::Impact => Painleve::Impact,
+                },
+                compliance: contact.compliance.map(|law| match law {
+                    model::Compliance::Linear => Compliance::Linear,
+                    model::Compliance::Hertz => Compliance::Hertz,
+                    model::Compliance::HuntCrossley => Compliance::HuntCrossley,
+                    model::Compliance::Layer => Compliance::Layer,
+                }),
                 rubs: contact.rubs,
             })
     }

@@ -108,7 +108,9 @@ mod solution;
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
-pub use contact::{ContactTrouble, ImpactLaw, UnilateralContact};
+pub use contact::{
+    Compliance, ContactTrouble, ImpactLaw, ImpactOrder, Painleve, UnilateralContact,
+};
 pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,

@@ -39,7 +39,7 @@ pub struct Observation<M: Machine> {
     pub unilateral: Vec<UnilateralForce>,
     /// Kinetic energy, in J.
     pub kinetic_energy: f64,
-    /// Potential energy, in J.
+    /// Potential energy, in J, with what contacts that yield hold.
     pub potential_energy: f64,
 }
 
@@ -173,6 +173,7 @@ impl<V: Vector> Known<'_, V> {
             None => Vec::new(),
             Some(touching) => touching.forces(system, at, &mut a)?,
         };
+        let stored = (self.touching).map_or(0.0, |touching| touching.stored(system, t, &q, &v));
         Ok(Observation {
             t,
             multipliers,
@@ -183,7 +184,7 @@ impl<V: Vector> Known<'_, V> {
             a: system.to_coordinates(&a),
             outputs: system.outputs(t, &q, &v, &a, &u),
             kinetic_energy: system.kinetic_energy(t, &q, &v),
-            potential_energy: system.potential_energy(t, &q, &u),
+            potential_energy: system.potential_energy(t, &q, &u) + stored,
             inputs: u,
         })
     }

@@ -686,7 +686,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             dissipated: integrals.dissipated(),
         };
         record.explained.take(model.system, stepper, &energies);
-        record.energies.push(energies);
+        let stored = (stepper.touching().as_ref())
+            .map_or(0.0, |touching| touching.stored(model.system, t, q, v));
+        record.energies.push(Energies {
+            potential: energies.potential + stored,
+            ..energies
+        });
     }
 
     fn shall_stop(&mut self) -> bool {

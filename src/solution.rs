@@ -364,6 +364,12 @@ impl<M: Machine, L> Solution<M, L> {
         phases.get(after.saturating_sub(1))
     }
 
+    /// What unilateral contacts that yield hold, in J.
+    fn stored(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> f64 {
+        let phase = self.phase_at(t);
+        phase.map_or(0.0, |phase| phase.touching.stored(&self.system, t, q, v))
+    }
+
     /// Which unilateral contacts are closed at a time within the run, in their order.
     pub fn closed_contacts(&self, t: f64) -> Vec<bool> {
         let modes = self.phase_at(t).map(|phase| phase.touching.modes());
@@ -374,6 +380,16 @@ impl<M: Machine, L> Solution<M, L> {
     /// For each unilateral contact the energy that its impacts took, in J.
     pub fn impact_losses(&self) -> &[f64] {
         &self.unilateral.losses
+    }
+
+    /// For each unilateral contact the work that has crushed its layer until the end, in J; 0 of those without.
+    pub fn crushing_work(&self) -> Vec<f64> {
+        let Some(phase) = self.unilateral.phases.last() else {
+            return Vec::new();
+        };
+        let system = &self.system;
+        let [q, v] = [&self.end.q, &self.end.v].map(|of| system.to_vector(of));
+        (phase.touching).crushing_works(system, (self.end.t, &q, &v))
     }
 
     /// Where the energy went, if the simulation was told to keep the balance.
@@ -487,7 +503,7 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
         let mut energies = Energies {
             t,
             kinetic: run.system.kinetic_energy(t, &q, &v),
-            potential: run.system.potential_energy(t, &q, &u),
+            potential: run.system.potential_energy(t, &q, &u) + run.stored(t, &q, &v),
             ..*before
         };
         // In parts, where the motion within a step is of a higher degree.

@@ -468,8 +468,8 @@ pub trait System {
     #[inline(always)]
     fn contact_drift(&self, _t: f64, _q: &Self::Vector, _v: &Self::Vector, _drift: &mut [f64]) {}
 
-    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, friction
-    /// of what slips and of what sticks.
+    /// For each unilateral contact its coefficients: restitution along the normal and along the tangent, or the
+    /// parameters of its [`Compliance`](crate::Compliance); friction of what slips and of what sticks.
     #[inline(always)]
     fn contact_coefficients(
         &self,

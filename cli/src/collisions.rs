@@ -1,7 +1,7 @@
 //! What runs tell of unilateral contacts: impacts, what closes, lifts, slips and sticks, and where energy went.
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
-use lagrangian::{ContactEvent, ContactEventKind, Event, System, unilateral_forces};
+use lagrangian::{Compliance, ContactEvent, ContactEventKind, Event, System, unilateral_forces};
 use serde_json::{Value, json};
 
 use crate::numbers::{by_name, shortest};
@@ -12,6 +12,9 @@ struct Account {
     name: String,
     impacts: usize,
     loss: f64,
+    /// Whether it yields, and the work that has crushed its layer, if it is one.
+    yields: bool,
+    crushing_work: Option<f64>,
     /// When it closed last, with by how much that time may be off, and whether it is closed at the end.
     closed_at: Option<(f64, f64)>,
     is_closed: bool,
@@ -19,6 +22,7 @@ struct Account {
 
 fn accounts(run: &Run) -> Vec<Account> {
     let closed = run.closed_contacts(run.end().t);
+    let crushing = run.crushing_work();
     let contacts = run.system().unilateral_contacts().enumerate();
     let of_contact = |(k, contact): (usize, lagrangian::UnilateralContact<'_>)| {
         let own = || {
@@ -32,6 +36,9 @@ fn accounts(run: &Run) -> Vec<Account> {
             name: contact.name.to_owned(),
             impacts: of_kind(ContactEventKind::Impact).count(),
             loss: run.impact_losses().get(k).copied().unwrap_or(0.0),
+            yields: contact.compliance.is_some(),
+            crushing_work: (contact.compliance == Some(Compliance::Layer))
+                .then(|| crushing.get(k).copied().unwrap_or(0.0)),
             closed_at: closes.map(|event| (event.state.t, event.time_error)),
             is_closed: closed.get(k).copied().unwrap_or(false),
         }
@@ -44,8 +51,7 @@ pub fn is_of_contact(run: &Run, event: &Event<Named>) -> bool {
     let Some((contact, word)) = event.name.rsplit_once(' ') else {
         return false;
     };
-    use ContactEventKind::{Closes, Impact, Lifts, Reverses, Slips, Sticks};
-    let mut kinds = [Impact, Closes, Lifts, Sticks, Slips, Reverses].into_iter();
+    let mut kinds = ContactEventKind::ALL.into_iter();
     let mut contacts = run.system().unilateral_contacts();
     kinds.any(|kind| kind.word() == word) && contacts.any(|known| known.name == contact)
 }
@@ -57,11 +63,15 @@ pub fn lines(run: &Run) -> Vec<String> {
             name,
             impacts,
             loss,
+            yields,
+            crushing_work,
             closed_at,
             is_closed,
         } = account;
-        let mut line = match impacts {
-            1 => format!("{name}: 1 impact, which took {loss:.6e} J"),
+        let mut line = match (impacts, crushing_work) {
+            (_, Some(work)) => format!("{name}: crushed by {work:.6e} J"),
+            _ if yields => format!("{name}: yields"),
+            (1, _) => format!("{name}: 1 impact, which took {loss:.6e} J"),
             _ => format!("{name}: {impacts} impacts, which took {loss:.6e} J"),
         };
         if let Some((t, error)) = closed_at {
@@ -84,26 +94,40 @@ pub fn fields(run: &Run) -> Vec<(&'static str, Value)> {
     if run.system().unilateral_contacts().len() == 0 {
         return Vec::new();
     }
-    let accounts: Vec<Value> = accounts(run)
+    let accounts = accounts(run);
+    let crushing: Vec<f64> = accounts.iter().filter_map(|a| a.crushing_work).collect();
+    let accounts: Vec<Value> = accounts
         .into_iter()
         .map(|account| {
-            json!({
+            let mut document = json!({
                 "name": account.name,
                 "impacts": account.impacts,
                 "impact_loss": account.loss,
                 "closed_at": account.closed_at.map(|(t, _)| t),
                 "closed_at_error": account.closed_at.map(|(_, error)| error),
                 "closed": account.is_closed,
-            })
+            });
+            if let (Some(work), Value::Object(fields)) = (account.crushing_work, &mut document) {
+                fields.insert("crushing_work".into(), work.into());
+            }
+            document
         })
         .collect();
     let lost: f64 = run.impact_losses().iter().sum();
     let events = run.contact_events().iter().map(event);
-    vec![
+    let mut fields = vec![
         ("contact_events", events.collect()),
         ("unilateral_contacts", accounts.into()),
         ("impact_loss", lost.into()),
-    ]
+    ];
+    if let Some(balance) = run.energy_balance() {
+        fields.push(("work", balance.work.into()));
+        fields.push(("dissipated", balance.dissipated.into()));
+    }
+    if !crushing.is_empty() {
+        fields.push(("crushing_work", crushing.iter().sum::<f64>().into()));
+    }
+    fields
 }
 
 fn event(event: &ContactEvent<Named>) -> Value {

@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Ending, Energies, Error, Machine, Simulation, System, Warning};
+use lagrangian::{Compliance, Ending, Energies, Error, Machine, Simulation, System, Warning};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_symbolic::Dag;
@@ -358,16 +358,23 @@ pub fn record(run: &Run) -> Recording {
         ] {
             column(format!("{what}({name})"), unit.into(), Kind::Contact);
         }
+        if contact.compliance == Some(Compliance::Layer) {
+            column(format!("crushing({name})"), "J".into(), Kind::Contact);
+        }
     }
     for name in ["kinetic energy", "potential energy", "total energy"] {
         column(name.into(), "J".into(), Kind::Energy);
     }
     column("energy residual".into(), "J".into(), Kind::Residual);
 
+    let is_layer: Vec<bool> = (system.unilateral_contacts())
+        .map(|contact| contact.compliance == Some(Compliance::Layer))
+        .collect();
     let unknown = |count: usize| vec![f64::NAN; count];
     let reactions = system.constraints().len()
         + 3 * system.contacts().len()
-        + 4 * system.unilateral_contacts().len();
+        + 4 * system.unilateral_contacts().len()
+        + is_layer.iter().filter(|is_layer| **is_layer).count();
     for state in states {
         // Where a run ends early there may be no accelerations, and then nothing that is made from them.
         let (outputs, reactions, energies) = match run.observe_state(state) {
@@ -377,7 +384,12 @@ pub fn record(run: &Run) -> Recording {
                 let contacts = seen.contacts.iter();
                 let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
                 let unilateral = seen.unilateral.iter();
-                let unilateral = unilateral.flat_map(|c| [c.gap, c.normal, c.friction, c.slip]);
+                let unilateral = unilateral.zip(&is_layer).flat_map(|(c, is_layer)| {
+                    let crushing = is_layer.then_some(c.crushing_work);
+                    [c.gap, c.normal, c.friction, c.slip]
+                        .into_iter()
+                        .chain(crushing)
+                });
                 let reactions = seen.multipliers.iter().copied().chain(contacts);
                 let reactions = reactions.chain(unilateral);
                 (seen.outputs.values, reactions.collect(), energies)

@@ -16,7 +16,7 @@ use lagrangian_symbolic::{Dag, Expr};
 use crate::source::Span;
 use crate::syntax::SectionKind;
 use crate::unit::Unit;
-pub use crate::unit::{ImpactLaw, Name, Stages, Variable};
+pub use crate::unit::{Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Variable};
 
 pub mod bounds;
 pub mod circles;
@@ -391,6 +391,9 @@ pub enum Surface {
     Along(PoseId),
 }
 
+/// The most unilateral contacts of a machine.
+pub const MOST_UNILATERAL: usize = 250;
+
 /// A unilateral contact: gap ≥ 0.
 #[derive(Clone)]
 pub struct Contact<'d> {
@@ -398,18 +401,79 @@ pub struct Contact<'d> {
     pub name: Name,
     /// Which circles, or the gap and the slip velocity in terms of coordinates.
     pub geometry: ContactGeometry<'d>,
-    /// Coefficient of restitution, along the normal.
-    pub restitution: Expr<'d>,
-    /// Coefficient of restitution of the slip; 0 where nothing is said.
-    pub tangential_restitution: Expr<'d>,
+    /// What it does where its gap closes.
+    pub response: Response<'d>,
     /// Coefficient of friction; none where there is no friction at all.
     pub friction: Option<Expr<'d>>,
     /// Coefficient of friction of what sticks, where it is another.
     pub static_friction: Option<Expr<'d>>,
-    /// How it bounces.
-    pub law: ImpactLaw,
     /// Its name in the spec.
     pub span: Span,
+}
+
+/// What a contact does where its gap closes.
+#[derive(Clone, Copy)]
+pub enum Response<'d> {
+    /// The gap stays ≥ 0: there is an impact.
+    Rigid {
+        /// How it bounces.
+        law: ImpactLaw,
+        /// Whether with the others or one after the other.
+        order: ImpactOrder,
+        /// What becomes of it where its friction leaves no motion.
+        painleve: Painleve,
+        /// Coefficients of restitution along the normal and along the tangent, 0 there where nothing is said.
+        restitution: [Expr<'d>; 2],
+    },
+    /// It yields, and presses by a law of force.
+    Compliant {
+        /// The law.
+        law: Compliance,
+        /// Its parameters, in SI units; 0 where it has but one.
+        parameters: [Expr<'d>; 2],
+    },
+}
+
+impl<'d> Response<'d> {
+    /// Its two numbers: coefficients of restitution, or parameters of a law of force.
+    pub fn coefficients(self) -> [Expr<'d>; 2] {
+        match self {
+            Response::Rigid { restitution, .. } => restitution,
+            Response::Compliant { parameters, .. } => parameters,
+        }
+    }
+
+    /// How it bounces, if it does.
+    pub fn impact_law(self) -> Option<ImpactLaw> {
+        match self {
+            Response::Rigid { law, .. } => Some(law),
+            Response::Compliant { .. } => None,
+        }
+    }
+
+    /// In which order it bounces with others, if it does.
+    pub fn order(self) -> Option<ImpactOrder> {
+        match self {
+            Response::Rigid { order, .. } => Some(order),
+            Response::Compliant { .. } => None,
+        }
+    }
+
+    /// What becomes of it where its friction leaves no motion.
+    pub fn painleve(self) -> Painleve {
+        match self {
+            Response::Rigid { painleve, .. } => painleve,
+            Response::Compliant { .. } => Painleve::Error,
+        }
+    }
+
+    /// By which law it presses, if it yields.
+    pub fn compliance(self) -> Option<Compliance> {
+        match self {
+            Response::Rigid { .. } => None,
+            Response::Compliant { law, .. } => Some(law),
+        }
+    }
 }
 
 /// How a contact is given.

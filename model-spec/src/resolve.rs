@@ -241,7 +241,8 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();
         let elements = self.elements(layers);
         let circles = self.each(Circles, Self::circle);
-        let contacts = self.each(Contacts, Self::contact);
+        let contacts = self.each(Contacts, Self::contacts);
+        let contacts = contacts.into_iter().flatten().collect();
         let approximations = self.each(Approximations, |resolver, member| {
             Some(resolver.approximation(member))
         });

@@ -132,11 +132,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 && meeting.corrected < CORRECTIONS
             {
                 let (t, q, v) = (self.stepper.t(), self.stepper.q(), self.stepper.v());
-                let [gap, rate] = gap_and_rate(self.model.system, (t, q, v), contact);
+                let Some(touching) = self.stepper.touching() else {
+                    return Ok(Next::Keep);
+                };
+                let near = touching.clearances(self.model.system, (t, q, v))[contact];
+                let (gap, rate) = (near.value, near.rate);
                 let next = t - gap / rate;
                 let correction = (next - t).abs();
                 let from = self.stepper.t_before();
-                let is_within = next > from && correction < 0.5 * (t - from);
+                let is_within = near.is_of_gap && next > from && correction < 0.5 * (t - from);
                 if is_within && correction > f64::EPSILON * t.abs() {
                     meeting.corrected += 1;
                     self.stepper.retreat(next);
@@ -267,11 +271,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.note_gains(&happened.impacts, t);
         for (contact, (before, after)) in happened.before.iter().zip(&happened.after).enumerate() {
-            use ContactEventKind::{Closes, Lifts, Reverses, Slips, Sticks};
+            use ContactEventKind::{Closes, Lifts, Opens, Reverses, Slips, Sticks};
             let (kind, direction) = match (*before, *after) {
                 (Mode::Open, Mode::Open) => continue,
                 (Mode::Open, _) if at_start => continue,
                 (Mode::Open, _) => (Closes, 0.0),
+                (_, Mode::Open) if self.yields(contact) => (Opens, 0.0),
                 (_, Mode::Open) => (Lifts, 0.0),
                 (Mode::Slides(from), Mode::Slides(to)) if from != to => (Reverses, to),
                 (Mode::Slides(from), Mode::Sticks) if from != 0.0 => (Sticks, 0.0),
@@ -279,6 +284,16 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 _ => continue,
             };
             told.push((contact, kind, direction, None));
+        }
+        for &(contact, is_loaded) in &happened.turned {
+            let [before, after] = [&happened.before, &happened.after].map(|of| of[contact]);
+            if before != Mode::Open && after != Mode::Open {
+                let kind = match is_loaded {
+                    true => ContactEventKind::Crushes,
+                    false => ContactEventKind::Turns,
+                };
+                told.push((contact, kind, 0.0, None));
+            }
         }
         let shared = happened.lost_at_end / happened.ended.len().max(1) as f64;
         for (contact, _) in &happened.ended {
@@ -295,7 +310,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             self.record.events.push(Event {
                 name: std::format!("{} {}", names[contact], kind.word()),
                 crossing: match kind {
-                    ContactEventKind::Lifts | ContactEventKind::Slips => Crossing::Rising,
+                    ContactEventKind::Lifts | ContactEventKind::Opens | ContactEventKind::Slips => {
+                        Crossing::Rising
+                    }
                     _ => Crossing::Falling,
                 },
                 state: state.clone(),
@@ -309,6 +326,11 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 impact,
             });
         }
+    }
+
+    fn yields(&self, contact: usize) -> bool {
+        let mut contacts = self.model.system.unilateral_contacts();
+        (contacts.nth(contact)).is_some_and(|contact| contact.compliance.is_some())
     }
 
     /// Notes impacts that have created energy beyond rounding.
@@ -380,15 +402,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             stepper.q_before().clone(),
             stepper.v_before().clone(),
         );
-        let mut before = gaps_and_rates(system, &beginning);
+        let clearances = |(t, q, v): &Triple<VectorOf<M>>| touching.clearances(system, (*t, q, v));
+        let mut before = clearances(&beginning);
         let mut theta_before = 0.0;
         for theta in event::LOOKS {
             let looked = event::interpolated_at(stepper, theta);
-            let now = gaps_and_rates(system, &looked);
+            let now = clearances(&looked);
             let mut earliest: Option<(f64, Cause, Option<usize>)> = None;
             for (k, mode) in touching.modes().iter().enumerate() {
-                let ([_, from], [gap, to]) = (before[k], now[k]);
-                if *mode != Mode::Open || !(gap < 0.0 || (from < 0.0 && to > 0.0)) {
+                let (from, to) = (before[k], now[k]);
+                let comes_near = from.rate < 0.0 && to.rate > 0.0;
+                if *mode != Mode::Open || !(to.value < 0.0 || comes_near) {
                     continue;
                 }
                 let interpolant = made(interpolant, stepper, system)?;
@@ -397,12 +421,22 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         true => beginning.clone(),
                         false => event::state_at(system, stepper, interpolant, theta)?,
                     };
-                    Ok(gap_and_rate(system, (t, &q, &v), k))
+                    let near = touching.clearances(system, (t, &q, &v))[k];
+                    Ok([near.value, near.rate])
                 };
-                if let Some(found) = closing([theta_before, theta], roundoff, at)?
+                let yields = touching.yields(k);
+                let found = match yields {
+                    true => pressing([theta_before, theta], roundoff, at)?,
+                    false => closing([theta_before, theta], roundoff, at)?,
+                };
+                if let Some(found) = found
                     && earliest.is_none_or(|(known, ..)| found < known)
                 {
-                    earliest = Some((found, Cause::Asked, Some(k)));
+                    let cause = match yields {
+                        true => Cause::Presses(k),
+                        false => Cause::Asked,
+                    };
+                    earliest = Some((found, cause, Some(k)));
                 }
             }
             if !touching.is_free() {
@@ -414,7 +448,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 };
                 let seen = margins(&looked)?;
                 let doubtful = |k: usize, kind: usize| seen.each[k][kind].value < 0.0;
-                for (k, kind) in (0..seen.each.len()).flat_map(|k| [(k, 0), (k, 1)]) {
+                for (k, kind) in (0..seen.each.len()).flat_map(|k| [(k, 0), (k, 1), (k, 2)]) {
                     if !doubtful(k, kind) {
                         continue;
                     }
@@ -433,13 +467,15 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     }
                     let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
                     let mut found = event::last_positive([theta_before, theta], roundoff, margin)?;
-                    let cause = match (is_only, touching.modes()[k], kind) {
-                        (false, ..) => Cause::Asked,
+                    let is_shared = !is_only && (kind == 1 || !touching.yields(k));
+                    let cause = match (is_shared, touching.modes()[k], kind) {
+                        (true, ..) => Cause::Asked,
                         (_, _, 0) => Cause::Lifts(k),
+                        (_, _, 2) => Cause::Turns(k),
                         (_, Mode::Slides(_), _) => Cause::Stops(k),
                         _ => Cause::Breaks(k),
                     };
-                    if !is_only {
+                    if is_shared {
                         found = (found + BEYOND).min(theta);
                     }
                     if earliest.is_none_or(|(known, ..)| found < known) {
@@ -503,25 +539,36 @@ fn closing(
     Ok(None)
 }
 
-/// Gap and rate of every contact.
-fn gaps_and_rates<S: System>(system: &S, (t, q, v): &Triple<S::Vector>) -> Vec<[f64; 2]> {
-    let m = system.unilateral_contacts().len();
-    let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
-    system.gaps(*t, q, &mut gaps);
-    system.contact_rates(*t, q, v, &mut rates);
-    let rates = rates.chunks_exact(2).map(|rates| rates[0]);
-    gaps.into_iter().zip(rates).map(Into::into).collect()
-}
-
-/// Gap and rate of one.
-fn gap_and_rate<S: System>(
-    system: &S,
-    (t, q, v): (f64, &S::Vector, &S::Vector),
-    contact: usize,
-) -> [f64; 2] {
-    let m = system.unilateral_contacts().len();
-    let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
-    system.gaps(t, q, &mut gaps);
-    system.contact_rates(t, q, v, &mut rates);
-    [gaps[contact], rates[2 * contact]]
+/// Where a contact that yields begins to press between two looks, if it does.
+fn pressing(
+    [from, to]: [f64; 2],
+    roundoff: f64,
+    mut at: impl FnMut(f64) -> Result<[f64; 2], Error>,
+) -> Result<Option<f64>, Error> {
+    let [clearance, rate] = at(from)?;
+    let [clearance_after, rate_after] = at(to)?;
+    if clearance_after < 0.0 {
+        let mut open = from;
+        if clearance <= 0.0 {
+            // It has just opened, and goes on doing so for a while; or it is pressed from here on.
+            let mut part = 0.5 * (to - from);
+            while part > roundoff && at(from + part)?[0] <= 0.0 {
+                part *= 0.5;
+            }
+            if part <= roundoff {
+                return Ok(Some(from));
+            }
+            open = from + part;
+        }
+        let found = event::root([open, to], roundoff, |theta| Ok(at(theta)?[0]))?;
+        return Ok(Some(found));
+    }
+    if clearance >= 0.0 && rate < 0.0 && rate_after > 0.0 {
+        let nearest = event::root([from, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        if at(nearest)?[0] < 0.0 {
+            let found = event::root([from, nearest], roundoff, |theta| Ok(at(theta)?[0]))?;
+            return Ok(Some(found));
+        }
+    }
+    Ok(None)
 }

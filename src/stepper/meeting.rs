@@ -6,13 +6,13 @@ use std::vec::Vec;
 use super::{Model, Stepper};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
-use crate::contact::{ContactTrouble, Impact, Mode, Touching};
+use crate::contact::{ContactTrouble, Impact, Jam, Mode, Touching};
 use crate::inputs::InputLaw;
 use crate::stages::Point;
 use crate::{StepError, System, Vector};
 
-/// How many impacts may follow each other at one instant.
-const MOST_IMPACTS_AT_ONCE: usize = 100;
+/// How many impacts may follow each other at one instant, for each contact.
+const MOST_IMPACTS_AT_ONCE: usize = 1000;
 
 /// A step is no longer than so many of the flight that follows: it is to be seen in it.
 const FLIGHTS: f64 = 8.0;
@@ -28,6 +28,10 @@ pub(crate) enum Cause {
     Stops(usize),
     /// The friction of a contact is used up.
     Breaks(usize),
+    /// A contact that yields begins to press.
+    Presses(usize),
+    /// A layer turns from loading to unloading, or comes back to its greatest depth.
+    Turns(usize),
 }
 
 /// What happened at an instant.
@@ -41,6 +45,8 @@ pub(crate) struct Happened {
     pub ended: Vec<(usize, f64)>,
     /// What was lost in impacts that no impulse tells: the last bounces, in J.
     pub lost_at_end: f64,
+    /// Layers that turned: whether they are loaded now.
+    pub turned: Vec<(usize, bool)>,
     /// The length of the flight that follows, if there is one and it is known.
     flight: Option<f64>,
 }
@@ -68,6 +74,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             return Ok(happened);
         };
         happened.before = touching.modes().to_vec();
+        let stored_before = stored(model.system.get(), &touching, now);
+        let loaded_before: Vec<bool> = touching.loaded().collect();
         model.set_inputs(t, &now.q, &now.v);
         let known = match cause {
             Cause::Lifts(k) => Some((k, Mode::Open)),
@@ -76,18 +84,20 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                 let friction = touching.reaction(model.system.get(), at)?.forces[k][1];
                 Some((k, Mode::Slides(-friction.signum())))
             }
-            Cause::Asked | Cause::Stops(_) => None,
+            Cause::Asked | Cause::Stops(_) | Cause::Presses(_) | Cause::Turns(_) => None,
         };
         let stops = |k: usize| cause == Cause::Stops(k);
 
-        let (mut touches, _) = touching.near(model.system.get(), t, &now.q, &now.v);
+        let mut touches = Vec::new();
         for round in 0.. {
-            let (near, closes) = touching.near(model.system.get(), t, &now.q, &now.v);
+            let place = (t, &now.q, &now.v);
+            let (near, closes) =
+                touching.near(model.system.get(), place, happened.impacts.is_empty());
             touches = near;
             let Some(contact) = closes.iter().position(|closes| *closes) else {
                 break;
             };
-            if round == MOST_IMPACTS_AT_ONCE {
+            if round == MOST_IMPACTS_AT_ONCE * closes.len() {
                 let trouble = ContactTrouble::Unsettled;
                 return Err(StepError::Contact {
                     contact,
@@ -95,15 +105,54 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
                     t,
                 });
             }
-            let impacts = touching.impact(model.system.get(), t, &now.q, &mut now.v, &touches)?;
+            let takes_part = touching.next(model.system.get(), (t, &now.q, &now.v), &touches);
+            let as_held = happened.impacts.is_empty();
+            let impacts = touching.impact(
+                model.system.get(),
+                t,
+                &now.q,
+                &mut now.v,
+                &takes_part,
+                as_held,
+            )?;
             now.v_low.as_mut_slice().fill(0.0);
             happened.impacts.extend(impacts);
         }
+        model.set_inputs(t, &now.q, &now.v);
+        let as_held = happened.impacts.is_empty();
+        let mut closed =
+            touching.lasting(model.system.get(), (t, &now.q, &now.v), &touches, as_held);
+        match cause {
+            Cause::Lifts(k) if touching.yields(k) => closed[k] = false,
+            Cause::Presses(k) => closed[k] = true,
+            Cause::Turns(k) => {
+                touching.turn_layer(model.system.get(), (t, &now.q, &now.v), k);
+            }
+            _ => {}
+        }
+        if touching.may_jam() {
+            let mut resting = touching.resting(model.system.get(), t, &now.q, &now.v);
+            for (k, resting) in resting.iter_mut().enumerate() {
+                *resting |= stops(k) || cause == Cause::Lifts(k);
+            }
+            let at = (t, &now.q, &now.v, &model.inputs);
+            match touching.jam(model.system.get(), at, &closed, &resting)? {
+                Some(Jam::Opens(k)) => closed[k] = false,
+                Some(Jam::Impact { impact, change }) => {
+                    for (v, by) in now.v.as_mut_slice().iter_mut().zip(change) {
+                        *v += by;
+                    }
+                    now.v_low.as_mut_slice().fill(0.0);
+                    happened.impacts.push(impact);
+                    model.set_inputs(t, &now.q, &now.v);
+                    closed =
+                        touching.lasting(model.system.get(), (t, &now.q, &now.v), &touches, false);
+                }
+                None => {}
+            }
+        }
         let told: f64 = happened.impacts.iter().map(|impact| impact.loss).sum();
         let energy_after = energy(model, now);
-
-        model.set_inputs(t, &now.q, &now.v);
-        let mut closed = touching.lasting(model.system.get(), t, &now.q, &now.v, &touches);
         let mut free = now.v.zeros_like();
         if !happened.impacts.is_empty() {
             // What the machine does with all open that has been hit: how long the next flight is.
@@ -136,10 +185,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
         // A slip that has stopped is at rest, and so is what was closed at last.
         let mut held = vec![Mode::Open; closed.len()];
+        let rests = touching.resting(model.system.get(), t, &now.q, &now.v);
         for (k, _) in closed.iter().enumerate().filter(|(_, closed)| **closed) {
+            // What yields has no impulse that would stop it again when an impact elsewhere has made it slip.
+            let is_torn = touching.yields(k) && !rests[k] && !happened.impacts.is_empty();
             held[k] = match touching.modes()[k] {
                 _ if stops(k) => Mode::Sticks,
                 Mode::Open => Mode::Slides(0.0),
+                _ if is_torn => Mode::Slides(0.0),
                 mode => mode,
             };
         }
@@ -157,6 +210,15 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             known,
         )?;
         touching.set_modes(modes);
+        if !matches!(cause, Cause::Turns(_)) || !happened.impacts.is_empty() {
+            touching.load_layers(model.system.get(), t, &now.q, &now.v);
+        }
+        let turned = touching.loaded().zip(loaded_before).enumerate();
+        happened.turned = turned
+            .filter(|(_, (is, was))| is != was)
+            .map(|(k, (is, _))| (k, is))
+            .collect();
+        let released = stored_before - stored(model.system.get(), &touching, now);
         model.constraints = hold(model.system.get(), &touching, now)?;
         happened.after = touching.modes().to_vec();
         model.touching = Some(touching);
@@ -169,6 +231,10 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         let gained = energy(model, now) - energy_before;
         if !happened.impacts.is_empty() {
             self.quadratures.add_at_once(gained + lost, lost);
+        }
+        if released != 0.0 {
+            // A force that vanishes before its contact is back leaves what is stored to nobody.
+            self.quadratures.add_at_once(0.0, released);
         }
         self.begin_again(end, step, happened.flight)?;
         Ok(happened)
@@ -212,6 +278,11 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             }
         }
     }
+}
+
+/// What contacts that yield hold, in J.
+fn stored<S: System>(system: &S, touching: &Touching, now: &Point<S::Vector>) -> f64 {
+    touching.stored(system, now.t, &now.q, &now.v)
 }
 
 /// Brings a state onto what is held; what is known of these constraints.

@@ -3,6 +3,7 @@
 #[path = "../by_hand/mod.rs"]
 mod by_hand;
 mod constraints;
+mod contacts;
 mod derivatives;
 mod examples;
 mod sensitivities;

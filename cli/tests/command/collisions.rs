@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::support::{Scratch, lagrangian};
 use serde_json::Value;
 
-fn simulate(spec: &str, until: f64, settings: &[&str]) -> Value {
+pub fn simulate(spec: &str, until: f64, settings: &[&str]) -> Value {
     let until = format!("{until:?}");
     let mut arguments = vec!["simulate", spec, "--until", &until, "--json"];
     arguments.extend(["--tolerance", "1e-13"]);
@@ -18,26 +18,26 @@ fn simulate(spec: &str, until: f64, settings: &[&str]) -> Value {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}{said}"))
 }
 
-fn number(value: &Value) -> f64 {
+pub fn number(value: &Value) -> f64 {
     value
         .as_f64()
         .unwrap_or_else(|| panic!("no number: {value}"))
 }
 
-fn events<'a>(run: &'a Value, kind: &str) -> Vec<&'a Value> {
+pub fn events<'a>(run: &'a Value, kind: &str) -> Vec<&'a Value> {
     let all = run["contact_events"].as_array().expect("events").iter();
     all.filter(|event| event["kind"] == kind).collect()
 }
 
 #[track_caller]
-fn close(found: f64, expected: f64, within: f64) {
+pub fn close(found: f64, expected: f64, within: f64) {
     let error = (found - expected).abs();
     assert!(error <= within, "{found} is {error:e} off {expected}");
 }
 
 /// Without error, and with an energy balance that closes to rounding of what was turned over.
 #[track_caller]
-fn is_good(run: &Value) {
+pub fn is_good(run: &Value) {
     assert_eq!(run["error"], Value::Null, "{run:#}");
     assert_eq!(
         run["warnings"].as_array().map(Vec::len),

@@ -117,6 +117,9 @@ pub fn lower_by<'d>(
     let unilateral = equations.unilateral.iter().map(|u| Unilateral {
         name: u.name.clone(),
         law: u.law,
+        order: u.order,
+        painleve: u.painleve,
+        compliance: u.compliance,
         rubs: u.rubs,
     });
     program.unilateral = unilateral.collect();

@@ -27,7 +27,9 @@
 
 use lagrangian_symbolic::{self as symbolic, Rational};
 
-use lagrangian_units::{ImpactLaw, Name, Stages, Unit, Variable};
+use lagrangian_units::{
+    Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Unit, Variable,
+};
 
 pub mod choose;
 mod cost;
@@ -176,8 +178,14 @@ pub struct Constraint {
 pub struct Unilateral {
     /// Its name.
     pub name: String,
-    /// How it bounces.
+    /// How it bounces, if it does.
     pub law: ImpactLaw,
+    /// Whether with the others or one after the other.
+    pub order: ImpactOrder,
+    /// What becomes of it where its friction leaves no motion.
+    pub painleve: Painleve,
+    /// By which law it presses, if it yields.
+    pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
 }

@@ -268,7 +268,8 @@ quantities! {
     ContactDrift => {
         "contact_drift", "", "drift*", Each(Direction), [Time Coordinates Velocities], Unilateral, Seldom, "E53"
     }
-    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent, friction, static
+    /// Coefficients of unilateral contacts: restitution along the normal and along the tangent (of contacts that
+    /// yield the parameters of their force), friction, static
     /// friction.
     ContactCoefficients => {
         "contact_coefficients", "", "c*", Each(Coefficient), [Time Coordinates Velocities], Unilateral, Seldom, ""
@@ -449,14 +450,19 @@ impl Program {
                 one.map(|one| format!("{}.{part}", one.name))
             }
             Coefficient => {
-                let part = [
-                    "restitution",
-                    "tangential_restitution",
-                    "friction",
-                    "static_friction",
-                ][index % 4];
                 let one = self.unilateral.get(index / 4);
-                one.map(|one| format!("{}.{part}", one.name))
+                one.map(|one| {
+                    let of_force = one.compliance.map_or(
+                        &["restitution", "tangential_restitution"][..],
+                        |compliance| compliance.parameters(),
+                    );
+                    let part = match index % 4 {
+                        2 => "friction",
+                        3 => "static_friction",
+                        i => of_force.get(i).unwrap_or(&"nothing"),
+                    };
+                    format!("{}.{part}", one.name)
+                })
             }
         };
         name.unwrap_or_else(|| index.to_string())

@@ -20,7 +20,7 @@ mod measure;
 mod names;
 
 pub use measure::Measure;
-pub use names::{ImpactLaw, Name, Stages, Variable, rate_name};
+pub use names::{Compliance, ImpactLaw, ImpactOrder, Name, Painleve, Stages, Variable, rate_name};
 
 /// What units are powers of.
 const BASES: [&str; 6] = ["kg", "m", "s", "A", "K", "cycle"];

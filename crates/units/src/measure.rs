@@ -124,6 +124,15 @@ impl Measure {
         })
     }
 
+    /// The unit of the power `power/2`, of an SI unit; none of another, whose root is no fraction.
+    pub fn half_power(&self, power: i32) -> Option<Measure> {
+        self.is_si().then_some(())?;
+        Some(Measure {
+            unit: self.unit.power(power.into(), 2)?,
+            ..self.clone()
+        })
+    }
+
     /// Whether it is an SI unit, so that a number needs no conversion.
     pub fn is_si(&self) -> bool {
         self.factor.is_one() && self.pi == 0

@@ -62,6 +62,95 @@ impl Stages {
     }
 }
 
+/// The force in a contact that yields, of its depth `d` and how fast that grows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Compliance {
+    /// `k d + b ḋ`.
+    Linear,
+    /// `K d^(3/2)`.
+    Hertz,
+    /// `K d^(3/2) (1 + c ḋ)`.
+    HuntCrossley,
+    /// `k₁ d` where it is pressed for the first time, and `k₂` along what it yields before that and back.
+    Layer,
+}
+
+impl Compliance {
+    /// All of them.
+    pub const ALL: [Compliance; 4] = [
+        Compliance::Linear,
+        Compliance::Hertz,
+        Compliance::HuntCrossley,
+        Compliance::Layer,
+    ];
+
+    /// As a spec writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Compliance::Linear => "linear",
+            Compliance::Hertz => "hertz",
+            Compliance::HuntCrossley => "hunt_crossley",
+            Compliance::Layer => "layer",
+        }
+    }
+
+    /// What its parameters are called in messages and in the names of what programs give, in their order.
+    pub fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Compliance::Linear => &["stiffness", "damping"],
+            Compliance::Hertz => &["stiffness"],
+            Compliance::HuntCrossley => &["stiffness", "damping"],
+            Compliance::Layer => &["loading", "unloading"],
+        }
+    }
+}
+
+/// Whether contacts that are closed take part in one impact.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ImpactOrder {
+    /// All at once.
+    #[default]
+    AtOnce,
+    /// One after the other, the one that closes fastest first, until none closes.
+    Sequence,
+}
+
+impl ImpactOrder {
+    /// Both of them.
+    pub const ALL: [ImpactOrder; 2] = [ImpactOrder::AtOnce, ImpactOrder::Sequence];
+
+    /// As a spec writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            ImpactOrder::AtOnce => "at_once",
+            ImpactOrder::Sequence => "sequence",
+        }
+    }
+}
+
+/// What becomes of a contact whose friction leaves no motion: P. Painlevé's paradox.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Painleve {
+    /// The run ends.
+    #[default]
+    Error,
+    /// An impact without a collision ends the slip.
+    Impact,
+}
+
+impl Painleve {
+    /// Both of them.
+    pub const ALL: [Painleve; 2] = [Painleve::Error, Painleve::Impact];
+
+    /// As a spec writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Painleve::Error => "error",
+            Painleve::Impact => "impact",
+        }
+    }
+}
+
 /// How rates after an impact follow from those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ImpactLaw {

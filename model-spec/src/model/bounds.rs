@@ -36,6 +36,12 @@ pub enum BoundKind<'d> {
     StaticFriction(Expr<'d>),
     /// A coefficient of restitution, which is between 0 and 1.
     Restitution,
+    /// The stiffness of a contact that yields, which is positive.
+    ContactStiffness,
+    /// The damping of a contact that yields, which is not negative.
+    ContactDamping,
+    /// The stiffness of a layer that is unloaded, which is not below that of its loading.
+    Unloading(Expr<'d>),
     /// A stiffness, which may be negative where that is meant.
     Stiffness,
     /// A damping coefficient, which may be negative where that is meant.
@@ -73,6 +79,21 @@ impl BoundKind<'_> {
                 Code::OutsideDomain,
                 "a coefficient of restitution lies between 0 and 1",
             ),
+            BoundKind::ContactStiffness => (
+                value <= 0.0,
+                Code::NotPositive,
+                "the stiffness of a contact is positive",
+            ),
+            BoundKind::ContactDamping => (
+                value < 0.0,
+                Code::NotPositive,
+                "the damping of a contact is not negative",
+            ),
+            BoundKind::Unloading(_) => {
+                let words = "a layer is unloaded no less stiffly than it is loaded";
+                let message = format!("{words}, found {value} below {other}");
+                return (value < other).then_some((Code::OutsideDomain, message));
+            }
             BoundKind::Stiffness => (
                 value < 0.0,
                 Code::NegativeCoefficient,
@@ -95,7 +116,7 @@ pub(crate) fn broken(
     value: impl FnMut(Symbol) -> f64,
 ) -> Vec<(usize, Code, String)> {
     let other = |bound: &Bound<'_>| match bound.kind {
-        BoundKind::StaticFriction(friction) => friction.id(),
+        BoundKind::StaticFriction(other) | BoundKind::Unloading(other) => other.id(),
         _ => bound.value.id(),
     };
     let pairs = bounds

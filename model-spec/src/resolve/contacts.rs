@@ -1,10 +1,14 @@
 //! Unilateral contacts: what touches what, how it bounces and how it rubs.
 
 use super::Resolver;
-use super::value::{MemberId, is_linear, limits};
+use super::names::Namespace;
+use super::value::{MemberId, Vector, is_linear, limits};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
-use crate::model::{Circle, Contact, ContactGeometry, ImpactLaw, Space};
+use crate::model::{
+    Circle, Compliance, Contact, ContactGeometry, ImpactLaw, ImpactOrder, MOST_UNILATERAL, Name,
+    Painleve, Response, Space, Surface, Touching,
+};
 use crate::syntax::{Expression, ExpressionKind, Record};
 use crate::unit::Unit;
 use lagrangian_symbolic::Expr;
@@ -14,30 +18,89 @@ const VELOCITY: Unit = Unit::base(0, 1, -1);
 /// The fields that say what touches what.
 const GEOMETRY: [&str; 6] = ["circle", "point", "on", "inside", "outside", "along"];
 
+/// The fields that say how a contact bounces, which one that yields does not have.
+const BOUNCING: [&str; 5] = [
+    "restitution",
+    "tangential_restitution",
+    "law",
+    "order",
+    "painleve",
+];
+
+/// A law of force as it is written.
+fn form(law: Compliance) -> &'static str {
+    match law {
+        Compliance::Linear => "linear(k, b)",
+        Compliance::Hertz => "hertz(K)",
+        Compliance::HuntCrossley => "hunt_crossley(K, c)",
+        Compliance::Layer => "layer(k1, k2)",
+    }
+}
+
+/// The units of its parameters, and why they are these.
+fn units(law: Compliance) -> Vec<(Unit, &'static str)> {
+    let stiffness = (Unit::base(1, 0, -2), "a stiffness is in N/m");
+    let of_hertz = Unit::base(2, -1, -4).power(1, 2).unwrap_or(Unit::ONE);
+    let of_hertz = (of_hertz, "the stiffness of Hertz's law is in N/m^(3/2)");
+    match law {
+        Compliance::Linear => vec![
+            stiffness,
+            (Unit::base(1, 0, -1), "a damping coefficient is in N*s/m"),
+        ],
+        Compliance::Hertz => vec![of_hertz],
+        Compliance::HuntCrossley => vec![
+            of_hertz,
+            (
+                Unit::base(0, -1, 1),
+                "the damping of Hunt and Crossley's law is in s/m",
+            ),
+        ],
+        Compliance::Layer => vec![stiffness; 2],
+    }
+}
+
 impl<'a, 'd> Resolver<'a, 'd, '_> {
-    /// A unilateral contact.
-    pub fn contact(&mut self, member: MemberId) -> Option<Contact<'d>> {
+    /// What an item says: one contact, or those of all circles of a family, or of all corners of a body.
+    pub fn contacts(&mut self, member: MemberId) -> Option<Vec<Contact<'d>>> {
         let record = self.record(member)?;
-        let by_expressions = ["gap", "slip"]
-            .iter()
-            .any(|field| record.field(field).is_some());
-        let geometry = if by_expressions {
-            for field in GEOMETRY {
-                self.conflict(record, field, "gap");
+        let name = self.name(member);
+        let geometries: Option<Vec<(Name, ContactGeometry<'d>)>> =
+            if record.field("circles").is_some() {
+                for field in ["gap", "slip", "corners"].iter().chain(&GEOMETRY) {
+                    self.conflict(record, field, "circles");
+                }
+                self.pairs(member, record)
+            } else if record.field("corners").is_some() {
+                for field in ["gap", "slip", "circle", "point"] {
+                    self.conflict(record, field, "corners");
+                }
+                self.corners(member, record)
+            } else if ["gap", "slip"]
+                .iter()
+                .any(|field| record.field(field).is_some())
+            {
+                for field in GEOMETRY {
+                    self.conflict(record, field, "gap");
+                }
+                let geometry = self.gap_and_slip(member, record);
+                geometry.map(|geometry| vec![(name, geometry)])
+            } else if record.field("point").is_some() {
+                self.conflict(record, "circle", "point");
+                let geometry = self.touching_point(member, record);
+                geometry.map(|geometry| vec![(name, geometry)])
+            } else {
+                self.conflict(record, "on", "circle");
+                let touching = self.touching(member, record);
+                touching.map(|touching| vec![(name, ContactGeometry::Circles(touching))])
+            };
+        let response = match record.get("compliance") {
+            Some(said) => {
+                for field in BOUNCING {
+                    self.conflict(record, field, "compliance");
+                }
+                self.compliance(member, said)
             }
-            self.gap_and_slip(member, record)
-        } else if record.field("point").is_some() {
-            self.conflict(record, "circle", "point");
-            self.touching_point(member, record)
-        } else {
-            self.conflict(record, "on", "circle");
-            self.touching(member, record).map(ContactGeometry::Circles)
-        };
-        let restitution = self.field(member, record, "restitution");
-        let restitution = restitution.and_then(|value| self.restitution(member, value));
-        let tangential = match record.get("tangential_restitution") {
-            Some(value) => self.restitution(member, value),
-            None => Some(self.dag.zero()),
+            None => self.rigid(member, record),
         };
         let friction = record
             .get("friction")
@@ -57,25 +120,107 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             }
             sticking
         });
-        let law = match record.get("law") {
-            Some(law) => self.law(law),
-            None => Some(ImpactLaw::default()),
-        };
         // What is said and wrong has been reported.
         let good = |said: Option<Option<Expr<'d>>>| match said {
             Some(value) => value.map(Some),
             None => Some(None),
         };
-        Some(Contact {
-            name: self.name(member),
-            geometry: geometry?,
-            restitution: restitution?,
-            tangential_restitution: tangential?,
-            friction: good(friction)?,
-            static_friction: good(sticking)?,
-            law: law?,
-            span: self.span(member),
-        })
+        let (response, friction, static_friction) = (response?, good(friction)?, good(sticking)?);
+        let span = self.span(member);
+        let contact = |(name, geometry)| Contact {
+            name,
+            geometry,
+            response,
+            friction,
+            static_friction,
+            span,
+        };
+        Some(geometries?.into_iter().map(contact).collect())
+    }
+
+    /// `circles`, of which each may touch each other from outside.
+    fn pairs(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
+        let said = self.field(member, record, "circles")?;
+        let reference = match &said.kind {
+            ExpressionKind::Name(reference) if reference.index.is_none() => reference,
+            ExpressionKind::Error => return None,
+            _ => {
+                let message = "the name of a family of circles is expected here";
+                self.error(Code::WrongKind, said.span, message);
+                return None;
+            }
+        };
+        let group = self.known_group(Namespace::CIRCLES, "no circle is", &reference.base)?;
+        let mut circles: Vec<(Option<i64>, usize)> = Vec::new();
+        for circle in self.members_under(group, None) {
+            circles.push((self.name(circle).index, self.ordinal(circle)?));
+        }
+        let count = circles.len() * circles.len().saturating_sub(1) / 2;
+        if count > MOST_UNILATERAL {
+            let message = format!("{} circles make {count} pairs", circles.len());
+            let diagnostic = Diagnostic::new(Code::TooLarge, said.span, message);
+            let help = format!("a machine may have {MOST_UNILATERAL} contacts");
+            self.push(diagnostic.help(help));
+            return None;
+        }
+        if circles.len() < 2 {
+            let message = format!(
+                "`{}` is one circle, and a pair needs two",
+                reference.base.text
+            );
+            let diagnostic = Diagnostic::new(Code::WrongKind, said.span, message);
+            self.push(
+                diagnostic
+                    .help("`circles` names a family: `disc`, where `disc[i in 1..N]` are circles"),
+            );
+            return None;
+        }
+        let base = self.name(member);
+        let mut pairs = Vec::with_capacity(count);
+        for (k, &(first, circle)) in circles.iter().enumerate() {
+            for &(second, other) in &circles[..k] {
+                let name = Name {
+                    base: format!("{base}[{}]", first.unwrap_or_default()),
+                    index: second,
+                };
+                let surface = Surface::Outside(other);
+                let touching = Touching { circle, surface };
+                pairs.push((name, ContactGeometry::Circles(touching)));
+            }
+        }
+        Some(pairs)
+    }
+
+    /// `corners` of a convex polygon, each a point.
+    fn corners(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+    ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
+        let said = self.field(member, record, "corners")?;
+        let corners = match &said.kind {
+            ExpressionKind::Tuple(corners) => &corners[..],
+            ExpressionKind::Error => return None,
+            _ => {
+                let message = "corners are a list of points, `((-b, -h), (b, -h))`";
+                self.error(Code::WrongKind, said.span, message);
+                return None;
+            }
+        };
+        let base = self.name(member).to_string();
+        let points = self.points_on(member, record, corners)?;
+        let named = points.into_iter().zip(1..).map(|(geometry, k)| {
+            let name = Name {
+                base: base.clone(),
+                index: Some(k),
+            };
+            (name, geometry)
+        });
+        Some(named.collect())
     }
 
     /// `point`, fixed to what is named by `on`, with `inside`, `outside` or `along`.
@@ -84,6 +229,18 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         member: MemberId,
         record: &'a Record,
     ) -> Option<ContactGeometry<'d>> {
+        let point = record.get("point")?;
+        let points = self.points_on(member, record, std::slice::from_ref(point));
+        points?.pop()
+    }
+
+    /// Points that are fixed to what is named by `on`, with `inside`, `outside` or `along`.
+    fn points_on(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        points: &'a [Expression],
+    ) -> Option<Vec<ContactGeometry<'d>>> {
         if self.space == Space::Space {
             let message = "points touch lines and circles only in the plane";
             self.error(Code::WrongSpace, self.span(member), message);
@@ -92,20 +249,24 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let on = self.field(member, record, "on");
         let on = on.and_then(|on| self.place(member, on));
         let scope = self.scope(member, &limits::RADIUS);
-        let point = record.get("point").and_then(|point| {
-            self.vector_in(point, "a point", Unit::METRE, "a point is in m", scope)
-        });
-        let surface = self.surface(member, record, None);
-        Some(ContactGeometry::Point {
-            point: Circle {
-                name: self.name(member),
-                on: on?,
-                center: point?.components,
-                radius: self.dag.zero(),
-                span: self.span(member),
-            },
-            surface: surface?,
-        })
+        let centers: Vec<_> = (points.iter())
+            .map(|point| self.vector_in(point, "a point", Unit::METRE, "a point is in m", scope))
+            .collect();
+        let surface = self.surface(member, record, None)?;
+        let on = on?;
+        let geometry = |center: Option<Vector<'d>>| {
+            Some(ContactGeometry::Point {
+                point: Circle {
+                    name: self.name(member),
+                    on,
+                    center: center?.components,
+                    radius: self.dag.zero(),
+                    span: self.span(member),
+                },
+                surface,
+            })
+        };
+        centers.into_iter().map(geometry).collect()
     }
 
     fn gap_and_slip(
@@ -142,6 +303,111 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         })
     }
 
+    /// How a contact bounces that does not yield.
+    fn rigid(&mut self, member: MemberId, record: &'a Record) -> Option<Response<'d>> {
+        let normal = self.field(member, record, "restitution");
+        let normal = normal.and_then(|value| self.restitution(member, value));
+        let tangential = match record.get("tangential_restitution") {
+            Some(value) => self.restitution(member, value),
+            None => Some(self.dag.zero()),
+        };
+        let law = match record.get("law") {
+            Some(law) => self.one_of(law, "law of impact", &ImpactLaw::ALL, ImpactLaw::name),
+            None => Some(ImpactLaw::default()),
+        };
+        let order = match record.get("order") {
+            Some(said) => self.one_of(
+                said,
+                "order of impacts",
+                &ImpactOrder::ALL,
+                ImpactOrder::name,
+            ),
+            None => Some(ImpactOrder::default()),
+        };
+        let painleve = match record.get("painleve") {
+            Some(said) => self.one_of(said, "way out of a paradox", &Painleve::ALL, Painleve::name),
+            None => Some(Painleve::default()),
+        };
+        Some(Response::Rigid {
+            law: law?,
+            order: order?,
+            painleve: painleve?,
+            restitution: [normal?, tangential?],
+        })
+    }
+
+    /// `linear(k, b)`: a law of force and its parameters.
+    fn compliance(&mut self, member: MemberId, said: &'a Expression) -> Option<Response<'d>> {
+        let call = match &said.kind {
+            ExpressionKind::Error => return None,
+            ExpressionKind::Call(call) => Some(call),
+            _ => None,
+        };
+        let named = call.and_then(|call| {
+            let mut all = Compliance::ALL.into_iter();
+            all.find(|law| law.name() == call.function.text)
+        });
+        let (Some(call), Some(law)) = (call, named) else {
+            let (span, message) = match call {
+                Some(call) => {
+                    let name = &call.function.text;
+                    (
+                        call.function.span,
+                        format!("no law of force is called `{name}`"),
+                    )
+                }
+                None => (said.span, "a law of force is expected here".to_owned()),
+            };
+            let forms = Compliance::ALL.map(|law| format!("`{}`", form(law)));
+            let diagnostic = Diagnostic::new(Code::UnknownName, span, message);
+            self.push(diagnostic.help(format!("the laws are {}", forms.join(", "))));
+            return None;
+        };
+        let units = units(law);
+        if call.arguments.len() != units.len() {
+            let message = format!(
+                "`{}` takes {}, found {}",
+                law.name(),
+                if units.len() == 1 {
+                    "one argument"
+                } else {
+                    "two arguments"
+                },
+                call.arguments.len()
+            );
+            let diagnostic = Diagnostic::new(Code::WrongArguments, said.span, message);
+            self.push(diagnostic.help(format!("write `{}`", form(law))));
+            return None;
+        }
+        let mut parameters = [Some(self.dag.zero()); 2];
+        let places = parameters.iter_mut().zip(&call.arguments);
+        let words = units.iter().zip(law.parameters());
+        for ((parameter, argument), ((unit, why), kind)) in places.zip(words) {
+            let scope = self.scope(member, &limits::COMPLIANCE);
+            let scalar = self.scalar_in(argument, *unit, why, scope);
+            *parameter = scalar.map(|scalar| scalar.expr);
+            if let Some(value) = *parameter
+                && *kind != "unloading"
+            {
+                let kind = match *kind {
+                    "damping" => BoundKind::ContactDamping,
+                    _ => BoundKind::ContactStiffness,
+                };
+                self.bound(kind, value, argument.span);
+            }
+        }
+        let [first, second] = parameters;
+        if let (Compliance::Layer, Some(loading), Some(unloading)) = (law, first, second)
+            && let Some(argument) = call.arguments.last()
+        {
+            self.bound(BoundKind::Unloading(loading), unloading, argument.span);
+        }
+        Some(Response::Compliant {
+            law,
+            parameters: [first?, second?],
+        })
+    }
+
     fn restitution(&mut self, member: MemberId, value: &'a Expression) -> Option<Expr<'d>> {
         let scope = self.scope(member, &limits::RESTITUTION);
         let why = "a coefficient of restitution has no unit";
@@ -150,7 +416,14 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(scalar.expr)
     }
 
-    fn law(&mut self, said: &'a Expression) -> Option<ImpactLaw> {
+    /// One of the words that a field may say.
+    fn one_of<T: Copy>(
+        &mut self,
+        said: &'a Expression,
+        what: &str,
+        all: &[T],
+        name: fn(T) -> &'static str,
+    ) -> Option<T> {
         let word = match &said.kind {
             ExpressionKind::Name(reference) if reference.index.is_none() => {
                 reference.base.text.as_str()
@@ -158,15 +431,15 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             ExpressionKind::Error => return None,
             _ => "",
         };
-        let known = ImpactLaw::ALL.into_iter().find(|law| law.name() == word);
+        let known = all.iter().copied().find(|one| name(*one) == word);
         if known.is_none() {
             let message = match word {
-                "" => "the name of a law of impact is expected here".to_owned(),
-                word => format!("no law of impact is called `{word}`"),
+                "" => format!("the name of a {what} is expected here"),
+                word => format!("no {what} is called `{word}`"),
             };
-            let names = ImpactLaw::ALL.map(|law| format!("`{}`", law.name()));
+            let names: Vec<String> = all.iter().map(|one| format!("`{}`", name(*one))).collect();
             let diagnostic = Diagnostic::new(Code::UnknownName, said.span, message);
-            self.push(diagnostic.help(format!("the laws are {}", names.join(", "))));
+            self.push(diagnostic.help(format!("it is one of {}", names.join(", "))));
         }
         known
     }

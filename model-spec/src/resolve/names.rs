@@ -884,7 +884,11 @@ pub(super) fn declared_measure(quantity: &Quantity) -> Option<Measure> {
     let mut measure = Measure::ONE;
     for factor in &quantity.unit.as_ref()?.factors {
         let named = Measure::named(&factor.name.text)?;
-        measure = measure.times(&named.power(factor.power)?)?;
+        let power = match factor.halved {
+            true => named.half_power(factor.power)?,
+            false => named.power(factor.power)?,
+        };
+        measure = measure.times(&power)?;
     }
     // `km/m` is no SI unit, and `mm*km/m` is one again.
     measure.unit = measure.unit.as_written(!measure.is_si());

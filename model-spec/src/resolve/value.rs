@@ -198,6 +198,11 @@ pub(crate) mod limits {
         "a coefficient of restitution",
         "only parameters can stand here",
     );
+    pub static COMPLIANCE: Limit = limit(
+        stage::PARAMETER,
+        "a law of force",
+        "only parameters can stand here",
+    );
     pub static RADIUS: Limit = limit(
         stage::TIME,
         "a circle",

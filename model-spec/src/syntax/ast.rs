@@ -224,10 +224,12 @@ impl SectionKind {
             SectionKind::Circles => &["on", "center", "radius"],
             SectionKind::Contacts => &[
                 "circle",
+                "circles",
                 "inside",
                 "outside",
                 "along",
                 "point",
+                "corners",
                 "on",
                 "gap",
                 "slip",
@@ -236,6 +238,9 @@ impl SectionKind {
                 "friction",
                 "static_friction",
                 "law",
+                "order",
+                "painleve",
+                "compliance",
             ],
             _ => &[],
         }
@@ -352,8 +357,10 @@ impl fmt::Display for Unit {
                 (_, false) => f.write_str("*")?,
             }
             f.write_str(&factor.name.text)?;
-            if factor.power.unsigned_abs() != 1 {
-                write!(f, "^{}", factor.power.unsigned_abs())?;
+            match (factor.power.unsigned_abs(), factor.halved) {
+                (1, false) => {}
+                (power, false) => write!(f, "^{power}")?,
+                (power, true) => write!(f, "^({power}/2)")?,
             }
         }
         Ok(())
@@ -368,6 +375,8 @@ pub struct UnitFactor {
     pub name: Ident,
     /// The exponent, negative below the line.
     pub power: i32,
+    /// Whether the exponent is half of that: `m^(3/2)`.
+    pub halved: bool,
 }
 
 /// `{ field: value, … }`.

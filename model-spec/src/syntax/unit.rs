@@ -37,11 +37,25 @@ impl Parser<'_> {
         if self.failed || !self.eat_mark('^') {
             return known;
         }
-        let Some(power) = self.unit_exponent() else {
+        let Some((power, halves)) = self.unit_exponent() else {
             return false;
         };
         for factor in factors.get_mut(first..).unwrap_or_default() {
             factor.power = factor.power.saturating_mul(power);
+            if !halves {
+                continue;
+            }
+            // Of a unit that is not SI the root is no fraction, and there are no quarters.
+            let measure = Measure::named(&factor.name.text);
+            if factor.halved || measure.is_some_and(|measure| !measure.is_si()) {
+                let name = &factor.name.text;
+                let message = format!("{} has no such power here", shown(name));
+                let unknown = Diagnostic::new(Code::UnknownUnit, factor.name.span, message);
+                let help = "only SI units have halves as powers: `N/m^(3/2)`";
+                self.complain(unknown.help(help));
+                return false;
+            }
+            factor.halved = true;
         }
         known
     }
@@ -76,12 +90,16 @@ impl Parser<'_> {
             let unknown = Diagnostic::new(Code::UnknownUnit, name.span, message);
             self.complain(unknown.help(unit_help(&name.text)));
         }
-        factors.push(UnitFactor { name, power: sign });
+        factors.push(UnitFactor {
+            name,
+            power: sign,
+            halved: false,
+        });
         known
     }
 
-    /// An integer, with a sign or without.
-    fn unit_exponent(&mut self) -> Option<i32> {
+    /// An integer, with a sign or without; in brackets it may have `/2` behind it, which the second part tells.
+    fn unit_exponent(&mut self) -> Option<(i32, bool)> {
         /// No mechanical quantity has a higher power of a unit.
         const HIGHEST: i32 = 12;
         let brackets = match self.is_open(Delimiter::Parenthesis) {
@@ -98,10 +116,24 @@ impl Parser<'_> {
         } else {
             self.at += 1;
         }
+        let mut halves = false;
         if let Some(group) = brackets {
+            if power.is_some() && self.eat_mark('/') {
+                let two = self.peek().is_some_and(|word| word.text == "2");
+                match two {
+                    true => self.at += 1,
+                    false => self.unexpected("`2`: powers of units are whole or halves"),
+                }
+                halves = two;
+            }
             self.leave(group, "`)`");
         }
-        power.map(|power| if negative { -power } else { power })
+        // 4/2 is 2.
+        let power = power.map(|power| if negative { -power } else { power })?;
+        Some(match halves && power % 2 == 0 {
+            true => (power / 2, false),
+            false => (power, halves),
+        })
     }
 }
 

@@ -4,7 +4,7 @@
 use super::Emitter;
 use crate::layout::Layout;
 use lagrangian_program::{FrictionLayout, Program, Role};
-use lagrangian_units::ImpactLaw;
+use lagrangian_units::{Compliance, ImpactLaw, ImpactOrder, Painleve};
 
 /// About how many numbers a workspace may have on the stack: a quarter of a megabyte.
 const MOST_LENT: usize = 1 << 15;
@@ -39,12 +39,40 @@ impl Emitter<'_> {
                 ImpactLaw::PoissonGlocker => "PoissonGlocker",
                 ImpactLaw::Stronge => "Stronge",
             };
+            let order = match contact.order {
+                ImpactOrder::AtOnce => "AtOnce",
+                ImpactOrder::Sequence => "Sequence",
+            };
+            let painleve = match contact.painleve {
+                Painleve::Error => "Error",
+                Painleve::Impact => "Impact",
+            };
+            let compliance = contact.compliance.map(|law| match law {
+                Compliance::Linear => "Linear",
+                Compliance::Hertz => "Hertz",
+                Compliance::HuntCrossley => "HuntCrossley",
+                Compliance::Layer => "Layer",
+            });
+            let option = self.types.known("Option");
+            let compliance = match compliance {
+                None => format!("{option}::None"),
+                Some(law) => format!("{option}::Some({runtime}::Compliance::{law})"),
+            };
             let fields = vec![
                 ("name".into(), Layout::Atom(format!("{:?}", contact.name))),
                 (
                     "law".into(),
                     Layout::Atom(format!("{runtime}::ImpactLaw::{law}")),
                 ),
+                (
+                    "order".into(),
+                    Layout::Atom(format!("{runtime}::ImpactOrder::{order}")),
+                ),
+                (
+                    "painleve".into(),
+                    Layout::Atom(format!("{runtime}::Painleve::{painleve}")),
+                ),
+                ("compliance".into(), Layout::Atom(compliance)),
                 ("rubs".into(), Layout::Atom(contact.rubs.to_string())),
             ];
             Layout::Struct(format!("{runtime}::UnilateralContact"), fields)

@@ -475,8 +475,8 @@ impl<'m, 'd> Lagrange<'m, 'd> {
             // Without friction nobody looks at the slip.
             slip: of_rate(friction.map_or(nothing, |_| slip.value)),
             coefficients: [
-                here(contact.restitution),
-                here(contact.tangential_restitution),
+                here(contact.response.coefficients()[0]),
+                here(contact.response.coefficients()[1]),
                 known(friction),
                 known(contact.static_friction.or(friction)),
             ],
@@ -737,7 +737,7 @@ fn geometry<'d>(model: &Model<'d>) -> Vec<Expr<'d>> {
             ContactGeometry::Expressions { gap, slip } => roots.extend([*gap, *slip]),
             _ => {}
         }
-        roots.extend([contact.restitution, contact.tangential_restitution]);
+        roots.extend(contact.response.coefficients());
         roots.extend(contact.friction);
         roots.extend(contact.static_friction);
     }

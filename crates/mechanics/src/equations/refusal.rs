@@ -10,7 +10,7 @@ use super::symmetric::Symmetric;
 use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::identity;
 use lagrangian_spec::model::{
-    Circle, ContactGeometry, Model, Place, Rotation, Space, Surface, Touching,
+    Circle, ContactGeometry, MOST_UNILATERAL, Model, Place, Rotation, Space, Surface, Touching,
 };
 use lagrangian_spec::source::Span;
 use lagrangian_spec::syntax::SectionKind;
@@ -22,9 +22,6 @@ pub(super) fn refuse_unsupported(model: &Model<'_>, report: &mut Report) -> bool
     let refused = refuse_contacts(model, report);
     refuse_sliding(model, report) || refused
 }
-
-/// The most unilateral contacts of a machine.
-pub const MOST_UNILATERAL: usize = 100;
 
 /// Refuses what goes with unilateral contacts not yet. True if anything is refused.
 fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
@@ -65,16 +62,31 @@ fn refuse_contacts(model: &Model<'_>, report: &mut Report) -> bool {
         let help = format!("a machine may have {MOST_UNILATERAL} of them");
         refuse(Code::TooLarge, contact.span, message, help);
     }
-    let law = first.law;
-    if let Some(other) = model.contacts.iter().find(|contact| contact.law != law) {
+    let mut bouncing = (model.contacts.iter())
+        .filter_map(|contact| Some((contact, contact.response.impact_law()?)));
+    if let Some((first, law)) = bouncing.next()
+        && let Some((other, of_other)) = bouncing.find(|(_, of_other)| *of_other != law)
+    {
         let message = format!(
             "`{}` bounces by `{}` and `{}` by `{}`",
             first.name,
             law.name(),
             other.name,
-            other.law.name()
+            of_other.name()
         );
         let help = "contacts that may meet in one impact have one `law`".to_owned();
+        refuse(Code::ConflictingFields, other.span, message, help);
+    }
+    let mut bouncing =
+        (model.contacts.iter()).filter_map(|contact| Some((contact, contact.response.order()?)));
+    if let Some((first, order)) = bouncing.next()
+        && let Some((other, _)) = bouncing.find(|(_, of_other)| *of_other != order)
+    {
+        let message = format!(
+            "`{}` and `{}` take part in impacts in different orders",
+            first.name, other.name
+        );
+        let help = "contacts that may meet in one impact have one `order`".to_owned();
         refuse(Code::ConflictingFields, other.span, message, help);
     }
     refused

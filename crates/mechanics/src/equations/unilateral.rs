@@ -16,7 +16,9 @@ use super::kinematics::Variables;
 use super::kinematics::gradient;
 use lagrangian_spec::identity;
 use lagrangian_spec::model::circles::{self, Contact};
-use lagrangian_spec::model::{self, ContactGeometry, ImpactLaw, Model};
+use lagrangian_spec::model::{
+    self, Compliance, ContactGeometry, ImpactLaw, ImpactOrder, Model, Painleve,
+};
 
 /// The most terms of a gap that is multiplied out, to see what cancels.
 const TERMS: usize = 200;
@@ -30,10 +32,16 @@ pub struct UnilateralEquation<'d> {
     pub gap: Expr<'d>,
     /// Along the normal, and along the tangent.
     pub directions: [DirectionEquation<'d>; 2],
-    /// `e`, `eₜ`, `μ` and `μ₀`.
+    /// `e` and `eₜ`, or the parameters of a law of force; `μ` and `μ₀`.
     pub coefficients: [Expr<'d>; 4],
-    /// How it bounces.
+    /// How it bounces, if it does.
     pub law: ImpactLaw,
+    /// Whether with the others or one after the other.
+    pub order: ImpactOrder,
+    /// What becomes of it where its friction leaves no motion.
+    pub painleve: Painleve,
+    /// By which law it presses, if it yields.
+    pub compliance: Option<Compliance>,
     /// Whether there is friction.
     pub rubs: bool,
 }
@@ -71,17 +79,21 @@ pub(super) fn unilateral<'d>(model: &Model<'d>) -> Vec<UnilateralEquation<'d>> {
         let rate = x.coasting(model).of(gap);
         let zero = model.dag.zero();
         let friction = contact.friction.unwrap_or(zero);
+        let [first, second] = contact.response.coefficients();
         UnilateralEquation {
             name: contact.name.to_string(),
             gap,
             directions: [rate, slip].map(|rate| direction(model, &x, rate)),
             coefficients: [
-                contact.restitution,
-                contact.tangential_restitution,
+                first,
+                second,
                 friction,
                 contact.static_friction.unwrap_or(friction),
             ],
-            law: contact.law,
+            law: contact.response.impact_law().unwrap_or_default(),
+            order: contact.response.order().unwrap_or_default(),
+            painleve: contact.response.painleve(),
+            compliance: contact.response.compliance(),
             rubs,
         }
     };

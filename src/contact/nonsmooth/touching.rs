@@ -3,10 +3,11 @@
 use std::vec;
 use std::vec::Vec;
 
+use super::compliant::Yielding;
 use super::delassus::{Inertia, matrix};
 use super::lcp;
 use super::problem::{self, Asked};
-use super::{ContactTrouble, Held, ImpactLaw};
+use super::{ContactTrouble, Held, ImpactLaw, ImpactOrder, Painleve};
 use crate::{Singular, StepError, System, Vector};
 
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
@@ -36,7 +37,11 @@ pub(crate) use crate::friction::Margin;
 pub(crate) struct Touching {
     modes: Vec<Mode>,
     rubs: Vec<bool>,
+    /// Of contacts that yield, their law and what it remembers.
+    pub(super) yielding: Vec<Option<Yielding>>,
     pub(super) law: ImpactLaw,
+    pub(super) order: ImpactOrder,
+    pub(super) painleve: Vec<Painleve>,
     held: Vec<usize>,
     /// The greatest rate at which any gap closed so far.
     pub(super) speed: f64,
@@ -129,8 +134,9 @@ pub(crate) struct Reaction {
 
 /// By how much the states of closed contacts hold.
 pub(crate) struct Margins {
-    /// For each contact: that it presses, and that it slips as it does or sticks.
-    pub each: Vec<[Margin; 2]>,
+    /// For each contact: that it presses, that it slips as it does or sticks, and that a layer is loaded or unloaded
+    /// as it is.
+    pub each: Vec<[Margin; 3]>,
     /// Whether the forces that they are taken from are the only ones.
     pub is_only: bool,
 }
@@ -147,10 +153,18 @@ impl Touching {
     /// All contacts open.
     pub fn new<S: System>(system: &S) -> Touching {
         let rubs: Vec<bool> = system.unilateral_contacts().map(|c| c.rubs).collect();
-        let law = system.unilateral_contacts().next().map(|c| c.law);
+        let mut bouncing = system.unilateral_contacts();
+        let bouncing = bouncing.find(|c| c.compliance.is_none());
+        let (law, order) = (bouncing.map(|c| c.law), bouncing.map(|c| c.order));
+        let painleve = system.unilateral_contacts().map(|c| c.painleve).collect();
+        let yielding = system.unilateral_contacts();
+        let yielding = yielding.map(|c| c.compliance.map(Yielding::new)).collect();
         Touching {
             modes: vec![Mode::Open; rubs.len()],
             law: law.unwrap_or_default(),
+            order: order.unwrap_or_default(),
+            painleve,
+            yielding,
             held: Vec::new(),
             speed: 0.0,
             openings: vec![0.0; rubs.len()],
@@ -163,7 +177,7 @@ impl Touching {
     }
 
     pub fn set_modes(&mut self, modes: Vec<Mode>) {
-        self.held = Self::held_directions(&modes, &self.rubs);
+        self.held = self.held_directions(&modes);
         self.modes = modes;
     }
 
@@ -174,7 +188,12 @@ impl Touching {
 
     /// Whether nothing touches.
     pub fn is_free(&self) -> bool {
-        self.held.is_empty()
+        self.modes.iter().all(|mode| *mode == Mode::Open)
+    }
+
+    /// Whether a contact has friction.
+    pub(super) fn rubs(&self, contact: usize) -> bool {
+        self.rubs[contact]
     }
 
     /// The machine with what is closed as constraints.
@@ -233,12 +252,28 @@ impl Touching {
         };
         let mut unknowns: Vec<(usize, usize)> = Vec::new();
         for (place, &k) in closed.iter().enumerate() {
-            unknowns.push((place, 0));
+            if let Some(pressed) = self.pressed(&here, k) {
+                let normal = pressed.force;
+                reaction.forces[k] = [normal, share(k) * normal];
+                reaction.sizes[k] = normal.abs();
+            } else {
+                unknowns.push((place, 0));
+            }
             if self.modes[k] == Mode::Sticks && self.rubs[k] {
                 unknowns.push((place, 1));
             }
         }
+        if closed.iter().any(|k| self.yields(*k)) {
+            let known = closed.iter().flat_map(|k| reaction.forces[*k]);
+            let response = inertia.response(&images, known);
+            for (a, by) in reaction.a.iter_mut().zip(response) {
+                *a += by;
+            }
+        }
         for (place, &k) in closed.iter().enumerate() {
+            if self.yields(k) {
+                continue;
+            }
             let own = g[2 * place * width + 2 * place];
             let coupled = share(k) * g[2 * place * width + 2 * place + 1];
             if own + coupled <= ROUNDING_OF_FORCES * own && coupled < 0.0 {
@@ -271,15 +306,19 @@ impl Touching {
         }
         let (values, rank) = lcp::solve(&mut left, &mut right);
         reaction.is_only = rank == size;
+        let mut found = vec![[0.0; 2]; closed.len()];
         for (&(place, part), value) in unknowns.iter().zip(&values) {
-            let force = &mut reaction.forces[closed[place]];
-            force[part] += value;
+            found[place][part] += value;
             if part == 0 {
-                force[1] += share(closed[place]) * value;
+                found[place][1] += share(closed[place]) * value;
             }
         }
-        let forces = closed.iter().flat_map(|k| reaction.forces[*k]);
-        let response = inertia.response(&images, forces);
+        for (&k, found) in closed.iter().zip(&found) {
+            let [normal, tangential] = &mut reaction.forces[k];
+            *normal += found[0];
+            *tangential += found[1];
+        }
+        let response = inertia.response(&images, found.into_iter().flatten());
         for (a, by) in reaction.a.iter_mut().zip(response) {
             *a += by;
         }
@@ -341,14 +380,22 @@ impl Touching {
             return [f64::NAN; 2];
         };
         let here = Here::of(system, t, q, v);
-        let (mut on_coordinates, mut lost) = (0.0, 0.0);
+        // What the forces do to the coordinates, what they take from both sides of the contacts, and what of that is
+        // lost and not stored.
+        let (mut on_coordinates, mut taken, mut lost) = (0.0, 0.0, 0.0);
         for (k, force) in reaction.forces.iter().enumerate() {
             for (part, force) in force.iter().enumerate() {
                 let row = here.row(2 * k + part).iter().zip(v.as_slice());
                 on_coordinates += force * row.map(|(w, v)| w * v).sum::<f64>();
             }
             if let Mode::Slides(_) = self.modes[k] {
-                lost -= force[1] * here.rates[2 * k + 1];
+                let friction = -force[1] * here.rates[2 * k + 1];
+                taken += friction;
+                lost += friction;
+            }
+            if let Some(pressed) = self.pressed(&here, k) {
+                taken -= pressed.force * here.rates[2 * k];
+                lost += pressed.lost;
             }
         }
         // Where constraints move by themselves, the machine counts as work whatever changes its energy.
@@ -358,15 +405,15 @@ impl Touching {
             system.constraint_rates(t, q, &v.zeros_like(), &mut moving);
         }
         match moving.iter().any(|rate| *rate != 0.0) {
-            true => [lost, lost],
-            false => [on_coordinates + lost, lost],
+            true => [taken, lost],
+            false => [on_coordinates + taken, lost],
         }
     }
 
     /// By how much the states of closed contacts hold: whether they press, and whether what slips does so still,
     /// or what sticks has friction left.
     pub fn margins<S: System>(&self, system: &S, at: At<'_, S>) -> Result<Margins, StepError> {
-        let mut margins = vec![[Margin::ENDLESS; 2]; self.modes.len()];
+        let mut margins = vec![[Margin::ENDLESS; 3]; self.modes.len()];
         if self.is_free() {
             return Ok(Margins {
                 each: margins,
@@ -379,39 +426,47 @@ impl Touching {
         for (k, margin) in margins.iter_mut().enumerate() {
             let [normal, tangential] = reaction.forces[k];
             let rounding = ROUNDING_OF_FORCES * reaction.sizes[k];
-            let presses = Margin {
-                value: normal,
-                rounding,
-            };
+            let [presses, loads] = self.margins_of_yielding(&here, k).unwrap_or([
+                Margin {
+                    value: normal,
+                    rounding,
+                },
+                Margin::ENDLESS,
+            ]);
             *margin = match self.modes[k] {
                 Mode::Open => continue,
-                Mode::Slides(0.0) => [presses, Margin::ENDLESS],
-                Mode::Slides(sign) => [
-                    presses,
-                    Margin {
+                Mode::Slides(0.0) => [presses, Margin::ENDLESS, loads],
+                Mode::Slides(sign) => {
+                    let slips = Margin {
                         value: sign * here.rates[2 * k + 1],
                         rounding: here.rate_rounding[2 * k + 1],
-                    },
-                ],
-                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS],
+                    };
+                    [presses, slips, loads]
+                }
+                Mode::Sticks if !self.rubs[k] => [presses, Margin::ENDLESS, loads],
                 Mode::Sticks => {
                     let friction = here.friction(k)[1];
                     let reserve = Margin {
                         value: friction * normal - tangential.abs(),
                         rounding: rounding * (1.0 + friction),
                     };
-                    [presses, reserve]
+                    [presses, reserve, loads]
                 }
             };
         }
-        let is_doubtful = |margin: &[Margin; 2]| margin.iter().any(|m| m.value < -m.rounding);
-        if !reaction.is_only && margins.iter().any(is_doubtful) {
+        let is_doubtful = |(k, margin): (usize, &[Margin; 3])| {
+            let shared = if self.yields(k) { 1..2 } else { 0..2 };
+            margin[shared].iter().any(|m| m.value < -m.rounding)
+        };
+        if !reaction.is_only && margins.iter().enumerate().any(is_doubtful) {
             // Forces that share a load may share it otherwise: only all together can tell.
             let resting: Vec<bool> = self.modes.iter().map(|m| *m == Mode::Sticks).collect();
             let closed: Vec<bool> = self.modes.iter().map(|m| *m != Mode::Open).collect();
             if self.settled(system, at, &closed, &resting, None)? == self.modes {
-                for (margin, mode) in margins.iter_mut().zip(&self.modes) {
-                    margin[0] = Margin::ENDLESS;
+                for (k, (margin, mode)) in margins.iter_mut().zip(&self.modes).enumerate() {
+                    if !self.yields(k) {
+                        margin[0] = Margin::ENDLESS;
+                    }
                     if *mode == Mode::Sticks {
                         margin[1] = Margin::ENDLESS;
                     }
@@ -458,7 +513,13 @@ impl Touching {
         let accelerations: Vec<[f64; 2]> = (directions.iter())
             .map(|direction| here.acceleration(*direction, &free))
             .collect();
-        let b: Vec<f64> = accelerations.iter().map(|[value, _]| *value).collect();
+        // The normal forces that are known, of contacts that yield.
+        let pressing: Vec<Option<f64>> = (asked_of.iter())
+            .map(|k| {
+                self.pressing(&here, *k)
+                    .map(|pressed| pressed.force.max(0.0))
+            })
+            .collect();
         let paradox = |k: usize| StepError::Contact {
             contact: k,
             trouble: ContactTrouble::Paradox,
@@ -481,12 +542,17 @@ impl Touching {
             let mut asked = Vec::with_capacity(asked_of.len());
             for (place, &k) in asked_of.iter().enumerate() {
                 let [friction, static_friction] = here.friction(k);
-                asked.push(match slipping[place] {
-                    None => Asked::Both {
+                asked.push(match (slipping[place], pressing[place]) {
+                    (Some(_), Some(_)) => Asked::Nothing,
+                    (None, Some(normal)) => Asked::Tangent {
+                        friction: static_friction,
+                        normal,
+                    },
+                    (None, None) => Asked::Both {
                         friction: static_friction,
                         beside: 0.0,
                     },
-                    Some(sign) => {
+                    (Some(sign), None) => {
                         let share = -sign * friction;
                         let own = g[2 * place * width + 2 * place];
                         let coupled = share * g[2 * place * width + 2 * place + 1];
@@ -498,6 +564,19 @@ impl Touching {
                     }
                 });
             }
+            let known = |place: usize| {
+                let normal = pressing[place].unwrap_or(0.0);
+                let share =
+                    slipping[place].map_or(0.0, |sign| -sign * here.friction(asked_of[place])[0]);
+                [normal, share * normal]
+            };
+            let known: Vec<[f64; 2]> = (0..asked_of.len()).map(known).collect();
+            let b: Vec<f64> = (accelerations.iter().enumerate())
+                .map(|(row, [value, _])| {
+                    let by = g[row * width..][..width].iter().zip(known.iter().flatten());
+                    by.fold(*value, |sum, (g, force)| sum + g * force)
+                })
+                .collect();
             let answer = problem::solve(&asked, &g, &b).map_err(|_| paradox(asked_of[0]))?;
             if answer.residual > 1e-8 {
                 return Err(paradox(asked_of[0]));
@@ -506,18 +585,26 @@ impl Touching {
             for (place, &k) in asked_of.iter().enumerate() {
                 let after = |part: usize| {
                     let row = 2 * place + part;
-                    let forces = answer.forces.iter().flatten();
-                    let terms = g[row * width..][..width].iter().zip(forces);
-                    let terms = terms.map(|(g, force)| g * force);
-                    let size = accelerations[row][1] + terms.clone().map(f64::abs).sum::<f64>();
-                    (b[row] + terms.sum::<f64>(), ROUNDING_OF_FORCES * size)
+                    let of = |forces: &[[f64; 2]]| {
+                        let terms = g[row * width..][..width].iter().zip(forces.as_flattened());
+                        terms.fold([0.0; 2], |[sum, size], (g, force)| {
+                            [sum + g * force, size + (g * force).abs()]
+                        })
+                    };
+                    let ([by, size], [_, of_known]) = (of(&answer.forces), of(&known));
+                    let size = accelerations[row][1] + size + of_known;
+                    (b[row] + by, ROUNDING_OF_FORCES * size)
                 };
                 let (opens, rounding) = after(0);
+                // One of both is 0, as far as the problem could be solved: what is pressed more than it opens is closed.
+                let row = 2 * place;
+                let pressed = g[row * width + row] * answer.forces[place][0];
                 modes[k] = match slipping[place] {
-                    _ if opens > rounding => Mode::Open,
+                    _ if opens > rounding.max(pressed) && pressing[place].is_none() => Mode::Open,
                     Some(sign) => Mode::Slides(sign),
                     None => {
                         let [normal, tangential] = answer.forces[place];
+                        let normal = pressing[place].unwrap_or(normal);
                         let most = here.friction(k)[1] * normal;
                         let (slips, rounding) = after(1);
                         // What has friction left sticks, whatever rounding makes of its slip.

@@ -25,6 +25,10 @@ pub(super) enum Asked {
     Both { friction: f64, beside: f64 },
     /// The normal; the tangential force is `κ` times the normal one.
     Normal { share: f64 },
+    /// The tangent, with friction `μ` of a normal force that is known.
+    Tangent { friction: f64, normal: f64 },
+    /// Nothing: both forces are known.
+    Nothing,
 }
 
 /// Solves for normal and tangential forces or impulses of each contact. `g` has two rows and columns for each, its
@@ -35,15 +39,20 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
     // What is unknown: for each contact its kind, and in which units of impulse.
     let mut unknowns: Vec<(usize, Kind)> = Vec::new();
     for (k, asked) in asked.iter().enumerate() {
-        unknowns.push((k, Kind::Normal));
-        if let Asked::Both { friction, .. } = asked
-            && *friction > 0.0
-        {
+        let rubs = match asked {
+            Asked::Both { friction, .. } => *friction > 0.0,
+            Asked::Tangent { friction, normal } => friction * normal > 0.0,
+            Asked::Normal { .. } | Asked::Nothing => false,
+        };
+        if matches!(asked, Asked::Both { .. } | Asked::Normal { .. }) {
+            unknowns.push((k, Kind::Normal));
+        }
+        if rubs {
             unknowns.extend([(k, Kind::Forward), (k, Kind::Backward), (k, Kind::Slip)]);
         }
     }
     let rate = b.iter().fold(0.0_f64, |size, b| size.max(b.abs()));
-    if rate == 0.0 {
+    if rate == 0.0 || unknowns.is_empty() {
         return Ok(Answer {
             forces: vec![[0.0; 2]; m],
             residual: 0.0,
@@ -60,7 +69,7 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
         Kind::Normal => {
             let share = match asked[k] {
                 Asked::Normal { share } => share,
-                Asked::Both { .. } => 0.0,
+                _ => 0.0,
             };
             unit[k] * (entry(row, 2 * k) + share * entry(row, 2 * k + 1))
         }
@@ -74,7 +83,9 @@ pub(super) fn solve(asked: &[Asked], g: &[f64], b: &[f64]) -> Result<Answer, Uns
         let row = &mut matrix[i * n..][..n];
         let (friction, beside) = match asked[k] {
             Asked::Both { friction, beside } => (friction, beside / (unit[k] * rate)),
-            Asked::Normal { .. } => (0.0, 0.0),
+            // Its own normal impulse is none, and the known one stands beside that.
+            Asked::Tangent { friction, normal } => (friction, normal / (unit[k] * rate)),
+            Asked::Normal { .. } | Asked::Nothing => (0.0, 0.0),
         };
         for (entry, &unknown) in row.iter_mut().zip(&unknowns) {
             let is_own = unknown.0 == k;

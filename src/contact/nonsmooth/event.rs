@@ -34,6 +34,12 @@ pub enum ContactEventKind {
     Closes,
     /// A contact that lasted ends.
     Lifts,
+    /// A contact that yields ceases to press.
+    Opens,
+    /// A layer is unloaded: its depth was greatest.
+    Turns,
+    /// A layer comes back to its greatest depth, and is crushed further.
+    Crushes,
     /// It stops slipping.
     Sticks,
     /// It begins to slip.
@@ -43,12 +49,28 @@ pub enum ContactEventKind {
 }
 
 impl ContactEventKind {
+    /// All of them.
+    pub const ALL: [ContactEventKind; 9] = [
+        Self::Impact,
+        Self::Closes,
+        Self::Lifts,
+        Self::Opens,
+        Self::Turns,
+        Self::Crushes,
+        Self::Sticks,
+        Self::Slips,
+        Self::Reverses,
+    ];
+
     /// One word for it.
     pub fn word(self) -> &'static str {
         match self {
             Self::Impact => "impact",
             Self::Closes => "closes",
             Self::Lifts => "lifts",
+            Self::Opens => "opens",
+            Self::Turns => "turns",
+            Self::Crushes => "crushes",
             Self::Sticks => "sticks",
             Self::Slips => "slips",
             Self::Reverses => "reverses",

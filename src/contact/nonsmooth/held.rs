@@ -69,13 +69,13 @@ impl<'a, S: System> Held<'a, S> {
 
 impl Touching {
     /// Which directions are held: 2k for the normal of the contact k, and 2k + 1 for its tangent.
-    pub(super) fn held_directions(modes: &[Mode], rubs: &[bool]) -> Vec<usize> {
+    pub(super) fn held_directions(&self, modes: &[Mode]) -> Vec<usize> {
         let mut held = Vec::new();
         for (k, mode) in modes.iter().enumerate() {
-            if *mode != Mode::Open {
+            if *mode != Mode::Open && !self.yields(k) {
                 held.push(2 * k);
             }
-            if *mode == Mode::Sticks && rubs[k] {
+            if *mode == Mode::Sticks && self.rubs(k) {
                 held.push(2 * k + 1);
             }
         }

@@ -1,4 +1,4 @@
-//! Impacts: what is left of the rates.
+//! Impacts: the rates after them.
 
 use std::vec;
 use std::vec::Vec;
@@ -7,8 +7,11 @@ use super::delassus::{Inertia, matrix};
 use super::problem::{self, Answer, Asked};
 use super::routh::{self, Expansion, Meeting};
 use super::touching::{Here, Touching};
-use super::{ContactTrouble, ImpactLaw, Mode};
+use super::{ContactTrouble, ImpactLaw, ImpactOrder, Mode, Painleve};
 use crate::{Singular, StepError, System, Vector};
+
+/// Inverse masses below this, relative to the terms that they are the sum of, are rounding.
+const ROUNDING_OF_MASSES: f64 = 1e-11;
 
 /// Contacts that share less than this of their inertia do not meet in one impact.
 const COUPLED: f64 = 1e-12;
@@ -33,14 +36,24 @@ pub(crate) struct Impact {
     pub loss: f64,
 }
 
+/// A way out of Painlevé's paradox.
+pub(crate) enum Jam {
+    /// The contact opens.
+    Opens(usize),
+    /// An impact without a collision, and how it changes the rates.
+    Impact { impact: Impact, change: Vec<f64> },
+}
+
 impl Touching {
     /// Which contacts touch, and which of these close.
+    ///
+    /// What is held is at rest, whatever rounding makes of its rate, as long as the rates are `as_held`: no impact has
+    /// changed them at this instant.
     pub fn near<S: System>(
         &self,
         system: &S,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        as_held: bool,
     ) -> (Vec<bool>, Vec<bool>) {
         let here = Here::of(system, t, q, v);
         let touches: Vec<bool> = (0..here.gaps.len())
@@ -51,7 +64,9 @@ impl Touching {
             .enumerate()
             .map(|(k, touches)| {
                 let rounding = here.rate_rounding[2 * k].max(LEAST_BOUNCE * 1e-3 * self.speed);
-                *touches && here.rates[2 * k] < -rounding
+                let may =
+                    *touches && !self.yields(k) && !(as_held && self.modes()[k] != Mode::Open);
+                may && here.rates[2 * k] < -rounding
             })
             .collect();
         (touches, closes)
@@ -66,7 +81,95 @@ impl Touching {
         v: &S::Vector,
     ) -> Option<usize> {
         let here = Here::of(system, t, q, v);
-        (0..here.gaps.len()).find(|k| here.gaps[*k] < -here.gap_rounding[*k])
+        // What yields may be pressed at the start, but for a layer: what it went through is not known.
+        let is_free = |k: usize| self.yields(k) && !self.is_layer(k);
+        (0..here.gaps.len()).find(|&k| !is_free(k) && here.gaps[k] < -here.gap_rounding[k])
+    }
+
+    /// Which of the contacts that touch take part in the next impact: all, or the one that closes fastest.
+    pub fn next<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        touches: &[bool],
+    ) -> Vec<bool> {
+        if self.order == ImpactOrder::AtOnce {
+            return touches.to_vec();
+        }
+        let here = Here::of(system, t, q, v);
+        let rate = |k: &usize| here.rates[2 * k];
+        let closing = (0..touches.len()).filter(|k| touches[*k] && !self.yields(*k));
+        let fastest = closing.min_by(|a, b| rate(a).total_cmp(&rate(b)));
+        (0..touches.len()).map(|k| Some(k) == fastest).collect()
+    }
+
+    /// Whether any contact is to have a way out of Painlevé's paradox.
+    pub fn may_jam(&self) -> bool {
+        self.painleve.contains(&Painleve::Impact)
+    }
+
+    /// The way out of Painlevé's paradox of a contact that slips and whose friction leaves no motion, or several. None
+    /// if there is no such contact.
+    pub fn jam<S: System>(
+        &self,
+        system: &S,
+        at: super::touching::At<'_, S>,
+        closed: &[bool],
+        resting: &[bool],
+    ) -> Result<Option<Jam>, StepError> {
+        let may = |k: usize| closed[k] && self.rubs(k) && !self.yields(k);
+        let may = |k: usize| may(k) && !resting[k] && self.painleve[k] == Painleve::Impact;
+        let (t, q, v, _) = at;
+        let Some(first) = (0..closed.len()).find(|k| may(*k)) else {
+            return Ok(None);
+        };
+        let here = Here::of(system, t, q, v);
+        let singular = |singular: Singular| StepError::Singular { singular, t };
+        let inertia = Inertia::new(system, t, q).map_err(singular)?;
+        let free = Self::free(system, at)?;
+        for k in (first..closed.len()).filter(|k| may(*k)) {
+            let images = [2 * k, 2 * k + 1].map(|direction| inertia.image(here.row(direction)));
+            let g = matrix(&images);
+            let slip = here.rates[2 * k + 1];
+            let pressed = g[0] - slip.signum() * here.friction(k)[0] * g[1];
+            let opens = here.acceleration(2 * k, &free)[0];
+            if pressed > ROUNDING_OF_MASSES * g[0] {
+                continue;
+            }
+            if opens >= 0.0 {
+                return Ok(Some(Jam::Opens(k)));
+            }
+            let trouble = |trouble| StepError::Contact {
+                contact: k,
+                trouble,
+                t,
+            };
+            if (0..closed.len()).any(|other| other != k && closed[other]) {
+                return Err(trouble(ContactTrouble::Paradox));
+            }
+            let meeting = Meeting {
+                inverse_masses: [g[0], g[1], g[3]],
+                rates: [0.0, slip],
+                restitution: here.restitution(k)[0],
+                friction: here.friction(k),
+            };
+            let impulse = routh::impulse(meeting, Expansion::Impulse)
+                .ok_or_else(|| trouble(ContactTrouble::Paradox))?;
+            let change = inertia.response(&images, impulse);
+            let by = |row: usize| g[2 * row] * impulse[0] + g[2 * row + 1] * impulse[1];
+            let gap_rate = [0.0, by(0)];
+            let slip = [slip, slip + by(1)];
+            let loss = -0.5 * (impulse[0] * gap_rate[1] + impulse[1] * (slip[0] + slip[1]));
+            let impact = Impact {
+                contact: k,
+                gap_rate,
+                slip,
+                impulse,
+                loss,
+            };
+            return Ok(Some(Jam::Impact { impact, change }));
+        }
+        Ok(None)
     }
 
     /// Changes the rates by an impact of the contacts that touch.
@@ -77,13 +180,18 @@ impl Touching {
         q: &S::Vector,
         v: &mut S::Vector,
         touches: &[bool],
+        as_held: bool,
     ) -> Result<Vec<Impact>, StepError> {
         let here = Here::of(system, t, q, v);
         let singular = |singular: Singular| StepError::Singular { singular, t };
         let inertia = Inertia::new(system, t, q).map_err(singular)?;
-        // What opens already has no part in it.
+        // What opens already has no part in it, nor has what yields: its force is finite.
         let meets: Vec<usize> = (0..touches.len())
-            .filter(|k| touches[*k] && here.rates[2 * k] <= here.rate_rounding[2 * k])
+            .filter(|&k| touches[k] && !self.yields(k))
+            .filter(|&k| {
+                let is_held = as_held && self.modes()[k] != Mode::Open;
+                is_held || here.rates[2 * k] <= here.rate_rounding[2 * k]
+            })
             .collect();
         let directions: Vec<usize> = meets.iter().flat_map(|k| [2 * k, 2 * k + 1]).collect();
         let images: Vec<Vec<f64>> = (directions.iter())
@@ -276,18 +384,24 @@ impl Touching {
             .collect()
     }
 
-    /// Which contacts neither open nor close.
+    /// Which contacts neither open nor close; of those that yield, which are pressed.
     pub fn lasting<S: System>(
         &self,
         system: &S,
-        t: f64,
-        q: &S::Vector,
-        v: &S::Vector,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
         touches: &[bool],
+        as_held: bool,
     ) -> Vec<bool> {
         let here = Here::of(system, t, q, v);
         (touches.iter().enumerate())
             .map(|(k, touches)| {
+                if self.yields(k) {
+                    let deep = -self.clearance(&here, k).value > here.gap_rounding[k];
+                    return self.modes()[k] != Mode::Open || deep;
+                }
+                if as_held && self.modes()[k] != Mode::Open {
+                    return true;
+                }
                 let rounding = here.rate_rounding[2 * k].max(1e-12 * self.speed);
                 *touches && here.rates[2 * k].abs() <= rounding
             })

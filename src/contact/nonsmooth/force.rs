@@ -20,6 +20,8 @@ pub struct UnilateralForce {
     pub normal: f64,
     /// The friction along the direction of the slip, in N.
     pub friction: f64,
+    /// The work that has crushed its layer so far, in J; 0 where it is none.
+    pub crushing_work: f64,
     /// Whether it is closed, and lasts.
     pub closed: bool,
     /// Whether it is closed and does not slip.
@@ -28,7 +30,8 @@ pub struct UnilateralForce {
 
 /// Accelerations of a machine with unilateral contacts at a state, and the forces in these: what touches within
 /// rounding and does not open is closed, and all that is closed is asked together whether it lifts, slips or sticks.
-/// What is about to collide is open until it does.
+/// What is about to collide is open until it does. What yields is pressed where it is penetrated and its force is
+/// positive; a layer is taken to be pressed for the first time.
 ///
 /// A run knows more: there a contact stays closed until its force vanishes.
 ///
@@ -41,11 +44,12 @@ pub fn unilateral_forces<S: System>(
 ) -> Result<Vec<UnilateralForce>, StepError> {
     let (t, q, v, _) = at;
     let mut touching = Touching::new(system);
-    let (touches, _) = touching.near(system, t, q, v);
-    let closed = touching.lasting(system, t, q, v, &touches);
+    let (touches, _) = touching.near(system, (t, q, v), true);
+    let closed = touching.lasting(system, (t, q, v), &touches, true);
     let resting = touching.resting(system, t, q, v);
     let modes = touching.settled(system, at, &closed, &resting, None)?;
     touching.set_modes(modes);
+    touching.load_layers(system, t, q, v);
     touching.forces(system, at, a)
 }
 
@@ -68,6 +72,7 @@ impl Touching {
             slip: here.rates[2 * k + 1],
             normal: reaction.forces[k][0],
             friction: reaction.forces[k][1],
+            crushing_work: self.crushing_work(&here, k),
             closed: *mode != Mode::Open,
             sticks: *mode == Mode::Sticks,
         };

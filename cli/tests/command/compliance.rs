@@ -1,0 +1,274 @@
+//! Contacts that yield, against closed forms.
+
+use std::f64::consts::PI;
+
+use serde_json::Value;
+
+use crate::collisions::{close, events, is_good, number, simulate};
+use crate::support::{Scratch, lagrangian};
+
+/// A mass that flies into a wall which yields: at x = −1 m, with 3 m/s.
+fn into_a_wall(parameters: &str, law: &str, until: f64) -> Value {
+    let spec = Scratch::new(
+        "wall.machine",
+        &format!(
+            "machine Wall in plane {{
+                parameters {{ m: kg = 2, {parameters} }}
+                coordinates {{ x: m = -1, der(x): m/s = 3 }}
+                bodies {{ block {{ mass: m, at: (x, 0) }} }}
+                contacts {{ wall {{ gap: -x, compliance: {law} }} }}
+            }}"
+        ),
+    );
+    let run = simulate(spec.path(), until, &[]);
+    is_good(&run);
+    run
+}
+
+/// When it closes and when it opens.
+fn touches(run: &Value) -> [f64; 2] {
+    ["closes", "opens"].map(|kind| {
+        let found = events(run, kind);
+        assert_eq!(found.len(), 1, "{kind}: {run:#}");
+        number(&found[0]["t"])
+    })
+}
+
+/// With ζ = b/(2 √(k m)) = sin φ, the force is used up after (π − 2 φ)/(ω cos φ), and exp(−(π − 2 φ) tan φ) of the speed
+/// are left. (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469.)
+#[test]
+fn a_spring_with_a_damper_bounces_as_its_damping_says() {
+    for (b, phi) in [(0.0, 0.0), (40.0, 0.5_f64.asin()), (72.0, 0.9_f64.asin())] {
+        let parameters = format!("k: N/m = 800, b: N*s/m = {b}");
+        let run = into_a_wall(&parameters, "linear(k, b)", 1.0);
+        let [closes, opens] = touches(&run);
+        close(closes, 1.0 / 3.0, 1e-14);
+        close(opens - closes, (PI - 2.0 * phi) / (20.0 * phi.cos()), 1e-11);
+        let left = 3.0 * (-(PI - 2.0 * phi) * phi.tan()).exp();
+        close(number(&run["v"]["x"]), -left, 1e-10);
+        close(number(&run["energy_residual"]), 0.0, 1e-10);
+        // What the damper took, and what the spring held when the force was used up.
+        let lost = 9.0 - left * left;
+        close(number(&run["dissipated"]), lost, 1e-9);
+    }
+}
+
+/// A Hertzian contact lasts 2.943275 d/v with d = (5 m v²/(4 K))^(2/5), and gives back what it took.
+#[test]
+fn a_hertzian_contact_lasts_as_long_as_hertz_says() {
+    let run = into_a_wall("K: N/m^(3/2) = 3e5", "hertz(K)", 0.5);
+    let [closes, opens] = touches(&run);
+    let (m, v, k) = (2.0_f64, 3.0_f64, 3e5_f64);
+    let lasts = 3.218_065_459_719_045 * (m * m / (k * k * v)).powf(0.2);
+    close(opens - closes, lasts, 1e-10);
+    close(number(&run["v"]["x"]), -3.0, 1e-10);
+    close(number(&run["energy_residual"]), 0.0, 1e-10);
+}
+
+/// From m v dv = −K d^(3/2) (1 + c v) dd, the speeds v before and w after obey c v − ln(1 + c v) = −c w − ln(1 − c w).
+#[test]
+fn hunt_and_crossleys_contact_leaves_the_speed_of_its_closed_form() {
+    let run = into_a_wall(
+        "K: N/m^(3/2) = 3e5, c: s/m = 0.2",
+        "hunt_crossley(K, c)",
+        0.5,
+    );
+    let (c, v) = (0.2_f64, 3.0_f64);
+    let w = -number(&run["v"]["x"]);
+    let side = |x: f64| x - x.ln_1p();
+    close(side(c * v), side(-c * w), 1e-11);
+    assert!(w > 1.5 && w < 2.5, "{w}");
+    close(number(&run["dissipated"]), v * v - w * w, 1e-9);
+    close(number(&run["energy_residual"]), 0.0, 1e-10);
+}
+
+/// A layer is loaded for a quarter of a period of k₁ and unloaded for one of k₂; √(k₁/k₂) of the speed is left, and it is
+/// thinner by d (1 − k₁/k₂). What comes back more slowly than before does not crush it again.
+#[test]
+fn a_layer_is_crushed_once() {
+    let spec = Scratch::new(
+        "layer.machine",
+        "machine Bed in plane {
+            parameters { m: kg = 2, k1: N/m = 800, k2: N/m = 3200 }
+            coordinates { x: m = -1, der(x): m/s = 3 }
+            bodies { block { mass: m, at: (x, 0) } }
+            contacts {
+                bed { gap: -x, compliance: layer(k1, k2) },
+                wall { gap: x + 2, restitution: 1 },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 5.0, &[]);
+    is_good(&run);
+    let times = |kind| -> Vec<f64> {
+        let all = events(&run, kind);
+        all.iter().map(|event| number(&event["t"])).collect()
+    };
+    let (closes, turns, opens) = (times("closes"), times("turns"), times("opens"));
+    let deepest = 3.0 * (2.0_f64 / 800.0).sqrt();
+    close(closes[0], 1.0 / 3.0, 1e-14);
+    close(turns[0] - closes[0], PI / 2.0 / 20.0, 1e-12);
+    close(opens[0] - turns[0], PI / 2.0 / 40.0, 1e-12);
+    let lost = 0.75 * deepest;
+    close(number(&events(&run, "opens")[0]["q"]["x"]), lost, 1e-12);
+    // It flies to the wall and back, and is stopped and sent back by what is elastic.
+    close(closes[1] - opens[0], 2.0 * (2.0 + lost) / 1.5, 1e-11);
+    close(opens[1] - closes[1], PI / 40.0, 1e-11);
+    // As deep as before, and no deeper.
+    assert!(times("crushes").is_empty());
+    close(number(&run["v"]["x"]).abs(), 1.5, 1e-11);
+    let crushing = 9.0 * 0.75;
+    close(number(&run["crushing_work"]), crushing, 1e-11);
+    close(
+        number(&run["unilateral_contacts"][0]["crushing_work"]),
+        crushing,
+        1e-11,
+    );
+    close(number(&run["dissipated"]), crushing, 1e-11);
+    close(number(&run["energy_residual"]), 0.0, 1e-11);
+}
+
+/// A force that grows from beat to beat drives a plate into a layer: each beat crushes it further from where the last one
+/// ended, and all that was crushed is a function of the greatest depth.
+#[test]
+fn a_layer_is_crushed_further_from_its_greatest_depth() {
+    let spec = Scratch::new(
+        "beats.machine",
+        "machine Beats in plane {
+            parameters { m: kg = 2, k1: N/m = 800, k2: N/m = 3200, f: N/s = 40, w: rad/s = 3 }
+            coordinates { x: m }
+            bodies { plate { mass: m, at: (x, 0) } }
+            dampers { guide { damping: 20, stretch: x } }
+            forces { drive { on: x, value: f*t*sin(w*t) } }
+            contacts { bed { gap: -x, compliance: layer(k1, k2) } }
+            outputs { depth: m = x }
+        }",
+    );
+    let run = simulate(spec.path(), 12.0, &[]);
+    is_good(&run);
+    let (turns, crushes) = (events(&run, "turns"), events(&run, "crushes"));
+    assert!(crushes.len() >= 4, "{run:#}");
+    // Where it is crushed again is where it last turned.
+    let mut deepest = 0.0_f64;
+    for crushed in &crushes {
+        let t = number(&crushed["t"]);
+        let before = turns.iter().rfind(|turn| number(&turn["t"]) < t);
+        let before = before.expect("it turned before");
+        close(number(&crushed["q"]["x"]), number(&before["q"]["x"]), 1e-12);
+    }
+    for turn in &turns {
+        close(number(&turn["v"]["x"]), 0.0, 1e-10);
+        deepest = deepest.max(number(&turn["q"]["x"]));
+    }
+    let crushing = 0.5 * 800.0 * 0.75 * deepest * deepest;
+    close(number(&run["crushing_work"]), crushing, 1e-10 * crushing);
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+}
+
+/// On a floor that yields, a disc slides until it rolls: at 2/3 of its speed, after v/(3 μ g), exactly and without a creep
+/// that a friction without sticking would have. It lies as deep as its weight presses it, and does not move there.
+#[test]
+fn friction_of_a_floor_that_yields_is_coulombs() {
+    let spec = Scratch::new(
+        "disc.machine",
+        "machine Disc in plane {
+            parameters { m: kg = 2, r: m = 0.1, mu: 1 = 0.2, g: m/s^2 = 9.81, K: N/m^(3/2) = 1e7 }
+            coordinates { x: m, y: m = r - (m*g/K)^(2/3), theta: rad, der(x): m/s = 3 }
+            bodies { disc { mass: m, inertia: m*r^2/2, at: (x, y), angle: theta } }
+            gravity (0, -g);
+            circles { rim { on: disc, center: (0, 0), radius: r } }
+            contacts { floor { circle: rim, along: ground, compliance: hertz(K), friction: mu } }
+        }",
+    );
+    let run = simulate(spec.path(), 2.0, &[]);
+    is_good(&run);
+    let sticks = events(&run, "sticks");
+    assert_eq!(sticks.len(), 1, "{run:#}");
+    // The weight is balanced to rounding, which the oscillation about its rest carries on.
+    close(number(&sticks[0]["t"]), 3.0 / (3.0 * 0.2 * 9.81), 1e-10);
+    close(number(&run["v"]["x"]), 2.0, 1e-10);
+    close(number(&run["v"]["theta"]), -20.0, 1e-9);
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+}
+
+/// A wall that yields and moves works on the ball: the balance closes with it.
+#[test]
+fn a_wall_that_yields_and_moves_works() {
+    let spec = Scratch::new(
+        "box.machine",
+        "machine Shaken in plane {
+            parameters { m: kg = 0.1, l: m = 0.05, A: m = 0.01, w: rad/s = 40, k: N/m = 2e4, b: N*s/m = 2 }
+            coordinates { x: m = 0.01, der(x): m/s = 0.3 }
+            bodies { ball { mass: m, at: (x, 0) } }
+            contacts {
+                left  { gap: x - A*sin(w*t) + l, compliance: linear(k, b) },
+                right { gap: l - x + A*sin(w*t), restitution: 0.9 },
+            }
+        }",
+    );
+    let run = simulate(spec.path(), 2.0, &[]);
+    is_good(&run);
+    assert!(events(&run, "opens").len() > 5);
+    assert!(events(&run, "impact").len() > 5);
+    close(number(&run["energy_residual"]), 0.0, 1e-10);
+}
+
+/// A layer in the bore of the crusher: its crushing work is what no impact and no damper took, and the balance closes.
+#[test]
+fn the_crusher_crushes_a_layer() {
+    let run = simulate("machines/contacts/layered_crusher.machine", 0.2, &[]);
+    is_good(&run);
+    assert!(number(&run["crushing_work"]) > 1.0, "{run:#}");
+    let dissipated = number(&run["dissipated"]);
+    let known = number(&run["crushing_work"]) + number(&run["impact_loss"]);
+    assert!(dissipated > known);
+    close(number(&run["energy_residual"]), 0.0, 1e-6);
+}
+
+/// What is wrong with a law of force is said at the wrong word.
+#[test]
+fn mistakes_in_laws_of_force_are_told() {
+    for (field, said) in [
+        (
+            "compliance: spring(k, b)",
+            "no law of force is called `spring`",
+        ),
+        ("compliance: k", "a law of force is expected here"),
+        (
+            "compliance: linear(k)",
+            "`linear` takes two arguments, found 1",
+        ),
+        ("compliance: hertz(k)", "N/m^(3/2)"),
+        (
+            "compliance: hertz(K), restitution: 0.5",
+            "`restitution` does not go with `compliance`",
+        ),
+        (
+            "compliance: linear(-k, b)",
+            "the stiffness of a contact is positive",
+        ),
+        (
+            "compliance: layer(k, k/2)",
+            "a layer is unloaded no less stiffly than it is loaded",
+        ),
+        (
+            "compliance: linear(k*x/(1*m), b)",
+            "a law of force cannot depend on coordinates",
+        ),
+    ] {
+        let spec = Scratch::new(
+            "wrong.machine",
+            &format!(
+                "machine Wrong in plane {{
+                    parameters {{ k: N/m = 800, b: N*s/m = 1, K: N/m^(3/2) = 5 }}
+                    coordinates {{ x: m = 1 }}
+                    bodies {{ block {{ mass: 1, at: (x, 0) }} }}
+                    contacts {{ wall {{ gap: x, {field} }} }}
+                }}"
+            ),
+        );
+        let output = lagrangian(&["check", spec.path()]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(text.contains(said), "{field}: {text}");
+    }
+}

@@ -1,0 +1,231 @@
+//! Machines whose parts collide: what is known of them from elsewhere, and orders of impacts.
+
+use serde_json::Value;
+
+use crate::collisions::{close, events, is_good, number, simulate};
+use crate::support::{Scratch, lagrangian};
+
+/// One after the other, three equal balls in a row with e = 1 leave with (0, 0, 1), and with e = ½ with (0.203125, 0.234375,
+/// 0.5625): by hand, and in quadruple precision elsewhere.
+#[test]
+fn a_cradle_moves_ball_by_ball_where_the_order_says_so() {
+    for (e, expected) in [
+        ("1", [0.0, 0.0, 1.0]),
+        ("0.5", [0.203125, 0.234375, 0.5625]),
+    ] {
+        let spec = Scratch::new(
+            "cradle.machine",
+            &format!(
+                "machine Cradle in plane {{
+                    parameters {{ m: kg = 0.1, r: m = 0.5, e: 1 = {e} }}
+                    coordinates {{ a: m, b: m = 2, c: m = 3, der(a): m/s = 1 }}
+                    bodies {{
+                        first {{ mass: m, at: (a, 0) }}, second {{ mass: m, at: (b, 0) }}, third {{ mass: m, at: (c, 0) }},
+                    }}
+                    contacts {{
+                        left  {{ gap: b - a - 2*r, restitution: e, order: sequence }},
+                        right {{ gap: c - b - 2*r, restitution: e, order: sequence }},
+                    }}
+                }}"
+            ),
+        );
+        let run = simulate(spec.path(), 1.5, &[]);
+        is_good(&run);
+        for (ball, expected) in ["a", "b", "c"].iter().zip(expected) {
+            close(number(&run["v"][ball]), expected, 1e-14);
+        }
+        let lost = 0.05 * (1.0 - expected.iter().map(|v| v * v).sum::<f64>());
+        close(number(&run["impact_loss"]), lost, 1e-15);
+    }
+}
+
+/// A rod whose tip slips over rough ground in a pose in which no motion has Coulomb's law: an impact without a collision. Its
+/// impulse is Routh's: p₁ until the slip of 5 m/s has stopped, and p₂ until the tip, which sticks, no longer closes.
+#[test]
+fn a_jammed_rod_is_stopped_by_an_impact_without_a_collision() {
+    let rod = |turns: f64| {
+        Scratch::new(
+            "rod.machine",
+            &format!(
+                "machine Rod in plane {{
+                    parameters {{ g: m/s^2 = 9.81, mu: 1 = 3, tilt: rad = 1.2, l: m = 1, w: rad/s = {turns} }}
+                    coordinates {{
+                        x: m, y: m = l*sin(tilt), theta: rad = tilt,
+                        der(x): m/s = -5, der(y): m/s = l*cos(tilt)*w, der(theta): rad/s = w,
+                    }}
+                    bodies {{ rod {{ mass: 1, inertia: 1/3, at: (x, y), angle: theta }} }}
+                    gravity (0, -g);
+                    contacts {{
+                        tip {{
+                            point: (-1, 0), on: rod, along: ground, restitution: 0, friction: mu, painleve: impact,
+                        }}
+                    }}
+                }}"
+            ),
+        )
+    };
+    let run = simulate(rod(0.0).path(), 0.05, &[]);
+    is_good(&run);
+    let (sin, cos) = 1.2_f64.sin_cos();
+    let (nn, nt, tt) = (
+        1.0 + 3.0 * cos * cos,
+        -3.0 * sin * cos,
+        1.0 + 3.0 * sin * sin,
+    );
+    assert!(nn + 3.0 * nt < 0.0);
+    let first = 5.0 / (nt + 3.0 * tt);
+    let closes = -(nn + 3.0 * nt) * first;
+    let second = closes / (nn - nt * nt / tt);
+    let impact = events(&run, "impact")[0];
+    close(number(&impact["impulse"][0]), first + second, 1e-13);
+    close(
+        number(&impact["impulse"][1]),
+        3.0 * first - nt / tt * second,
+        1e-13,
+    );
+    close(number(&impact["slip"][1]), 0.0, 1e-14);
+    // Of a mass of 1 kg impulses are changes of the rates.
+    let [x, y] = ["x", "y"].map(|name| number(&impact["v"][name]));
+    close(x, -5.0 + 3.0 * first - nt / tt * second, 1e-13);
+    close(y, first + second, 1e-13);
+    close(number(&run["energy_residual"]), 0.0, 1e-11);
+    // Where its turning lifts it, it opens.
+    let run = simulate(rod(4.0).path(), 0.01, &[]);
+    is_good(&run);
+    assert!(events(&run, "impact").is_empty(), "{run:#}");
+    close(number(&run["v"]["x"]), -5.0, 1e-13);
+}
+
+/// In a circle all chords are alike: the ball meets the wall at equal times and angles, a hundred times in a row.
+#[test]
+fn a_billiard_ball_keeps_its_angle() {
+    let run = simulate("machines/contacts/billiard.machine", 92.0, &[]);
+    is_good(&run);
+    let impacts = events(&run, "impact");
+    let (radius, speed) = (0.9_f64, 2.0_f64);
+    let (sin, cos) = 0.6_f64.sin_cos();
+    // |(−0.5, 0) + s (cos, sin)| = 0.9.
+    let reach = 0.5 * cos + (0.25 * cos * cos - 0.25 + radius * radius).sqrt();
+    let incidence = (0.5 * sin / radius).asin();
+    let chord = 2.0 * radius * incidence.cos();
+    assert!(impacts.len() > 100);
+    let first = (reach * sin).atan2(reach * cos - 0.5);
+    for (k, impact) in impacts.iter().enumerate() {
+        let t = (reach + k as f64 * chord) / speed;
+        // Each impact rounds the direction, and all later ones inherit it.
+        let within = 1e-13 * (k + 10) as f64;
+        close(number(&impact["t"]), t, within * 10.0);
+        let angle = first - k as f64 * (std::f64::consts::PI - 2.0 * incidence);
+        let [x, y] = ["x", "y"].map(|name| number(&impact["q"][name]));
+        close(x, radius * angle.cos(), within * 10.0);
+        close(y, radius * angle.sin(), within * 10.0);
+    }
+}
+
+/// The slider's first contact in quadruple precision: two corners at once where it does not turn, and one where it does.
+#[test]
+fn a_slider_with_play_meets_its_guide_when_it_should() {
+    let slider = "machines/contacts/slider_crank_clearance.machine";
+    let run = simulate(slider, 0.0035, &[]);
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    let impacts = events(&run, "impact");
+    let t = number(&impacts[0]["t"]);
+    close(t, 0.002_692_502_752_021_212, 1e-15);
+    let first: Vec<&str> = (impacts.iter())
+        .filter(|impact| number(&impact["t"]) == t)
+        .filter_map(|impact| impact["contact"].as_str())
+        .collect();
+    assert_eq!(first, ["upper_left", "upper_right"]);
+    close(
+        number(&impacts[0]["q"]["theta1"]),
+        0.355_304_455_027_745_3,
+        1e-13,
+    );
+    close(
+        number(&impacts[0]["q"]["theta2"]),
+        -0.171_509_540_940_173_9,
+        1e-13,
+    );
+
+    let run = simulate(slider, 0.0035, &["w3=-0.01"]);
+    assert_eq!(run["error"], Value::Null, "{run:#}");
+    let impact = events(&run, "impact")[0];
+    assert_eq!(impact["contact"], "upper_left");
+    close(number(&impact["t"]), 0.002_690_903_648_407_842, 1e-15);
+}
+
+/// Siconos's run of the woodpecker, by Moreau and Jean's scheme of first order in steps of 20 µs: after two beats, with 4
+/// impacts of the beak and sleeve in each, its state is ours within one percent. The beak pecks every 0.146 s.
+#[test]
+fn the_woodpecker_goes_down_its_pole_as_elsewhere() {
+    let run = simulate("machines/contacts/woodpecker.machine", 0.2998, &[]);
+    is_good(&run);
+    let expected = [
+        ("q", "y", -0.041_301_150_6),
+        ("q", "phiS", -0.339_437_059_7),
+        ("v", "y", -0.262_482_125_8),
+        ("v", "phiS", -8.304_866_469),
+    ];
+    for (of, name, expected) in expected {
+        close(number(&run[of][name]), expected, 0.01 * f64::abs(expected));
+    }
+    // The lower end of the sleeve is on the pole.
+    close(number(&run["q"]["phiM"]), -0.0006 / 0.0058, 1e-12);
+    let pecks: Vec<f64> = (events(&run, "impact").into_iter())
+        .filter(|impact| impact["contact"] == "beak")
+        .map(|impact| number(&impact["t"]))
+        .collect();
+    assert_eq!(pecks.len(), 2, "{run:#}");
+    close(pecks[1] - pecks[0], 0.146, 0.001);
+    close(number(&run["energy_residual"]), 0.0, 1e-12);
+}
+
+/// A block with `corners` rocks as one with two points does, bit by bit.
+#[test]
+fn corners_are_points() {
+    let points = simulate("machines/contacts/rocking_block.machine", 1.2, &[]);
+    let text =
+        std::fs::read_to_string("../machines/contacts/rocking_block.machine").expect("the machine");
+    let from = text.find("left  {").expect("a contact");
+    let corners = "feet { corners: ((-b, -h), (b, -h)), on: block, along: ground, restitution: 0, friction: mu } } }";
+    let spec = Scratch::new("corners.machine", &format!("{}{corners}", &text[..from]));
+    let run = simulate(spec.path(), 1.2, &[]);
+    is_good(&run);
+    assert_eq!((&run["q"], &run["v"]), (&points["q"], &points["v"]));
+    let [found, expected] = [&run, &points].map(|run| events(run, "impact").len());
+    assert!(found == expected && found > 0);
+    assert_eq!(events(&run, "impact")[0]["contact"], "feet[2]");
+}
+
+/// Discs fall into a bowl. Nothing is pulled, nothing is penetrated, and the balance closes. (Of the twenty of the machine eight
+/// do here, which are derived in less time.)
+#[test]
+fn discs_pile_up_in_a_bowl() {
+    let pile = "machines/contacts/pile.machine";
+    let output = lagrangian(&[
+        "simulate", pile, "--const", "N=8", "--until", "0.5", "--json",
+    ]);
+    let run: Value = serde_json::from_slice(&output.stdout).expect("a document");
+    is_good(&run);
+    assert!(events(&run, "impact").len() > 20);
+    for impact in events(&run, "impact") {
+        // Discs have momenta of some 0.1 N s, whose rounding is in every impulse.
+        let [normal, tangential] = [0, 1].map(|k| number(&impact["impulse"][k]));
+        assert!(
+            normal >= 0.0 && tangential.abs() <= 0.3 * normal * (1.0 + 1e-9) + 1e-15,
+            "{impact}"
+        );
+    }
+    let place = |name: &str, i: usize| number(&run["q"][format!("{name}[{i}]")]);
+    for i in 1..=8 {
+        let (x, y) = (place("x", i), place("y", i));
+        assert!(x.hypot(y) <= 0.45 + 1e-9);
+        for j in 1..i {
+            assert!(
+                (x - place("x", j)).hypot(y - place("y", j)) >= 0.1 - 1e-12,
+                "{i} and {j}"
+            );
+        }
+    }
+    close(number(&run["energy_residual"]), 0.0, 1e-9);
+}

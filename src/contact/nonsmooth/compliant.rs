@@ -1,0 +1,340 @@
+//! Contacts that yield: the force of one, what it stores and loses, and when it opens.
+//!
+//! ```text
+//! d = −g,  N = k d + b ḋ,  K d^(3/2),  K d^(3/2) (1 + c ḋ),  k₁ d or k₂ (d − d₀)  with d₀ = d* (1 − k₁/k₂)
+//! ```
+//!
+//! It is pressed as long as N > 0 and it is penetrated. What it stores is lost where its force vanishes before it is
+//! back; a layer loses `(1 − k₁/k₂) k₁ d ḋ` while it is loaded, so that `½ (1 − k₁/k₂) k₁ d*²` have crushed it.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::Compliance;
+use super::touching::{Here, Margin, Mode, Touching};
+use crate::System;
+
+/// The law of a contact that yields, and what it remembers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Yielding {
+    law: Compliance,
+    /// Of a layer: how deep it was pressed at most, in m, and whether it is loaded further now.
+    depth: f64,
+    is_loaded: bool,
+}
+
+/// A contact that yields at a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pressed {
+    /// By its formula, in N; negative where it would pull.
+    pub force: f64,
+    /// In J.
+    pub stored: f64,
+    /// In W.
+    pub lost: f64,
+}
+
+/// How far a contact is from closing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Clearance {
+    /// Positive where it is open: the gap, in m; of a contact that yields what is still open before it presses.
+    pub value: f64,
+    /// How fast the gap opens, in m/s.
+    pub rate: f64,
+    /// Whether `rate` is that of `value`.
+    pub is_of_gap: bool,
+}
+
+impl Yielding {
+    pub fn new(law: Compliance) -> Yielding {
+        Yielding {
+            law,
+            depth: 0.0,
+            is_loaded: false,
+        }
+    }
+
+    /// The thickness of a layer that has been lost.
+    fn lost_thickness(self, [loading, unloading]: [f64; 2]) -> f64 {
+        self.depth * (1.0 - loading / unloading)
+    }
+
+    fn pressed(self, parameters: [f64; 2], [depth, rate]: [f64; 2]) -> Pressed {
+        let [first, second] = parameters;
+        let root = depth.abs().sqrt();
+        match self.law {
+            Compliance::Linear => Pressed {
+                force: first * depth + second * rate,
+                stored: 0.5 * first * depth * depth,
+                lost: second * rate * rate,
+            },
+            Compliance::Hertz | Compliance::HuntCrossley => {
+                // The second parameter of Hertz's law is 0.
+                let force = first * depth * root;
+                Pressed {
+                    force: force * (1.0 + second * rate),
+                    stored: 0.4 * force * depth,
+                    lost: force * second * rate * rate,
+                }
+            }
+            Compliance::Layer if self.is_loaded => {
+                let force = first * depth;
+                Pressed {
+                    force,
+                    stored: 0.5 * force * force / second,
+                    lost: force * rate * (1.0 - first / second),
+                }
+            }
+            Compliance::Layer => {
+                let yielded = depth - self.lost_thickness(parameters);
+                Pressed {
+                    force: second * yielded,
+                    stored: 0.5 * second * yielded * yielded,
+                    lost: 0.0,
+                }
+            }
+        }
+    }
+
+    /// How much is missing to it being pressed, in m; negative where it is.
+    fn missing(self, parameters: [f64; 2], [depth, rate]: [f64; 2]) -> f64 {
+        let [first, second] = parameters;
+        match self.law {
+            Compliance::Layer if !self.is_loaded => self.lost_thickness(parameters) - depth,
+            Compliance::Linear if depth > 0.0 => -depth.min(depth + second / first * rate),
+            Compliance::HuntCrossley if depth > 0.0 => -depth * (1.0 + second * rate).min(1.0),
+            _ => -depth,
+        }
+    }
+}
+
+impl Touching {
+    /// Whether a contact yields.
+    pub fn yields(&self, contact: usize) -> bool {
+        self.yielding[contact].is_some()
+    }
+
+    /// Whether it is a layer that is crushed.
+    pub(super) fn is_layer(&self, contact: usize) -> bool {
+        self.yielding[contact].is_some_and(|own| own.law == Compliance::Layer)
+    }
+
+    /// Force and energies of a contact that yields and is closed.
+    pub(super) fn pressed(&self, here: &Here, contact: usize) -> Option<Pressed> {
+        let own = self.yielding[contact]?;
+        let is_closed = self.modes()[contact] != Mode::Open;
+        is_closed.then(|| own.pressed(here.restitution(contact), here.depth(contact)))
+    }
+
+    /// The same, of one that is about to be closed.
+    pub(super) fn pressing(&self, here: &Here, contact: usize) -> Option<Pressed> {
+        let own = self.yielding[contact]?;
+        Some(own.pressed(here.restitution(contact), here.depth(contact)))
+    }
+
+    /// How far a contact is from closing, or how far it is closed.
+    pub(super) fn clearance(&self, here: &Here, contact: usize) -> Clearance {
+        let rate = here.rates[2 * contact];
+        let gap = here.gaps[contact];
+        let Some(own) = self.yielding[contact] else {
+            return Clearance {
+                value: gap,
+                rate,
+                is_of_gap: true,
+            };
+        };
+        let value = own.missing(here.restitution(contact), here.depth(contact));
+        Clearance {
+            value,
+            rate,
+            is_of_gap: gap >= -here.gap_rounding[contact] || own.law == Compliance::Layer,
+        }
+    }
+
+    /// How far every contact is from closing at a state.
+    pub fn clearances<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+    ) -> Vec<Clearance> {
+        if !self.any_yields() {
+            let m = self.yielding.len();
+            let (mut gaps, mut rates) = (vec![0.0; m], vec![0.0; 2 * m]);
+            system.gaps(t, q, &mut gaps);
+            system.contact_rates(t, q, v, &mut rates);
+            let pairs = gaps.into_iter().zip(rates.chunks_exact(2));
+            let of_gap = |(value, rates): (f64, &[f64])| Clearance {
+                value,
+                rate: rates[0],
+                is_of_gap: true,
+            };
+            return pairs.map(of_gap).collect();
+        }
+        let here = Here::of(system, t, q, v);
+        (0..here.gaps.len())
+            .map(|k| self.clearance(&here, k))
+            .collect()
+    }
+
+    /// Whether any contact yields.
+    pub fn any_yields(&self) -> bool {
+        self.yielding.iter().any(Option::is_some)
+    }
+
+    /// What contacts that yield hold, in J.
+    pub fn stored<S: System>(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) -> f64 {
+        if !self.any_yields() || self.is_free() {
+            return 0.0;
+        }
+        let here = Here::of(system, t, q, v);
+        let pressed = (0..self.yielding.len()).filter_map(|k| self.pressed(&here, k));
+        pressed.map(|pressed| pressed.stored).sum()
+    }
+
+    /// The work that has crushed the layer of a contact so far, in J; 0 where it has none.
+    pub(super) fn crushing_work(&self, here: &Here, contact: usize) -> f64 {
+        let [loading, unloading] = here.restitution(contact);
+        match self.yielding[contact] {
+            Some(own) if own.law == Compliance::Layer => {
+                let depth = match own.is_loaded {
+                    true => own.depth.max(here.depth(contact)[0]),
+                    false => own.depth,
+                };
+                0.5 * (1.0 - loading / unloading) * loading * depth * depth
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// The work that has crushed each layer so far, in J.
+    pub fn crushing_works<S: System>(
+        &self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+    ) -> Vec<f64> {
+        let here = Here::of(system, t, q, v);
+        (0..self.yielding.len())
+            .map(|k| self.crushing_work(&here, k))
+            .collect()
+    }
+
+    /// Whether it goes on being pressed, and being loaded or unloaded as it is, of a contact that yields.
+    pub(super) fn margins_of_yielding(&self, here: &Here, contact: usize) -> Option<[Margin; 2]> {
+        let own = self.yielding[contact]?;
+        let parameters = here.restitution(contact);
+        let (depth, rounding) = (here.depth(contact), here.gap_rounding[contact]);
+        let rate_rounding = here.rate_rounding[2 * contact];
+        let of_rate = match own.law {
+            Compliance::Linear => parameters[1] / parameters[0] * rate_rounding,
+            Compliance::HuntCrossley => depth[0].abs() * parameters[1] * rate_rounding,
+            _ => 0.0,
+        };
+        let presses = Margin {
+            value: -own.missing(parameters, depth),
+            rounding: rounding + of_rate,
+        };
+        let loads = match own.law {
+            Compliance::Layer if own.is_loaded => Margin {
+                value: depth[1],
+                rounding: rate_rounding,
+            },
+            Compliance::Layer => Margin {
+                value: own.depth - depth[0],
+                rounding,
+            },
+            _ => Margin::ENDLESS,
+        };
+        Some([presses, loads])
+    }
+
+    /// Layers that are penetrated have been loaded to where they are, those that close now are loaded from where they
+    /// were left.
+    pub fn load_layers<S: System>(&mut self, system: &S, t: f64, q: &S::Vector, v: &S::Vector) {
+        let here = Here::of(system, t, q, v);
+        for k in 0..self.yielding.len() {
+            let is_closed = self.modes()[k] != Mode::Open;
+            let Some(own) = &mut self.yielding[k] else {
+                continue;
+            };
+            let [depth, rate] = here.depth(k);
+            let is_at_its_depth = depth >= own.depth - here.gap_rounding[k];
+            let recedes = rate < -here.rate_rounding[2 * k];
+            if own.law != Compliance::Layer {
+                continue;
+            }
+            if own.is_loaded && (recedes || !is_closed) {
+                own.depth = own.depth.max(depth);
+                own.is_loaded = false;
+            } else if is_closed && is_at_its_depth && !recedes {
+                own.is_loaded = true;
+            }
+        }
+    }
+
+    /// A layer is unloaded that was loaded, or the other way round; what it does now.
+    pub fn turn_layer<S: System>(
+        &mut self,
+        system: &S,
+        (t, q, v): (f64, &S::Vector, &S::Vector),
+        contact: usize,
+    ) -> bool {
+        let here = Here::of(system, t, q, v);
+        let Some(own) = &mut self.yielding[contact] else {
+            return false;
+        };
+        if own.is_loaded {
+            own.depth = own.depth.max(here.depth(contact)[0]);
+        }
+        own.is_loaded = !own.is_loaded;
+        own.is_loaded
+    }
+
+    /// Which layers are loaded further.
+    pub fn loaded(&self) -> impl Iterator<Item = bool> {
+        (self.yielding.iter()).map(|own| own.is_some_and(|own| own.is_loaded))
+    }
+}
+
+impl Here {
+    /// How deep a contact is penetrated, and how fast that grows.
+    fn depth(&self, contact: usize) -> [f64; 2] {
+        [-self.gaps[contact], -self.rates[2 * contact]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫ N dd along a path is what is stored and lost, whatever the law: by the trapezoidal rule, whose error is of the
+    /// second order in the step.
+    #[test]
+    fn what_goes_in_is_stored_or_lost() {
+        for (law, parameters) in [
+            (Compliance::Linear, [300.0, 4.0]),
+            (Compliance::Hertz, [500.0, 0.0]),
+            (Compliance::HuntCrossley, [500.0, 0.3]),
+            (Compliance::Layer, [200.0, 500.0]),
+        ] {
+            let mut own = Yielding::new(law);
+            own.is_loaded = law == Compliance::Layer;
+            // d = 0.1 sin t, from 0 to a quarter of a turn.
+            let steps = 20_000_u32;
+            let at = |i: u32| {
+                let t = core::f64::consts::FRAC_PI_2 * f64::from(i) / f64::from(steps);
+                own.pressed(parameters, [0.1 * t.sin(), 0.1 * t.cos()])
+            };
+            let by = core::f64::consts::FRAC_PI_2 / f64::from(steps);
+            let (mut given, mut lost) = (0.0, 0.0);
+            for i in 0..steps {
+                let (from, to) = (at(i), at(i + 1));
+                let rate = |i: u32| 0.1 * (by * f64::from(i)).cos();
+                given += 0.5 * by * (from.force * rate(i) + to.force * rate(i + 1));
+                lost += 0.5 * by * (from.lost + to.lost);
+            }
+            let stored = at(steps).stored - at(0).stored;
+            let error = given - stored - lost;
+            assert!(error.abs() < 1e-8 * given, "{law:?}: {error:e} of {given}");
+        }
+    }
+}
