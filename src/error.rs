@@ -1,5 +1,11 @@
 //! What can stand in the way of a run, with the numbers that explain it.
 
+#[cfg(feature = "interpreter")]
+mod of_specs;
+
+#[cfg(feature = "interpreter")]
+pub use of_specs::{Diagnostic, MissingParameters, NoMachineCode, Note};
+
 use core::fmt::{self, Display};
 use std::string::String;
 
@@ -14,7 +20,7 @@ pub enum Error {
     #[cfg(feature = "interpreter")]
     Spec {
         /// What is wrong, by position: none is left out but those beyond a limit.
-        diagnostics: std::vec::Vec<crate::interpreted::Diagnostic>,
+        diagnostics: std::vec::Vec<of_specs::Diagnostic>,
         /// How many more there are.
         omitted: usize,
     },
@@ -22,10 +28,10 @@ pub enum Error {
     UnknownName(crate::UnknownName),
     /// Parameters have no value: the spec gives no default, and nobody set them.
     #[cfg(feature = "interpreter")]
-    MissingParameters(crate::interpreted::MissingParameters),
+    MissingParameters(of_specs::MissingParameters),
     /// Machine code is asked for and cannot be had here.
     #[cfg(feature = "interpreter")]
-    NoMachineCode(crate::interpreted::NoMachineCode),
+    NoMachineCode(of_specs::NoMachineCode),
     /// A further force is to act on a machine with friction at guides ([`Adapted`](crate::Adapted)).
     HasFriction(crate::HasFriction),
     /// The balance of energy is to be kept of a system that does not say what its energies are
@@ -740,20 +746,6 @@ impl From<crate::UnknownName> for Error {
 impl From<crate::HasFriction> for Error {
     fn from(error: crate::HasFriction) -> Self {
         Self::HasFriction(error)
-    }
-}
-
-#[cfg(feature = "interpreter")]
-impl From<crate::interpreted::MissingParameters> for Error {
-    fn from(error: crate::interpreted::MissingParameters) -> Self {
-        Self::MissingParameters(error)
-    }
-}
-
-#[cfg(feature = "interpreter")]
-impl From<crate::interpreted::NoMachineCode> for Error {
-    fn from(error: crate::interpreted::NoMachineCode) -> Self {
-        Self::NoMachineCode(error)
     }
 }
 

@@ -23,9 +23,10 @@ mod reading;
 
 use crate::room::Room;
 
+pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, Note};
 pub use crate::names::UnknownName;
-pub use engine::{Engine, NoMachineCode};
-pub use reading::{Diagnostic, Note, Reading};
+pub use engine::Engine;
+pub use reading::Reading;
 
 use crate::{
     Assumption, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Linearize, Machine,
@@ -91,14 +92,6 @@ struct Running {
     interpreter: Interpreter<f64>,
     /// What runs the same in its place, where it can.
     compiled: engine::Compiled,
-}
-
-/// Parameters to which neither the spec nor anybody else gave a value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct MissingParameters {
-    /// Their names.
-    pub names: Vec<String>,
 }
 
 impl InterpretedMachine {
@@ -976,19 +969,6 @@ impl fmt::Debug for Named {
         f.debug_map().entries(self.iter()).finish()
     }
 }
-
-impl fmt::Display for MissingParameters {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verb = if self.names.len() == 1 { "has" } else { "have" };
-        write!(
-            f,
-            "{} {verb} no value: the spec gives no default",
-            self.names.join(", ")
-        )
-    }
-}
-
-impl core::error::Error for MissingParameters {}
 
 /// Sets the number called `name`, or the members of the family called `name`.
 fn assign<'a>(

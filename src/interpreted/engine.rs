@@ -1,9 +1,8 @@
 //! What runs the functions of a machine that was read from a spec: the interpreter, or machine code.
 
-use core::fmt;
-use std::string::String;
 use std::sync::Arc;
 
+use crate::error::NoMachineCode;
 use lagrangian_program::{Arguments, Interpreter, Program, Role};
 
 /// What runs the functions of an [`InterpretedMachine`](super::InterpretedMachine). The results have the same bits.
@@ -18,22 +17,6 @@ pub enum Engine {
     /// The interpreter, until as much time went into a function as compiling it takes; then machine code, where there is any.
     Auto,
 }
-
-/// There is no machine code here.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct NoMachineCode {
-    /// Why.
-    pub why: String,
-}
-
-impl fmt::Display for NoMachineCode {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.why)
-    }
-}
-
-impl core::error::Error for NoMachineCode {}
 
 /// The machine code of a program, if it is to have any: shared by all its systems.
 #[derive(Clone, Debug, Default)]

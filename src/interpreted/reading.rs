@@ -1,6 +1,5 @@
 //! From the text of a spec to a machine that runs, or to everything that is wrong with the text.
 
-use core::fmt::{self, Display};
 use std::format;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
@@ -16,7 +15,7 @@ use lagrangian_spec::source::{Disk, Files, Sources, Span};
 use lagrangian_symbolic::{Dag, Rational};
 
 use super::InterpretedMachine;
-use crate::Error;
+use crate::error::{Diagnostic, Error, Note};
 
 /// The stack of the thread that derives. Nothing recurses deeply, but unoptimized code has large frames, and the caller's
 /// own thread may be a small one.
@@ -37,44 +36,6 @@ pub struct Reading {
 enum Spec {
     File(PathBuf),
     Text { name: String, text: String },
-}
-
-/// A message about a spec: what is wrong, where, and what to write instead.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Diagnostic {
-    /// The kind of mistake, `unknown-name`: the same from version to version. The reference lists them.
-    pub code: String,
-    /// What is wrong: expected, found.
-    pub message: String,
-    /// What to change.
-    pub help: Option<String>,
-    /// The file, or the name that the text was given.
-    pub file: String,
-    /// The line, from 1.
-    pub line: usize,
-    /// The column, in characters, from 1.
-    pub column: usize,
-    /// The words that are wrong.
-    pub words: String,
-    /// Other places that explain it.
-    pub notes: Vec<Note>,
-}
-
-/// A place that explains a message about another one.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Note {
-    /// The file.
-    pub file: String,
-    /// The line, from 1.
-    pub line: usize,
-    /// The column, in characters, from 1.
-    pub column: usize,
-    /// What stands there.
-    pub message: String,
 }
 
 impl InterpretedMachine {
@@ -286,35 +247,5 @@ fn refused(file: &str, code: Code, message: String) -> Error {
             notes: Vec::new(),
         }],
         omitted: 0,
-    }
-}
-
-/// `chain.machine:6:27: error: there is no function `sine` [unknown-function]`; then the help and other places, indented.
-impl Display for Diagnostic {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            code,
-            message,
-            help,
-            file,
-            line,
-            column,
-            notes,
-            ..
-        } = self;
-        write!(f, "{file}:{line}:{column}: error: {message} [{code}]")?;
-        if let Some(help) = help {
-            write!(f, "\n    help: {help}")?;
-        }
-        for Note {
-            file,
-            line,
-            column,
-            message,
-        } in notes
-        {
-            write!(f, "\n    note: {file}:{line}:{column}: {message}")?;
-        }
-        Ok(())
     }
 }
