@@ -14,120 +14,21 @@
 //! or a slip stops, all closed contacts are asked together, by a linear complementarity problem that is solved by
 //! pivoting (`lcp`). (F. Pfeiffer, C. Glocker, *Multibody Dynamics with Unilateral Contacts*, 1996; D. E. Stewart,
 //! J. C. Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673–2691.)
+//!
+//! All of it is for runs, which may allocate.
 
-#[cfg(feature = "std")]
-mod nonsmooth;
+mod delassus;
+mod event;
+mod force;
+mod impact;
+mod lcp;
+mod problem;
+mod routh;
+mod touching;
 
-#[cfg(feature = "std")]
-pub use nonsmooth::{
-    ContactEvent, ContactEventKind, ContactImpact, UnilateralForce, unilateral_forces,
-};
-#[cfg(feature = "std")]
-pub(crate) use nonsmooth::{Impact, Jam, Mode, Touching};
+pub use event::{ContactEvent, ContactEventKind, ContactImpact};
+pub use force::{UnilateralForce, unilateral_forces};
+pub(crate) use impact::{Impact, Jam};
+pub(crate) use touching::{Mode, Touching};
 
-/// A unilateral contact of a machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnilateralContact<'a> {
-    /// The name in the description.
-    pub name: &'a str,
-    /// How it bounces, if it does.
-    pub law: ImpactLaw,
-    /// Whether with the others or one after the other.
-    pub order: ImpactOrder,
-    /// What becomes of it where its friction leaves no motion.
-    pub painleve: Painleve,
-    /// By which law it presses, if it yields.
-    pub compliance: Option<Compliance>,
-    /// Whether there is friction; without it the slip is 0.
-    pub rubs: bool,
-}
-
-/// Whether contacts that are closed take part in one impact.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImpactOrder {
-    /// All at once.
-    #[default]
-    AtOnce,
-    /// One after the other, the one that closes fastest first, until none closes.
-    Sequence,
-}
-
-/// What becomes of a contact whose friction leaves no motion: P. Painlevé's paradox.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Painleve {
-    /// The run ends.
-    #[default]
-    Error,
-    /// An impact without a collision, along Routh's path, ends the slip: the contact sticks or opens. Where it could
-    /// open as well as be pressed, it opens. (F. Génot, B. Brogliato, Eur. J. Mech. A 18 (1999) 653–677.)
-    Impact,
-}
-
-/// The force in a contact that yields, of the depth `d` of its penetration and of how fast that grows. It is never
-/// negative: where it would be the contact opens. Its two parameters stand in the place of the coefficients of
-/// restitution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compliance {
-    /// `k d + b ḋ`, of a stiffness in N/m and a damping coefficient in N s/m.
-    Linear,
-    /// `K d^(3/2)`, of a stiffness in N/m^(3/2).
-    Hertz,
-    /// `K d^(3/2) (1 + c ḋ)`, of a stiffness in N/m^(3/2) and a damping in s/m. (K. H. Hunt, F. R. E. Crossley, J. Appl.
-    /// Mech. 42 (1975) 440–445.)
-    HuntCrossley,
-    /// `k₁ d` where the layer is pressed for the first time; along `k₂` back and up again to the greatest depth `d*` so
-    /// far, so that a thickness of `d* (1 − k₁/k₂)` is lost. (O. R. Walton, R. L. Braun, J. Rheol. 30 (1986) 949–980.)
-    Layer,
-}
-
-/// How rates after an impact follow from those before it. `e` and `eₜ` are the coefficients of restitution along
-/// the normal and along the tangent.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum ImpactLaw {
-    /// `0 ≤ Λₙ ⊥ γₙ⁺ + e γₙ⁻ ≥ 0`, `−Λₜ ∈ μ Λₙ Sgn(γₜ⁺ + eₜ γₜ⁻)`; with `eₜ = e` this is Moreau's law. It may
-    /// create energy where these differ.
-    #[default]
-    Newton,
-    /// Along Routh's path of impulses; the normal impulse of expansion is `e` times that of compression.
-    Poisson,
-    /// Poisson's hypothesis in two complementarity problems, for several contacts at once.
-    PoissonGlocker,
-    /// Along Routh's path; the work of expansion is `−e²` times that of compression. It never creates energy.
-    Stronge,
-}
-
-/// Why contacts leave a run no way on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub enum ContactTrouble {
-    /// The law of friction leaves no motion, or more than one: P. Painlevé's paradox.
-    Paradox,
-    /// A gap is negative at the start.
-    Penetrates,
-    /// The law of impact is for one contact at a time, and several meet.
-    SeveralAtOnce,
-    /// What is closed, slips and sticks changes again and again at one instant.
-    Unsettled,
-    /// A [`Stepper`](crate::Stepper) alone does not look for impacts: a [`Simulation`](crate::Simulation) does.
-    NotFollowed,
-}
-
-impl ContactTrouble {
-    /// What is wrong, the subject of the sentence being the contact.
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Self::Paradox => {
-                "its friction leaves no motion, or more than one (a paradox of P. Painlevé)"
-            }
-            Self::Penetrates => "it is not open but penetrated",
-            Self::SeveralAtOnce => {
-                "it meets in one impact with others, and its law is for one contact at a time; the law `poisson_glocker` \
-                 is for several"
-            }
-            Self::Unsettled => "what it does changes again and again at this instant",
-            Self::NotFollowed => "impacts are found by a `Simulation`, not by a stepper alone",
-        }
-    }
-}
+use crate::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};

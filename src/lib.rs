@@ -57,6 +57,7 @@ mod adapted;
 mod balance;
 mod compensated;
 mod constraints;
+#[cfg(feature = "std")]
 mod contact;
 mod forward;
 mod friction;
@@ -74,6 +75,7 @@ mod system;
 #[cfg(feature = "std")]
 mod taylor;
 mod tolerance;
+mod unilateral;
 mod vector;
 
 #[cfg(feature = "interpreter")]
@@ -108,9 +110,6 @@ mod solution;
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
-pub use contact::{
-    Compliance, ContactTrouble, ImpactLaw, ImpactOrder, Painleve, UnilateralContact,
-};
 pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,
@@ -126,6 +125,9 @@ pub use system::{
     Outputs, Pivot, Quantity, Singular, Staged, State, System,
 };
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
+pub use unilateral::{
+    Compliance, ContactTrouble, ImpactLaw, ImpactOrder, Painleve, UnilateralContact,
+};
 pub use vector::Vector;
 
 #[cfg(feature = "std")]

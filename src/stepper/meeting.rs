@@ -6,9 +6,10 @@ use std::vec::Vec;
 use super::{Model, Stepper};
 use crate::balance::Quadratures;
 use crate::constraints::Constraints;
-use crate::contact::{ContactTrouble, Impact, Jam, Mode, Touching};
+use crate::contact::{Impact, Jam, Mode, Touching};
 use crate::inputs::InputLaw;
 use crate::stages::Point;
+use crate::unilateral::ContactTrouble;
 use crate::{StepError, System, Vector};
 
 /// How many impacts may follow each other at one instant, for each contact.

@@ -10,9 +10,8 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::Compliance;
-use super::touching::{Here, Margin, Mode, Touching};
-use crate::System;
+use super::{Here, Margin, Mode, Touching};
+use crate::{Compliance, System};
 
 /// The law of a contact that yields, and what it remembers.
 #[derive(Clone, Copy, Debug)]
@@ -115,7 +114,7 @@ impl Touching {
     }
 
     /// Whether it is a layer that is crushed.
-    pub(super) fn is_layer(&self, contact: usize) -> bool {
+    pub(in crate::contact) fn is_layer(&self, contact: usize) -> bool {
         self.yielding[contact].is_some_and(|own| own.law == Compliance::Layer)
     }
 
@@ -133,7 +132,7 @@ impl Touching {
     }
 
     /// How far a contact is from closing, or how far it is closed.
-    pub(super) fn clearance(&self, here: &Here, contact: usize) -> Clearance {
+    pub(in crate::contact) fn clearance(&self, here: &Here, contact: usize) -> Clearance {
         let rate = here.rates[2 * contact];
         let gap = here.gaps[contact];
         let Some(own) = self.yielding[contact] else {
@@ -192,7 +191,7 @@ impl Touching {
     }
 
     /// The work that has crushed the layer of a contact so far, in J; 0 where it has none.
-    pub(super) fn crushing_work(&self, here: &Here, contact: usize) -> f64 {
+    pub(in crate::contact) fn crushing_work(&self, here: &Here, contact: usize) -> f64 {
         let [loading, unloading] = here.restitution(contact);
         match self.yielding[contact] {
             Some(own) if own.law == Compliance::Layer => {

@@ -1,14 +1,18 @@
 //! What is closed, slips and sticks: the state of contacts between two events.
 
+mod compliant;
+mod held;
+
 use std::vec;
 use std::vec::Vec;
 
-use super::compliant::Yielding;
 use super::delassus::{Inertia, matrix};
 use super::lcp;
 use super::problem::{self, Asked};
-use super::{ContactTrouble, Held, ImpactLaw, ImpactOrder, Painleve};
+use super::{ContactTrouble, ImpactLaw, ImpactOrder, Painleve};
 use crate::{Singular, StepError, System, Vector};
+use compliant::Yielding;
+pub(crate) use held::Held;
 
 /// A gap within this of its scale is closed, and a rate within this of its scale is rest.
 pub(super) const ROUNDING: f64 = 1e-12;
@@ -38,7 +42,7 @@ pub(crate) struct Touching {
     modes: Vec<Mode>,
     rubs: Vec<bool>,
     /// Of contacts that yield, their law and what it remembers.
-    pub(super) yielding: Vec<Option<Yielding>>,
+    yielding: Vec<Option<Yielding>>,
     pub(super) law: ImpactLaw,
     pub(super) order: ImpactOrder,
     pub(super) painleve: Vec<Painleve>,

@@ -3,9 +3,9 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::{Mode, Touching, UnilateralContact};
+use super::{Mode, Touching};
 use crate::forward::forward;
-use crate::{Constraint, System};
+use crate::{Constraint, System, UnilateralContact};
 
 /// A machine whose closed contacts are constraints: a gap that stays 0, and where a contact sticks, a slip that does.
 #[derive(Clone, Copy)]
