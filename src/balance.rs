@@ -225,6 +225,13 @@ pub struct Energies {
 }
 
 impl Energies {
+    /// Whether all of them are.
+    #[cfg(feature = "std")]
+    pub(crate) fn are_finite(&self) -> bool {
+        let all = [self.kinetic, self.potential, self.work, self.dissipated];
+        all.iter().all(|energy| energy.is_finite())
+    }
+
     /// The residual of the energy balance since `start`, in J.
     pub fn residual_since(&self, start: &Self) -> f64 {
         (self.kinetic + self.potential)

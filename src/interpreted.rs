@@ -290,6 +290,12 @@ impl InterpretedSystem {
         let _ = self.call(role, arguments, results);
     }
 
+    /// The output of this number: one of those that [`outputs`](System::outputs) gives together. `a` may be empty where the
+    /// output does not depend on accelerations.
+    pub fn output(&self, index: usize, t: f64, q: &[f64], v: &[f64], a: &[f64], u: &[f64]) -> f64 {
+        self.number(Role::Output(index), Arguments { t, q, v, u, a })
+    }
+
     /// A function that yields one number, and whose value exists at every state.
     fn number(&self, role: Role, arguments: Arguments<'_, f64>) -> f64 {
         let mut result = [0.0];

@@ -91,6 +91,8 @@ mod error;
 #[cfg(feature = "std")]
 mod event;
 #[cfg(feature = "std")]
+mod motion;
+#[cfg(feature = "std")]
 mod names;
 #[cfg(feature = "std")]
 mod observation;
@@ -141,9 +143,13 @@ pub use error::{Error, KeptContradiction, Warning};
 #[cfg(feature = "std")]
 pub use event::{Crossing, Event};
 #[cfg(feature = "std")]
+pub use motion::StepMotion;
+#[cfg(feature = "std")]
 pub use names::UnknownName;
 #[cfg(feature = "std")]
 pub use observation::Observation;
+#[cfg(feature = "std")]
+pub use roots::extremes;
 #[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]

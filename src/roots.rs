@@ -44,6 +44,102 @@ pub(crate) fn looks(mut f: impl FnMut(f64) -> Result<f64, Error>) -> Result<Vec<
     Ok(looks)
 }
 
+/// How often an interval is halved in which a function has a kink, on the way to its extremes.
+const HALVINGS_TO_EXTREMES: u32 = 40;
+
+/// How many intervals of one step are looked at on the way to extremes.
+const MOST_INTERVALS: usize = 400;
+
+/// Extremes of a function are found to this share of the range of its values.
+const EXTREMES: f64 = 1e-10;
+
+/// Finds the least and the greatest value of a function between two fractions.
+///
+/// `extent` holds the extremes that are known before, from other steps or none, each with its place, and afterwards those with
+/// the values in between, where that place is a fraction; `wanted` says which of them matter. Where the function is smooth, it is looked
+/// at between the nodes by its interpolant in Chebyshev's polynomials, whose coefficients bound it: so what cannot hold an extreme is
+/// told from few values. Where it has a kink, the interval is halved.
+///
+/// # Errors
+/// Those of the function.
+pub fn extremes(
+    mut f: impl FnMut(f64) -> Result<f64, Error>,
+    [from, to]: [f64; 2],
+    extent: &mut [Option<(f64, f64)>; 2],
+    wanted: [bool; 2],
+) -> Result<(), Error> {
+    let mut take = |extent: &mut [Option<(f64, f64)>; 2], theta: f64| {
+        let value = f(theta)?;
+        let [least, greatest] = extent;
+        if least.is_none_or(|(known, _)| value < known || value.is_nan()) {
+            *least = Some((value, theta));
+        }
+        if greatest.is_none_or(|(known, _)| value > known || value.is_nan()) {
+            *greatest = Some((value, theta));
+        }
+        Ok(value)
+    };
+    let mut open = Vec::from([([from, to], HALVINGS_TO_EXTREMES)]);
+    let mut looked_at = 0;
+    let mut values = Vec::new();
+    'open: while let Some((ends @ [a, b], halvings)) = open.pop() {
+        looked_at += 1;
+        for degree in [COARSE, 16, 32] {
+            values.clear();
+            for node in (0..=degree).rev() {
+                values.push(take(extent, at(node, degree, ends))?);
+            }
+            values.reverse();
+            let [Some((low, _)), Some((high, _))] = *extent else {
+                continue;
+            };
+            if low.is_nan() || high.is_nan() {
+                return Ok(());
+            }
+            let c = coefficients(&values);
+            let enough = EXTREMES * (high - low);
+            let rounding = 64.0 * f64::EPSILON * greatest(&c);
+            let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
+            let last = c[degree].abs().max(c[degree - 1].abs());
+            let beyond = rest + 4.0 * c.len() as f64 * last;
+            let may_be_lower = wanted[0] && c[0] - beyond < low - enough;
+            let may_be_higher = wanted[1] && c[0] + beyond > high + enough;
+            if !may_be_lower && !may_be_higher {
+                continue 'open;
+            }
+            let tail = &c[degree - 2..];
+            if tail.iter().any(|c| c.abs() > (0.01 * enough).max(rounding)) {
+                continue;
+            }
+            let slopes = derivative(&c);
+            let mut looks = Vec::new();
+            isolate(&slopes, [-1.0, 1.0], &mut looks);
+            for pair in looks.chunks(2) {
+                let &[mut one, mut other] = pair else {
+                    continue;
+                };
+                let rises = evaluate(&slopes, one) > 0.0;
+                while other - one > 1e-14 {
+                    let middle = 0.5 * (one + other);
+                    match (evaluate(&slopes, middle) > 0.0) == rises {
+                        true if middle > one => one = middle,
+                        false if middle < other => other = middle,
+                        _ => break,
+                    }
+                }
+                take(extent, a + (b - a) * 0.5 * (1.0 + 0.5 * (one + other)))?;
+            }
+            continue 'open;
+        }
+        if halvings > 0 && looked_at < MOST_INTERVALS {
+            let middle = 0.5 * (a + b);
+            open.push(([middle, b], halvings - 1));
+            open.push(([a, middle], halvings - 1));
+        }
+    }
+    Ok(())
+}
+
 /// Interpolates a function between two fractions, and isolates its roots there.
 fn interpolate(
     f: &mut impl FnMut(f64) -> Result<f64, Error>,

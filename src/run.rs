@@ -25,7 +25,9 @@ use crate::stages::Point;
 use crate::step_error::StepError;
 use crate::stepper::{Stepper, Whose};
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
-use crate::{Coordinates, Error, Inputs, Machine, Pivot, Singular, State, System, Vector, Warning};
+use crate::{
+    Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion, System, Vector, Warning,
+};
 use explained::Explained;
 
 /// Makes the run of a simulation; with an error if something ended it early.
@@ -599,6 +601,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Keeps what was asked for of the last step.
     fn keep(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         self.keep_samples(interpolant)?;
+        self.show(interpolant)?;
         self.enter_energies();
         if let Some(steps) = &mut self.record.steps {
             steps.push(&self.stepper);
@@ -614,6 +617,24 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             });
         }
         Ok(())
+    }
+
+    /// Shows the last step to whoever looks at each.
+    fn show(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
+        let Self {
+            model,
+            stepper,
+            callbacks,
+            ..
+        } = self;
+        match &mut callbacks.observer {
+            None => Ok(()),
+            Some(observer) => observer(&mut Within {
+                model,
+                stepper,
+                interpolant,
+            }),
+        }
     }
 
     /// The samples within the last step, to be kept or to be streamed; those at the end of the run are added there.
@@ -688,6 +709,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         record.explained.take(model.system, stepper, &energies);
         let stored = (stepper.touching().as_ref())
             .map_or(0.0, |touching| touching.stored(model.system, t, q, v));
+        if !self.settings.keep_energies
+            && record.energies.len() > 1
+            && record.energies.last().is_some_and(Energies::are_finite)
+        {
+            record.energies.pop();
+        }
         record.energies.push(Energies {
             potential: energies.potential + stored,
             ..energies
@@ -708,6 +735,71 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             model.system,
             (stepper.t(), stepper.q().clone(), stepper.v().clone()),
         ))
+    }
+}
+
+/// The last step, as it is shown.
+struct Within<'w, 'r, 's, S: System, L: InputLaw<S>, A> {
+    model: &'w Model<'r, S, L>,
+    stepper: &'w mut Stepper<'s, S, &'s L, A>,
+    interpolant: &'w mut Option<Interpolant<S::Vector>>,
+}
+
+impl<M, L, A> StepMotion<M> for Within<'_, '_, '_, M::System, L, A>
+where
+    M: Machine,
+    L: InputLaw<M::System>,
+    A: Quadratures<M::System>,
+{
+    fn span(&self) -> [f64; 2] {
+        [self.stepper.t_before(), self.stepper.t()]
+    }
+
+    fn is_series(&self) -> bool {
+        self.stepper.coefficients().is_some()
+    }
+
+    fn state_at(&mut self, theta: f64) -> Result<Triple<VectorOf<M>>, Error> {
+        let Self { model, stepper, .. } = self;
+        if theta == 0.0 {
+            let (q, v) = (stepper.q_before().clone(), stepper.v_before().clone());
+            return Ok((stepper.t_before(), q, v));
+        }
+        let interpolant = made(self.interpolant, stepper, model.system)?;
+        event::state_at(model.system, stepper, interpolant, theta)
+    }
+
+    fn state(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error> {
+        let Self { model, stepper, .. } = self;
+        let [from, to] = [stepper.t_before(), stepper.t()];
+        let system = model.system;
+        let (q, v) = match t {
+            _ if t == to => (stepper.q().clone(), stepper.v().clone()),
+            _ if t == from => (stepper.q_before().clone(), stepper.v_before().clone()),
+            _ => {
+                let (mut q, mut v) = made(self.interpolant, stepper, system)?.state(t);
+                stepper
+                    .project(t, &mut q, &mut v)
+                    .map_err(|error| Error::of_step(error, system))?;
+                (q, v)
+            }
+        };
+        Ok(state(system, (t, q, v)))
+    }
+
+    fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
+        self.model.inputs(t, q, v)
+    }
+
+    fn accelerations(
+        &self,
+        (t, q, v): (f64, &VectorOf<M>, &VectorOf<M>),
+        u: &Inputs<M>,
+        a: &mut VectorOf<M>,
+    ) -> Result<(), Error> {
+        self.stepper
+            .accelerations_at((t, q, v, u), a)
+            .map_err(|error| Error::of_step(error, self.model.system))
     }
 }
 

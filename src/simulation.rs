@@ -11,7 +11,7 @@ use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run::{self, sampled::Sampled};
 use crate::solution::Solution;
-use crate::{Coordinates, Error, Inputs, Machine, State};
+use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
 /// A run to be made: machine, end, tolerance, and what to watch for.
 ///
@@ -79,6 +79,8 @@ pub(crate) struct Settings {
     pub observed_every: Vec<f64>,
     pub keep_steps: bool,
     pub energy_balance: bool,
+    /// Whether the energies after every step are kept, and not only the first and the last.
+    pub keep_energies: bool,
     /// Whether both tolerances were given as one.
     pub one_tolerance: bool,
 }
@@ -90,6 +92,7 @@ pub(crate) struct Callbacks<'a, M: Machine> {
     pub stop: Option<OfState<'a, M, bool>>,
     pub sampled: Option<Sampled<'a, M>>,
     pub streams: Vec<Stream<'a, M>>,
+    pub observer: Option<Observer<'a, M>>,
 }
 
 /// Somebody who is shown the states of a run as it goes.
@@ -125,6 +128,9 @@ impl<M: Machine> Stream<'_, M> {
     }
 }
 
+/// What looks at each step.
+pub(crate) type Observer<'a, M> = Box<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a>;
+
 impl<M: Machine> Default for Callbacks<'_, M> {
     fn default() -> Self {
         Self {
@@ -133,6 +139,7 @@ impl<M: Machine> Default for Callbacks<'_, M> {
             stop: None,
             sampled: None,
             streams: Vec::new(),
+            observer: None,
         }
     }
 }
@@ -177,6 +184,7 @@ impl<'a, M: Machine> Simulation<'a, M> {
                 observed_every: Vec::new(),
                 keep_steps: true,
                 energy_balance: false,
+                keep_energies: true,
                 one_tolerance: true,
             },
             callbacks: Callbacks::default(),
@@ -204,6 +212,26 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
         Simulation {
             of,
             law: InputFunction(function),
+            settings,
+            callbacks,
+            resumed,
+        }
+    }
+}
+
+impl<'a, M: Machine, L> Simulation<'a, M, L> {
+    /// Sets the inputs by a law: as [`inputs`](Self::inputs), for what is no function of named values.
+    pub fn law<N: InputLaw<M::System>>(self, law: N) -> Simulation<'a, M, N> {
+        let Self {
+            of,
+            settings,
+            callbacks,
+            resumed,
+            ..
+        } = self;
+        Simulation {
+            of,
+            law,
             settings,
             callbacks,
             resumed,
@@ -308,6 +336,44 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// Whether to integrate work and dissipation alongside and make a balance of the energy.
     pub fn energy_balance(mut self, keep: bool) -> Self {
         self.settings.energy_balance = keep;
+        self
+    }
+
+    /// Keeps of the energies only the first, the last, and the first that is not finite, so that a balance costs no memory
+    /// along a run.
+    pub fn forget_energies(mut self) -> Self {
+        self.settings.keep_energies = false;
+        self
+    }
+
+    /// Shows `observer` every step that is kept, in order, with the motion within it: for what is to be made of a motion without
+    /// keeping it. An error that it returns ends the run.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// use lagrangian::Simulation;
+    ///
+    /// // The way that a ball falls, by the trapezoidal rule over the steps.
+    /// let ball = by_hand::ball();
+    /// let mut way = 0.0;
+    /// Simulation::new(&ball)
+    ///     .until(0.5)
+    ///     .forget_steps()
+    ///     .each_step(|step| {
+    ///         let [from, to] = step.span();
+    ///         let [before, after] = [from, to].map(|t| step.state(t));
+    ///         way += 0.5 * (to - from) * (before?.v[0] + after?.v[0]);
+    ///         Ok(())
+    ///     })
+    ///     .run(ball.start())?;
+    /// assert!((way + 0.5 * 9.81 * 0.25).abs() < 1e-12);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn each_step(
+        mut self,
+        observer: impl FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a,
+    ) -> Self {
+        self.callbacks.observer = Some(Box::new(observer));
         self
     }
 

@@ -32,6 +32,8 @@ pub enum Command {
     Evaluate(Evaluate),
     /// Integrate the equations of motion.
     Simulate(Simulate),
+    /// Integrate many times: over parameters, inputs and starts; a row a run.
+    Sweep(Sweep),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
     Modes(Modes),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
@@ -47,6 +49,7 @@ impl Command {
             Command::Library(call) => &call.spec,
             Command::Evaluate(call) => &call.spec,
             Command::Simulate(call) => &call.spec,
+            Command::Sweep(call) => &call.spec,
             Command::Modes(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
         }
@@ -62,6 +65,7 @@ impl Command {
             Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
             Command::Evaluate(Evaluate { start, .. })
             | Command::Simulate(Simulate { start, .. })
+            | Command::Sweep(Sweep { start, .. })
             | Command::Modes(Modes { start, .. }) => {
                 add("--set", &start.parameters);
                 add("--start", &start.coordinates);
@@ -72,6 +76,15 @@ impl Command {
                 add("--from", &call.from);
                 add("--to", &call.to);
             }
+        }
+        if let Command::Sweep(call) = self {
+            let mut add = |option: &'static str, list: &'a [Assignment]| {
+                named.extend(list.iter().map(|set| (option, set.name.as_str())));
+            };
+            add("--input", &call.inputs);
+            add("--event", &call.events);
+            add("--until-event", &call.ends);
+            add("--reduce", &call.reductions);
         }
         if let Command::Modes(call) = self {
             named.extend(call.steady.iter().map(|s| ("--steady", s.name.as_str())));
@@ -285,6 +298,101 @@ pub struct Simulate {
     pub report: Option<PathBuf>,
 }
 
+/// Arguments of `sweep`.
+#[derive(Debug, Args)]
+pub struct Sweep {
+    #[command(flatten)]
+    pub spec: Spec,
+    #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
+    pub keep: Keep,
+    /// Integrate each run to this time, in s; before 0 backward in time.
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
+    pub until: Option<f64>,
+    /// Relative and absolute tolerance of each step.
+    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: f64,
+    /// The integration method: dop853, dopri5, bs32, radau5 for stiff machines, or taylor for smooth ones.
+    #[arg(long, value_name = "NAME", default_value = "dop853")]
+    pub method: String,
+    /// How many steps each run may take.
+    #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = steps, allow_hyphen_values = true)]
+    pub max_steps: usize,
+    /// Vary a parameter, an input, `start(q)` or `rate(q)`: `omega=50..150:101` (101 values, `:log` behind for equal quotients),
+    /// `omega=50,60,90`, or to be sampled `omega=50..150`, `omega~normal(100,5)`, `~uniform(a,b)`, `~loguniform(a,b)`,
+    /// `~triangular(a,b,peak)`. Several are crossed, the last one fastest.
+    #[arg(long, value_name = "NAME=VALUES", allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+    /// How many sets of values are sampled of what is given by distributions.
+    #[arg(long, value_name = "N", value_parser = count)]
+    pub samples: Option<u64>,
+    /// How they are sampled.
+    #[arg(long, value_enum, default_value_t = Design::Sobol)]
+    pub design: Design,
+    /// Which of the many designs of this kind; the Sobol sequence itself with 0.
+    #[arg(long, default_value_t = 0)]
+    pub seed: u64,
+    /// Take values of these side by side, not crossed, as in `--together m,omega`.
+    #[arg(long, value_name = "NAME,…")]
+    pub together: Vec<String>,
+    /// Take the runs from a table `.csv` or `.parquet`: a row a run, columns under the names that are varied.
+    #[arg(long, value_name = "FILE")]
+    pub table: Option<PathBuf>,
+    /// Set an input while the machine runs: a formula in time and state, as in `--input 'u=-5*der(x)'`, or a table `.csv` with
+    /// columns `t` and the input's name.
+    #[arg(long = "input", value_name = "NAME=FORMULA|FILE.csv", value_parser = assignment, allow_hyphen_values = true)]
+    pub inputs: Vec<Assignment>,
+    /// Watch for changes of sign of a formula, as in `--event top=theta-pi`.
+    #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
+    pub events: Vec<Assignment>,
+    /// The same, and end the run there.
+    #[arg(long = "until-event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
+    pub ends: Vec<Assignment>,
+    /// What of the motion is recorded beside its end: `at=0.5,1` states at these times, `every=0.01` samples in a second file.
+    #[arg(long, value_name = "end|at=T,…|every=T")]
+    pub record: Vec<String>,
+    /// Make a number of each motion, as in `--reduce 'peak = max(abs(x))'`: max, min, range, mean, rms, integral, first, last,
+    /// when_max, when_min of a formula; count, first, last of an event.
+    #[arg(long = "reduce", value_name = "NAME=F(FORMULA)", value_parser = assignment, allow_hyphen_values = true)]
+    pub reductions: Vec<Assignment>,
+    /// Leave out of these what is before this time, in s.
+    #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
+    pub after: Option<f64>,
+    /// Where the rows go: a table `.csv` or `.parquet`, or a folder, in which chunks stay. What was interrupted goes on.
+    #[arg(long, value_name = "FILE|FOLDER")]
+    pub out: Option<PathBuf>,
+    /// Begin again, whatever is there of the sweep.
+    #[arg(long)]
+    pub fresh: bool,
+    /// How many threads run it; all cores where left out.
+    #[arg(long, value_name = "N", value_parser = count)]
+    pub threads: Option<u64>,
+    /// Stop after so many runs, rounded up to chunks; the same command goes on.
+    #[arg(long, value_name = "RUNS", value_parser = count)]
+    pub limit: Option<u64>,
+    /// Write the plan and run nothing. `lagrangian sweep PLAN.json` then runs it.
+    #[arg(long, value_name = "FILE.json")]
+    pub plan: Option<PathBuf>,
+    /// Run this chunk of a plan alone, for arrays of jobs: `lagrangian sweep PLAN.json --chunk 17 --out FOLDER`.
+    #[arg(long, value_name = "K")]
+    pub chunk: Option<u64>,
+    /// Exit with status 1 where a run failed.
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// How values are sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Design {
+    /// Each set by itself.
+    Random,
+    /// One value of each variable in each of as many strata as there are sets.
+    Latin,
+    /// The Sobol sequence, which fills evenly.
+    Sobol,
+}
+
 /// Arguments of `modes`.
 #[derive(Debug, Args)]
 pub struct Modes {
@@ -462,7 +570,7 @@ impl Assignment {
 }
 
 /// Reads `name=value`.
-fn assignment(text: &str) -> Result<Assignment, String> {
+pub fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
     let name = name.trim();
     if name.is_empty() {
@@ -537,8 +645,17 @@ fn steps(text: &str) -> Result<usize, String> {
     }
 }
 
+/// Reads how many there are.
+fn count(text: &str) -> Result<u64, String> {
+    let count = number(text)?;
+    match (1.0..=(1u64 << 40) as f64).contains(&count) && count.fract() == 0.0 {
+        true => Ok(count as u64),
+        false => Err("expected a whole number from 1 to 2^40".into()),
+    }
+}
+
 /// Reads a finite number, or a product or quotient of numbers and `pi`: `50*pi`, `-pi/2`.
-fn number(text: &str) -> Result<f64, String> {
+pub fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     let value = product(text)
         .ok_or_else(|| format!("`{text}` is not a number (as in 2.5, 1e-3, 50*pi, -pi/2)"))?;

@@ -9,6 +9,11 @@ use signal_hook::flag;
 /// The exit status of a command that was interrupted: 128 and the number of the signal.
 pub const STATUS: u8 = 128 + SIGINT as u8;
 
+/// A flag that Ctrl-C sets. A second press quits the command at once.
+pub fn flag() -> Arc<AtomicBool> {
+    Interrupt::watch().0
+}
+
 /// Whether somebody pressed Ctrl-C since this was made. A second press quits the command at once.
 pub struct Interrupt(Arc<AtomicBool>);
 

@@ -24,6 +24,7 @@ mod reading;
 mod recording;
 mod report;
 mod simulate;
+mod sweep;
 mod table;
 
 use std::io;
@@ -81,6 +82,7 @@ fn answer(call: &Call) -> u8 {
         Command::Library(call) => library::run(call),
         Command::Evaluate(call) => evaluate::run(call),
         Command::Simulate(call) => simulate::run(call),
+        Command::Sweep(call) => sweep::run(call),
         Command::Modes(call) => modes::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
     });

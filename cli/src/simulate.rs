@@ -7,6 +7,7 @@ use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Compliance, Ending, Energies, Error, Machine, Simulation, System, Warning};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
+use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
 use serde_json::{Value, json};
 
@@ -68,13 +69,7 @@ struct Trouble<'a> {
 impl Trouble<'_> {
     /// Everything that makes the exit status an error, each as a sentence.
     fn errors(&self) -> Vec<String> {
-        let error = self.error.map(|error| match error {
-            // The library names its method.
-            Error::TooManySteps { steps, t, until } => format!(
-                "{steps} steps reach t = {t} s only, of {until} s: allow more by --max-steps, or raise the tolerance"
-            ),
-            error => error.to_string(),
-        });
+        let error = self.error.map(verdict::said);
         error
             .into_iter()
             .chain(self.other.iter().cloned())
@@ -170,10 +165,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut trouble = Trouble {
         error: error.as_ref(),
         is_interrupted: matches!(run.ending(), Ending::Stopped),
-        other: overflow(&run)
-            .or_else(|| imbalance(&run))
-            .into_iter()
-            .collect(),
+        other: verdict::objection(&run).into_iter().collect(),
     };
     let contacts = contacts.found(&run);
 
@@ -218,49 +210,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
 }
 
-/// More than this of the energy turned over may not be missing for a run to count as good.
-const MOST_MISSING: f64 = 1e-3;
-
-/// Whether so much energy is missing, beyond what tolerance and rounding explain, that the motion is not that of the
-/// machine.
-fn imbalance(run: &Run) -> Option<String> {
-    let unexplained = |warning: &&Warning| matches!(warning, Warning::EnergyUnexplained { relative, .. } if relative.abs() > MOST_MISSING);
-    run.warnings()
-        .iter()
-        .find(unexplained)
-        .map(ToString::to_string)
-}
-
-/// Whether an energy was greater than any number: then nothing is known of their balance.
-fn overflow(run: &Run) -> Option<String> {
-    let mut energies = run.energies().iter();
-    let is_finite = |e: &&Energies| {
-        [e.kinetic, e.potential, e.work, e.dissipated]
-            .iter()
-            .all(|x| x.is_finite())
-    };
-    let overflowed = energies.find(|e| !is_finite(e))?;
-    let Energies {
-        t,
-        kinetic,
-        potential,
-        work,
-        dissipated,
-        ..
-    } = overflowed;
-    let named = [
-        ("kinetic energy", kinetic),
-        ("potential energy", potential),
-        ("work of drives and forces", work),
-        ("energy dissipated", dissipated),
-    ];
-    let (name, value) = named.into_iter().find(|(_, value)| !value.is_finite())?;
-    Some(format!(
-        "the {name} is not finite at t = {t} s ({value} J), so there is no balance of energy that could vouch for the run"
-    ))
-}
-
-fn method(name: &str) -> Result<&'static Method, Failure> {
+pub fn method(name: &str) -> Result<&'static Method, Failure> {
     Method::named(name).ok_or_else(|| {
         let names = || Method::all().map(|method| method.tableau.name);
         let help = match nearest(name, names()) {

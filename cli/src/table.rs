@@ -139,7 +139,7 @@ pub fn rows(text: &str, names: &[String]) -> Result<Vec<Vec<f64>>, String> {
 }
 
 /// The name in a header, without its unit.
-fn named(header: &str) -> &str {
+pub fn named(header: &str) -> &str {
     let header = header.trim();
     match header.rsplit_once(" [") {
         Some((name, unit)) if unit.ends_with(']') => name,

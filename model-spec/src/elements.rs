@@ -26,6 +26,7 @@ use lagrangian_symbolic::{Dag, Rational};
 use crate::diagnostic::Report;
 use crate::model::Model;
 use crate::resolve::element::Row;
+use crate::resolve::formulas::{self, Formula};
 use crate::resolve::{self, Language};
 use crate::source::{Files, SourceId, Sources};
 use crate::syntax::{SectionKind, Spec};
@@ -104,6 +105,40 @@ impl<'d> Model<'d> {
             sections: SectionKind::ALL,
             elements: ROWS,
         };
-        resolve::resolve(spec, language, dag, constants, (files, sources), report)
+        resolve::resolve(
+            spec,
+            language,
+            dag,
+            constants,
+            Vec::new(),
+            (files, sources),
+            report,
+        )
+    }
+
+    /// The same with formulas that are to be computed beside what the spec says: further outputs, behind its own.
+    pub fn resolve_with(
+        spec: Spec,
+        dag: &'d Dag,
+        constants: &[(String, Rational)],
+        formulas: &[Formula<'_>],
+        files: &mut dyn Files,
+        sources: &mut Sources,
+        report: &mut Report,
+    ) -> Option<Model<'d>> {
+        let language = Language {
+            sections: SectionKind::ALL,
+            elements: ROWS,
+        };
+        let formulas = formulas::items(formulas, sources, report);
+        resolve::resolve(
+            spec,
+            language,
+            dag,
+            constants,
+            formulas,
+            (files, sources),
+            report,
+        )
     }
 }

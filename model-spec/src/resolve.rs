@@ -25,6 +25,7 @@
 //! | [`keep`] | which start values stay as they are |
 //! | [`brachistochrone`] | where the fastest motion ends |
 //! | [`outside`] | values that are given from outside |
+//! | [`formulas`] | formulas that are given from outside |
 //! | [`published`] | assumptions, and equations that somebody printed |
 
 mod bounds;
@@ -34,6 +35,7 @@ mod derivatives;
 pub(crate) mod element;
 pub(crate) mod expression;
 mod fields;
+pub(crate) mod formulas;
 mod frames;
 mod items;
 mod keep;
@@ -49,6 +51,7 @@ pub(crate) mod value;
 mod warnings;
 mod work;
 
+pub use formulas::Formula;
 pub use names::MEMBER_LIMIT;
 pub use outside::value_in;
 
@@ -61,7 +64,7 @@ use crate::diagnostic::{Code, Diagnostic, Report, nearest};
 use crate::model::bounds::Bound;
 use crate::model::{Model, Pose, PoseId, Space, Variable, stage};
 use crate::source::{Files, Sources, Span};
-use crate::syntax::{self, SectionKind, Spec};
+use crate::syntax::{self, Item, Quantity, SectionKind, Spec};
 
 use element::Row;
 use frames::PoseKey;
@@ -108,10 +111,14 @@ pub(crate) fn resolve<'d>(
     language: Language,
     dag: &'d Dag,
     constants: &[(String, Rational)],
+    formulas: Vec<Item<Quantity>>,
     (files, sources): (&mut dyn Files, &mut Sources),
     report: &mut Report,
 ) -> Option<Model<'d>> {
-    let layers = Layers::load(spec, language.sections, files, sources, report);
+    let mut layers = Layers::load(spec, language.sections, files, sources, report);
+    if !formulas.is_empty() {
+        formulas::add(formulas, &mut layers.specs, sources);
+    }
     let resolver = Resolver::new(&layers, language, dag, constants, report);
     let mut model = resolver.resolve(&layers.specs)?;
     if !model.sliding().is_empty() {

@@ -101,6 +101,14 @@ impl Destination {
         self.ending
     }
 
+    /// The file, if it is one and no device, at the end of all links.
+    pub fn file(&self) -> Option<&Path> {
+        match &self.target {
+            Target::File(path) => Some(path),
+            Target::Device | Target::Output | Target::Error => None,
+        }
+    }
+
     /// Writes a text.
     ///
     /// # Errors

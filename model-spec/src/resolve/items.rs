@@ -197,7 +197,11 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let unit = measure.as_ref().map(|measure| measure.unit);
         let scope = self.scope(member, &limits::OUTPUT);
         let value = self.quantity_value(quantity.value.as_ref()?, measure.as_ref(), scope)?;
-        let unit = unit?;
+        // Only a formula from outside has none, and then its own.
+        let unit = match quantity.unit {
+            Some(_) => unit?,
+            None => value.unit.unwrap_or(Unit::ONE),
+        };
         Some(Output {
             name: self.name(member),
             docs: self.docs(member),

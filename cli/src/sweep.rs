@@ -1,0 +1,459 @@
+//! `lagrangian sweep`: many runs of a machine.
+
+mod design;
+mod reductions;
+mod spoken;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use lagrangian::interpreted::Engine;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::Model;
+use lagrangian_spec::source::{Disk, Files, Sources};
+use lagrangian_sweep::plan::{Law, SpecText, VERSION, Watch};
+use lagrangian_sweep::table::Format;
+use lagrangian_sweep::{Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all};
+use lagrangian_symbolic::Dag;
+use serde_json::json;
+
+use crate::call::{self, Assignment};
+use crate::diagnostics;
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::output::{self, Destination, TABLE, keep_apart};
+use crate::progress;
+use crate::reading;
+use crate::simulate;
+use crate::table;
+use spoken::Spoken;
+
+/// Where rows go.
+struct Out {
+    /// The folder of chunks.
+    folder: PathBuf,
+    format: Format,
+    /// The file that they are joined to, and how the call names it; nothing where chunks stay.
+    file: Option<PathBuf>,
+    shown: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec, the call or a file is at fault. Runs that fail are rows, and no error but with `--strict`.
+pub fn run(call: &call::Sweep) -> Result<(), Failure> {
+    let is_plan = call.spec.path.extension().is_some_and(|ending| ending == "json");
+    let mut plan = match is_plan {
+        true => written_plan(call)?,
+        false => plan(call)?,
+    };
+    if call.chunk.is_some() && !is_plan {
+        return Err(Failure::Call(
+            "--chunk runs a part of a plan: write one by --plan PLAN.json, then `lagrangian sweep PLAN.json --chunk K`".into(),
+        ));
+    }
+    let engine = match call.start.running.engine {
+        call::Engine::Auto => Engine::Auto,
+        call::Engine::Interpreter => Engine::Interpreter,
+        call::Engine::Jit => Engine::Jit,
+    };
+    if let Some(path) = &call.plan {
+        let to = Destination::new("--plan", path, &["json"])?;
+        keep_apart([&to], &[(&call.spec.path, "the spec")])?;
+        let sweep = made(plan, engine)?;
+        plan = sweep.plan().clone();
+        plan.chunk = chunk_length(&sweep);
+        to.write_text(&(plan.to_json() + "\n"))?;
+        let (runs, chunks) = (plan.runs(), plan.chunks());
+        if call.spec.json {
+            let document = json!({ "runs": runs, "chunks": chunks, "plan": path.display().to_string() });
+            output::line(format_args!("{document:#}"));
+        } else {
+            output::line(format_args!(
+                "{runs} runs in {chunks} chunks of {}, {}",
+                plan.chunk,
+                path.display()
+            ));
+        }
+        return Ok(());
+    }
+    let out = Out::of(call)?;
+    let is_part = call.chunk.is_some();
+    let folder = Folder::open(&out.folder, out.format, is_part).map_err(refused)?;
+    let known = match call.fresh && !is_part {
+        true => {
+            folder.forget().map_err(refused)?;
+            None
+        }
+        false => folder.plan().map_err(refused)?,
+    };
+    if let Some(known) = &known {
+        let mut differences = plan.differences(known);
+        if is_part && plan.chunk != known.chunk {
+            differences.push(format!("chunk: {}, was {}", plan.chunk, known.chunk));
+        }
+        if !differences.is_empty() {
+            let trouble = Trouble::OtherPlan(differences);
+            return Err(Failure::Call(format!("{}: {trouble}", out.folder.display())));
+        }
+    }
+    let mut sweep = made(plan, engine)?;
+    if let Some(chunk) = call.chunk {
+        return one_chunk(&sweep, &folder, chunk, call.spec.json);
+    }
+    match &known {
+        Some(known) => sweep.set_chunk(known.chunk),
+        None => {
+            if !is_plan {
+                let length = chunk_length(&sweep);
+                sweep.set_chunk(length);
+            }
+            folder.begin(sweep.plan()).map_err(refused)?;
+        }
+    }
+    all(call, &sweep, folder, &out)
+}
+
+/// Makes the chunks that are missing, and joins them.
+fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(), Failure> {
+    let stop = interrupt::flag();
+    let threads = call.threads.map_or_else(cores, |threads| usize::try_from(threads).unwrap_or(usize::MAX));
+    let began = Instant::now();
+    progress::end();
+    let mut spoken = Spoken::new(sweep.plan().runs(), call.spec.json);
+    let mut last = 0;
+    let mut first = None;
+    let watch = &mut |now: lagrangian_sweep::Progress| {
+        first.get_or_insert(now.done);
+        last = now.done;
+        spoken.say(now);
+    };
+    let made = run_all(sweep, &folder, (threads, call.limit), &stop, watch);
+    spoken.end();
+    let going_on = "the same command goes on";
+    made.map_err(|trouble| Failure::Run(format!("cannot write {trouble}; what is there stays, and {going_on}")))?;
+    let seconds = began.elapsed().as_secs_f64();
+    let runs = sweep.plan().runs();
+    let is_all = (0..sweep.plan().chunks()).all(|chunk| folder.has(sweep, chunk));
+    let shown = out.shown.display();
+    if !is_all {
+        let is_interrupted = stop.load(Ordering::Relaxed);
+        let done = folder.runs(sweep);
+        if call.spec.json {
+            let document = json!({ "runs": done, "of": runs, "seconds": seconds, "out": shown.to_string(), "interrupted": is_interrupted });
+            output::line(format_args!("{document:#}"));
+        } else {
+            output::line(format_args!("{done} of {runs} runs are kept in {}; {going_on}", out.folder.display()));
+        }
+        return match is_interrupted {
+            true => Err(Failure::Interrupted),
+            false => Ok(()),
+        };
+    }
+    let summary = folder.summary(sweep).map_err(refused)?;
+    if let Some(file) = &out.file {
+        let joined = folder.join(sweep, file);
+        joined.map_err(|trouble| Failure::Run(format!("cannot write {trouble}; what is there stays, and {going_on}")))?;
+        folder.remove().map_err(refused)?;
+    }
+    let now = last.saturating_sub(first.unwrap_or(last));
+    tell(call, &summary, (seconds, now), &shown.to_string());
+    match call.strict && summary.failed > 0 {
+        true => Err(Failure::Said),
+        false => Ok(()),
+    }
+}
+
+/// What came of it.
+fn tell(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown: &str) {
+    let Summary {
+        runs,
+        failed,
+        first_errors,
+    } = summary;
+    if call.spec.json {
+        let errors = first_errors.iter().map(|(run, error)| json!({ "run": run, "error": error }));
+        let document = json!({
+            "runs": runs,
+            "failed": failed,
+            "seconds": seconds,
+            "out": shown,
+            "first_errors": errors.collect::<Vec<_>>(),
+        });
+        output::line(format_args!("{document:#}"));
+        return;
+    }
+    let speed = now as f64 / seconds.max(1e-9);
+    output::line(format_args!(
+        "{runs} runs, {failed} failed, {seconds:.1} s ({speed:.0} runs a second), {shown}"
+    ));
+    for (run, error) in first_errors {
+        output::line(format_args!("  run {run}: {error}"));
+    }
+}
+
+/// Makes one chunk of a plan.
+fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(), Failure> {
+    let chunks = sweep.plan().chunks();
+    if chunk >= chunks {
+        return Err(Failure::Call(format!(
+            "--chunk {chunk}: the plan has chunks 0 to {}",
+            chunks - 1
+        )));
+    }
+    folder.begin_shared(sweep.plan()).map_err(refused)?;
+    let stop = interrupt::flag();
+    if folder.has(sweep, chunk) {
+        return Ok(());
+    }
+    let Some(made) = sweep.run_chunk(chunk, &stop) else {
+        return Err(Failure::Interrupted);
+    };
+    folder.keep(chunk, &made).map_err(refused)?;
+    let runs = made.rows.len();
+    match json {
+        true => {
+            let document = json!({ "chunk": chunk, "runs": runs, "failed": made.failed });
+            output::line(format_args!("{document:#}"));
+        }
+        false => output::line(format_args!(
+            "chunk {chunk}: {runs} runs, {} failed",
+            made.failed
+        )),
+    }
+    Ok(())
+}
+
+impl Out {
+    fn of(call: &call::Sweep) -> Result<Out, Failure> {
+        let Some(path) = &call.out else {
+            return Err(Failure::Call(
+                "where do the rows go? --out FILE.csv, FILE.parquet or FOLDER".into(),
+            ));
+        };
+        let ending = path.extension().and_then(|ending| ending.to_str());
+        if !matches!(ending, Some("csv" | "parquet")) {
+            if path.is_file() {
+                return Err(Failure::Call(format!(
+                    "--out {}: it is a file; rows go to a `.csv`, a `.parquet` or a folder",
+                    path.display()
+                )));
+            }
+            return Ok(Out {
+                folder: path.clone(),
+                format: match Format::Parquet.is_here() {
+                    true => Format::Parquet,
+                    false => Format::Csv,
+                },
+                file: None,
+                shown: path.clone(),
+            });
+        }
+        let to = Destination::new("--out", path, TABLE)?;
+        keep_apart([&to], &[(&call.spec.path, "the spec")])?;
+        let Some(file) = to.file() else {
+            return Err(Failure::Call(format!(
+                "--out {}: rows are joined from chunks beside the file, which a device has no place for",
+                path.display()
+            )));
+        };
+        let mut folder = file.as_os_str().to_owned();
+        folder.push(".part");
+        Ok(Out {
+            folder: PathBuf::from(folder),
+            format: match to.ending() {
+                "parquet" => Format::Parquet,
+                _ => Format::Csv,
+            },
+            file: Some(file.to_owned()),
+            shown: path.clone(),
+        })
+    }
+}
+
+/// The plan made ready.
+fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
+    let sweep = Sweep::new(plan, engine).map_err(|wrong| match wrong {
+        Wrong::Plan(message) => Failure::Call(message),
+        Wrong::Spec(wrong) => {
+            let (report, sources) = *wrong;
+            formula(&report, &sources).unwrap_or_else(|| Failure::Spec(Box::new((report, sources))))
+        }
+    })?;
+    if let Some(warning) = sweep.warning() {
+        output::complain(format_args!("warning: {warning}"));
+    }
+    Ok(sweep)
+}
+
+/// What is wrong with formulas of the call, if nothing else is wrong.
+fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
+    let said = report.diagnostics().into_iter().map(|wrong| {
+        let source = wrong.span.source;
+        let option = sources.name(source);
+        let help = wrong.help.iter().map(|help| format!("; {help}"));
+        let help: String = help.collect();
+        option.starts_with("--").then(|| {
+            let text = sources.text(source);
+            format!("{option}: {} in `{text}`{help}", wrong.message)
+        })
+    });
+    let said: Option<Vec<String>> = said.collect();
+    Some(Failure::Call(said?.join("\n       ")))
+}
+
+fn refused(trouble: Trouble) -> Failure {
+    Failure::Run(trouble.to_string())
+}
+
+/// The plan in a file.
+fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
+    let path = &call.spec.path;
+    let shown = path.display();
+    let is_said = call.until.is_some()
+        || !call.vary.is_empty()
+        || !call.reductions.is_empty()
+        || !call.record.is_empty()
+        || !call.start.parameters.is_empty()
+        || !call.start.coordinates.is_empty()
+        || !call.start.rates.is_empty()
+        || !call.inputs.is_empty()
+        || !call.events.is_empty()
+        || !call.ends.is_empty()
+        || !call.spec.constants.is_empty()
+        || call.table.is_some()
+        || call.samples.is_some()
+        || call.after.is_some()
+        || call.plan.is_some();
+    if is_said {
+        return Err(Failure::Call(format!(
+            "{shown} is a plan, which says by itself what is run: beside it stand --out, --chunk, --limit, --threads, --fresh, --engine, \
+             --strict and --json"
+        )));
+    }
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Failure::Call(format!("cannot read {shown}: {error}")))?;
+    Plan::from_json(&text).map_err(|why| Failure::Call(format!("{shown} is no plan: {why}")))
+}
+
+/// The plan that a call says.
+fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
+    let Some(until) = call.until else {
+        return Err(Failure::Call("how long does each run last? --until SECONDS".into()));
+    };
+    simulate::method(&call.method)?;
+    let path = call.spec.path.to_string_lossy();
+    let (_, text) = Disk
+        .read(&path, None)
+        .map_err(|error| Failure::Call(format!("cannot read {path}: {error}")))?;
+    let dag = Dag::new();
+    let (mut sources, mut report) = (Sources::new(), Report::new());
+    let mut disk = Disk;
+    let mut files = lagrangian_sweep::plan::Recorded::new(&mut disk);
+    let constants = &call.spec.constants;
+    let model = lagrangian_spec::model(
+        &dag, &path, &text, constants, &mut files, &mut sources, &mut report,
+    );
+    let read = files.read;
+    let Some(model) = model else {
+        return Err(Failure::Spec(Box::new((report, sources))));
+    };
+    diagnostics::print(&report, &sources);
+    let constants = constants.iter().map(|(name, value)| (name.clone(), value.to_string()));
+    let values = |option: &str, list: &[Assignment], name: &dyn Fn(&str) -> String| {
+        let value = |set: &Assignment| {
+            let unit = lagrangian_sweep::unit_of(&model, &name(&set.name))
+                .map_err(|why| Failure::Call(format!("{option} {}: {why}", set.name)))?;
+            let value = set.value(option, &unit).map_err(Failure::Call)?;
+            Ok::<_, Failure>((set.name.clone(), value))
+        };
+        list.iter().map(value).collect::<Result<Vec<_>, _>>()
+    };
+    let start = &call.start;
+    let set = values("--set", &start.parameters, &str::to_owned)?;
+    let starts = values("--start", &start.coordinates, &|name| format!("start({name})"))?;
+    let rates = values("--rate", &start.rates, &|name| format!("rate({name})"))?;
+    let keep = reading::kept_names(&call.keep).map(<[String]>::to_vec);
+    if keep.is_some() {
+        check_kept(&model, &call.keep)?;
+    }
+    let events = [(&call.events, false), (&call.ends, true)];
+    let events = events.into_iter().flat_map(|(list, ends)| {
+        list.iter().map(move |event| Watch {
+            name: event.name.clone(),
+            formula: event.value.clone(),
+            ends,
+        })
+    });
+    let events: Vec<Watch> = events.collect();
+    let (at, every) = reductions::recorded(&call.record)?;
+    Ok(Plan {
+        version: VERSION,
+        spec: SpecText {
+            name: path.clone().into_owned(),
+            text,
+            files: read,
+            constants: constants.collect(),
+        },
+        set,
+        start: starts,
+        rate: rates,
+        keep,
+        until,
+        tolerance: call.tolerance,
+        method: call.method.clone(),
+        max_steps: call.max_steps as u64,
+        inputs: inputs(&call.inputs)?,
+        reduce: reductions::reductions(&call.reductions, &events)?,
+        events,
+        at,
+        every,
+        after: call.after,
+        design: design::factors(call, &model)?,
+        chunk: 1,
+    })
+}
+
+/// Whether `--keep` names what is there.
+fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
+    for name in reading::kept_names(keep).unwrap_or_default() {
+        let rate = name.strip_prefix("der(");
+        let coordinate = rate.and_then(|rate| rate.strip_suffix(')')).unwrap_or(name);
+        lagrangian_sweep::unit_of(model, &format!("start({coordinate})"))
+            .map_err(|why| Failure::Call(format!("--keep {name}: {why}")))?;
+    }
+    Ok(())
+}
+
+/// What inputs do: formulas, and tables.
+fn inputs(given: &[Assignment]) -> Result<Vec<(String, Law)>, Failure> {
+    let law = |input: &Assignment| {
+        let name = &input.name;
+        if !input.value.ends_with(".csv") {
+            return Ok((name.clone(), Law::Formula(input.value.clone())));
+        }
+        let path = Path::new(&input.value);
+        let wrong = |why: String| Failure::Call(format!("--input {name}={}: {why}", input.value));
+        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+        let rows = table::rows(&text, &["t".to_owned(), name.clone()]).map_err(wrong)?;
+        let (times, values) = rows.iter().map(|row| (row[0], row[1])).unzip();
+        Ok((name.clone(), Law::Table { times, values }))
+    };
+    given.iter().map(law).collect()
+}
+
+/// Rows of numbers under names, from a table of runs.
+fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>), Failure> {
+    let wrong = |why: String| Failure::Call(format!("--table {}: {why}", path.display()));
+    if path.extension().is_some_and(|ending| ending == "parquet") {
+        return lagrangian_sweep::table::numbers(path).map_err(|error| wrong(error.to_string()));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+    let header = text.lines().next().unwrap_or_default();
+    let names: Vec<String> = header.split(',').map(|cell| table::named(cell).to_owned()).collect();
+    let rows = table::rows(&text, &names).map_err(wrong)?;
+    Ok((names, rows))
+}
+

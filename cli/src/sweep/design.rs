@@ -1,0 +1,245 @@
+//! Which runs a call asks for: `--vary`, `--together`, `--samples`, `--table`.
+
+use lagrangian_spec::model::Model;
+use lagrangian_spec::token::normalized;
+use lagrangian_sweep::design::{Distribution, Factor, Sampling};
+use lagrangian_sweep::unit_of;
+
+use crate::call::{self, Assignment, Design};
+use crate::failure::Failure;
+
+/// The most values that one option lists.
+const MOST_LISTED: usize = 1_000_000;
+
+/// What one `--vary` says.
+enum Varied {
+    Fixed(Factor),
+    Sampled(String, Distribution),
+}
+
+/// The factors of a call, in the order of its options.
+///
+/// # Errors
+/// The call is at fault.
+pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Failure> {
+    if let Some(path) = &call.table {
+        if !call.vary.is_empty() || call.samples.is_some() || !call.together.is_empty() {
+            return Err(Failure::Call(
+                "--table says all runs, a row a run: nothing is varied beside it".into(),
+            ));
+        }
+        let (names, rows) = super::numbers(path)?;
+        let names: Vec<String> = names.iter().map(|name| normalized(name).into_owned()).collect();
+        let shown = path.display();
+        for name in &names {
+            unit_of(model, name)
+                .map_err(|why| Failure::Call(format!("--table {shown}: column `{name}`: {why}")))?;
+        }
+        if rows.len() > MOST_LISTED {
+            return Err(Failure::Call(format!("--table {shown}: more than {MOST_LISTED} rows")));
+        }
+        if let Some(row) = rows.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+            return Err(Failure::Call(format!(
+                "--table {shown}: row {row} holds what is no finite number"
+            )));
+        }
+        return Ok(vec![Factor::List { names, rows }]);
+    }
+    let mut factors: Vec<Factor> = Vec::new();
+    let mut drawn: Option<usize> = None;
+    for text in &call.vary {
+        match varied(text, model).map_err(|why| Failure::Call(format!("--vary {text}: {why}")))? {
+            Varied::Fixed(factor) => factors.push(factor),
+            Varied::Sampled(name, distribution) => {
+                let Some(count) = call.samples else {
+                    return Err(Failure::Call(format!(
+                        "--vary {text}: how many values? --samples N, or a grid {name}=FROM..TO:N"
+                    )));
+                };
+                let place = *drawn.get_or_insert_with(|| {
+                    factors.push(Factor::Sample {
+                        design: match call.design {
+                            Design::Random => Sampling::Random,
+                            Design::Latin => Sampling::Latin,
+                            Design::Sobol => Sampling::Sobol,
+                        },
+                        count,
+                        seed: call.seed,
+                        variables: Vec::new(),
+                    });
+                    factors.len() - 1
+                });
+                if let Some(Factor::Sample { variables, .. }) = factors.get_mut(place) {
+                    variables.push((name, distribution));
+                }
+            }
+        }
+    }
+    if call.samples.is_some() && drawn.is_none() {
+        return Err(Failure::Call(
+            "--samples: nothing is to be sampled; --vary NAME=FROM..TO or NAME~normal(MEAN,DEVIATION) is".into(),
+        ));
+    }
+    for group in &call.together {
+        together(&mut factors, group)
+            .map_err(|why| Failure::Call(format!("--together {group}: {why}")))?;
+    }
+    Ok(factors)
+}
+
+/// Puts factors side by side, in the place of the first of them.
+fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
+    let names: Vec<String> = group.split(',').map(|name| normalized(name.trim()).into_owned()).collect();
+    let mut parts = Vec::new();
+    let mut place = None;
+    for name in &names {
+        let found = factors.iter().position(|factor| factor.names() == [name.as_str()]);
+        let found = found.ok_or_else(|| format!("no list and no grid of `{name}` is varied"))?;
+        if matches!(factors[found], Factor::Sample { .. }) {
+            return Err(format!("`{name}` is sampled, and stands beside all that is sampled already"));
+        }
+        let at = *place.get_or_insert(found);
+        parts.push(factors.remove(found));
+        if found < at {
+            place = Some(at - 1);
+        }
+    }
+    let counts: Vec<u64> = parts.iter().map(Factor::count).collect();
+    if counts.windows(2).any(|pair| pair[0] != pair[1]) || parts.len() < 2 {
+        let each = names.iter().zip(&counts).map(|(name, count)| format!("{name} has {count}"));
+        let each: Vec<String> = each.collect();
+        return Err(format!(
+            "these are two or more of equally many values; {}",
+            each.join(", ")
+        ));
+    }
+    let place = place.unwrap_or(0).min(factors.len());
+    factors.insert(place, Factor::Together(parts));
+    Ok(())
+}
+
+/// Reads `NAME=a..b:k`, `NAME=a..b:k:log`, `NAME=v,w`, `NAME=a..b`, `NAME~distribution(…)`.
+fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
+    let equals = text.find('=').unwrap_or(text.len());
+    if let Some((name, distribution)) = text.split_once('~').filter(|(name, _)| name.len() < equals) {
+        let name = named(name)?;
+        let unit = unit_of(model, &name)?;
+        let distribution = distribution_of(&name, distribution.trim(), &unit)?;
+        return Ok(Varied::Sampled(name, distribution));
+    }
+    let wanted = "expected NAME=FROM..TO:COUNT, NAME=VALUE,VALUE,… or NAME~uniform(FROM,TO)";
+    let (name, values) = text.split_once('=').ok_or(wanted)?;
+    let name = named(name)?;
+    let unit = unit_of(model, &name)?;
+    let value = |text: &str| value(&name, text, &unit);
+    let Some((from, rest)) = values.split_once("..") else {
+        let listed = arguments(values);
+        if listed.len() > MOST_LISTED {
+            return Err(format!("more than {MOST_LISTED} values; --table takes as many"));
+        }
+        let rows = listed.iter().map(|text| Ok(vec![value(text)?]));
+        let rows = rows.collect::<Result<Vec<_>, String>>()?;
+        let names = vec![name.clone()];
+        return Ok(Varied::Fixed(Factor::List { names, rows }));
+    };
+    let from = value(from)?;
+    let mut parts = rest.split(':');
+    let to = value(parts.next().unwrap_or_default())?;
+    let Some(count) = parts.next() else {
+        let distribution = Distribution::Uniform(from, to);
+        check(distribution)?;
+        return Ok(Varied::Sampled(name.clone(), distribution));
+    };
+    let log = match parts.next().map(str::trim) {
+        None => false,
+        Some("log") => true,
+        Some(other) => return Err(format!("`:{other}` is no spacing: `:log`, or nothing")),
+    };
+    let count: u64 = count
+        .trim()
+        .parse()
+        .ok()
+        .filter(|count| *count > 0)
+        .ok_or_else(|| format!("`{count}` is no number of values: a whole number from 1 on"))?;
+    if parts.next().is_some() {
+        return Err(wanted.into());
+    }
+    if log && !(from / to > 0.0) {
+        return Err("both ends of a geometric grid have the same sign, and none is 0".into());
+    }
+    Ok(Varied::Fixed(Factor::Grid {
+        name: name.clone(),
+        from,
+        to,
+        count,
+        log,
+    }))
+}
+
+fn named(name: &str) -> Result<String, String> {
+    let name: String = name.chars().filter(|c| !c.is_whitespace()).collect();
+    match name.is_empty() {
+        true => Err("expected a name first".into()),
+        false => Ok(normalized(&name).into_owned()),
+    }
+}
+
+fn value(name: &str, text: &str, unit: &str) -> Result<f64, String> {
+    let set = Assignment {
+        name: name.to_owned(),
+        value: text.trim().to_owned(),
+    };
+    let value = set.value("", unit);
+    // What is wrong is said of the whole option.
+    value.map_err(|why| why.trim_start().to_owned())
+}
+
+/// What stands between commas that are in no brackets.
+fn arguments(text: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let parts = text.split(|c: char| {
+        match c {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    parts.collect()
+}
+
+fn distribution_of(name: &str, text: &str, unit: &str) -> Result<Distribution, String> {
+    let wanted = "expected uniform(FROM,TO), loguniform(FROM,TO), normal(MEAN,DEVIATION) or triangular(FROM,TO,PEAK)";
+    let (kind, rest) = text.split_once('(').ok_or(wanted)?;
+    let inner = rest.trim_end().strip_suffix(')').ok_or(wanted)?;
+    let values = arguments(inner).into_iter().map(|text| value(name, text, unit));
+    let values = values.collect::<Result<Vec<f64>, String>>()?;
+    let distribution = match (kind.trim(), values.as_slice()) {
+        ("uniform", &[a, b]) => Distribution::Uniform(a, b),
+        ("loguniform", &[a, b]) => Distribution::LogUniform(a, b),
+        ("normal", &[mean, deviation]) => Distribution::Normal(mean, deviation),
+        ("triangular", &[a, b, peak]) => Distribution::Triangular(a, b, peak),
+        _ => return Err(wanted.into()),
+    };
+    check(distribution)?;
+    Ok(distribution)
+}
+
+/// Whether there is such a distribution.
+fn check(distribution: Distribution) -> Result<(), String> {
+    match distribution {
+        Distribution::Uniform(a, b) if a >= b => {
+            Err("the first end is below the second one".into())
+        }
+        Distribution::LogUniform(a, b) if a >= b || a / b <= 0.0 || b == 0.0 || a == 0.0 => {
+            Err("the ends have the same sign, none is 0, and the first is below the second".into())
+        }
+        Distribution::Normal(_, deviation) if deviation <= 0.0 => {
+            Err("a standard deviation is greater than 0".into())
+        }
+        Distribution::Triangular(a, b, peak) if a >= b || !(a..=b).contains(&peak) => {
+            Err("the first end is below the second one, and the peak between them".into())
+        }
+        _ => Ok(()),
+    }
+}

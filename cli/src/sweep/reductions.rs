@@ -1,0 +1,82 @@
+//! What is kept of each motion: `--record`, `--reduce`.
+
+use lagrangian_sweep::plan::{Function, Reduction, Watch};
+
+use crate::call::{self, Assignment};
+use crate::failure::Failure;
+
+/// Instants and interval of `--record`.
+///
+/// # Errors
+/// The call is at fault.
+pub fn recorded(given: &[String]) -> Result<(Vec<f64>, Option<f64>), Failure> {
+    let (mut at, mut every) = (Vec::new(), None);
+    for text in given {
+        let wrong = |why: String| Failure::Call(format!("--record {text}: {why}"));
+        match text.split_once('=').map(|(what, value)| (what.trim(), value)) {
+            None if text.trim() == "end" => {} // it always is
+            Some(("at", times)) => {
+                for time in times.split(',') {
+                    let time = call::number(time).map_err(wrong)?;
+                    if at.contains(&time) {
+                        return Err(wrong(format!("{time} s is there already")));
+                    }
+                    at.push(time);
+                }
+            }
+            Some(("every", interval)) => {
+                let interval = call::number(interval).map_err(wrong)?;
+                if interval <= 0.0 {
+                    return Err(wrong("an interval is greater than 0".into()));
+                }
+                if every.replace(interval).is_some() {
+                    return Err(wrong("there is an interval already".into()));
+                }
+            }
+            _ => return Err(wrong("expected end, at=T,… or every=T".into())),
+        }
+    }
+    Ok((at, every))
+}
+
+/// The reductions of a call.
+///
+/// # Errors
+/// The call is at fault.
+pub fn reductions(given: &[Assignment], events: &[Watch]) -> Result<Vec<Reduction>, Failure> {
+    given.iter().map(|one| reduction(one, events)).collect()
+}
+
+fn reduction(given: &Assignment, events: &[Watch]) -> Result<Reduction, Failure> {
+    let Assignment { name, value } = given;
+    let functions = || Function::NAMES.iter().map(|(name, _)| *name);
+    let wrong = |why: String| Failure::Call(format!("--reduce '{name} = {value}': {why}"));
+    let wanted = || {
+        let functions: Vec<_> = functions().collect();
+        wrong(format!("expected FUNCTION(FORMULA), where a function is {}", functions.join(", ")))
+    };
+    let (function, rest) = value.split_once('(').ok_or_else(wanted)?;
+    let of = rest.trim_end().strip_suffix(')').ok_or_else(wanted)?.trim();
+    let function = function.trim();
+    let known = Function::NAMES.iter().find(|(name, _)| *name == function);
+    let Some((_, known)) = known else {
+        return Err(match lagrangian_spec::diagnostic::nearest(function, functions()) {
+            Some(near) => wrong(format!("no function named `{function}`; did you mean `{near}`?")),
+            None => wanted(),
+        });
+    };
+    if of.is_empty() {
+        return Err(wanted());
+    }
+    let is_event = events.iter().any(|event| event.name == of);
+    let function = match known {
+        Function::First if is_event => Function::FirstEvent,
+        Function::Last if is_event => Function::LastEvent,
+        other => *other,
+    };
+    Ok(Reduction {
+        name: name.clone(),
+        function,
+        of: of.to_owned(),
+    })
+}

@@ -1,0 +1,434 @@
+//! Chunks on a disk: each is there whole or not at all, so that a sweep goes on after any interruption.
+//!
+//! ```text
+//! plan.json            the plan
+//! 00000017.parquet     runs [17 L, 18 L): written as .tmp, flushed to disk, renamed
+//! lock                 locked while a process works here, with its number
+//! ```
+
+use std::fmt;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::plan::Plan;
+use crate::rows::{Rows, Values};
+use crate::sweep::{Chunk, Sweep};
+use crate::table::{self, Format, Writer};
+
+/// How many rows of a Parquet file make a group, whatever the length of chunks.
+const GROUP: usize = 65_536;
+
+/// How many errors of runs a summary has.
+const SHOWN_ERRORS: usize = 3;
+
+/// Why chunks cannot be kept.
+#[derive(Debug)]
+pub enum Trouble {
+    /// A file cannot be read or written.
+    File(PathBuf, io::Error),
+    /// Another process works there.
+    Taken(String),
+    /// The plan that is there is another one; what differs.
+    OtherPlan(Vec<String>),
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Trouble::File(path, error) => write!(f, "{}: {error}", path.display()),
+            Trouble::Taken(by) => write!(f, "another sweep is at work there ({by})"),
+            Trouble::OtherPlan(differences) => {
+                write!(f, "{}; --fresh begins again", differences.join("; "))
+            }
+        }
+    }
+}
+
+impl std::error::Error for Trouble {}
+
+/// A folder of chunks, locked.
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    format: Format,
+    _lock: File,
+}
+
+/// What is in all chunks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// How many runs.
+    pub runs: u64,
+    /// How many of them failed.
+    pub failed: u64,
+    /// The first of their errors, each with the number of its run.
+    pub first_errors: Vec<(u64, String)>,
+}
+
+impl Folder {
+    /// Opens a folder, and makes it where it is not there. Several processes that each make chunks of their own may share it.
+    ///
+    /// # Errors
+    /// If it cannot be, or another process works there.
+    pub fn open(path: &Path, format: Format, is_shared: bool) -> Result<Folder, Trouble> {
+        let at = |error| Trouble::File(path.to_owned(), error);
+        fs::create_dir_all(path).map_err(at)?;
+        let name = path.join("lock");
+        let lock = OpenOptions::new()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&name);
+        let mut lock = lock.map_err(|error| Trouble::File(name.clone(), error))?;
+        let locked = match is_shared {
+            true => lock.try_lock_shared(),
+            false => lock.try_lock(),
+        };
+        match locked {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let by = fs::read_to_string(&name).unwrap_or_default();
+                return Err(Trouble::Taken(by.trim().to_owned()));
+            }
+            Err(TryLockError::Error(error)) => return Err(Trouble::File(name, error)),
+        }
+        // For whoever is refused; a process that is gone has no lock, whatever stands here.
+        if !is_shared {
+            let _ = lock.set_len(0);
+            let _ = writeln!(lock, "process {} on {}", std::process::id(), host());
+        }
+        let folder = Folder {
+            path: path.to_owned(),
+            format,
+            _lock: lock,
+        };
+        if !is_shared {
+            folder.tidy(|name| name.ends_with(".tmp"))?;
+        }
+        Ok(folder)
+    }
+
+    /// The plan of the chunks that are there, if there are any.
+    ///
+    /// # Errors
+    /// If what is there is none.
+    pub fn plan(&self) -> Result<Option<Plan>, Trouble> {
+        let path = self.path.join("plan.json");
+        match fs::read_to_string(&path) {
+            Ok(text) => {
+                let plan = Plan::from_json(&text);
+                Ok(Some(plan.map_err(|why| {
+                    Trouble::File(path, io::Error::other(why + "; --fresh begins again"))
+                })?))
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(Trouble::File(path, error)),
+        }
+    }
+
+    /// Takes all chunks away, and writes a plan for others.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn begin(&self, plan: &Plan) -> Result<(), Trouble> {
+        self.forget()?;
+        let text = plan.to_json() + "\n";
+        self.write("plan.json", |to| to.write_all(text.as_bytes()))
+    }
+
+    /// Writes a plan where there is none; others may do the same at the same time, with the same plan.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn begin_shared(&self, plan: &Plan) -> Result<(), Trouble> {
+        match self.path.join("plan.json").is_file() {
+            true => Ok(()),
+            false => {
+                let text = plan.to_json() + "\n";
+                self.write("plan.json", |to| to.write_all(text.as_bytes()))
+            }
+        }
+    }
+
+    /// How many runs are in the chunks that are there.
+    pub fn runs(&self, sweep: &Sweep) -> u64 {
+        let chunks = 0..sweep.plan().chunks();
+        let there = chunks.filter(|&chunk| self.has(sweep, chunk));
+        let runs = there.map(|chunk| sweep.plan().runs_of(chunk));
+        runs.map(|runs| runs.end - runs.start).sum()
+    }
+
+    /// Takes the plan and all chunks away.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn forget(&self) -> Result<(), Trouble> {
+        // In this order: chunks without a plan are nobody's.
+        self.tidy(|name| name == "plan.json")?;
+        self.tidy(is_chunk)
+    }
+
+    /// Whether a chunk is there.
+    pub fn has(&self, sweep: &Sweep, chunk: u64) -> bool {
+        let runs = sweep.plan().runs_of(chunk);
+        let path = self.chunk(chunk, "");
+        let is_there = match self.format {
+            Format::Csv => path.is_file(),
+            Format::Parquet => table::read(&path, &sweep.empty())
+                .is_ok_and(|rows| rows.len() as u64 == runs.end - runs.start),
+        };
+        is_there && (sweep.no_samples().is_none() || self.chunk(chunk, ".samples").is_file())
+    }
+
+    /// Writes a chunk.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep(&self, number: u64, chunk: &Chunk) -> Result<(), Trouble> {
+        // What is there under the chunk's own name is complete.
+        if let Some(samples) = &chunk.samples {
+            self.write_rows(&self.name(number, ".samples"), samples)?;
+        }
+        self.write_rows(&self.name(number, ""), &chunk.rows)
+    }
+
+    fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), Trouble> {
+        self.write(name, |to| match self.format {
+            Format::Csv => table::csv_lines(rows, to),
+            Format::Parquet => {
+                let mut writer = Writer::new(to, rows, &[])?;
+                writer.write(rows)?;
+                writer.end().map(drop)
+            }
+        })
+    }
+
+    /// Reads a chunk.
+    ///
+    /// # Errors
+    /// What the file system says.
+    fn read(&self, empty: &Rows, number: u64) -> Result<Rows, Trouble> {
+        let path = self.chunk(number, "");
+        table::read(&path, empty).map_err(|error| Trouble::File(path, error))
+    }
+
+    /// What is in all chunks.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn summary(&self, sweep: &Sweep) -> Result<Summary, Trouble> {
+        let mut summary = Summary::default();
+        for number in 0..sweep.plan().chunks() {
+            match self.format {
+                Format::Csv => {
+                    let path = self.chunk(number, "");
+                    let text = fs::read_to_string(&path);
+                    let text = text.map_err(|error| Trouble::File(path, error))?;
+                    summary.count_lines(&text, &sweep.empty());
+                }
+                Format::Parquet => summary.count(&self.read(&sweep.empty(), number)?),
+            }
+        }
+        Ok(summary)
+    }
+
+    /// Joins all chunks in order to one file, and its samples to another beside it.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn join(&self, sweep: &Sweep, out: &Path) -> Result<(), Trouble> {
+        if let Some(empty) = sweep.no_samples() {
+            self.join_one(sweep, &samples_beside(out), ".samples", empty)?;
+        }
+        self.join_one(sweep, out, "", sweep.empty())
+    }
+
+    fn join_one(
+        &self,
+        sweep: &Sweep,
+        out: &Path,
+        suffix: &str,
+        empty: Rows,
+    ) -> Result<(), Trouble> {
+        let chunks = 0..sweep.plan().chunks();
+        let mut chunks = chunks.map(|number| self.chunk(number, suffix));
+        write_whole(out, |to| match self.format {
+            Format::Csv => {
+                to.write_all(table::csv_header(&empty).as_bytes())?;
+                chunks.try_for_each(|path| io::copy(&mut File::open(path)?, to).map(drop))
+            }
+            Format::Parquet => {
+                let mut writer = Writer::new(to, &empty, &said(sweep.plan(), &empty))?;
+                let mut waiting = empty.clone();
+                for path in chunks {
+                    waiting.extend(table::read(&path, &empty)?);
+                    while waiting.len() >= GROUP {
+                        writer.write(&waiting.take(GROUP))?;
+                    }
+                }
+                if !waiting.is_empty() {
+                    writer.write(&waiting)?;
+                }
+                writer.end().map(drop)
+            }
+        })
+        .map_err(|error| Trouble::File(out.to_owned(), error))
+    }
+
+    /// Takes the folder away, with what a sweep has put there.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn remove(self) -> Result<(), Trouble> {
+        self.forget()?;
+        self.tidy(|name| name == "lock")?;
+        match fs::remove_dir(&self.path) {
+            Ok(()) => Ok(()),
+            // Somebody else has put something there.
+            Err(error) if error.kind() == io::ErrorKind::DirectoryNotEmpty => Ok(()),
+            Err(error) => Err(Trouble::File(self.path.clone(), error)),
+        }
+    }
+
+    fn name(&self, number: u64, suffix: &str) -> String {
+        format!("{number:08}{suffix}.{}", self.format.ending())
+    }
+
+    fn chunk(&self, number: u64, suffix: &str) -> PathBuf {
+        self.path.join(self.name(number, suffix))
+    }
+
+    /// Writes a file under another name, which it loses when it is complete and on the disk.
+    fn write(
+        &self,
+        name: &str,
+        content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), Trouble> {
+        let path = self.path.join(name);
+        let partial = self.path.join(format!("{name}.{}.tmp", std::process::id()));
+        let written = write_as(&partial, &path, content);
+        written.map_err(|error| Trouble::File(path, error))
+    }
+
+    /// Takes files away.
+    fn tidy(&self, is_meant: impl Fn(&str) -> bool) -> Result<(), Trouble> {
+        let at = |error| Trouble::File(self.path.clone(), error);
+        for entry in fs::read_dir(&self.path).map_err(at)? {
+            let entry = entry.map_err(at)?;
+            if entry.file_name().to_str().is_some_and(&is_meant) {
+                let path = entry.path();
+                fs::remove_file(&path).map_err(|error| Trouble::File(path, error))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Summary {
+    fn count(&mut self, rows: &Rows) {
+        self.runs += rows.len() as u64;
+        let (Some(Values::Text(errors)), Some(Values::Count(runs))) =
+            (rows.column("error"), rows.column("run"))
+        else {
+            return;
+        };
+        for (run, error) in runs.iter().zip(errors) {
+            if let Some(error) = error {
+                self.add(*run, error);
+            }
+        }
+    }
+
+    fn count_lines(&mut self, text: &str, like: &Rows) {
+        let place = like.columns.iter().position(|column| column.name == "error");
+        for row in table::csv_cells(text).unwrap_or_default() {
+            self.runs += 1;
+            let error = place.and_then(|place| row.get(place));
+            if let Some(error) = error.filter(|error| !error.is_empty()) {
+                let run = row.first().and_then(|run| run.parse().ok());
+                self.add(run.unwrap_or(0), error);
+            }
+        }
+    }
+
+    fn add(&mut self, run: u64, error: &str) {
+        self.failed += 1;
+        if self.first_errors.len() < SHOWN_ERRORS {
+            self.first_errors.push((run, error.to_owned()));
+        }
+    }
+}
+
+/// The file of samples beside that of rows: `a.samples.parquet` beside `a.parquet`.
+pub fn samples_beside(out: &Path) -> PathBuf {
+    let ending = out.extension().unwrap_or_default().to_string_lossy();
+    out.with_extension(format!("samples.{ending}"))
+}
+
+/// What is said of a file: the plan, but for the length of chunks, and the units of the columns.
+fn said(plan: &Plan, rows: &Rows) -> Vec<(&'static str, String)> {
+    let mut plan = serde_json::to_value(plan).unwrap_or_default();
+    if let Some(plan) = plan.as_object_mut() {
+        plan.shift_remove("chunk");
+    }
+    let units = rows.columns.iter().filter_map(|column| {
+        let unit = column.unit.clone()?;
+        Some((column.name.clone(), serde_json::Value::from(unit)))
+    });
+    let units = serde_json::Value::Object(units.collect());
+    vec![
+        ("lagrangian.plan", plan.to_string()),
+        ("lagrangian.units", units.to_string()),
+    ]
+}
+
+fn is_chunk(name: &str) -> bool {
+    let stem = name.split_once('.').filter(|(stem, ending)| {
+        let endings = ["csv", "parquet", "samples.csv", "samples.parquet"];
+        stem.len() >= 8 && endings.contains(ending)
+    });
+    stem.is_some_and(|(stem, _)| stem.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+/// Writes a file beside the one that it takes the place of when it is complete.
+fn write_whole(
+    path: &Path,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut partial = path.as_os_str().to_owned();
+    partial.push(".tmp");
+    write_as(Path::new(&partial), path, content)
+}
+
+fn write_as(
+    partial: &Path,
+    path: &Path,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+) -> io::Result<()> {
+    let attempt = || {
+        let mut file = BufWriter::with_capacity(1 << 16, File::create(partial)?);
+        content(&mut file)?;
+        file.into_inner().map_err(|error| error.into_error())?.sync_all()?;
+        fs::rename(partial, path)
+    };
+    let written = attempt();
+    if written.is_err() {
+        let _ = fs::remove_file(partial); // where it is not there, nothing is to be done
+    }
+    written?;
+    // The new name, too, is on the disk where the system can promise that.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
+    Ok(())
+}
+
+/// The name of this machine, for messages alone.
+fn host() -> String {
+    let name = fs::read_to_string("/etc/hostname").unwrap_or_default();
+    match name.trim() {
+        "" => "this host".to_owned(),
+        name => name.to_owned(),
+    }
+}

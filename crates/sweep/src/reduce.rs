@@ -1,0 +1,218 @@
+//! Numbers made of a motion while it runs: extremes, integrals, ends.
+
+use std::cell::RefCell;
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::{Error, StepMotion, extremes};
+
+use crate::plan::Function;
+
+/// Nodes and weights of Gauss's formula with five of them, on [−1, 1]: exact up to degree 9, where the motion within a step
+/// has degree 7.
+const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// A step by Taylor series is of a much higher degree: its integral is taken in so many parts.
+const PARTS_OF_SERIES: u32 = 4;
+
+/// A formula of the plan: which output it is, and what it needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Formula {
+    /// The number of the output.
+    pub output: usize,
+    /// Whether it depends on accelerations.
+    pub reads_accelerations: bool,
+}
+
+/// One reduction on its way along a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Tracker {
+    function: Function,
+    formula: Formula,
+    /// Whether the formula is to be taken by its size.
+    of_size: bool,
+    /// The least and the greatest value, with their times.
+    extent: [Option<(f64, f64)>; 2],
+    integral: f64,
+    /// From when on there is an integral.
+    since: Option<f64>,
+    until: f64,
+    first: Option<f64>,
+    last: Option<f64>,
+}
+
+impl Tracker {
+    pub fn new(function: Function, formula: Formula, of_size: bool) -> Tracker {
+        Tracker {
+            function,
+            formula,
+            of_size,
+            extent: [None; 2],
+            integral: 0.0,
+            since: None,
+            until: 0.0,
+            first: None,
+            last: None,
+        }
+    }
+
+    /// Takes the last step, from a fraction of it on.
+    pub fn take(&mut self, step: &Looks<'_, '_>, from: f64) -> Result<(), Error> {
+        let [start, end] = step.span;
+        let value = |theta: f64| step.value(theta, self.formula);
+        match self.function {
+            Function::Max | Function::Min | Function::Range | Function::WhenMax | Function::WhenMin => {
+                let wanted = match self.function {
+                    _ if self.of_size => [true; 2],
+                    Function::Max | Function::WhenMax => [false, true],
+                    Function::Min | Function::WhenMin => [true, false],
+                    _ => [true; 2],
+                };
+                let mut extent = self.extent;
+                // What is known already has a place of its own, which is none of this step.
+                for (_, place) in extent.iter_mut().flatten() {
+                    *place = f64::NAN;
+                }
+                extremes(value, [from, 1.0], &mut extent, wanted)?;
+                for (known, found) in self.extent.iter_mut().zip(extent) {
+                    if let Some((value, theta)) = found
+                        && !theta.is_nan()
+                    {
+                        *known = Some((value, start + theta * (end - start)));
+                    }
+                }
+            }
+            Function::Mean | Function::Rms | Function::Integral => {
+                let from_t = start + from * (end - start);
+                let is_square = self.function == Function::Rms;
+                self.since.get_or_insert(from_t);
+                self.until = end;
+                let parts = if step.is_series { PARTS_OF_SERIES } else { 1 };
+                let half = 0.5 * (1.0 - from) / f64::from(parts);
+                let mut sum = 0.0;
+                for part in 0..parts {
+                    for (node, weight) in GAUSS {
+                        let theta = from + half * (f64::from(2 * part) + 1.0 + node);
+                        let value = value(theta)?;
+                        sum += weight * if is_square { value * value } else { value };
+                    }
+                }
+                self.integral += (end - start) * half * sum;
+            }
+            Function::First => {
+                if self.first.is_none() {
+                    self.first = Some(value(from)?);
+                }
+            }
+            Function::Last => self.last = Some(value(1.0)?),
+            Function::Count | Function::FirstEvent | Function::LastEvent => {}
+        }
+        Ok(())
+    }
+
+    /// What came of it; nothing where no step was taken.
+    pub fn result(&self) -> Option<f64> {
+        let [least, greatest] = self.extent;
+        let mean = || {
+            let since = self.since?;
+            Some(self.integral / (self.until - since))
+        };
+        match self.function {
+            Function::Max if self.of_size => {
+                let (least, greatest) = (least?.0, greatest?.0);
+                // Not `max`, which passes over what is not a number.
+                Some(match least.abs() > greatest.abs() || least.is_nan() {
+                    true => least.abs(),
+                    false => greatest.abs(),
+                })
+            }
+            Function::WhenMax if self.of_size => {
+                let (least, greatest) = (least?, greatest?);
+                Some(match least.0.abs() > greatest.0.abs() {
+                    true => least.1,
+                    false => greatest.1,
+                })
+            }
+            Function::Max => greatest.map(|(value, _)| value),
+            Function::Min => least.map(|(value, _)| value),
+            Function::Range => Some(greatest?.0 - least?.0),
+            Function::WhenMax => greatest.map(|(_, t)| t),
+            Function::WhenMin => least.map(|(_, t)| t),
+            Function::Mean => mean(),
+            Function::Rms => mean().map(f64::sqrt),
+            Function::Integral => self.since.map(|_| self.integral),
+            Function::First => self.first,
+            Function::Last => self.last,
+            Function::Count | Function::FirstEvent | Function::LastEvent => None,
+        }
+    }
+}
+
+/// Time, state, and as far as they were asked for inputs and accelerations.
+struct Look {
+    theta: f64,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    u: Named,
+    a: Vec<f64>,
+}
+
+/// A step that several formulas look at, at the same places: states are made once.
+pub(crate) struct Looks<'s, 'm> {
+    pub span: [f64; 2],
+    pub is_series: bool,
+    system: &'s InterpretedSystem,
+    motion: RefCell<&'s mut (dyn StepMotion<InterpretedMachine> + 'm)>,
+    seen: RefCell<Vec<Look>>,
+}
+
+impl<'s, 'm> Looks<'s, 'm> {
+    pub fn new(
+        system: &'s InterpretedSystem,
+        motion: &'s mut (dyn StepMotion<InterpretedMachine> + 'm),
+    ) -> Self {
+        Looks {
+            span: motion.span(),
+            is_series: motion.is_series(),
+            system,
+            motion: RefCell::new(motion),
+            seen: RefCell::new(Vec::new()),
+        }
+    }
+
+    /// A formula at a fraction of the step.
+    pub fn value(&self, theta: f64, formula: Formula) -> Result<f64, Error> {
+        let mut seen = self.seen.borrow_mut();
+        let mut motion = self.motion.borrow_mut();
+        let place = match seen.iter().position(|look| look.theta == theta) {
+            Some(place) => place,
+            None => {
+                let (t, q, v) = motion.state_at(theta)?;
+                let u = motion.inputs(t, &q, &v);
+                seen.push(Look {
+                    theta,
+                    t,
+                    q,
+                    v,
+                    u,
+                    a: Vec::new(),
+                });
+                seen.len() - 1
+            }
+        };
+        let look = &mut seen[place];
+        if formula.reads_accelerations && look.a.is_empty() {
+            let mut a = vec![0.0; look.q.len()];
+            motion.accelerations((look.t, &look.q, &look.v), &look.u, &mut a)?;
+            look.a = a;
+        }
+        let Look { t, q, v, u, a, .. } = look;
+        Ok(self.system.output(formula.output, *t, q, v, a, &u.values))
+    }
+}

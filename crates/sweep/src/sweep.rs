@@ -1,0 +1,827 @@
+//! A plan made ready to run, and its runs.
+
+use std::cell::RefCell;
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::methods::{Method, TAYLOR};
+use lagrangian::{Crossing, Ending, Machine, Simulation, State, System};
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_spec::diagnostic::{Report, Severity, nearest};
+use lagrangian_spec::model::{Model, stage};
+use lagrangian_spec::resolve::Formula as Asked;
+use lagrangian_spec::source::Sources;
+use lagrangian_symbolic::{Dag, Rational};
+
+use crate::design;
+use crate::laws::{Laws, Rule};
+use crate::plan::{Function, Kept, Law, Plan, Reduction};
+use crate::reduce::{Formula, Looks, Tracker};
+use crate::rows::{Cell, Column, Kind, Rows};
+use crate::sobol::MOST_VARIABLES;
+use crate::verdict;
+
+/// More instants of one run than this are a slip of the hand.
+const MOST_INSTANTS: f64 = 1e6;
+
+/// Why a plan cannot be run.
+#[derive(Debug)]
+pub enum Wrong {
+    /// The spec is wrong, or a formula.
+    Spec(Box<(Report, Sources)>),
+    /// The plan is.
+    Plan(String),
+}
+
+/// A plan made ready to run: shared by all threads.
+#[derive(Debug)]
+pub struct Sweep {
+    plan: Plan,
+    machine: InterpretedMachine,
+    method: &'static Method,
+    /// What the method was replaced for, in a sentence.
+    warning: Option<String>,
+    constants: Vec<(String, Rational)>,
+    places: Vec<Place>,
+    laws: Laws,
+    /// For each event the output that its function is.
+    events: Vec<usize>,
+    reductions: Vec<Made>,
+    columns: Vec<Column>,
+    sample_columns: Option<Vec<Column>>,
+}
+
+/// How a reduction is made.
+#[derive(Clone, Debug)]
+enum Made {
+    /// Of an expression.
+    Along(Tracker),
+    /// Of the event of this name.
+    Of(Function, String),
+}
+
+/// What a name that is varied stands for.
+#[derive(Clone, Debug)]
+enum Place {
+    /// A parameter or an input.
+    Set(String),
+    /// A coordinate at the start.
+    Start(String),
+    /// Its rate.
+    Rate(String),
+}
+
+/// The rows of a chunk.
+#[derive(Clone, Debug)]
+pub struct Chunk {
+    /// A row for each run.
+    pub rows: Rows,
+    /// The samples of all runs, where some are asked for.
+    pub samples: Option<Rows>,
+    /// How many runs failed.
+    pub failed: u64,
+}
+
+impl Place {
+    /// What a name stands for: `omega`, `start(x)`, `rate(x)`.
+    fn of(name: &str) -> Place {
+        let inner = |function: &str| {
+            let inner = name.strip_prefix(function)?.strip_prefix('(')?;
+            Some(inner.strip_suffix(')')?.trim().to_owned())
+        };
+        match (inner("start"), inner("rate")) {
+            (Some(name), _) => Place::Start(name),
+            (_, Some(name)) => Place::Rate(name),
+            _ => Place::Set(name.to_owned()),
+        }
+    }
+
+    /// Whether it is a member of a family, which comes after the family.
+    fn is_member(&self) -> bool {
+        let (Place::Set(name) | Place::Start(name) | Place::Rate(name)) = self;
+        name.contains('[')
+    }
+}
+
+/// The unit of what a name of `--vary` stands for.
+///
+/// # Errors
+/// If the machine has nothing of this name; with the near name.
+pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
+    let place = Place::of(name);
+    let (what, wanted) = match &place {
+        Place::Set(name) => ("parameter or input", name),
+        Place::Start(name) | Place::Rate(name) => ("coordinate", name),
+    };
+    let wanted = &*lagrangian_spec::token::normalized(wanted);
+    let coordinates = model.coordinates.iter().map(|c| (c.name.to_string(), c.unit.to_string()));
+    let parameters = model.parameters.iter().map(|p| (p.name.to_string(), p.unit_text.clone()));
+    let inputs = model.inputs.iter().map(|i| (i.name.to_string(), i.unit_text.clone()));
+    let known: Vec<(String, String)> = match place {
+        Place::Set(_) => parameters.chain(inputs).collect(),
+        _ => coordinates.collect(),
+    };
+    let is_meant = |name: &str| name == wanted || name.split_once('[').is_some_and(|(base, _)| base == wanted);
+    if let Some((_, unit)) = known.iter().find(|(name, _)| is_meant(name)) {
+        return Ok(match place {
+            Place::Rate(_) => format!("({unit})/s"),
+            _ => unit.clone(),
+        });
+    }
+    let is_coordinate = model.coordinates.iter().any(|c| is_meant(&c.name.to_string()));
+    let names = || known.iter().map(|(name, _)| name.as_str());
+    let help = match nearest(wanted, names()) {
+        _ if is_coordinate && matches!(place, Place::Set(_)) => {
+            format!("it is a coordinate, whose start is `start({wanted})`")
+        }
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "there are none".to_owned(),
+        None => format!("there are: {}", names().collect::<Vec<_>>().join(", ")),
+    };
+    Err(format!("no {what} named `{wanted}`; {help}"))
+}
+
+impl Sweep {
+    /// Derives the machine of a plan, with its formulas, and checks everything that can be known before the first run.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn new(plan: Plan, engine: Engine) -> Result<Sweep, Wrong> {
+        let constants = plan.spec.constants().map_err(Wrong::Plan)?;
+        let dag = Dag::new();
+        let (mut sources, mut report) = (Sources::new(), Report::new());
+        let Some(plain) = model(&plan, &constants, &dag, &[], &mut sources, &mut report) else {
+            return Err(Wrong::Spec(Box::new((report, sources))));
+        };
+        let places = check(&plan, &plain)?;
+        let names = names(&plan, &plain);
+        let asked: Vec<Asked<'_>> = names
+            .iter()
+            .map(|(name, said, text, unit)| Asked {
+                name,
+                said,
+                text,
+                unit: unit.as_deref(),
+            })
+            .collect();
+        let (mut sources, mut report) = (Sources::new(), Report::new());
+        let with = match asked.as_slice() {
+            [] => Some(plain),
+            asked => model(&plan, &constants, &dag, asked, &mut sources, &mut report),
+        };
+        let compiled = with.and_then(|model| Compiled::new(model, &mut report));
+        let Some(compiled) = compiled else {
+            return Err(Wrong::Spec(Box::new((report, sources))));
+        };
+        let own = compiled.model.outputs.len() - asked.len();
+        let formulas: Vec<Formula> = (own..)
+            .zip(&compiled.model.outputs[own..])
+            .map(|(output, formula)| Formula {
+                output,
+                reads_accelerations: formula.value.stage() == stage::ACCELERATION,
+            })
+            .collect();
+        for ((_, said, text, _), formula) in names.iter().zip(&formulas) {
+            if formula.reads_accelerations && !said.starts_with("--reduce") {
+                return Err(Wrong::Plan(format!(
+                    "{said}: `{text}` depends on accelerations, which depend on it in turn or jump where contacts change; only \
+                     reductions may"
+                )));
+            }
+        }
+
+        let mut machine = InterpretedMachine::new(compiled.program.clone());
+        machine
+            .set_engine(engine)
+            .map_err(|none| Wrong::Plan(none.to_string()))?;
+        let Some(mut method) = Method::named(&plan.method) else {
+            let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
+            let message = format!("no method named `{}`; there are: {}", plan.method, names.join(", "));
+            return Err(Wrong::Plan(message));
+        };
+        let mut warning = None;
+        if std::ptr::eq(method, &TAYLOR) {
+            let series = ProvedSeries::derive(&compiled.model);
+            if let Err(reason) = &series {
+                method = <&Method>::default();
+                let name = method.tableau.name;
+                warning = Some(format!("no Taylor series: {reason}; {name} is used"));
+            }
+            machine = machine.with_series(series);
+        }
+        set_all(&mut machine, &plan.set).map_err(Wrong::Plan)?;
+        let mut probe = machine.clone();
+        for place in &places {
+            if let Place::Set(name) = place {
+                let _ = probe.set(name, 1.0); // it was looked up
+            }
+        }
+        probe.check_parameters().map_err(|missing| {
+            Wrong::Plan(format!(
+                "{missing}; set them with --set {}=…",
+                missing.names.join("=… --set ")
+            ))
+        })?;
+
+        let mut formulas = formulas.into_iter();
+        let mut next = || formulas.next().unwrap_or(Formula { output: 0, reads_accelerations: false });
+        let mut laws = Laws::default();
+        for (name, law) in &plan.inputs {
+            let place = compiled.model.inputs.iter().position(|input| input.name.to_string() == *name);
+            let rule = match law {
+                Law::Formula(_) => Rule::Output(next().output),
+                Law::Table { times, values } => Rule::Table {
+                    times: times.clone(),
+                    values: values.clone(),
+                },
+            };
+            laws.rules.extend(place.map(|place| (place, rule)));
+        }
+        let events: Vec<usize> = plan.events.iter().map(|_| next().output).collect();
+        let mut units = Vec::new();
+        let mut reductions = Vec::new();
+        for reduction in &plan.reduce {
+            if reduction.function.is_of_event() {
+                units.push(if reduction.function == Function::Count { "1" } else { "s" }.to_owned());
+                reductions.push(Made::Of(reduction.function, reduction.of.clone()));
+                continue;
+            }
+            let formula = next();
+            let (_, of_size) = subject(reduction);
+            let unit = &compiled.model.outputs[formula.output].unit_text;
+            units.push(match reduction.function {
+                Function::WhenMax | Function::WhenMin => "s".to_owned(),
+                Function::Integral if unit == "1" => "s".to_owned(),
+                Function::Integral => format!("({unit})*s"),
+                _ => unit.clone(),
+            });
+            reductions.push(Made::Along(Tracker::new(reduction.function, formula, of_size)));
+        }
+        let (columns, sample_columns) = columns(&plan, &compiled.model, &machine, &units);
+        let mut seen = std::collections::BTreeSet::new();
+        if let Some(twice) = columns.iter().find(|column| !seen.insert(column.name.as_str())) {
+            return Err(Wrong::Plan(format!(
+                "two columns would be named `{}`: give the reduction another name",
+                twice.name
+            )));
+        }
+        Ok(Sweep {
+            machine,
+            method,
+            warning,
+            constants,
+            places,
+            laws,
+            events,
+            reductions,
+            columns,
+            sample_columns,
+            plan,
+        })
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The same with chunks of another length, which changes no row.
+    pub fn set_chunk(&mut self, chunk: u64) {
+        self.plan.chunk = chunk;
+    }
+
+    /// What is to be said of it although it runs.
+    pub fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
+    }
+
+    /// Rows of a sweep, none yet.
+    pub fn empty(&self) -> Rows {
+        Rows::new(self.columns.clone())
+    }
+
+    /// Samples of a sweep, none yet; nothing where none are asked for.
+    pub fn no_samples(&self) -> Option<Rows> {
+        self.sample_columns.clone().map(Rows::new)
+    }
+
+    /// Makes the runs of a chunk: the unit of work, which depends on the plan and on the chunk's number alone. Nothing comes of it
+    /// once `stop` is set.
+    pub fn run_chunk(&self, chunk: u64, stop: &AtomicBool) -> Option<Chunk> {
+        self.run(self.plan.runs_of(chunk), stop, &|_| ())
+    }
+
+    /// Makes these runs; `done` is told of each whether it failed.
+    pub fn run(
+        &self,
+        runs: Range<u64>,
+        stop: &AtomicBool,
+        done: &dyn Fn(bool),
+    ) -> Option<Chunk> {
+        // What a spec says of its numbers is known to its model, which belongs to one thread.
+        let dag = Dag::new();
+        let sets = self.places.iter().any(|place| matches!(place, Place::Set(_)));
+        let refuses = match sets || !self.plan.set.is_empty() {
+            true => {
+                let (mut sources, mut report) = (Sources::new(), Report::new());
+                model(&self.plan, &self.constants, &dag, &[], &mut sources, &mut report)
+            }
+            false => None,
+        };
+        let mut chunk = Chunk {
+            rows: self.empty(),
+            samples: self.no_samples(),
+            failed: 0,
+        };
+        for run in runs {
+            if stop.load(Ordering::Relaxed) {
+                return None;
+            }
+            let values = design::values(&self.plan.design, run);
+            let mut outcome = self.run_one(run, &values, refuses.as_ref(), stop)?;
+            chunk.failed += u64::from(outcome.error.is_some());
+            done(outcome.error.is_some());
+            if let (Some(samples), Some(all)) = (outcome.samples.take(), &mut chunk.samples) {
+                all.extend(samples);
+            }
+            chunk.rows.push(self.row(run, &values, outcome.into_cells()));
+        }
+        Some(chunk)
+    }
+
+    fn row(&self, run: u64, values: &[f64], rest: Vec<Cell>) -> Vec<Cell> {
+        let varied = values.iter().map(|value| Cell::Number(Some(*value)));
+        std::iter::once(Cell::Count(run)).chain(varied).chain(rest).collect()
+    }
+
+    /// Makes one run; nothing where it was stopped.
+    fn run_one(
+        &self,
+        run: u64,
+        values: &[f64],
+        refuses: Option<&Model<'_>>,
+        stop: &AtomicBool,
+    ) -> Option<Outcome> {
+        let plan = &self.plan;
+        let mut machine = self.machine.clone();
+        let mut coordinates = [(&plan.start, Vec::new()), (&plan.rate, Vec::new())];
+        for is_member in [false, true] {
+            let varied = self.places.iter().zip(values);
+            for (place, value) in varied.filter(|(place, _)| place.is_member() == is_member) {
+                match place {
+                    // All names were looked up.
+                    Place::Set(name) => drop(machine.set(name, *value)),
+                    Place::Start(name) => coordinates[0].1.push((name, *value)),
+                    Place::Rate(name) => coordinates[1].1.push((name, *value)),
+                }
+            }
+        }
+        let mut start = machine.start();
+        for ((given, varied), numbers) in coordinates.iter().zip([&mut start.q, &mut start.v]) {
+            for is_member in [false, true] {
+                let given = given.iter().map(|(name, value)| (name, *value));
+                for (name, value) in given.filter(|(name, _)| name.contains('[') == is_member) {
+                    let _ = numbers.set(name, value); // it was looked up
+                }
+            }
+            for (name, value) in varied {
+                let _ = numbers.set(name, *value); // it was looked up
+            }
+        }
+        let trackers = self.reductions.iter().map(|made| match made {
+            Made::Along(tracker) => Some(tracker.clone()),
+            Made::Of(..) => None,
+        });
+        let mut watched = Watched {
+            trackers: trackers.collect(),
+            at: vec![None; plan.at.len()],
+            samples: self.no_samples(),
+            due: 0,
+        };
+        let mut outcome = Outcome::failed(start.clone(), watched.at.len(), self.reductions.len());
+        if let Some(model) = refuses {
+            let said = model.refused_values(machine.parameter_values());
+            let error = said.iter().find(|said| said.code.severity() == Severity::Error);
+            if let Some(error) = error {
+                outcome.error = Some(format!("{} [{}]", error.message, error.code));
+                return Some(outcome);
+            }
+        }
+
+        // Formulas are asked for while the run has its own system.
+        let system = machine.prepare();
+        let function = |output: usize, state: &State<Named>| {
+            let mut u = system.default_inputs();
+            let State { t, q, v } = state;
+            lagrangian::InputLaw::set(&self.laws, &system, *t, &q.values, &v.values, &mut u);
+            system.output(output, *t, &q.values, &v.values, &[], &u.values)
+        };
+        let started = RefCell::new(&mut watched);
+        let mut simulation = Simulation::new(&machine)
+            .tolerance(plan.tolerance)
+            .method(self.method)
+            .until(plan.until)
+            .max_steps(usize::try_from(plan.max_steps).unwrap_or(usize::MAX))
+            .energy_balance(true)
+            .forget_steps()
+            .forget_energies()
+            .law(self.laws.clone());
+        if let Some(keep) = &plan.keep {
+            simulation = simulation.keep_none();
+            for name in keep {
+                simulation = simulation.keep(name);
+            }
+        }
+        for (watch, &output) in plan.events.iter().zip(&self.events) {
+            let function = move |state: &State<Named>| function(output, state);
+            simulation = match watch.ends {
+                true => simulation.until_event(&watch.name, Crossing::Any, function),
+                false => simulation.event(&watch.name, Crossing::Any, function),
+            };
+        }
+        let looks = self.reductions.iter().any(|made| matches!(made, Made::Along(_)))
+            || !plan.at.is_empty()
+            || plan.every.is_some();
+        if looks {
+            simulation = simulation.each_step(|step| started.borrow_mut().take(plan, run, &system, step));
+        }
+        let simulation = simulation.stop_if(|_| stop.load(Ordering::Relaxed));
+        let (solution, error) = match simulation.run_as_far_as_possible(start) {
+            Ok(made) => made,
+            Err(error) => {
+                outcome.error = Some(verdict::said(&error));
+                return Some(outcome);
+            }
+        };
+        if *solution.ending() == Ending::Stopped {
+            return None;
+        }
+        let error = error.as_ref().map(verdict::said);
+        outcome.error = error.or_else(|| verdict::objection(&solution));
+        outcome.status = match (&outcome.error, solution.ending()) {
+            (Some(_), _) => "failed".to_owned(),
+            (None, Ending::Event(name)) => format!("event {name}"),
+            (None, _) => "ended".to_owned(),
+        };
+        outcome.end = solution.end().clone();
+        outcome.steps = solution.statistics().steps as u64;
+        outcome.residual = solution.energy_balance().map(|balance| balance.residual());
+        watched.end(plan, (run, solution.start(), solution.end()));
+        outcome.at = watched.at;
+        outcome.samples = watched.samples;
+        if outcome.error.is_none() {
+            let after = |t: f64| plan.after.is_none_or(|after| (t - after) * plan.until.signum() >= 0.0);
+            let made = self.reductions.iter().zip(&watched.trackers);
+            outcome.reductions = made
+                .map(|(made, tracker)| match (made, tracker) {
+                    (Made::Of(function, name), _) => {
+                        let events = solution.events().iter();
+                        let mut times = events
+                            .filter(|event| event.name == *name && after(event.state.t))
+                            .map(|event| event.state.t);
+                        match function {
+                            Function::Count => Some(times.count() as f64),
+                            Function::FirstEvent => times.next(),
+                            _ => times.last(),
+                        }
+                    }
+                    (_, Some(tracker)) => tracker.result(),
+                    (_, None) => None,
+                })
+                .collect();
+        }
+        Some(outcome)
+    }
+}
+
+/// What is looked at while a run is made.
+struct Watched {
+    trackers: Vec<Option<Tracker>>,
+    /// The states at recorded instants.
+    at: Vec<Option<State<Named>>>,
+    samples: Option<Rows>,
+    /// The number of the next sample.
+    due: u64,
+}
+
+impl Watched {
+    /// Looks at a step.
+    fn take(
+        &mut self,
+        plan: &Plan,
+        run: u64,
+        system: &InterpretedSystem,
+        step: &mut dyn lagrangian::StepMotion<InterpretedMachine>,
+    ) -> Result<(), lagrangian::Error> {
+        let [from, to] = step.span();
+        for (t, state) in plan.at.iter().zip(&mut self.at) {
+            if (t - from) * (to - t) >= 0.0 && *t != from {
+                *state = Some(step.state(*t)?);
+            }
+        }
+        if let (Some(every), Some(samples)) = (plan.every, &mut self.samples) {
+            loop {
+                let t = self.due as f64 * every.copysign(plan.until);
+                if (t - to) * plan.until.signum() > 0.0 || is_end(t, plan.until) {
+                    break;
+                }
+                let state = step.state(t)?;
+                samples.push(sample(run, &state));
+                self.due += 1;
+            }
+        }
+        let theta = match plan.after {
+            None => 0.0,
+            Some(after) if (after - to) * plan.until.signum() >= 0.0 => return Ok(()),
+            Some(after) => ((after - from) / (to - from)).max(0.0),
+        };
+        if self.trackers.iter().all(Option::is_none) {
+            return Ok(());
+        }
+        let looks = Looks::new(system, step);
+        for tracker in self.trackers.iter_mut().flatten() {
+            tracker.take(&looks, theta)?;
+        }
+        Ok(())
+    }
+
+    /// Adds what is known at the ends of a run without a step.
+    fn end(&mut self, plan: &Plan, (run, start, end): (u64, &State<Named>, &State<Named>)) {
+        for (t, state) in plan.at.iter().zip(&mut self.at) {
+            if *t == start.t {
+                *state = Some(start.clone());
+            }
+        }
+        if let Some(samples) = &mut self.samples {
+            samples.push(sample(run, end));
+        }
+    }
+}
+
+/// Whether a time is the end of a run, or before it by roundoff only.
+fn is_end(t: f64, until: f64) -> bool {
+    (until - t) * until.signum() <= 4.0 * f64::EPSILON * until.abs()
+}
+
+fn sample(run: u64, state: &State<Named>) -> Vec<Cell> {
+    let numbers = std::iter::once(state.t)
+        .chain(state.q.values.iter().copied())
+        .chain(state.v.values.iter().copied());
+    let numbers = numbers.map(|number| Cell::Number(Some(number)));
+    std::iter::once(Cell::Count(run)).chain(numbers).collect()
+}
+
+/// What came of a run.
+struct Outcome {
+    status: String,
+    error: Option<String>,
+    end: State<Named>,
+    at: Vec<Option<State<Named>>>,
+    reductions: Vec<Option<f64>>,
+    steps: u64,
+    residual: Option<f64>,
+    samples: Option<Rows>,
+}
+
+impl Outcome {
+    /// A run that did not begin.
+    fn failed(start: State<Named>, instants: usize, reductions: usize) -> Outcome {
+        Outcome {
+            status: "failed".into(),
+            error: None,
+            end: start,
+            at: vec![None; instants],
+            reductions: vec![None; reductions],
+            steps: 0,
+            residual: None,
+            samples: None,
+        }
+    }
+
+    fn into_cells(self) -> Vec<Cell> {
+        let dimension = self.end.q.values.len();
+        let State { t, q, v } = self.end;
+        let mut cells = vec![Cell::Text(Some(self.status)), Cell::Text(self.error)];
+        let known = std::iter::once(t).chain(q.values).chain(v.values);
+        cells.extend(known.map(|value| Cell::Number(Some(value))));
+        for state in self.at {
+            match state {
+                Some(State { q, v, .. }) => {
+                    let values = q.values.into_iter().chain(v.values);
+                    cells.extend(values.map(|value| Cell::Number(Some(value))));
+                }
+                None => cells.extend(std::iter::repeat_n(Cell::Number(None), 2 * dimension)),
+            }
+        }
+        cells.extend(self.reductions.into_iter().map(Cell::Number));
+        cells.push(Cell::Count(self.steps));
+        cells.push(Cell::Number(self.residual));
+        cells
+    }
+}
+
+/// What the spec of a plan means, with formulas beside it.
+fn model<'d>(
+    plan: &Plan,
+    constants: &[(String, Rational)],
+    dag: &'d Dag,
+    formulas: &[Asked<'_>],
+    sources: &mut Sources,
+    report: &mut Report,
+) -> Option<Model<'d>> {
+    let text = &plan.spec;
+    let spec = lagrangian_spec::parse(sources, &text.name, &text.text, report);
+    let files = &mut Kept(&text.files);
+    Model::resolve_with(spec, dag, constants, formulas, files, sources, report)
+}
+
+/// What a reduction is of, and whether it is of the size of that.
+fn subject(reduction: &Reduction) -> (&str, bool) {
+    let text = reduction.of.trim();
+    let is_extreme = matches!(reduction.function, Function::Max | Function::WhenMax);
+    let inner = text.strip_prefix("abs").map(str::trim_start);
+    let inner = inner.and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
+    match inner.filter(|_| is_extreme) {
+        Some(inner) if is_closed(inner) => (inner, true),
+        _ => (text, false),
+    }
+}
+
+/// Whether every bracket that closes was opened before.
+fn is_closed(text: &str) -> bool {
+    let mut depth = 0_i32;
+    let mut closed = text.chars().map(|c| {
+        depth += match c {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        depth >= 0
+    });
+    closed.all(|is_open| is_open)
+}
+
+/// Name, what messages call it, text and unit of every formula of a plan, in the order inputs, events, reductions.
+fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<String>)> {
+    let mut all = Vec::new();
+    for (name, law) in &plan.inputs {
+        if let Law::Formula(text) = law {
+            let input = model.inputs.iter().find(|input| input.name.to_string() == *name);
+            let unit = input.map(|input| input.unit_text.clone());
+            all.push((format!("input {name}"), format!("--input {name}"), text.clone(), unit));
+        }
+    }
+    for watch in &plan.events {
+        let option = if watch.ends { "--until-event" } else { "--event" };
+        let name = &watch.name;
+        all.push((format!("event {name}"), format!("{option} {name}"), watch.formula.clone(), None));
+    }
+    for reduction in plan.reduce.iter().filter(|reduction| !reduction.function.is_of_event()) {
+        let name = &reduction.name;
+        let (text, _) = subject(reduction);
+        all.push((format!("reduction {name}"), format!("--reduce {name}"), text.to_owned(), None));
+    }
+    all
+}
+
+/// Checks names and numbers of a plan; what each varied name stands for.
+fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
+    let wrong = |message: String| Err(Wrong::Plan(message));
+    if design::runs(&plan.design).is_none() {
+        return wrong("these are more than 2^40 runs".into());
+    }
+    if plan.runs() == 0 {
+        return wrong("these are no runs: a factor of the design has no values".into());
+    }
+    if !(plan.until.is_finite() && plan.until != 0.0) {
+        return wrong("a sweep runs for some time: --until must be a number other than 0".into());
+    }
+    let is_within = |t: f64| t * plan.until.signum() >= 0.0 && t.abs() <= plan.until.abs();
+    if let Some(t) = plan.at.iter().find(|t| !is_within(**t)) {
+        return wrong(format!("--record at={t}: that is not within the run, which lasts until {} s", plan.until));
+    }
+    if let Some(after) = plan.after.filter(|after| !is_within(*after) || *after == plan.until) {
+        return wrong(format!("--after {after}: that is not within the run, which lasts until {} s", plan.until));
+    }
+    if plan.every.is_some_and(|every| !(every > 0.0 && plan.until.abs() / every <= MOST_INSTANTS)) {
+        return wrong(format!("--record every: more than {MOST_INSTANTS:e} instants of each run, or none"));
+    }
+    let varied = plan.varied();
+    let mut set: Vec<&str> = plan.set.iter().map(|(name, _)| name.as_str()).collect();
+    set.extend(plan.inputs.iter().map(|(name, _)| name.as_str()));
+    let starts = plan.start.iter().map(|(name, _)| format!("start({name})"));
+    let rates = plan.rate.iter().map(|(name, _)| format!("rate({name})"));
+    let both: Vec<String> = starts.chain(rates).collect();
+    let mut seen = std::collections::BTreeSet::new();
+    for name in &varied {
+        unit_of(model, name).map_err(Wrong::Plan)?;
+        if !seen.insert(*name) {
+            return wrong(format!("`{name}` is varied more than once"));
+        }
+        if set.contains(name) || both.iter().any(|given| given == name) {
+            return wrong(format!("`{name}` is varied, and has one value for all runs too"));
+        }
+    }
+    for name in plan.set.iter().map(|(name, _)| name.as_str()).chain(both.iter().map(String::as_str)) {
+        unit_of(model, name).map_err(Wrong::Plan)?;
+    }
+    for (name, law) in &plan.inputs {
+        if !model.inputs.iter().any(|input| input.name.to_string() == *name) {
+            let names: Vec<String> = model.inputs.iter().map(|input| input.name.to_string()).collect();
+            let help = match (nearest(name, names.iter().map(String::as_str)), names.is_empty()) {
+                (Some(near), _) => format!("did you mean `{near}`?"),
+                (None, true) => "the machine has none".into(),
+                (None, false) => format!("there are: {}", names.join(", ")),
+            };
+            return wrong(format!("--input {name}: no input named `{name}`; {help}"));
+        }
+        if let Law::Table { times, values } = law {
+            let grow = times.windows(2).all(|pair| pair[0] < pair[1]);
+            if times.is_empty() || times.len() != values.len() || !grow {
+                return wrong(format!("--input {name}: the times of its table do not grow from row to row"));
+            }
+        }
+    }
+    for factor in &plan.design {
+        if let design::Factor::Sample { design: design::Sampling::Sobol, variables, .. } = factor
+            && variables.len() > MOST_VARIABLES
+        {
+            return wrong(format!("a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"));
+        }
+    }
+    for reduction in plan.reduce.iter().filter(|reduction| reduction.function.is_of_event()) {
+        let names = || plan.events.iter().map(|event| event.name.as_str());
+        if !names().any(|name| name == reduction.of) {
+            let help = match nearest(&reduction.of, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "name it by --event NAME=FORMULA".into(),
+            };
+            return wrong(format!("--reduce {}: no event named `{}`; {help}", reduction.name, reduction.of));
+        }
+    }
+    Ok(varied.into_iter().map(Place::of).collect())
+}
+
+/// Sets families first.
+fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<(), String> {
+    for is_member in [false, true] {
+        for (name, value) in all.iter().filter(|(name, _)| name.contains('[') == is_member) {
+            machine.set(name, *value).map_err(|unknown| unknown.to_string())?;
+        }
+    }
+    Ok(())
+}
+
+/// The columns of rows and of samples.
+fn columns(
+    plan: &Plan,
+    model: &Model<'_>,
+    machine: &InterpretedMachine,
+    units: &[String],
+) -> (Vec<Column>, Option<Vec<Column>>) {
+    let number = |name: String, unit: &str| Column {
+        name,
+        unit: Some(unit.to_owned()),
+        kind: Kind::Number,
+    };
+    let other = |name: &str, kind| Column {
+        name: name.into(),
+        unit: None,
+        kind,
+    };
+    let system = machine.prepare();
+    let per_second = |unit: &str| match unit {
+        "1" => "1/s".to_owned(),
+        unit => format!("{unit}/s"),
+    };
+    let state = |suffix: &str| {
+        let positions = system.coordinates().map(|c| number(format!("{}{suffix}", c.name), c.unit));
+        let rates = system
+            .coordinates()
+            .map(|c| number(format!("der({}){suffix}", c.name), &per_second(c.unit)));
+        positions.chain(rates).collect::<Vec<_>>()
+    };
+    let mut columns = vec![other("run", Kind::Count)];
+    for name in plan.varied() {
+        let unit = unit_of(model, name).unwrap_or_default();
+        columns.push(number(name.to_owned(), &unit));
+    }
+    columns.extend([other("status", Kind::Text), other("error", Kind::Text), number("t".into(), "s")]);
+    columns.extend(state(""));
+    for t in &plan.at {
+        columns.extend(state(&format!("@{t}")));
+    }
+    for (reduction, unit) in plan.reduce.iter().zip(units) {
+        columns.push(number(reduction.name.clone(), unit));
+    }
+    columns.push(other("steps", Kind::Count));
+    columns.push(number("energy residual".into(), "J"));
+    let samples = plan.every.map(|_| {
+        let mut columns = vec![other("run", Kind::Count), number("t".into(), "s")];
+        columns.extend(state(""));
+        columns
+    });
+    (columns, samples)
+}

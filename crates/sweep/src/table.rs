@@ -1,0 +1,427 @@
+//! Rows as files: comma-separated text, and Parquet.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::rows::{Rows, Values};
+
+/// The formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Comma-separated text; numbers in the shortest form that reads back to the same bits.
+    Csv,
+    /// Parquet.
+    Parquet,
+}
+
+impl Format {
+    /// The ending of a file's name.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Format::Csv => "csv",
+            Format::Parquet => "parquet",
+        }
+    }
+
+    /// Whether this build can write it.
+    pub fn is_here(self) -> bool {
+        self == Format::Csv || cfg!(feature = "parquet")
+    }
+}
+
+/// The line of comma-separated text that names the columns.
+pub(crate) fn csv_header(rows: &Rows) -> String {
+    let names = rows.columns.iter().map(|column| quoted(&column.name));
+    names.collect::<Vec<_>>().join(",") + "\n"
+}
+
+/// A line of comma-separated text for each row.
+pub(crate) fn csv_lines(rows: &Rows, to: &mut dyn Write) -> io::Result<()> {
+    for row in 0..rows.len() {
+        for (place, values) in rows.values.iter().enumerate() {
+            if place > 0 {
+                to.write_all(b",")?;
+            }
+            match values {
+                Values::Count(values) => write!(to, "{}", values[row])?,
+                Values::Number(values) => {
+                    if let Some(value) = values[row] {
+                        write!(to, "{value:?}")?;
+                    }
+                }
+                Values::Text(values) => {
+                    if let Some(text) = &values[row] {
+                        to.write_all(quoted(text).as_bytes())?;
+                    }
+                }
+            }
+        }
+        to.write_all(b"\n")?;
+    }
+    Ok(())
+}
+
+/// A text as it stands in comma-separated text (RFC 4180).
+fn quoted(text: &str) -> String {
+    match text.contains([',', '"', '\n', '\r']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.to_owned(),
+    }
+}
+
+/// The cells of lines of comma-separated text, quotes taken away.
+///
+/// # Errors
+/// Where a quote is not closed.
+pub fn csv_cells(text: &str) -> Result<Vec<Vec<String>>, String> {
+    let mut rows = Vec::new();
+    let (mut row, mut cell) = (Vec::new(), String::new());
+    let mut is_quoted = false;
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        match (c, is_quoted) {
+            ('"', true) if characters.peek() == Some(&'"') => {
+                cell.push('"');
+                characters.next();
+            }
+            ('"', _) => is_quoted = !is_quoted,
+            (',', false) => row.push(std::mem::take(&mut cell)),
+            ('\n', false) => {
+                row.push(std::mem::take(&mut cell));
+                rows.push(std::mem::take(&mut row));
+            }
+            ('\r', false) if characters.peek() == Some(&'\n') => {}
+            _ => cell.push(c),
+        }
+    }
+    if is_quoted {
+        return Err("a quote is not closed".into());
+    }
+    if !cell.is_empty() || !row.is_empty() {
+        row.push(cell);
+        rows.push(row);
+    }
+    Ok(rows)
+}
+
+#[cfg(feature = "parquet")]
+pub(crate) use with_parquet::Writer;
+#[cfg(feature = "parquet")]
+pub use with_parquet::{metadata, numbers, read};
+
+#[cfg(not(feature = "parquet"))]
+mod without_parquet {
+    use super::*;
+
+    fn none<T>() -> io::Result<T> {
+        Err(io::Error::new(
+            io::ErrorKind::Unsupported,
+            "this build has no feature `parquet`",
+        ))
+    }
+
+    /// A Parquet file in the making, which cannot be.
+    pub(crate) struct Writer<W>(std::marker::PhantomData<W>);
+
+    impl<W: Write + Send> Writer<W> {
+        pub fn new(_: W, _: &Rows, _: &[(&str, String)]) -> io::Result<Self> {
+            none()
+        }
+
+        pub fn write(&mut self, _: &Rows) -> io::Result<()> {
+            none()
+        }
+
+        pub fn end(self) -> io::Result<W> {
+            none()
+        }
+    }
+
+    /// The rows of a Parquet file.
+    ///
+    /// # Errors
+    /// There are none in this build.
+    pub fn read(_: &Path, _: &Rows) -> io::Result<Rows> {
+        none()
+    }
+
+    /// The columns of numbers of a Parquet file.
+    ///
+    /// # Errors
+    /// There are none in this build.
+    pub fn numbers(_: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
+        none()
+    }
+
+    /// What is said of a Parquet file under a name.
+    pub fn metadata(_: &Path, _: &str) -> Option<String> {
+        None
+    }
+}
+
+#[cfg(not(feature = "parquet"))]
+pub(crate) use without_parquet::Writer;
+#[cfg(not(feature = "parquet"))]
+pub use without_parquet::{metadata, numbers, read};
+
+#[cfg(feature = "parquet")]
+mod with_parquet {
+    use std::fs::File;
+    use std::sync::Arc;
+
+    use parquet::basic::{LogicalType, Repetition, Type as Physical};
+    use parquet::column::reader::ColumnReader;
+    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+    use parquet::file::metadata::KeyValue;
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::record::Field;
+    use parquet::schema::types::Type;
+
+    use super::*;
+    use crate::rows::Kind;
+
+    /// A Parquet file in the making.
+    pub(crate) struct Writer<W: Write + Send>(SerializedFileWriter<W>);
+
+    impl<W: Write + Send> Writer<W> {
+        /// Columns like those of these rows, and what is said of the file.
+        pub fn new(to: W, rows: &Rows, said: &[(&str, String)]) -> io::Result<Self> {
+            let field = |column: &crate::rows::Column| {
+                let (physical, logical) = match column.kind {
+                    Kind::Count => (
+                        Physical::INT64,
+                        Some(LogicalType::integer(64, false)),
+                    ),
+                    Kind::Number => (Physical::DOUBLE, None),
+                    Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+                };
+                let repetition = match column.kind {
+                    Kind::Count => Repetition::REQUIRED,
+                    Kind::Number | Kind::Text => Repetition::OPTIONAL,
+                };
+                Type::primitive_type_builder(&column.name, physical)
+                    .with_logical_type(logical)
+                    .with_repetition(repetition)
+                    .build()
+                    .map(Arc::new)
+            };
+            let fields: Result<Vec<_>, _> = rows.columns.iter().map(field).collect();
+            let schema = Type::group_type_builder("sweep").with_fields(fields?).build()?;
+            let said = said
+                .iter()
+                .map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
+            let properties = WriterProperties::builder()
+                .set_key_value_metadata(Some(said.collect()))
+                .build();
+            let writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))?;
+            Ok(Writer(writer))
+        }
+
+        /// Adds rows, as one group.
+        pub fn write(&mut self, rows: &Rows) -> io::Result<()> {
+            let mut group = self.0.next_row_group()?;
+            for values in &rows.values {
+                let Some(mut column) = group.next_column()? else {
+                    break;
+                };
+                match values {
+                    Values::Count(values) => {
+                        let values: Vec<i64> = values.iter().map(|x| x.cast_signed()).collect();
+                        column
+                            .typed::<Int64Type>()
+                            .write_batch(&values, None, None)?;
+                    }
+                    Values::Number(values) => {
+                        let there: Vec<f64> = values.iter().flatten().copied().collect();
+                        column.typed::<DoubleType>().write_batch(
+                            &there,
+                            Some(&levels(values)),
+                            None,
+                        )?;
+                    }
+                    Values::Text(values) => {
+                        let there = values.iter().flatten();
+                        let there: Vec<ByteArray> =
+                            there.map(|text| ByteArray::from(text.as_str())).collect();
+                        column.typed::<ByteArrayType>().write_batch(
+                            &there,
+                            Some(&levels(values)),
+                            None,
+                        )?;
+                    }
+                }
+                column.close()?;
+            }
+            group.close()?;
+            Ok(())
+        }
+
+        /// Writes the end of the file.
+        pub fn end(self) -> io::Result<W> {
+            Ok(self.0.into_inner()?)
+        }
+    }
+
+    /// For each value whether it is there.
+    fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
+        values.iter().map(|value| i16::from(value.is_some())).collect()
+    }
+
+    /// The rows of a Parquet file that has columns like these.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn read(path: &Path, like: &Rows) -> io::Result<Rows> {
+        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let fields = reader.metadata().file_metadata().schema().get_fields().to_vec();
+        let names = fields.iter().map(|field| field.name());
+        if !names.eq(like.columns.iter().map(|column| column.name.as_str())) {
+            return Err(io::Error::other("it has other columns"));
+        }
+        let mut rows = Rows::new(like.columns.clone());
+        for group in 0..reader.num_row_groups() {
+            let group = reader.get_row_group(group)?;
+            for (place, values) in rows.values.iter_mut().enumerate() {
+                column(&*group, place, values)?;
+            }
+        }
+        Ok(rows)
+    }
+
+    fn column(group: &dyn RowGroupReader, place: usize, to: &mut Values) -> io::Result<()> {
+        let count = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        let mut levels = Vec::new();
+        match (group.get_column_reader(place)?, to) {
+            (ColumnReader::Int64ColumnReader(mut reader), Values::Count(to)) => {
+                let mut values = Vec::new();
+                reader.read_records(count, None, None, &mut values)?;
+                to.extend(values.into_iter().map(i64::cast_unsigned));
+            }
+            (ColumnReader::DoubleColumnReader(mut reader), Values::Number(to)) => {
+                let mut values = Vec::new();
+                reader.read_records(count, Some(&mut levels), None, &mut values)?;
+                let mut values = values.into_iter();
+                to.extend(levels.iter().map(|&level| match level {
+                    0 => None,
+                    _ => values.next(),
+                }));
+            }
+            (ColumnReader::ByteArrayColumnReader(mut reader), Values::Text(to)) => {
+                let mut values: Vec<ByteArray> = Vec::new();
+                reader.read_records(count, Some(&mut levels), None, &mut values)?;
+                let mut values = values.into_iter();
+                for level in levels {
+                    to.push(match level {
+                        0 => None,
+                        _ => match values.next() {
+                            None => None,
+                            Some(text) => Some(text.as_utf8()?.to_owned()),
+                        },
+                    });
+                }
+            }
+            _ => return Err(io::Error::other("a column is of another type")),
+        }
+        Ok(())
+    }
+
+    /// The columns of a Parquet file and its rows, all numbers.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or what in it is no number.
+    pub fn numbers(path: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
+        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let fields = reader.metadata().file_metadata().schema().get_fields().to_vec();
+        let names = fields.iter().map(|field| field.name().to_owned()).collect();
+        let mut rows = Vec::new();
+        for row in reader.get_row_iter(None)? {
+            let row = row?;
+            let cells = row.get_column_iter().map(|(name, field)| match field {
+                Field::Double(x) => Ok(*x),
+                Field::Float(x) => Ok(f64::from(*x)),
+                Field::Byte(x) => Ok(f64::from(*x)),
+                Field::Short(x) => Ok(f64::from(*x)),
+                Field::Int(x) => Ok(f64::from(*x)),
+                Field::Long(x) => Ok(*x as f64),
+                Field::UByte(x) => Ok(f64::from(*x)),
+                Field::UShort(x) => Ok(f64::from(*x)),
+                Field::UInt(x) => Ok(f64::from(*x)),
+                Field::ULong(x) => Ok(*x as f64),
+                _ => Err(io::Error::other(format!(
+                    "row {}: column `{name}` holds what is no number",
+                    rows.len()
+                ))),
+            });
+            rows.push(cells.collect::<io::Result<Vec<f64>>>()?);
+        }
+        Ok((names, rows))
+    }
+
+    /// What is said of a Parquet file under a name.
+    pub fn metadata(path: &Path, name: &str) -> Option<String> {
+        let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
+        let said = reader.metadata().file_metadata().key_value_metadata()?;
+        said.iter().find(|said| said.key == name)?.value.clone()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rows::{Cell, Column, Kind};
+
+    fn rows() -> Rows {
+        let column = |name: &str, kind| Column {
+            name: name.into(),
+            unit: None,
+            kind,
+        };
+        let mut rows = Rows::new(vec![
+            column("run", Kind::Count),
+            column("x, y", Kind::Number),
+            column("error", Kind::Text),
+        ]);
+        for (run, x, error) in [
+            (0, Some(0.1), None),
+            (u64::MAX, None, Some("a \"b\",\nc")),
+            (2, Some(f64::NAN), Some("")),
+            (3, Some(-1e-300), None),
+        ] {
+            let error = error.map(str::to_owned);
+            rows.push([Cell::Count(run), Cell::Number(x), Cell::Text(error)]);
+        }
+        rows
+    }
+
+    #[test]
+    fn cells_of_text_are_what_was_written() {
+        let mut text = csv_header(&rows()).into_bytes();
+        csv_lines(&rows(), &mut text).unwrap();
+        let cells = csv_cells(&String::from_utf8(text).unwrap()).unwrap();
+        assert_eq!(cells[0], ["run", "x, y", "error"]);
+        assert_eq!(cells[1], ["0", "0.1", ""]);
+        assert_eq!(cells[2], ["18446744073709551615", "", "a \"b\",\nc"]);
+        assert_eq!(cells[4], ["3", "-1e-300", ""]);
+        assert!(csv_cells("a,\"b\n").is_err());
+    }
+
+    #[cfg(feature = "parquet")]
+    #[test]
+    fn parquet_reads_back_to_the_same_rows() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.parquet");
+        let file = std::fs::File::create(&path).unwrap();
+        let mut writer = Writer::new(file, &rows(), &[("plan", "p".into())]).unwrap();
+        writer.write(&rows()).unwrap();
+        writer.write(&rows().take(2)).unwrap();
+        writer.end().unwrap();
+        let mut expected = rows();
+        expected.extend(rows().take(2));
+        let found = read(&path, &rows()).unwrap();
+        // What is no number is not equal to itself.
+        assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        assert_eq!(metadata(&path, "plan").as_deref(), Some("p"));
+    }
+}

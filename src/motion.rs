@@ -1,0 +1,58 @@
+//! The motion within one step, shown while the run is made.
+
+use crate::{Coordinates, Error, Inputs, Machine, State, System};
+
+/// The motion within one step of a run, as [`Simulation::each_step`](crate::Simulation::each_step) shows it: the continuous
+/// extension of the method, on the constraints.
+pub trait StepMotion<M: Machine> {
+    /// Time at its beginning and at its end, in s.
+    fn span(&self) -> [f64; 2];
+
+    /// Whether it is one by Taylor series, whose motion is of a much higher degree than that of other methods.
+    fn is_series(&self) -> bool;
+
+    /// Time and state at a fraction of the step, from 0 to 1.
+    ///
+    /// # Errors
+    /// Where the method needs accelerations for it that do not exist, or the constraints cannot be met.
+    fn state_at(
+        &mut self,
+        theta: f64,
+    ) -> Result<
+        (
+            f64,
+            <M::System as System>::Vector,
+            <M::System as System>::Vector,
+        ),
+        Error,
+    >;
+
+    /// The state at a time within the step: the one that a sample of the run has there, bit for bit.
+    ///
+    /// # Errors
+    /// As [`state_at`](Self::state_at).
+    fn state(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error>;
+
+    /// The inputs at a state.
+    fn inputs(
+        &self,
+        t: f64,
+        q: &<M::System as System>::Vector,
+        v: &<M::System as System>::Vector,
+    ) -> Inputs<M>;
+
+    /// Accelerations at time, state and inputs, with the contacts as they are in this step.
+    ///
+    /// # Errors
+    /// Where there are none.
+    fn accelerations(
+        &self,
+        at: (
+            f64,
+            &<M::System as System>::Vector,
+            &<M::System as System>::Vector,
+        ),
+        u: &Inputs<M>,
+        a: &mut <M::System as System>::Vector,
+    ) -> Result<(), Error>;
+}
