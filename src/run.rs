@@ -26,7 +26,8 @@ use crate::step_error::StepError;
 use crate::stepper::{Stepper, Whose};
 use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{
-    Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion, System, Vector, Warning,
+    Coordinates, Error, Inputs, Machine, Pivot, Singular, State, StepMotion, System, Vector,
+    Warning,
 };
 use explained::Explained;
 
@@ -619,7 +620,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         Ok(())
     }
 
-    /// Shows the last step to whoever looks at each.
+    /// Shows the last step to the observer of each, if there is one.
     fn show(&mut self, interpolant: &mut LastInterpolant<M>) -> Result<(), Error> {
         let Self {
             model,

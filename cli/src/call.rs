@@ -34,6 +34,8 @@ pub enum Command {
     Simulate(Simulate),
     /// Integrate many times: over parameters, inputs and starts; a row a run.
     Sweep(Sweep),
+    /// Draw a sweep: curves over one parameter, colours over two.
+    Map(Map),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
     Modes(Modes),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
@@ -41,18 +43,24 @@ pub enum Command {
 }
 
 impl Command {
-    /// The spec that it is about.
-    pub fn spec(&self) -> &Spec {
-        match self {
+    /// The spec that it is about, if it is about one.
+    fn spec(&self) -> Option<&Spec> {
+        Some(match self {
             Command::Check(call) => &call.spec,
             Command::Derive(call) => &call.spec,
             Command::Library(call) => &call.spec,
             Command::Evaluate(call) => &call.spec,
             Command::Simulate(call) => &call.spec,
             Command::Sweep(call) => &call.spec,
+            Command::Map(_) => return None,
             Command::Modes(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
-        }
+        })
+    }
+
+    /// Whether its result is to be JSON.
+    pub fn json(&self) -> bool {
+        self.spec().is_some_and(|spec| spec.json)
     }
 
     /// Every name that the call gives a value, with the option that does it.
@@ -63,6 +71,7 @@ impl Command {
         };
         match self {
             Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
+            Command::Map(call) => add("--only", &call.only),
             Command::Evaluate(Evaluate { start, .. })
             | Command::Simulate(Simulate { start, .. })
             | Command::Sweep(Sweep { start, .. })
@@ -89,7 +98,7 @@ impl Command {
         if let Command::Modes(call) = self {
             named.extend(call.steady.iter().map(|s| ("--steady", s.name.as_str())));
         }
-        let constants = self.spec().constants.iter();
+        let constants = self.spec().into_iter().flat_map(|spec| &spec.constants);
         named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
         named
     }
@@ -382,6 +391,26 @@ pub struct Sweep {
     pub strict: bool,
 }
 
+/// Arguments of `map`.
+#[derive(Debug, Args)]
+pub struct Map {
+    /// The rows of a sweep, `.csv` or `.parquet`.
+    #[arg(value_name = "TABLE")]
+    pub table: PathBuf,
+    /// What is drawn: columns of the table, as in `--of peak,effort`.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', required = true)]
+    pub of: Vec<String>,
+    /// Over which of the parameters that are varied: curves over one, colours over two; all of them where left out.
+    #[arg(long, value_name = "NAME[,NAME]", value_delimiter = ',')]
+    pub over: Vec<String>,
+    /// Leave out all rows with another value, as in `--only m2=0.5`.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    pub only: Vec<Assignment>,
+    /// The drawing.
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: PathBuf,
+}
+
 /// How values are sampled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Design {
@@ -646,7 +675,7 @@ fn steps(text: &str) -> Result<usize, String> {
 }
 
 /// Reads how many there are.
-fn count(text: &str) -> Result<u64, String> {
+pub fn count(text: &str) -> Result<u64, String> {
     let count = number(text)?;
     match (1.0..=(1u64 << 40) as f64).contains(&count) && count.fract() == 0.0 {
         true => Ok(count as u64),

@@ -15,6 +15,7 @@ mod exit;
 mod failure;
 mod interrupt;
 mod library;
+mod map;
 mod modes;
 mod numbers;
 mod output;
@@ -70,9 +71,8 @@ fn main() -> ExitCode {
 
 /// Does what is asked; the exit status.
 fn answer(call: &Call) -> u8 {
-    let spec = call.command.spec();
     // The result of `evaluate` is JSON in any case.
-    let json = spec.json || matches!(call.command, Command::Evaluate(_));
+    let json = call.command.json() || matches!(call.command, Command::Evaluate(_));
     progress::begin(json);
     progress::now("deriving the equations");
     let result = call.check().map_err(Failure::Call);
@@ -83,6 +83,7 @@ fn answer(call: &Call) -> u8 {
         Command::Evaluate(call) => evaluate::run(call),
         Command::Simulate(call) => simulate::run(call),
         Command::Sweep(call) => sweep::run(call),
+        Command::Map(call) => map::run(call),
         Command::Modes(call) => modes::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
     });

@@ -14,7 +14,9 @@ use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_sweep::plan::{Law, SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
-use lagrangian_sweep::{Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all};
+use lagrangian_sweep::{
+    Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all,
+};
 use lagrangian_symbolic::Dag;
 use serde_json::json;
 
@@ -44,7 +46,11 @@ struct Out {
 /// # Errors
 /// If the spec, the call or a file is at fault. Runs that fail are rows, and no error but with `--strict`.
 pub fn run(call: &call::Sweep) -> Result<(), Failure> {
-    let is_plan = call.spec.path.extension().is_some_and(|ending| ending == "json");
+    let is_plan = call
+        .spec
+        .path
+        .extension()
+        .is_some_and(|ending| ending == "json");
     let mut plan = match is_plan {
         true => written_plan(call)?,
         false => plan(call)?,
@@ -68,7 +74,8 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         to.write_text(&(plan.to_json() + "\n"))?;
         let (runs, chunks) = (plan.runs(), plan.chunks());
         if call.spec.json {
-            let document = json!({ "runs": runs, "chunks": chunks, "plan": path.display().to_string() });
+            let document =
+                json!({ "runs": runs, "chunks": chunks, "plan": path.display().to_string() });
             output::line(format_args!("{document:#}"));
         } else {
             output::line(format_args!(
@@ -96,7 +103,10 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         }
         if !differences.is_empty() {
             let trouble = Trouble::OtherPlan(differences);
-            return Err(Failure::Call(format!("{}: {trouble}", out.folder.display())));
+            return Err(Failure::Call(format!(
+                "{}: {trouble}",
+                out.folder.display()
+            )));
         }
     }
     let mut sweep = made(plan, engine)?;
@@ -119,21 +129,21 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
 /// Makes the chunks that are missing, and joins them.
 fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(), Failure> {
     let stop = interrupt::flag();
-    let threads = call.threads.map_or_else(cores, |threads| usize::try_from(threads).unwrap_or(usize::MAX));
+    let threads = call.threads.map_or_else(cores, |threads| {
+        usize::try_from(threads).unwrap_or(usize::MAX)
+    });
     let began = Instant::now();
     progress::end();
     let mut spoken = Spoken::new(sweep.plan().runs(), call.spec.json);
-    let mut last = 0;
-    let mut first = None;
-    let watch = &mut |now: lagrangian_sweep::Progress| {
-        first.get_or_insert(now.done);
-        last = now.done;
-        spoken.say(now);
-    };
+    let watch = &mut |now| spoken.say(now);
     let made = run_all(sweep, &folder, (threads, call.limit), &stop, watch);
     spoken.end();
     let going_on = "the same command goes on";
-    made.map_err(|trouble| Failure::Run(format!("cannot write {trouble}; what is there stays, and {going_on}")))?;
+    let now = made.map_err(|trouble| {
+        Failure::Run(format!(
+            "cannot write {trouble}; what is there stays, and {going_on}"
+        ))
+    })?;
     let seconds = began.elapsed().as_secs_f64();
     let runs = sweep.plan().runs();
     let is_all = (0..sweep.plan().chunks()).all(|chunk| folder.has(sweep, chunk));
@@ -145,7 +155,10 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
             let document = json!({ "runs": done, "of": runs, "seconds": seconds, "out": shown.to_string(), "interrupted": is_interrupted });
             output::line(format_args!("{document:#}"));
         } else {
-            output::line(format_args!("{done} of {runs} runs are kept in {}; {going_on}", out.folder.display()));
+            output::line(format_args!(
+                "{done} of {runs} runs are kept in {}; {going_on}",
+                out.folder.display()
+            ));
         }
         return match is_interrupted {
             true => Err(Failure::Interrupted),
@@ -155,10 +168,13 @@ fn all(call: &call::Sweep, sweep: &Sweep, folder: Folder, out: &Out) -> Result<(
     let summary = folder.summary(sweep).map_err(refused)?;
     if let Some(file) = &out.file {
         let joined = folder.join(sweep, file);
-        joined.map_err(|trouble| Failure::Run(format!("cannot write {trouble}; what is there stays, and {going_on}")))?;
+        joined.map_err(|trouble| {
+            Failure::Run(format!(
+                "cannot write {trouble}; what is there stays, and {going_on}"
+            ))
+        })?;
         folder.remove().map_err(refused)?;
     }
-    let now = last.saturating_sub(first.unwrap_or(last));
     tell(call, &summary, (seconds, now), &shown.to_string());
     match call.strict && summary.failed > 0 {
         true => Err(Failure::Said),
@@ -174,7 +190,9 @@ fn tell(call: &call::Sweep, summary: &Summary, (seconds, now): (f64, u64), shown
         first_errors,
     } = summary;
     if call.spec.json {
-        let errors = first_errors.iter().map(|(run, error)| json!({ "run": run, "error": error }));
+        let errors = first_errors
+            .iter()
+            .map(|(run, error)| json!({ "run": run, "error": error }));
         let document = json!({
             "runs": runs,
             "failed": failed,
@@ -341,7 +359,9 @@ fn written_plan(call: &call::Sweep) -> Result<Plan, Failure> {
 /// The plan that a call says.
 fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let Some(until) = call.until else {
-        return Err(Failure::Call("how long does each run last? --until SECONDS".into()));
+        return Err(Failure::Call(
+            "how long does each run last? --until SECONDS".into(),
+        ));
     };
     simulate::method(&call.method)?;
     let path = call.spec.path.to_string_lossy();
@@ -354,14 +374,22 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     let mut files = lagrangian_sweep::plan::Recorded::new(&mut disk);
     let constants = &call.spec.constants;
     let model = lagrangian_spec::model(
-        &dag, &path, &text, constants, &mut files, &mut sources, &mut report,
+        &dag,
+        &path,
+        &text,
+        constants,
+        &mut files,
+        &mut sources,
+        &mut report,
     );
     let read = files.read;
     let Some(model) = model else {
         return Err(Failure::Spec(Box::new((report, sources))));
     };
     diagnostics::print(&report, &sources);
-    let constants = constants.iter().map(|(name, value)| (name.clone(), value.to_string()));
+    let constants = constants
+        .iter()
+        .map(|(name, value)| (name.clone(), value.to_string()));
     let values = |option: &str, list: &[Assignment], name: &dyn Fn(&str) -> String| {
         let value = |set: &Assignment| {
             let unit = lagrangian_sweep::unit_of(&model, &name(&set.name))
@@ -373,7 +401,9 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
     };
     let start = &call.start;
     let set = values("--set", &start.parameters, &str::to_owned)?;
-    let starts = values("--start", &start.coordinates, &|name| format!("start({name})"))?;
+    let starts = values("--start", &start.coordinates, &|name| {
+        format!("start({name})")
+    })?;
     let rates = values("--rate", &start.rates, &|name| format!("rate({name})"))?;
     let keep = reading::kept_names(&call.keep).map(<[String]>::to_vec);
     if keep.is_some() {
@@ -452,8 +482,10 @@ fn numbers(path: &Path) -> Result<(Vec<String>, Vec<Vec<f64>>), Failure> {
     }
     let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
     let header = text.lines().next().unwrap_or_default();
-    let names: Vec<String> = header.split(',').map(|cell| table::named(cell).to_owned()).collect();
+    let names: Vec<String> = header
+        .split(',')
+        .map(|cell| table::named(cell).to_owned())
+        .collect();
     let rows = table::rows(&text, &names).map_err(wrong)?;
     Ok((names, rows))
 }
-

@@ -783,7 +783,7 @@ impl<'a> Emitter<'a> {
             }
         }
         if self.layout.lanes > 1 {
-            // Whoever is called may be of the time before long registers, and slow beside used ones.
+            // The functions called may use SSE instructions, which are slow while upper halves of registers are in use.
             self.put(Encoded::with(Code::VEX_Vzeroupper))?;
         }
         for call in calls {

@@ -18,8 +18,8 @@
 //! # Where there is none
 //!
 //! On processors other than x86-64 with AVX2 and fused multiply-add; in builds with `strict-libm`, whose arithmetic is
-//! another; and where the system does not let pages be executable. [`Level::here`] and [`Library::new`] say so, and whoever
-//! asks interprets: the same bits.
+//! another; and where the system does not let pages be executable. [`Level::here`] and [`Library::new`] say so, and the
+//! caller interprets: the same bits.
 //!
 //! # Unsafe code
 //!

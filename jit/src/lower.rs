@@ -3,7 +3,7 @@
 //! What a processor has no instruction for is a call: sines and cosines, and functions such as `atan2`. All calls whose
 //! arguments are known at the same time stand together, so code is a row of *phases*: arithmetic up to arguments of calls,
 //! the calls, arithmetic with their results, and so on; most machines have two. An operation stands in the last phase in
-//! which it is still in time for whoever needs it, so that little is to be kept across calls.
+//! which it is still in time for the operations that need it, so that little is to be kept across calls.
 
 use std::collections::HashMap;
 

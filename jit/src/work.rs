@@ -22,7 +22,7 @@ const PAGES: f64 = 10_000.0;
 /// After how many calls compiling pays.
 ///
 /// How many calls will come nobody knows. As many as there have been are expected: so a function is compiled when
-/// interpreting it has cost as much as compiling it will, and whatever comes, the whole takes no more than twice as long as
+/// interpreting it has cost as much as compiling it will, and however many calls come, the whole takes no more than twice as long as
 /// by the better of the two ways (A. R. Karlin, M. S. Manasse, L. Rudolph, D. D. Sleator, *Competitive snoopy caching*,
 /// Algorithmica 3 (1988) 79–119).
 pub fn calls_until_it_pays(function: &Function) -> u32 {

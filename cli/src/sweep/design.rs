@@ -29,16 +29,24 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
             ));
         }
         let (names, rows) = super::numbers(path)?;
-        let names: Vec<String> = names.iter().map(|name| normalized(name).into_owned()).collect();
+        let names: Vec<String> = names
+            .iter()
+            .map(|name| normalized(name).into_owned())
+            .collect();
         let shown = path.display();
         for name in &names {
             unit_of(model, name)
                 .map_err(|why| Failure::Call(format!("--table {shown}: column `{name}`: {why}")))?;
         }
         if rows.len() > MOST_LISTED {
-            return Err(Failure::Call(format!("--table {shown}: more than {MOST_LISTED} rows")));
+            return Err(Failure::Call(format!(
+                "--table {shown}: more than {MOST_LISTED} rows"
+            )));
         }
-        if let Some(row) = rows.iter().position(|row| row.iter().any(|value| !value.is_finite())) {
+        if let Some(row) = rows
+            .iter()
+            .position(|row| row.iter().any(|value| !value.is_finite()))
+        {
             return Err(Failure::Call(format!(
                 "--table {shown}: row {row} holds what is no finite number"
             )));
@@ -89,14 +97,21 @@ pub fn factors(call: &call::Sweep, model: &Model<'_>) -> Result<Vec<Factor>, Fai
 
 /// Puts factors side by side, in the place of the first of them.
 fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
-    let names: Vec<String> = group.split(',').map(|name| normalized(name.trim()).into_owned()).collect();
+    let names: Vec<String> = group
+        .split(',')
+        .map(|name| normalized(name.trim()).into_owned())
+        .collect();
     let mut parts = Vec::new();
     let mut place = None;
     for name in &names {
-        let found = factors.iter().position(|factor| factor.names() == [name.as_str()]);
+        let found = factors
+            .iter()
+            .position(|factor| factor.names() == [name.as_str()]);
         let found = found.ok_or_else(|| format!("no list and no grid of `{name}` is varied"))?;
         if matches!(factors[found], Factor::Sample { .. }) {
-            return Err(format!("`{name}` is sampled, and stands beside all that is sampled already"));
+            return Err(format!(
+                "`{name}` is sampled, and stands beside all that is sampled already"
+            ));
         }
         let at = *place.get_or_insert(found);
         parts.push(factors.remove(found));
@@ -106,7 +121,10 @@ fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
     }
     let counts: Vec<u64> = parts.iter().map(Factor::count).collect();
     if counts.windows(2).any(|pair| pair[0] != pair[1]) || parts.len() < 2 {
-        let each = names.iter().zip(&counts).map(|(name, count)| format!("{name} has {count}"));
+        let each = names
+            .iter()
+            .zip(&counts)
+            .map(|(name, count)| format!("{name} has {count}"));
         let each: Vec<String> = each.collect();
         return Err(format!(
             "these are two or more of equally many values; {}",
@@ -121,7 +139,8 @@ fn together(factors: &mut Vec<Factor>, group: &str) -> Result<(), String> {
 /// Reads `NAME=a..b:k`, `NAME=a..b:k:log`, `NAME=v,w`, `NAME=a..b`, `NAME~distribution(…)`.
 fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
     let equals = text.find('=').unwrap_or(text.len());
-    if let Some((name, distribution)) = text.split_once('~').filter(|(name, _)| name.len() < equals) {
+    if let Some((name, distribution)) = text.split_once('~').filter(|(name, _)| name.len() < equals)
+    {
         let name = named(name)?;
         let unit = unit_of(model, &name)?;
         let distribution = distribution_of(&name, distribution.trim(), &unit)?;
@@ -135,7 +154,9 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
     let Some((from, rest)) = values.split_once("..") else {
         let listed = arguments(values);
         if listed.len() > MOST_LISTED {
-            return Err(format!("more than {MOST_LISTED} values; --table takes as many"));
+            return Err(format!(
+                "more than {MOST_LISTED} values; --table takes as many"
+            ));
         }
         let rows = listed.iter().map(|text| Ok(vec![value(text)?]));
         let rows = rows.collect::<Result<Vec<_>, String>>()?;
@@ -155,12 +176,8 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
         Some("log") => true,
         Some(other) => return Err(format!("`:{other}` is no spacing: `:log`, or nothing")),
     };
-    let count: u64 = count
-        .trim()
-        .parse()
-        .ok()
-        .filter(|count| *count > 0)
-        .ok_or_else(|| format!("`{count}` is no number of values: a whole number from 1 on"))?;
+    let count = call::count(count)
+        .map_err(|why| format!("`{}` is no number of values: {why}", count.trim()))?;
     if parts.next().is_some() {
         return Err(wanted.into());
     }
@@ -189,9 +206,10 @@ fn value(name: &str, text: &str, unit: &str) -> Result<f64, String> {
         name: name.to_owned(),
         value: text.trim().to_owned(),
     };
-    let value = set.value("", unit);
     // What is wrong is said of the whole option.
-    value.map_err(|why| why.trim_start().to_owned())
+    let named = format!(" {name}={}: ", set.value);
+    set.value("", unit)
+        .map_err(|why| why.strip_prefix(&named).unwrap_or(&why).to_owned())
 }
 
 /// What stands between commas that are in no brackets.
@@ -212,7 +230,9 @@ fn distribution_of(name: &str, text: &str, unit: &str) -> Result<Distribution, S
     let wanted = "expected uniform(FROM,TO), loguniform(FROM,TO), normal(MEAN,DEVIATION) or triangular(FROM,TO,PEAK)";
     let (kind, rest) = text.split_once('(').ok_or(wanted)?;
     let inner = rest.trim_end().strip_suffix(')').ok_or(wanted)?;
-    let values = arguments(inner).into_iter().map(|text| value(name, text, unit));
+    let values = arguments(inner)
+        .into_iter()
+        .map(|text| value(name, text, unit));
     let values = values.collect::<Result<Vec<f64>, String>>()?;
     let distribution = match (kind.trim(), values.as_slice()) {
         ("uniform", &[a, b]) => Distribution::Uniform(a, b),

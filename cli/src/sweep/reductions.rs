@@ -13,7 +13,10 @@ pub fn recorded(given: &[String]) -> Result<(Vec<f64>, Option<f64>), Failure> {
     let (mut at, mut every) = (Vec::new(), None);
     for text in given {
         let wrong = |why: String| Failure::Call(format!("--record {text}: {why}"));
-        match text.split_once('=').map(|(what, value)| (what.trim(), value)) {
+        match text
+            .split_once('=')
+            .map(|(what, value)| (what.trim(), value))
+        {
             None if text.trim() == "end" => {} // it always is
             Some(("at", times)) => {
                 for time in times.split(',') {
@@ -53,17 +56,24 @@ fn reduction(given: &Assignment, events: &[Watch]) -> Result<Reduction, Failure>
     let wrong = |why: String| Failure::Call(format!("--reduce '{name} = {value}': {why}"));
     let wanted = || {
         let functions: Vec<_> = functions().collect();
-        wrong(format!("expected FUNCTION(FORMULA), where a function is {}", functions.join(", ")))
+        wrong(format!(
+            "expected FUNCTION(FORMULA), where a function is {}",
+            functions.join(", ")
+        ))
     };
     let (function, rest) = value.split_once('(').ok_or_else(wanted)?;
     let of = rest.trim_end().strip_suffix(')').ok_or_else(wanted)?.trim();
     let function = function.trim();
     let known = Function::NAMES.iter().find(|(name, _)| *name == function);
     let Some((_, known)) = known else {
-        return Err(match lagrangian_spec::diagnostic::nearest(function, functions()) {
-            Some(near) => wrong(format!("no function named `{function}`; did you mean `{near}`?")),
-            None => wanted(),
-        });
+        return Err(
+            match lagrangian_spec::diagnostic::nearest(function, functions()) {
+                Some(near) => wrong(format!(
+                    "no function named `{function}`; did you mean `{near}`?"
+                )),
+                None => wanted(),
+            },
+        );
     };
     if of.is_empty() {
         return Err(wanted());

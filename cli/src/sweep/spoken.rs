@@ -50,7 +50,12 @@ impl Spoken {
     pub fn say(&mut self, progress: Progress) {
         let now = Instant::now();
         self.seen.push_back((now, progress.done));
-        while self.seen.len() > 2 && self.seen.get(1).is_some_and(|(then, _)| now - *then > WINDOW) {
+        while self.seen.len() > 2
+            && self
+                .seen
+                .get(1)
+                .is_some_and(|(then, _)| now - *then > WINDOW)
+        {
             self.seen.pop_front();
         }
         if self.is_silent || (self.bar.is_none() && now < self.next) {
@@ -59,14 +64,21 @@ impl Spoken {
         let (then, before) = self.seen.front().copied().unwrap_or((self.began, 0));
         let seconds = (now - then).as_secs_f64();
         let done = progress.done - before.min(progress.done);
-        let speed = if seconds > 0.0 { done as f64 / seconds } else { 0.0 };
+        let speed = if seconds > 0.0 {
+            done as f64 / seconds
+        } else {
+            0.0
+        };
         let left = (self.runs - progress.done.min(self.runs)) as f64 / speed;
         let left = match left.is_finite() {
             true => format!("{} left", duration(left)),
             false => "time left unknown".to_owned(),
         };
         let Progress { done, failed } = progress;
-        let line = format!("{done} of {} runs, {failed} failed, {speed:.0} runs a second, {left}", self.runs);
+        let line = format!(
+            "{done} of {} runs, {failed} failed, {speed:.0} runs a second, {left}",
+            self.runs
+        );
         match &self.bar {
             Some(bar) => {
                 bar.set_position(done);

@@ -9,7 +9,9 @@ mod constraints;
 mod contacts;
 mod impacts;
 mod library;
+mod map;
 mod modes;
 mod report;
 #[path = "../support/mod.rs"]
 mod support;
+mod sweep;

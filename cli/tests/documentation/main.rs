@@ -28,13 +28,14 @@ use page::Page;
 use reader::{Reader, Verdict};
 
 /// The pages whose blocks are run.
-const PAGES: [&str; 6] = [
+const PAGES: [&str; 7] = [
     "README.md",
     "docs/tutorial.md",
     "docs/reference.md",
     "docs/spec-language.md",
     "docs/command-line.md",
     "docs/skipping.md",
+    "docs/sweeps.md",
 ];
 
 /// Whether the words say so; a list of errors that links to this one does not.
@@ -106,6 +107,11 @@ fn the_page_of_the_command_line_does_what_it_says() {
 #[test]
 fn the_page_of_what_is_skipped_does_what_it_says() {
     follow("docs/skipping.md");
+}
+
+#[test]
+fn the_page_of_sweeps_does_what_it_says() {
+    follow("docs/sweeps.md");
 }
 
 #[test]

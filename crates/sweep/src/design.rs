@@ -180,7 +180,11 @@ fn share(
                 // The sequence begins at 0, which is no value of a distribution without end: then each point is in the
                 // middle of its cell and not at its corner.
                 let cell = 1.0 / count.next_power_of_two() as f64;
-                return u + if distribution.is_unbounded() { 0.5 * cell } else { 0.0 };
+                return u + if distribution.is_unbounded() {
+                    0.5 * cell
+                } else {
+                    0.0
+                };
             }
             let shift = bits(seed, 0, variable, Purpose::Shift) >> (64 - Sobol::BITS);
             ((digits ^ shift) as f64 + 0.5) * unit
@@ -191,7 +195,9 @@ fn share(
 /// Where a number below `count` goes in a permutation of them: a Feistel network over a power of 4, walked along its
 /// cycle until it is below `count` again.
 fn permuted(index: u64, count: u64, (seed, variable): (u64, u32)) -> u64 {
-    let half = (64 - count.saturating_sub(1).leading_zeros()).div_ceil(2).max(1);
+    let half = (64 - count.saturating_sub(1).leading_zeros())
+        .div_ceil(2)
+        .max(1);
     let mask = (1u64 << half) - 1;
     let mut at = index;
     loop {
@@ -351,7 +357,9 @@ mod tests {
                 seed,
                 variables: vec![("a".into(), Distribution::Uniform(0.0, 1.0))],
             }];
-            (0..8).map(|run| values(&factor, run)[0]).collect::<Vec<_>>()
+            (0..8)
+                .map(|run| values(&factor, run)[0])
+                .collect::<Vec<_>>()
         };
         for design in [Sampling::Random, Sampling::Latin, Sampling::Sobol] {
             assert_ne!(value(design, 0), value(design, 1));

@@ -94,7 +94,7 @@ impl Folder {
             }
             Err(TryLockError::Error(error)) => return Err(Trouble::File(name, error)),
         }
-        // For whoever is refused; a process that is gone has no lock, whatever stands here.
+        // For the message of a process that is refused. A process that is gone holds no lock, so this text decides nothing.
         if !is_shared {
             let _ = lock.set_len(0);
             let _ = writeln!(lock, "process {} on {}", std::process::id(), host());
@@ -342,7 +342,10 @@ impl Summary {
     }
 
     fn count_lines(&mut self, text: &str, like: &Rows) {
-        let place = like.columns.iter().position(|column| column.name == "error");
+        let place = like
+            .columns
+            .iter()
+            .position(|column| column.name == "error");
         for row in table::csv_cells(text).unwrap_or_default() {
             self.runs += 1;
             let error = place.and_then(|place| row.get(place));
@@ -410,7 +413,9 @@ fn write_as(
     let attempt = || {
         let mut file = BufWriter::with_capacity(1 << 16, File::create(partial)?);
         content(&mut file)?;
-        file.into_inner().map_err(|error| error.into_error())?.sync_all()?;
+        file.into_inner()
+            .map_err(|error| error.into_error())?
+            .sync_all()?;
         fs::rename(partial, path)
     };
     let written = attempt();
@@ -419,7 +424,9 @@ fn write_as(
     }
     written?;
     // The new name, too, is on the disk where the system can promise that.
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
     let _ = File::open(folder.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
     Ok(())
 }

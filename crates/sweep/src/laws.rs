@@ -63,7 +63,14 @@ mod tests {
     #[test]
     fn tables_are_straight_between_their_values() {
         let at = |t| between(&[0.0, 1.0, 3.0], &[2.0, 4.0, 0.0], t);
-        for (t, known) in [(-1.0, 2.0), (0.0, 2.0), (0.5, 3.0), (1.0, 4.0), (2.0, 2.0), (9.0, 0.0)] {
+        for (t, known) in [
+            (-1.0, 2.0),
+            (0.0, 2.0),
+            (0.5, 3.0),
+            (1.0, 4.0),
+            (2.0, 2.0),
+            (9.0, 0.0),
+        ] {
             assert_eq!(at(t), known);
         }
     }

@@ -22,7 +22,10 @@ pub(crate) fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
     const WEYL: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
     for _ in 0..10 {
         let [c0, c1, c2, c3] = counter;
-        let [p0, p1] = [MULTIPLIERS[0] * u64::from(c0), MULTIPLIERS[1] * u64::from(c2)];
+        let [p0, p1] = [
+            MULTIPLIERS[0] * u64::from(c0),
+            MULTIPLIERS[1] * u64::from(c2),
+        ];
         let (high, low) = (|p: u64| (p >> 32) as u32, |p: u64| p as u32);
         counter = [
             high(p1) ^ c1 ^ key[0],

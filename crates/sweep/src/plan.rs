@@ -228,9 +228,9 @@ impl Plan {
         let Some(fields) = now.as_object() else {
             return Vec::new();
         };
-        let other = fields.iter().filter(|(name, value)| {
-            *name != "chunk" && was.get(name.as_str()) != Some(value)
-        });
+        let other = fields
+            .iter()
+            .filter(|(name, value)| *name != "chunk" && was.get(name.as_str()) != Some(value));
         let said = other.map(|(name, value)| {
             let before = was.get(name).cloned().unwrap_or_default();
             let [value, before] = [value, &before].map(ToString::to_string);
@@ -271,7 +271,10 @@ pub(crate) struct Kept<'a>(pub &'a [ReadFile]);
 
 impl Files for Kept<'_> {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {
-        let found = self.0.iter().find(|file| file.path == path && file.from.as_deref() == from);
+        let found = self
+            .0
+            .iter()
+            .find(|file| file.path == path && file.from.as_deref() == from);
         let found = found.ok_or_else(|| "it is not in the plan".to_owned())?;
         Ok((found.name.clone(), found.text.clone()))
     }

@@ -66,7 +66,11 @@ impl Tracker {
         let [start, end] = step.span;
         let value = |theta: f64| step.value(theta, self.formula);
         match self.function {
-            Function::Max | Function::Min | Function::Range | Function::WhenMax | Function::WhenMin => {
+            Function::Max
+            | Function::Min
+            | Function::Range
+            | Function::WhenMax
+            | Function::WhenMin => {
                 let wanted = match self.function {
                     _ if self.of_size => [true; 2],
                     Function::Max | Function::WhenMax => [false, true],

@@ -21,7 +21,10 @@ impl Sobol {
         let gray = index ^ index >> 1;
         let numbers = directions().get(variable as usize);
         let numbers = numbers.map_or(&[][..], |numbers| numbers.as_slice());
-        let set = numbers.iter().enumerate().filter(|(k, _)| gray >> k & 1 == 1);
+        let set = numbers
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| gray >> k & 1 == 1);
         set.fold(0, |digits, (_, number)| digits ^ number)
     }
 }

@@ -116,21 +116,34 @@ pub fn unit_of(model: &Model<'_>, name: &str) -> Result<String, String> {
         Place::Start(name) | Place::Rate(name) => ("coordinate", name),
     };
     let wanted = &*lagrangian_spec::token::normalized(wanted);
-    let coordinates = model.coordinates.iter().map(|c| (c.name.to_string(), c.unit.to_string()));
-    let parameters = model.parameters.iter().map(|p| (p.name.to_string(), p.unit_text.clone()));
-    let inputs = model.inputs.iter().map(|i| (i.name.to_string(), i.unit_text.clone()));
+    let coordinates = model
+        .coordinates
+        .iter()
+        .map(|c| (c.name.to_string(), c.unit.to_string()));
+    let parameters = model
+        .parameters
+        .iter()
+        .map(|p| (p.name.to_string(), p.unit_text.clone()));
+    let inputs = model
+        .inputs
+        .iter()
+        .map(|i| (i.name.to_string(), i.unit_text.clone()));
     let known: Vec<(String, String)> = match place {
         Place::Set(_) => parameters.chain(inputs).collect(),
         _ => coordinates.collect(),
     };
-    let is_meant = |name: &str| name == wanted || name.split_once('[').is_some_and(|(base, _)| base == wanted);
+    let is_meant =
+        |name: &str| name == wanted || name.split_once('[').is_some_and(|(base, _)| base == wanted);
     if let Some((_, unit)) = known.iter().find(|(name, _)| is_meant(name)) {
         return Ok(match place {
             Place::Rate(_) => format!("({unit})/s"),
             _ => unit.clone(),
         });
     }
-    let is_coordinate = model.coordinates.iter().any(|c| is_meant(&c.name.to_string()));
+    let is_coordinate = model
+        .coordinates
+        .iter()
+        .any(|c| is_meant(&c.name.to_string()));
     let names = || known.iter().map(|(name, _)| name.as_str());
     let help = match nearest(wanted, names()) {
         _ if is_coordinate && matches!(place, Place::Set(_)) => {
@@ -198,7 +211,11 @@ impl Sweep {
             .map_err(|none| Wrong::Plan(none.to_string()))?;
         let Some(mut method) = Method::named(&plan.method) else {
             let names: Vec<_> = Method::all().map(|method| method.tableau.name).collect();
-            let message = format!("no method named `{}`; there are: {}", plan.method, names.join(", "));
+            let message = format!(
+                "no method named `{}`; there are: {}",
+                plan.method,
+                names.join(", ")
+            );
             return Err(Wrong::Plan(message));
         };
         let mut warning = None;
@@ -226,10 +243,19 @@ impl Sweep {
         })?;
 
         let mut formulas = formulas.into_iter();
-        let mut next = || formulas.next().unwrap_or(Formula { output: 0, reads_accelerations: false });
+        let mut next = || {
+            formulas.next().unwrap_or(Formula {
+                output: 0,
+                reads_accelerations: false,
+            })
+        };
         let mut laws = Laws::default();
         for (name, law) in &plan.inputs {
-            let place = compiled.model.inputs.iter().position(|input| input.name.to_string() == *name);
+            let place = compiled
+                .model
+                .inputs
+                .iter()
+                .position(|input| input.name.to_string() == *name);
             let rule = match law {
                 Law::Formula(_) => Rule::Output(next().output),
                 Law::Table { times, values } => Rule::Table {
@@ -244,7 +270,14 @@ impl Sweep {
         let mut reductions = Vec::new();
         for reduction in &plan.reduce {
             if reduction.function.is_of_event() {
-                units.push(if reduction.function == Function::Count { "1" } else { "s" }.to_owned());
+                units.push(
+                    if reduction.function == Function::Count {
+                        "1"
+                    } else {
+                        "s"
+                    }
+                    .to_owned(),
+                );
                 reductions.push(Made::Of(reduction.function, reduction.of.clone()));
                 continue;
             }
@@ -257,11 +290,18 @@ impl Sweep {
                 Function::Integral => format!("({unit})*s"),
                 _ => unit.clone(),
             });
-            reductions.push(Made::Along(Tracker::new(reduction.function, formula, of_size)));
+            reductions.push(Made::Along(Tracker::new(
+                reduction.function,
+                formula,
+                of_size,
+            )));
         }
         let (columns, sample_columns) = columns(&plan, &compiled.model, &machine, &units);
         let mut seen = std::collections::BTreeSet::new();
-        if let Some(twice) = columns.iter().find(|column| !seen.insert(column.name.as_str())) {
+        if let Some(twice) = columns
+            .iter()
+            .find(|column| !seen.insert(column.name.as_str()))
+        {
             return Err(Wrong::Plan(format!(
                 "two columns would be named `{}`: give the reduction another name",
                 twice.name
@@ -314,19 +354,24 @@ impl Sweep {
     }
 
     /// Makes these runs; `done` is told of each whether it failed.
-    pub fn run(
-        &self,
-        runs: Range<u64>,
-        stop: &AtomicBool,
-        done: &dyn Fn(bool),
-    ) -> Option<Chunk> {
+    pub fn run(&self, runs: Range<u64>, stop: &AtomicBool, done: &dyn Fn(bool)) -> Option<Chunk> {
         // What a spec says of its numbers is known to its model, which belongs to one thread.
         let dag = Dag::new();
-        let sets = self.places.iter().any(|place| matches!(place, Place::Set(_)));
+        let sets = self
+            .places
+            .iter()
+            .any(|place| matches!(place, Place::Set(_)));
         let refuses = match sets || !self.plan.set.is_empty() {
             true => {
                 let (mut sources, mut report) = (Sources::new(), Report::new());
-                model(&self.plan, &self.constants, &dag, &[], &mut sources, &mut report)
+                model(
+                    &self.plan,
+                    &self.constants,
+                    &dag,
+                    &[],
+                    &mut sources,
+                    &mut report,
+                )
             }
             false => None,
         };
@@ -346,14 +391,19 @@ impl Sweep {
             if let (Some(samples), Some(all)) = (outcome.samples.take(), &mut chunk.samples) {
                 all.extend(samples);
             }
-            chunk.rows.push(self.row(run, &values, outcome.into_cells()));
+            chunk
+                .rows
+                .push(self.row(run, &values, outcome.into_cells()));
         }
         Some(chunk)
     }
 
     fn row(&self, run: u64, values: &[f64], rest: Vec<Cell>) -> Vec<Cell> {
         let varied = values.iter().map(|value| Cell::Number(Some(*value)));
-        std::iter::once(Cell::Count(run)).chain(varied).chain(rest).collect()
+        std::iter::once(Cell::Count(run))
+            .chain(varied)
+            .chain(rest)
+            .collect()
     }
 
     /// Makes one run; nothing where it was stopped.
@@ -403,7 +453,9 @@ impl Sweep {
         let mut outcome = Outcome::failed(start.clone(), watched.at.len(), self.reductions.len());
         if let Some(model) = refuses {
             let said = model.refused_values(machine.parameter_values());
-            let error = said.iter().find(|said| said.code.severity() == Severity::Error);
+            let error = said
+                .iter()
+                .find(|said| said.code.severity() == Severity::Error);
             if let Some(error) = error {
                 outcome.error = Some(format!("{} [{}]", error.message, error.code));
                 return Some(outcome);
@@ -441,11 +493,15 @@ impl Sweep {
                 false => simulation.event(&watch.name, Crossing::Any, function),
             };
         }
-        let looks = self.reductions.iter().any(|made| matches!(made, Made::Along(_)))
+        let looks = self
+            .reductions
+            .iter()
+            .any(|made| matches!(made, Made::Along(_)))
             || !plan.at.is_empty()
             || plan.every.is_some();
         if looks {
-            simulation = simulation.each_step(|step| started.borrow_mut().take(plan, run, &system, step));
+            simulation =
+                simulation.each_step(|step| started.borrow_mut().take(plan, run, &system, step));
         }
         let simulation = simulation.stop_if(|_| stop.load(Ordering::Relaxed));
         let (solution, error) = match simulation.run_as_far_as_possible(start) {
@@ -472,7 +528,10 @@ impl Sweep {
         outcome.at = watched.at;
         outcome.samples = watched.samples;
         if outcome.error.is_none() {
-            let after = |t: f64| plan.after.is_none_or(|after| (t - after) * plan.until.signum() >= 0.0);
+            let after = |t: f64| {
+                plan.after
+                    .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
+            };
             let made = self.reductions.iter().zip(&watched.trackers);
             outcome.reductions = made
                 .map(|(made, tracker)| match (made, tracker) {
@@ -668,20 +727,46 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
     let mut all = Vec::new();
     for (name, law) in &plan.inputs {
         if let Law::Formula(text) = law {
-            let input = model.inputs.iter().find(|input| input.name.to_string() == *name);
+            let input = model
+                .inputs
+                .iter()
+                .find(|input| input.name.to_string() == *name);
             let unit = input.map(|input| input.unit_text.clone());
-            all.push((format!("input {name}"), format!("--input {name}"), text.clone(), unit));
+            all.push((
+                format!("input {name}"),
+                format!("--input {name}"),
+                text.clone(),
+                unit,
+            ));
         }
     }
     for watch in &plan.events {
-        let option = if watch.ends { "--until-event" } else { "--event" };
+        let option = if watch.ends {
+            "--until-event"
+        } else {
+            "--event"
+        };
         let name = &watch.name;
-        all.push((format!("event {name}"), format!("{option} {name}"), watch.formula.clone(), None));
+        all.push((
+            format!("event {name}"),
+            format!("{option} {name}"),
+            watch.formula.clone(),
+            None,
+        ));
     }
-    for reduction in plan.reduce.iter().filter(|reduction| !reduction.function.is_of_event()) {
+    for reduction in plan
+        .reduce
+        .iter()
+        .filter(|reduction| !reduction.function.is_of_event())
+    {
         let name = &reduction.name;
         let (text, _) = subject(reduction);
-        all.push((format!("reduction {name}"), format!("--reduce {name}"), text.to_owned(), None));
+        all.push((
+            format!("reduction {name}"),
+            format!("--reduce {name}"),
+            text.to_owned(),
+            None,
+        ));
     }
     all
 }
@@ -700,13 +785,27 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     }
     let is_within = |t: f64| t * plan.until.signum() >= 0.0 && t.abs() <= plan.until.abs();
     if let Some(t) = plan.at.iter().find(|t| !is_within(**t)) {
-        return wrong(format!("--record at={t}: that is not within the run, which lasts until {} s", plan.until));
+        return wrong(format!(
+            "--record at={t}: that is not within the run, which lasts until {} s",
+            plan.until
+        ));
     }
-    if let Some(after) = plan.after.filter(|after| !is_within(*after) || *after == plan.until) {
-        return wrong(format!("--after {after}: that is not within the run, which lasts until {} s", plan.until));
+    if let Some(after) = plan
+        .after
+        .filter(|after| !is_within(*after) || *after == plan.until)
+    {
+        return wrong(format!(
+            "--after {after}: that is not within the run, which lasts until {} s",
+            plan.until
+        ));
     }
-    if plan.every.is_some_and(|every| !(every > 0.0 && plan.until.abs() / every <= MOST_INSTANTS)) {
-        return wrong(format!("--record every: more than {MOST_INSTANTS:e} instants of each run, or none"));
+    if plan
+        .every
+        .is_some_and(|every| !(every > 0.0 && plan.until.abs() / every <= MOST_INSTANTS))
+    {
+        return wrong(format!(
+            "--record every: more than {MOST_INSTANTS:e} instants of each run, or none"
+        ));
     }
     let varied = plan.varied();
     let mut set: Vec<&str> = plan.set.iter().map(|(name, _)| name.as_str()).collect();
@@ -721,16 +820,34 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             return wrong(format!("`{name}` is varied more than once"));
         }
         if set.contains(name) || both.iter().any(|given| given == name) {
-            return wrong(format!("`{name}` is varied, and has one value for all runs too"));
+            return wrong(format!(
+                "`{name}` is varied, and has one value for all runs too"
+            ));
         }
     }
-    for name in plan.set.iter().map(|(name, _)| name.as_str()).chain(both.iter().map(String::as_str)) {
+    for name in plan
+        .set
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .chain(both.iter().map(String::as_str))
+    {
         unit_of(model, name).map_err(Wrong::Plan)?;
     }
     for (name, law) in &plan.inputs {
-        if !model.inputs.iter().any(|input| input.name.to_string() == *name) {
-            let names: Vec<String> = model.inputs.iter().map(|input| input.name.to_string()).collect();
-            let help = match (nearest(name, names.iter().map(String::as_str)), names.is_empty()) {
+        if !model
+            .inputs
+            .iter()
+            .any(|input| input.name.to_string() == *name)
+        {
+            let names: Vec<String> = model
+                .inputs
+                .iter()
+                .map(|input| input.name.to_string())
+                .collect();
+            let help = match (
+                nearest(name, names.iter().map(String::as_str)),
+                names.is_empty(),
+            ) {
                 (Some(near), _) => format!("did you mean `{near}`?"),
                 (None, true) => "the machine has none".into(),
                 (None, false) => format!("there are: {}", names.join(", ")),
@@ -740,25 +857,40 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
         if let Law::Table { times, values } = law {
             let grow = times.windows(2).all(|pair| pair[0] < pair[1]);
             if times.is_empty() || times.len() != values.len() || !grow {
-                return wrong(format!("--input {name}: the times of its table do not grow from row to row"));
+                return wrong(format!(
+                    "--input {name}: the times of its table do not grow from row to row"
+                ));
             }
         }
     }
     for factor in &plan.design {
-        if let design::Factor::Sample { design: design::Sampling::Sobol, variables, .. } = factor
+        if let design::Factor::Sample {
+            design: design::Sampling::Sobol,
+            variables,
+            ..
+        } = factor
             && variables.len() > MOST_VARIABLES
         {
-            return wrong(format!("a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"));
+            return wrong(format!(
+                "a Sobol design has at most {MOST_VARIABLES} variables; --design latin has no such limit"
+            ));
         }
     }
-    for reduction in plan.reduce.iter().filter(|reduction| reduction.function.is_of_event()) {
+    for reduction in plan
+        .reduce
+        .iter()
+        .filter(|reduction| reduction.function.is_of_event())
+    {
         let names = || plan.events.iter().map(|event| event.name.as_str());
         if !names().any(|name| name == reduction.of) {
             let help = match nearest(&reduction.of, names()) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "name it by --event NAME=FORMULA".into(),
             };
-            return wrong(format!("--reduce {}: no event named `{}`; {help}", reduction.name, reduction.of));
+            return wrong(format!(
+                "--reduce {}: no event named `{}`; {help}",
+                reduction.name, reduction.of
+            ));
         }
     }
     Ok(varied.into_iter().map(Place::of).collect())
@@ -767,8 +899,13 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
 /// Sets families first.
 fn set_all(machine: &mut InterpretedMachine, all: &[(String, f64)]) -> Result<(), String> {
     for is_member in [false, true] {
-        for (name, value) in all.iter().filter(|(name, _)| name.contains('[') == is_member) {
-            machine.set(name, *value).map_err(|unknown| unknown.to_string())?;
+        for (name, value) in all
+            .iter()
+            .filter(|(name, _)| name.contains('[') == is_member)
+        {
+            machine
+                .set(name, *value)
+                .map_err(|unknown| unknown.to_string())?;
         }
     }
     Ok(())
@@ -797,7 +934,9 @@ fn columns(
         unit => format!("{unit}/s"),
     };
     let state = |suffix: &str| {
-        let positions = system.coordinates().map(|c| number(format!("{}{suffix}", c.name), c.unit));
+        let positions = system
+            .coordinates()
+            .map(|c| number(format!("{}{suffix}", c.name), c.unit));
         let rates = system
             .coordinates()
             .map(|c| number(format!("der({}){suffix}", c.name), &per_second(c.unit)));
@@ -808,7 +947,11 @@ fn columns(
         let unit = unit_of(model, name).unwrap_or_default();
         columns.push(number(name.to_owned(), &unit));
     }
-    columns.extend([other("status", Kind::Text), other("error", Kind::Text), number("t".into(), "s")]);
+    columns.extend([
+        other("status", Kind::Text),
+        other("error", Kind::Text),
+        number("t".into(), "s"),
+    ]);
     columns.extend(state(""));
     for t in &plan.at {
         columns.extend(state(&format!("@{t}")));

@@ -107,7 +107,7 @@ pub fn csv_cells(text: &str) -> Result<Vec<Vec<String>>, String> {
 #[cfg(feature = "parquet")]
 pub(crate) use with_parquet::Writer;
 #[cfg(feature = "parquet")]
-pub use with_parquet::{metadata, numbers, read};
+pub use with_parquet::{cells, metadata, numbers, read};
 
 #[cfg(not(feature = "parquet"))]
 mod without_parquet {
@@ -153,6 +153,14 @@ mod without_parquet {
         none()
     }
 
+    /// The columns and rows of a Parquet file as texts.
+    ///
+    /// # Errors
+    /// There are none in this build.
+    pub fn cells(_: &Path) -> io::Result<Vec<Vec<String>>> {
+        none()
+    }
+
     /// What is said of a Parquet file under a name.
     pub fn metadata(_: &Path, _: &str) -> Option<String> {
         None
@@ -162,7 +170,7 @@ mod without_parquet {
 #[cfg(not(feature = "parquet"))]
 pub(crate) use without_parquet::Writer;
 #[cfg(not(feature = "parquet"))]
-pub use without_parquet::{metadata, numbers, read};
+pub use without_parquet::{cells, metadata, numbers, read};
 
 #[cfg(feature = "parquet")]
 mod with_parquet {
@@ -190,10 +198,7 @@ mod with_parquet {
         pub fn new(to: W, rows: &Rows, said: &[(&str, String)]) -> io::Result<Self> {
             let field = |column: &crate::rows::Column| {
                 let (physical, logical) = match column.kind {
-                    Kind::Count => (
-                        Physical::INT64,
-                        Some(LogicalType::integer(64, false)),
-                    ),
+                    Kind::Count => (Physical::INT64, Some(LogicalType::integer(64, false))),
                     Kind::Number => (Physical::DOUBLE, None),
                     Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
                 };
@@ -208,7 +213,9 @@ mod with_parquet {
                     .map(Arc::new)
             };
             let fields: Result<Vec<_>, _> = rows.columns.iter().map(field).collect();
-            let schema = Type::group_type_builder("sweep").with_fields(fields?).build()?;
+            let schema = Type::group_type_builder("sweep")
+                .with_fields(fields?)
+                .build()?;
             let said = said
                 .iter()
                 .map(|(name, value)| KeyValue::new((*name).to_owned(), value.clone()));
@@ -266,7 +273,10 @@ mod with_parquet {
 
     /// For each value whether it is there.
     fn levels<T>(values: &[Option<T>]) -> Vec<i16> {
-        values.iter().map(|value| i16::from(value.is_some())).collect()
+        values
+            .iter()
+            .map(|value| i16::from(value.is_some()))
+            .collect()
     }
 
     /// The rows of a Parquet file that has columns like these.
@@ -275,7 +285,12 @@ mod with_parquet {
     /// What is wrong with the file.
     pub fn read(path: &Path, like: &Rows) -> io::Result<Rows> {
         let reader = SerializedFileReader::new(File::open(path)?)?;
-        let fields = reader.metadata().file_metadata().schema().get_fields().to_vec();
+        let fields = reader
+            .metadata()
+            .file_metadata()
+            .schema()
+            .get_fields()
+            .to_vec();
         let names = fields.iter().map(|field| field.name());
         if !names.eq(like.columns.iter().map(|column| column.name.as_str())) {
             return Err(io::Error::other("it has other columns"));
@@ -333,7 +348,12 @@ mod with_parquet {
     /// What is wrong with the file, or what in it is no number.
     pub fn numbers(path: &Path) -> io::Result<(Vec<String>, Vec<Vec<f64>>)> {
         let reader = SerializedFileReader::new(File::open(path)?)?;
-        let fields = reader.metadata().file_metadata().schema().get_fields().to_vec();
+        let fields = reader
+            .metadata()
+            .file_metadata()
+            .schema()
+            .get_fields()
+            .to_vec();
         let names = fields.iter().map(|field| field.name().to_owned()).collect();
         let mut rows = Vec::new();
         for row in reader.get_row_iter(None)? {
@@ -357,6 +377,33 @@ mod with_parquet {
             rows.push(cells.collect::<io::Result<Vec<f64>>>()?);
         }
         Ok((names, rows))
+    }
+
+    /// The names of the columns of a Parquet file, and its rows, as texts as comma-separated text has them.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    pub fn cells(path: &Path) -> io::Result<Vec<Vec<String>>> {
+        let reader = SerializedFileReader::new(File::open(path)?)?;
+        let fields = reader
+            .metadata()
+            .file_metadata()
+            .schema()
+            .get_fields()
+            .to_vec();
+        let names = fields.iter().map(|field| field.name().to_owned()).collect();
+        let mut rows = vec![names];
+        for row in reader.get_row_iter(None)? {
+            let row = row?;
+            let cell = |(_, field): (&String, &Field)| match field {
+                Field::Null => String::new(),
+                Field::Str(text) => text.clone(),
+                Field::Double(x) => format!("{x:?}"),
+                other => other.to_string(),
+            };
+            rows.push(row.get_column_iter().map(cell).collect());
+        }
+        Ok(rows)
     }
 
     /// What is said of a Parquet file under a name.

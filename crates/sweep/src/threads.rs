@@ -18,7 +18,7 @@ const TRIED: u64 = 8;
 /// Chunks for each core, so that none waits long for the others at the end.
 const CHUNKS_A_CORE: u64 = 4;
 
-/// How often whoever watches is told.
+/// How often progress is reported.
 const BETWEEN: Duration = Duration::from_millis(100);
 
 /// How far a sweep is.
@@ -68,7 +68,7 @@ pub fn chunk_length(sweep: &Sweep) -> u64 {
 }
 
 /// Makes all chunks that are not there yet, and keeps them. Stops where `stop` is set, or after as many runs as `limit` says and
-/// the chunks under way; whoever watches is told ten times a second.
+/// the chunks under way; `watch` is told ten times a second. How many runs were made.
 ///
 /// # Errors
 /// If a chunk cannot be kept. Those that are there stay.
@@ -78,7 +78,7 @@ pub fn run_all(
     (threads, limit): (usize, Option<u64>),
     stop: &AtomicBool,
     watch: &mut dyn FnMut(Progress),
-) -> Result<(), Trouble> {
+) -> Result<u64, Trouble> {
     let plan = sweep.plan();
     let length = |chunk: u64| {
         let runs = plan.runs_of(chunk);
@@ -134,6 +134,6 @@ pub fn run_all(
     });
     match trouble.into_inner().unwrap_or_else(PoisonError::into_inner) {
         Some(error) => Err(error),
-        None => Ok(()),
+        None => Ok(done.into_inner() - before),
     }
 }

@@ -55,20 +55,21 @@ pub(crate) fn items(
 }
 
 /// Puts formulas behind the outputs of the last layer, and lets them use the outputs that they name.
-pub(super) fn add(
-    formulas: Vec<Item<Quantity>>,
-    layers: &mut [Spec],
-    sources: &Sources,
-) {
+pub(super) fn add(formulas: Vec<Item<Quantity>>, layers: &mut [Spec], sources: &Sources) {
     let text = |item: &Item<Quantity>| {
         let span = item.content.value.as_ref().map(|value| value.span);
         span.map_or("", |span| sources.text(span.source))
     };
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    let words = formulas.iter().flat_map(|item| text(item).split(|c: char| !is_part(c)));
+    let words = formulas
+        .iter()
+        .flat_map(|item| text(item).split(|c: char| !is_part(c)));
     let words: Vec<String> = words.map(|word| normalized(word).into_owned()).collect();
     for layer in &mut *layers {
-        let named = layer.outputs.iter().filter(|item| words.contains(&item.name.base.text));
+        let named = layer
+            .outputs
+            .iter()
+            .filter(|item| words.contains(&item.name.base.text));
         let shared = named.filter_map(|item| {
             let content = item.content.value.clone()?;
             Some(Item {

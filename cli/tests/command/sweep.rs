@@ -1,0 +1,654 @@
+//! `lagrangian sweep`: many runs as a user sees them, against closed forms, against `simulate`, and against being killed.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::support::{Scratch, lagrangian, root};
+use serde_json::Value;
+
+/// A mass of 1 kg on a spring, pushed by an input.
+const OSCILLATOR: &str = "machine Oscillator in plane {
+    parameters { m: kg = 1, k: N/m = 4 }
+    coordinates { x: m = 0.1 }
+    inputs { push: N = 0 }
+    bodies { block { mass: m, at: (x, 0) } }
+    springs { spring { stiffness: k, stretch: x } }
+    forces { push { on: x, value: push } }
+    outputs { pull: N = k*x, speed: km/h = der(x) }
+}
+";
+
+/// What a call says and returns.
+struct Said {
+    status: i32,
+    out: String,
+    error: String,
+}
+
+fn sweep(spec: &str, out: &Path, arguments: &[&str]) -> Said {
+    let out = out.to_str().expect("text");
+    let output = lagrangian(&[&["sweep", spec, "--out", out], arguments].concat());
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    Said {
+        status: output.status.code().expect("no signal"),
+        out: text(output.stdout),
+        error: text(output.stderr),
+    }
+}
+
+/// The columns of a table, as texts.
+fn read(path: &Path) -> BTreeMap<String, Vec<String>> {
+    let text = std::fs::read_to_string(path).expect("a table");
+    // A comma between quotes is part of a message.
+    let cells = |line: &str| {
+        let mut is_quoted = false;
+        let cells = line.split(move |c: char| {
+            is_quoted ^= c == '"';
+            c == ',' && !is_quoted
+        });
+        cells
+            .map(|cell| cell.trim_matches('"').to_owned())
+            .collect::<Vec<_>>()
+    };
+    let mut rows = text.lines().map(cells);
+    let names: Vec<String> = rows.next().expect("a head");
+    let mut columns: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for row in rows {
+        for (name, cell) in names.iter().zip(row) {
+            columns.entry(name.clone()).or_default().push(cell);
+        }
+    }
+    columns
+}
+
+fn numbers(columns: &BTreeMap<String, Vec<String>>, name: &str) -> Vec<f64> {
+    let column = columns.get(name);
+    let column = column.unwrap_or_else(|| panic!("no column {name} in {:?}", columns.keys()));
+    column
+        .iter()
+        .map(|cell| cell.parse().expect("a number"))
+        .collect()
+}
+
+/// x = x₀ cos ωt with ω = √(k/m): all reductions in closed form.
+#[test]
+fn reductions_are_those_of_a_cosine() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("rows.csv");
+    let said = sweep(
+        spec.path(),
+        &out,
+        &[
+            "--until",
+            "10",
+            "--tolerance",
+            "1e-12",
+            "--after",
+            "1",
+            "--vary",
+            "k=1..9:3",
+            "--vary",
+            "start(x)=0.1,-0.2",
+            "--reduce",
+            "peak = max(abs(x))",
+            "--reduce",
+            "highest = max(x)",
+            "--reduce",
+            "lowest = min(x)",
+            "--reduce",
+            "width = range(der(x))",
+            "--reduce",
+            "mean = mean(x)",
+            "--reduce",
+            "rms = rms(x)",
+            "--reduce",
+            "integral = integral(x)",
+            "--reduce",
+            "first = first(x)",
+            "--reduce",
+            "last = last(pull)",
+            "--reduce",
+            "when = when_max(x)",
+            "--reduce",
+            "pull = max(abs(m*der(der(x))))",
+            "--reduce",
+            "dip = min(abs(x))",
+            "--event",
+            "middle = x",
+            "--reduce",
+            "crossings = count(middle)",
+            "--reduce",
+            "early = first(middle)",
+            "--reduce",
+            "late = last(middle)",
+            "--record",
+            "at=0,2.5,10",
+        ],
+    );
+    assert_eq!(said.status, 0, "{}", said.error);
+    assert!(said.out.starts_with("6 runs, 0 failed, "), "{}", said.out);
+    assert!(!out.with_file_name("rows.csv.part").exists());
+    let rows = read(&out);
+    let column = |name: &str| numbers(&rows, name);
+    assert_eq!(column("run"), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+    assert_eq!(column("k"), [1.0, 1.0, 5.0, 5.0, 9.0, 9.0]);
+    assert_eq!(column("start(x)"), [0.1, -0.2, 0.1, -0.2, 0.1, -0.2]);
+    assert!(rows["status"].iter().all(|status| status == "ended"));
+    for run in 0..6 {
+        let (k, start) = (column("k")[run], column("start(x)")[run]);
+        let omega = k.sqrt();
+        let (from, to) = (1.0, 10.0);
+        let x = |t: f64| start * (omega * t).cos();
+        let v = |t: f64| -start * omega * (omega * t).sin();
+        // A step of tolerance 1e-12 errs by that relative to 1 m; some hundred steps add up.
+        let near = |name: &str, known: f64, tolerance: f64| {
+            let found = column(name)[run];
+            assert!(
+                (found - known).abs() <= tolerance,
+                "{name} of run {run}: {found}, not {known}"
+            );
+        };
+        let close = 2e-10;
+        near("x", x(to), close);
+        near("der(x)", v(to), 3.0 * close);
+        near("x@0", start, 0.0);
+        near("x@2.5", x(2.5), close);
+        near("der(x)@2.5", v(2.5), 3.0 * close);
+        near("x@10", column("x")[run], 0.0);
+        near("first", x(from), close);
+        near("last", k * x(to), 9.0 * close);
+        // More than a whole period lies between 1 s and 10 s.
+        near("peak", start.abs(), close);
+        near("highest", start.abs(), close);
+        near("lowest", -start.abs(), close);
+        near("dip", 0.0, close);
+        near("width", 2.0 * start.abs() * omega, 6.0 * close);
+        near("pull", k * start.abs(), 9.0 * close);
+        let integral = start / omega * ((omega * to).sin() - (omega * from).sin());
+        near("integral", integral, 9.0 * close);
+        near("mean", integral / (to - from), close);
+        let square = |t: f64| 0.5 * t + (2.0 * omega * t).sin() / (4.0 * omega);
+        let rms = (start * start * (square(to) - square(from)) / (to - from)).sqrt();
+        near("rms", rms, close);
+        // The greatest is at a whole multiple of half a period, of which one of two is; near it x is flat, so t is known to the
+        // root of the error only, 1e-5.
+        let phase = omega * column("when")[run] / std::f64::consts::PI;
+        let is_even = (phase.round() as i64) % 2 == 0;
+        assert!(
+            (phase - phase.round()).abs() < 1e-4 && is_even == (start > 0.0),
+            "{phase}"
+        );
+        let crossing = |n: f64| (n + 0.5) * std::f64::consts::PI / omega;
+        let all: Vec<f64> = (0..20)
+            .map(|n| crossing(f64::from(n)))
+            .filter(|t| (from..to).contains(t))
+            .collect();
+        assert_eq!(column("crossings")[run], all.len() as f64);
+        near("early", all[0], 1e-8);
+        near("late", all[all.len() - 1], 1e-8);
+        near("energy residual", 0.0, 1e-10);
+    }
+}
+
+/// Row i is what `simulate` gives with the same numbers, bit for bit, and no thread, chunk, engine or format changes it.
+#[test]
+fn rows_are_those_of_simulate_in_every_bit() {
+    let spec = "machines/double_pendulum.machine";
+    let folder = Scratch::new("a", "");
+    let at = |name: &str| folder.0.with_file_name(name);
+    let design = [
+        "--until",
+        "2",
+        "--vary",
+        "start(theta1)=1..3:5",
+        "--vary",
+        "m2=0.5,1.5",
+        "--reduce",
+        "fast = max(abs(der(theta2)))",
+    ];
+    let mut tables = Vec::new();
+    for (name, further) in [
+        ("one.csv", &["--threads", "1"][..]),
+        ("many.csv", &["--threads", "3"]),
+        ("interpreted.csv", &["--engine", "interpreter"]),
+    ] {
+        let said = sweep(spec, &at(name), &[&design, further].concat());
+        assert_eq!(said.status, 0, "{}", said.error);
+        tables.push(std::fs::read(at(name)).expect("a table"));
+    }
+    assert!(tables.iter().all(|table| *table == tables[0]));
+    let rows = read(&at("one.csv"));
+    for run in 0..10 {
+        let theta = format!("theta1={}", rows["start(theta1)"][run]);
+        let mass = format!("m2={}", rows["m2"][run]);
+        let output = lagrangian(&[
+            "simulate", spec, "--until", "2", "--json", "--start", &theta, "--set", &mass,
+        ]);
+        let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        for (name, value) in [
+            ("theta1", &document["q"]["theta1"]),
+            ("theta2", &document["q"]["theta2"]),
+            ("der(theta1)", &document["v"]["theta1"]),
+            ("der(theta2)", &document["v"]["theta2"]),
+            ("steps", &document["steps"]),
+            ("energy residual", &document["energy_residual"]),
+        ] {
+            assert_eq!(
+                numbers(&rows, name)[run],
+                value.as_f64().expect("a number"),
+                "{name} of run {run}"
+            );
+        }
+    }
+}
+
+/// Friction, constraints and collisions go through the same door.
+#[test]
+fn every_kind_of_machine_is_swept_as_it_is_simulated() {
+    for (spec, vary, name) in [
+        ("machines/stick_slip.machine", "rate(x)=0.1,0.3", "x"),
+        ("machines/four_bar.machine", "rate(crank)=1,2", "crank"),
+        (
+            "machines/contacts/bouncing_ball.machine",
+            "start(y)=1,2",
+            "y",
+        ),
+    ] {
+        let folder = Scratch::new("a", "");
+        let out = folder.0.with_file_name("rows.csv");
+        let said = sweep(spec, &out, &["--until", "0.7", "--vary", vary]);
+        assert_eq!(said.status, 0, "{spec}: {}", said.error);
+        let rows = read(&out);
+        for run in 0..2 {
+            let (option, _) = vary.split_once('(').expect("a bracket");
+            let value = &rows[vary.split_once('=').expect("a sign").0][run];
+            let given = format!("{name}={value}");
+            let option = format!("--{option}");
+            let output = lagrangian(&[
+                "simulate", spec, "--until", "0.7", "--json", &option, &given,
+            ]);
+            let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+            assert_eq!(
+                numbers(&rows, name)[run],
+                document["q"][name].as_f64().expect("a number"),
+                "{spec}"
+            );
+            assert_eq!(
+                numbers(&rows, "steps")[run],
+                document["steps"].as_f64().expect("a number")
+            );
+        }
+    }
+}
+
+/// Killed at any instant and started again until it is done, a sweep gives the file of one that was left alone, byte for byte.
+#[test]
+fn what_is_killed_goes_on_to_the_same_bytes() {
+    let spec = "machines/double_pendulum.machine";
+    let folder = Scratch::new("a", "");
+    for ending in ["csv", "parquet"] {
+        let alone = folder.0.with_file_name(format!("alone.{ending}"));
+        let killed = folder.0.with_file_name(format!("killed.{ending}"));
+        let design = [
+            "--until",
+            "20",
+            "--vary",
+            "start(theta1)=0.5..3:96",
+            "--record",
+            "every=5",
+            "--reduce",
+            "turns = last(theta2)",
+            "--threads",
+            "2",
+        ];
+        let began = Instant::now();
+        let said = sweep(spec, &alone, &design);
+        assert_eq!(said.status, 0, "{}", said.error);
+        let whole = began.elapsed();
+        // Of a generator of random numbers no more is asked than that the instants differ from run to run.
+        let mut state = u64::from(std::process::id()) ^ began.elapsed().as_nanos() as u64 | 1;
+        println!("seed {state}");
+        let part = killed.with_file_name(format!("killed.{ending}.part"));
+        for kill in 0..5 {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            let after = whole.mul_f64((state >> 40) as f64 / (1u64 << 24) as f64);
+            let mut child = Command::new(env!("CARGO_BIN_EXE_lagrangian"))
+                .current_dir(root())
+                .args(["sweep", spec, "--out", killed.to_str().expect("text")])
+                .args(design)
+                .stdin(Stdio::null())
+                .stdout(Stdio::null())
+                .stderr(Stdio::null())
+                .spawn()
+                .expect("the command runs");
+            let until = Instant::now() + after.min(Duration::from_secs(5));
+            while Instant::now() < until && child.try_wait().expect("a status").is_none() {
+                std::thread::sleep(Duration::from_millis(2));
+            }
+            child.kill().expect("it may be killed"); // SIGKILL; nothing where it is gone
+            child.wait().expect("a status");
+            println!(
+                "kill {kill} after {after:?}, {} of it there",
+                if part.exists() {
+                    "a part"
+                } else {
+                    "nothing or all"
+                }
+            );
+        }
+        let said = sweep(spec, &killed, &design);
+        assert_eq!(said.status, 0, "{}", said.error);
+        assert!(!part.exists());
+        for suffix in ["", "samples."] {
+            let bytes = |name: &str| {
+                let path = folder.0.with_file_name(format!("{name}.{suffix}{ending}"));
+                std::fs::read(path).expect("a table")
+            };
+            assert!(bytes("alone") == bytes("killed"), "{suffix}{ending}");
+        }
+    }
+}
+
+/// What cannot be written is said, and what is there stays: a limit on the size of files stands for a full disk.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_a_sweep_that_goes_on_later() {
+    let folder = Scratch::new("a", "");
+    let out = folder.0.with_file_name("rows.csv");
+    let spec = "machines/simple_pendulum.machine";
+    let design = [
+        "--until",
+        "1",
+        "--vary",
+        "start(theta)=0.1..1:3000",
+        "--threads",
+        "1",
+    ];
+    // Blocks of 512 or 1024 bytes: the table has some 200 kB, and a chunk a part of it.
+    let script = "trap '' XFSZ; ulimit -f 100; exec \"$@\"";
+    let output = Command::new("sh")
+        .current_dir(root())
+        .args([
+            "-c",
+            script,
+            "sh",
+            env!("CARGO_BIN_EXE_lagrangian"),
+            "sweep",
+            spec,
+            "--out",
+            out.to_str().expect("text"),
+        ])
+        .args(design)
+        .output()
+        .expect("a shell");
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{error}");
+    assert!(
+        error.contains("cannot write") && error.contains("the same command goes on"),
+        "{error}"
+    );
+    assert!(!out.exists());
+    let said = sweep(spec, &out, &design);
+    assert_eq!(said.status, 0, "{}", said.error);
+    assert_eq!(read(&out)["run"].len(), 3000);
+}
+
+#[test]
+fn a_run_that_fails_is_a_row() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("rows.csv");
+    let design = [
+        "--until",
+        "1",
+        "--vary",
+        "m=1,-1,2",
+        "--reduce",
+        "peak = max(x)",
+        "--json",
+    ];
+    let said = sweep(spec.path(), &out, &design);
+    assert_eq!(said.status, 0, "{}", said.error);
+    let document: Value = serde_json::from_str(&said.out).expect("JSON");
+    assert_eq!(
+        (&document["runs"], &document["failed"]),
+        (&3.into(), &1.into())
+    );
+    assert_eq!(document["first_errors"][0]["run"], 1);
+    let rows = read(&out);
+    assert_eq!(rows["status"], ["ended", "failed", "ended"]);
+    assert!(rows["error"][1].contains("mass"), "{:?}", rows["error"]);
+    assert_eq!(rows["peak"][1], "");
+    assert_eq!(rows["x"][1], "0.1");
+    assert_eq!(numbers(&rows, "peak")[0], 0.1);
+    // Too few steps are a failure on the way: as far as it came.
+    let strict = [
+        "--until",
+        "9",
+        "--vary",
+        "m=1",
+        "--max-steps",
+        "5",
+        "--strict",
+        "--fresh",
+    ];
+    let said = sweep(spec.path(), &out, &strict);
+    assert_eq!(said.status, 1);
+    let rows = read(&out);
+    assert!(
+        rows["error"][0].contains("--max-steps"),
+        "{:?}",
+        rows["error"]
+    );
+    let t = numbers(&rows, "t")[0];
+    assert!(t > 0.0 && t < 9.0 && rows["steps"][0] == "5");
+}
+
+/// A free fall of 1 m takes √(2h/g), whatever pushes sideways; an input that is a formula or a table does what it says.
+#[test]
+fn events_end_runs_and_inputs_follow_formulas_and_tables() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("rows.csv");
+    // x'' = push − x·k with k = 0: push = 6 t gives x = x₀ + t³.
+    let table = spec.0.with_file_name("push.csv");
+    std::fs::write(&table, "t [s],push [N]\n0,0\n10,60\n").expect("a file");
+    let from_table = format!("push={}", table.display());
+    for input in ["push=6*N/s*t", &from_table] {
+        let said = sweep(
+            spec.path(),
+            &out,
+            &[
+                "--until",
+                "5",
+                "--vary",
+                "k=0",
+                "--vary",
+                "start(x)=0,-1",
+                "--input",
+                input,
+                "--until-event",
+                "far = x - 8",
+                "--fresh",
+            ],
+        );
+        assert_eq!(said.status, 0, "{}", said.error);
+        let rows = read(&out);
+        assert_eq!(rows["status"], ["event far", "event far"]);
+        for (t, known) in numbers(&rows, "t").into_iter().zip([2.0, 9.0_f64.cbrt()]) {
+            // A relative tolerance of 1e-9 in a hundred steps at most, of 8 m at a rate of 12 m/s.
+            assert!((t - known).abs() < 1e-7, "{t} {known}");
+        }
+    }
+}
+
+/// A plan run in parts, by as many calls, is the sweep.
+#[test]
+fn chunks_of_a_plan_make_the_same_table() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let at = |name: &str| spec.0.with_file_name(name);
+    let (whole, joined, plan) = (at("whole.csv"), at("joined.csv"), at("plan.json"));
+    let design = [
+        "--until",
+        "1",
+        "--samples",
+        "40",
+        "--design",
+        "latin",
+        "--seed",
+        "3",
+        "--vary",
+        "k~normal(4,0.5)",
+        "--vary",
+        "start(x)=0.1..0.2",
+    ];
+    assert_eq!(sweep(spec.path(), &whole, &design).status, 0);
+    let path = plan.to_str().expect("text");
+    let output = lagrangian(&[&["sweep", spec.path(), "--plan", path], &design[..]].concat());
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let text = std::fs::read_to_string(&plan).expect("a plan");
+    let mut value: Value = serde_json::from_str(&text).expect("JSON");
+    value["chunk"] = 16.into();
+    std::fs::write(&plan, value.to_string()).expect("a plan");
+    for chunk in ["2", "0", "1"] {
+        let said = sweep(path, &joined, &["--chunk", chunk]);
+        assert_eq!(said.status, 0, "{}", said.error);
+    }
+    assert_eq!(sweep(path, &joined, &["--chunk", "3"]).status, 2);
+    let said = sweep(path, &joined, &[]);
+    assert_eq!(said.status, 0, "{}", said.error);
+    let bytes = |path: &Path| std::fs::read(path).expect("a table");
+    assert!(bytes(&whole) == bytes(&joined));
+}
+
+#[test]
+fn a_table_says_runs_and_lists_go_together() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let at = |name: &str| spec.0.with_file_name(name);
+    let (crossed, tabled) = (at("together.csv"), at("tabled.csv"));
+    let design = [
+        "--until",
+        "1",
+        "--vary",
+        "m=1,2",
+        "--vary",
+        "k=3..5:2",
+        "--together",
+        "m,k",
+        "--vary",
+        "start(x)=0.1,0.3",
+    ];
+    let said = sweep(spec.path(), &crossed, &design);
+    assert_eq!(said.status, 0, "{}", said.error);
+    let rows = read(&crossed);
+    assert_eq!(numbers(&rows, "m"), [1.0, 1.0, 2.0, 2.0]);
+    assert_eq!(numbers(&rows, "k"), [3.0, 3.0, 5.0, 5.0]);
+    assert_eq!(numbers(&rows, "start(x)"), [0.1, 0.3, 0.1, 0.3]);
+    let sets = at("sets.csv");
+    std::fs::write(
+        &sets,
+        "m [kg],k [N/m],start(x) [m]\n1,3,0.1\n1,3,0.3\n2,5,0.1\n2,5,0.3\n",
+    )
+    .expect("a file");
+    let said = sweep(
+        spec.path(),
+        &tabled,
+        &["--until", "1", "--table", sets.to_str().expect("text")],
+    );
+    assert_eq!(said.status, 0, "{}", said.error);
+    assert_eq!(
+        std::fs::read(&crossed).expect("a table"),
+        std::fs::read(&tabled).expect("a table")
+    );
+}
+
+#[test]
+fn what_makes_no_sense_is_refused_before_the_first_run() {
+    let spec = Scratch::new("oscillator.machine", OSCILLATOR);
+    let out = spec.0.with_file_name("rows.csv");
+    for (arguments, words) in [
+        (&["--vary", "kk=1..2:3"][..], "did you mean `k`?"),
+        (&["--vary", "x=1,2"], "whose start is `start(x)`"),
+        (&["--vary", "k=1..2:0"], "a whole number from 1"),
+        (&["--vary", "k=-1..2:3:log"], "the same sign"),
+        (&["--vary", "k=3*m"], "--vary k=3*m: expected N/m, found m"),
+        (&["--vary", "k=1..2"], "--samples N"),
+        (
+            &["--vary", "k~normal(1,0)", "--samples", "3"],
+            "greater than 0",
+        ),
+        (
+            &["--vary", "k~norma(1,2)", "--samples", "3"],
+            "expected uniform",
+        ),
+        (
+            &["--vary", "k=1,2", "--vary", "k=3,4"],
+            "varied more than once",
+        ),
+        (
+            &["--vary", "k=1,2", "--set", "k=3"],
+            "one value for all runs too",
+        ),
+        (
+            &["--vary", "k=1..2:1000000", "--vary", "m=1..2:10000000"],
+            "more than 2^40 runs",
+        ),
+        (
+            &["--vary", "k=1,2", "--together", "k,m"],
+            "no list and no grid of `m`",
+        ),
+        (&["--reduce", "p = max(y)"], "nothing is named `y`"),
+        (&["--reduce", "p = maxi(x)"], "did you mean `max`?"),
+        (&["--reduce", "p = max((x, 1))"], "--reduce p"),
+        (&["--reduce", "p = max(x + 1*s)"], "--reduce p"),
+        (&["--reduce", "p = count(top)"], "no event named `top`"),
+        (&["--reduce", "t = max(x)"], "two columns"),
+        (&["--event", "e = der(der(x))"], "accelerations"),
+        (&["--input", "pusch=1"], "did you mean `push`?"),
+        (&["--input", "push=der(x)"], "--input push"),
+        (&["--record", "at=7"], "not within the run"),
+        (&["--after", "3"], "not within the run"),
+        (&["--record", "often"], "expected end"),
+        (&["--method", "dop835"], "did you mean `dop853`?"),
+        (&["--chunk", "3"], "write one by --plan"),
+    ] {
+        let arguments = [&["--until", "1"], arguments].concat();
+        let said = sweep(spec.path(), &out, &arguments);
+        assert_eq!(said.status, 2, "{arguments:?}: {}{}", said.out, said.error);
+        assert!(said.error.contains(words), "{arguments:?}: {}", said.error);
+        assert!(!out.exists());
+    }
+    // Another plan in the place of one that was begun.
+    let begun = ["--until", "1", "--vary", "k=1..2:100", "--limit", "1"];
+    let said = sweep(spec.path(), &out, &begun);
+    assert_eq!(said.status, 0, "{}", said.error);
+    if said.out.contains("the same command goes on") {
+        let other = [
+            "--until",
+            "1",
+            "--vary",
+            "k=1..2:100",
+            "--tolerance",
+            "1e-8",
+        ];
+        let said = sweep(spec.path(), &out, &other);
+        assert_eq!(said.status, 2);
+        assert!(
+            said.error
+                .contains("tolerance: 1e-8, was 1e-9; --fresh begins again"),
+            "{}",
+            said.error
+        );
+        assert_eq!(
+            sweep(spec.path(), &out, &[&other[..], &["--fresh"]].concat()).status,
+            0
+        );
+    }
+}
