@@ -352,4 +352,70 @@ mod tests {
         let found = roots(|x| if x < 0.7 { -1.0 } else { 1.0 });
         are_near(&found, &[0.7]);
     }
+
+    /// Least and greatest value between 0 and 1.
+    fn extent(f: impl Fn(f64) -> f64) -> [(f64, f64); 2] {
+        let mut extent = [None; 2];
+        extremes(|theta| Ok(f(theta)), [0.0, 1.0], &mut extent, [true; 2]).unwrap();
+        extent.map(|found| found.unwrap())
+    }
+
+    #[test]
+    fn extremes_lie_between_the_nodes() {
+        use core::f64::consts::TAU;
+        let [low, high] = extent(|x| (9.0 * x).sin());
+        assert!((low.0 + 1.0).abs() < 1e-10 && (high.0 - 1.0).abs() < 1e-10);
+        // The first of two equal ones or the second; both are flat there.
+        let phase = 9.0 * high.1 / TAU - 0.25;
+        assert!((phase - phase.round()).abs() < 1e-5, "{high:?}");
+        // A narrow hump, and a kink as the least value and as the greatest.
+        let [low, high] = extent(|x| (-400.0 * (x - 0.317) * (x - 0.317)).exp());
+        assert!(low.0 < 1e-10 && (high.0 - 1.0).abs() < 1e-10 && (high.1 - 0.317).abs() < 1e-5);
+        let [low, high] = extent(|x| (x - 0.3183).abs());
+        assert!(low.0 < 1e-10 && (low.1 - 0.3183).abs() < 1e-9, "{low:?}");
+        assert!((high.0 - 0.6817).abs() < 1e-15);
+        let [_, high] = extent(|x| 1.0 - (x - 0.3183).abs());
+        assert!((high.0 - 1.0).abs() < 1e-10, "{high:?}");
+        assert_eq!(extent(|_| 3.0).map(|(value, _)| value), [3.0; 2]);
+        assert!(extent(|x| if x > 0.9 { f64::NAN } else { x })[1].0.is_nan());
+    }
+
+    /// Sums of three sines against ten thousand samples, whose neighbours differ from the extreme by no more than half the
+    /// greatest second derivative times the square of half their distance.
+    #[test]
+    fn extremes_of_random_functions_are_no_less_than_samples() {
+        let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for case in 0..200 {
+            let terms: [[f64; 3]; 3] =
+                core::array::from_fn(|_| [random() - 0.5, 12.0 * random(), 6.0 * random()]);
+            let f = |x: f64| {
+                terms
+                    .iter()
+                    .map(|[a, w, p]| a * (w * x + p).sin())
+                    .sum::<f64>()
+            };
+            let bend: f64 = terms.iter().map(|[a, w, _]| (a * w * w).abs()).sum();
+            let [low, high] = extent(f);
+            let samples = (0..=10_000).map(|k| f(f64::from(k) / 1e4));
+            let (least, greatest) =
+                samples.fold((f64::MAX, f64::MIN), |(l, g), x| (l.min(x), g.max(x)));
+            let enough = 1e-10 * (greatest - least) + 1e-15;
+            let between = 0.5 * bend * 0.25e-8 + enough;
+            assert!(
+                high.0 >= greatest - enough && high.0 <= greatest + between,
+                "{case}: {high:?} {greatest}"
+            );
+            assert!(
+                low.0 <= least + enough && low.0 >= least - between,
+                "{case}: {low:?} {least}"
+            );
+            assert!(f(high.1) == high.0 && f(low.1) == low.0);
+        }
+    }
 }
