@@ -2,6 +2,8 @@
 
 use crate::{Coordinates, Error, Inputs, Machine, State, System};
 
+type VectorOf<M> = <<M as Machine>::System as System>::Vector;
+
 /// The motion within one step of a run, as [`Simulation::each_step`](crate::Simulation::each_step) shows it: the continuous
 /// extension of the method, on the constraints.
 pub trait StepMotion<M: Machine> {
@@ -15,17 +17,7 @@ pub trait StepMotion<M: Machine> {
     ///
     /// # Errors
     /// Where the method needs accelerations for it that do not exist, or the constraints cannot be met.
-    fn state_at(
-        &mut self,
-        theta: f64,
-    ) -> Result<
-        (
-            f64,
-            <M::System as System>::Vector,
-            <M::System as System>::Vector,
-        ),
-        Error,
-    >;
+    fn state_at(&mut self, theta: f64) -> Result<(f64, VectorOf<M>, VectorOf<M>), Error>;
 
     /// The state at a time within the step: the one that a sample of the run has there, bit for bit.
     ///
@@ -34,12 +26,7 @@ pub trait StepMotion<M: Machine> {
     fn state(&mut self, t: f64) -> Result<State<Coordinates<M>>, Error>;
 
     /// The inputs at a state.
-    fn inputs(
-        &self,
-        t: f64,
-        q: &<M::System as System>::Vector,
-        v: &<M::System as System>::Vector,
-    ) -> Inputs<M>;
+    fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M>;
 
     /// Accelerations at time, state and inputs, with the contacts as they are in this step.
     ///
@@ -47,12 +34,8 @@ pub trait StepMotion<M: Machine> {
     /// Where there are none.
     fn accelerations(
         &self,
-        at: (
-            f64,
-            &<M::System as System>::Vector,
-            &<M::System as System>::Vector,
-        ),
+        at: (f64, &VectorOf<M>, &VectorOf<M>),
         u: &Inputs<M>,
-        a: &mut <M::System as System>::Vector,
+        a: &mut VectorOf<M>,
     ) -> Result<(), Error>;
 }

@@ -33,7 +33,7 @@ pub enum Command {
     /// Integrate the equations of motion.
     Simulate(Simulate),
     /// Integrate many times: over parameters, inputs and starts; a row a run.
-    Sweep(Sweep),
+    Sweep(Box<Sweep>),
     /// Draw a sweep: curves over one parameter, colours over two.
     Map(Map),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
@@ -74,11 +74,15 @@ impl Command {
             Command::Map(call) => add("--only", &call.only),
             Command::Evaluate(Evaluate { start, .. })
             | Command::Simulate(Simulate { start, .. })
-            | Command::Sweep(Sweep { start, .. })
             | Command::Modes(Modes { start, .. }) => {
                 add("--set", &start.parameters);
                 add("--start", &start.coordinates);
                 add("--rate", &start.rates);
+            }
+            Command::Sweep(call) => {
+                add("--set", &call.start.parameters);
+                add("--start", &call.start.coordinates);
+                add("--rate", &call.start.rates);
             }
             Command::Brachistochrone(call) => {
                 add("--set", &call.parameters);
