@@ -77,7 +77,7 @@ pub fn extremes(
         if greatest.is_none_or(|(known, _)| value > known || value.is_nan()) {
             *greatest = Some((value, theta));
         }
-        Ok(value)
+        Ok::<f64, Error>(value)
     };
     let mut open = Vec::from([([from, to], HALVINGS_TO_EXTREMES)]);
     let mut looked_at = 0;

@@ -740,16 +740,17 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
 }
 
 /// The last step, as it is shown.
-struct Within<'w, 'r, 's, S: System, L: InputLaw<S>, A> {
+struct Within<'w, 'r, 's, S: System, L, K, A> {
     model: &'w Model<'r, S, L>,
-    stepper: &'w mut Stepper<'s, S, &'s L, A>,
+    stepper: &'w mut Stepper<'s, S, K, A>,
     interpolant: &'w mut Option<Interpolant<S::Vector>>,
 }
 
-impl<M, L, A> StepMotion<M> for Within<'_, '_, '_, M::System, L, A>
+impl<M, L, K, A> StepMotion<M> for Within<'_, '_, '_, M::System, L, K, A>
 where
     M: Machine,
     L: InputLaw<M::System>,
+    K: InputLaw<M::System>,
     A: Quadratures<M::System>,
 {
     fn span(&self) -> [f64; 2] {

@@ -452,7 +452,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             touching,
             ..
         } = &self.model;
-        let system: &S = self.model.system;
+        let system: &S = &self.model.system;
         if let Some(touching) = touching {
             return touching.accelerations(system, at, a);
         }

@@ -46,6 +46,7 @@ fn overflow(energies: &[Energies]) -> Option<String> {
         potential,
         work,
         dissipated,
+        ..
     } = overflowed;
     let named = [
         ("kinetic energy", kinetic),
