@@ -68,6 +68,8 @@ mod interpolant;
 mod lanes;
 mod math;
 pub mod methods;
+#[doc(hidden)]
+pub mod series;
 mod stages;
 mod step_error;
 mod stepper;

@@ -7,9 +7,37 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     Scalar::sqrt(x)
 }
 
-/// `x` to a real power, `x ≥ 0`.
-pub(crate) fn power(x: f64, exponent: f64) -> f64 {
-    Scalar::powf(x, exponent)
+/// The binary logarithm of a positive number, to 1e-4: more than the root of a high order needs.
+#[cfg(feature = "std")]
+#[inline]
+pub(crate) fn rough_log2(x: f64) -> f64 {
+    // Below the smallest normal number exponents say nothing.
+    let (x, shift) = match x < f64::MIN_POSITIVE {
+        true => (x * 2_f64.powi(54), -54.0),
+        false => (x, 0.0),
+    };
+    let bits = x.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as f64 - 1023.0;
+    let mantissa = f64::from_bits((bits & ((1 << 52) - 1)) | (1023 << 52));
+    // ln m = 2 artanh z, |z| ≤ 0.172 about the square root of 2.
+    let z = (mantissa - core::f64::consts::SQRT_2) / (mantissa + core::f64::consts::SQRT_2);
+    let square = z * z;
+    let half = z * (1.0 + square * (1.0 / 3.0 + square * 0.2));
+    exponent + shift + 0.5 + 2.0 * core::f64::consts::LOG2_E * half
+}
+
+/// 2 to a power, to 1e-5; 0 and infinity where that is beyond `f64`.
+#[cfg(feature = "std")]
+#[inline]
+pub(crate) fn rough_exp2(x: f64) -> f64 {
+    let x = x.clamp(-1100.0, 1100.0);
+    let whole = x.floor();
+    let y = (x - whole - 0.5) * core::f64::consts::LN_2;
+    let series = 1.0 + y * (1.0 + y * (0.5 + y * (1.0 / 6.0 + y * (1.0 / 24.0))));
+    // In two factors, each of which has an exponent.
+    let half = (0.5 * whole).floor();
+    let power = |n: f64| f64::from_bits(((n + 1023.0) as u64) << 52);
+    series * core::f64::consts::SQRT_2 * power(half) * power(whole - half)
 }
 
 /// `x` to a real power, `x ≥ 0`, to the seven digits of `f32`: more than the choice of a step

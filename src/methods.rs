@@ -30,7 +30,7 @@ pub static METHODS: [Method; 4] = [
 /// ([`System::check_series`](crate::System::check_series)): to fine tolerances the fastest method of smooth machines.
 ///
 /// Its order is 12 or 20, by the tolerance. Dense output and events are of the same order and cost nothing of the
-/// machine. Steps end where a run ends, not at samples. It needs an allocator, hence the feature `std`, and inputs that keep
+/// machine. A compiled machine has its series where its spec says `methods { taylor }`. Steps end where a run ends, not at samples. It needs an allocator, hence the feature `std`, and inputs that keep
 /// their defaults.
 ///
 /// It is no Runge–Kutta method, so it is not among [`METHODS`]; its [`Tableau`] holds the nodes and weights by which work and

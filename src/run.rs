@@ -852,8 +852,23 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         let (t, q, v) = at(1.0)?;
         let count = self.system.assumptions(t, &q, &v, inputs).len();
         let mut looks = Vec::new();
+        // All ask for the same fractions first.
+        let mut known: Vec<(f64, Triple<S::Vector>)> = Vec::new();
         for index in 0..count {
-            looks.extend(roots::looks(|theta| Ok(self.margin(index, at(theta)?)))?);
+            looks.extend(roots::looks(|theta| {
+                let found = known.iter().find(|(other, _)| *other == theta);
+                let state = match found {
+                    Some((_, state)) => state.clone(),
+                    None => {
+                        let state = at(theta)?;
+                        if count > 1 {
+                            known.push((theta, state.clone()));
+                        }
+                        state
+                    }
+                };
+                Ok(self.margin(index, state))
+            })?);
         }
         looks.sort_by(f64::total_cmp);
         looks.dedup();

@@ -495,11 +495,11 @@ pub trait System {
     /// Why not, as the end of a sentence that begins with the machine: `it has constraints`.
     #[inline(always)]
     fn check_series(&self) -> Result<(), &str> {
-        Err("its equations of motion were made without one")
+        Err("its spec does not ask for one by `methods { taylor }`")
     }
 
     /// The Taylor series of the motion through a state: row `j` of `coefficients` is to be `q⁽ʲ⁾/j!`, in SI units, for as many
-    /// rows as there are; at least three. The time is the sum of two numbers, the second of which is what rounding took from
+    /// rows as there are; at least three. Emitted code knows 24, and makes what is beyond no number. The time is the sum of two numbers, the second of which is what rounding took from
     /// the first. The first two rows are `q` and `v`, and twice the third is the acceleration.
     ///
     /// Asked for only where [`check_series`](Self::check_series) is fine.

@@ -10,8 +10,8 @@
 use std::vec::Vec;
 
 use crate::compensated::two_sum;
-use crate::math::power;
-use crate::stages::Point;
+use crate::math::{rough_exp2, rough_log2};
+use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
 use crate::{Singular, System, Vector};
 
@@ -117,72 +117,103 @@ impl<V: Vector> Taylor<V> {
     pub fn length(&self, tolerance: &Tolerance<V>) -> f64 {
         let coefficients = &self.coefficients[self.of_now()];
         let last = coefficients.len() - 1;
-        let mut length = f64::INFINITY;
-        // v = Σ (j + 1) cⱼ₊₁ τʲ
-        for j in [last - 1, last] {
-            let mut worst = 0.0_f64;
-            for (i, c) in coefficients[j].as_slice().iter().enumerate() {
-                let [q, v] = [0, 1].map(|k| coefficients[k].as_slice()[i].abs());
-                let size = q.max(v);
-                let tolerable = tolerance.absolute.as_slice()[i] + tolerance.relative * size;
-                let share = tolerable / (1.0 + size);
-                let bound = match share {
-                    _ if share > 1e-8 => 0.1 * tolerable,
-                    _ if share < 1e-14 => 0.01 * tolerable,
-                    _ => tolerable,
+        let powers = [last - 1, last];
+        let mut worst = [0.0_f64; 2];
+        let [q, v] = [0, 1].map(|k| coefficients[k].as_slice());
+        let rows = powers.map(|j| coefficients[j].as_slice());
+        for (i, absolute) in tolerance.absolute.as_slice().iter().enumerate() {
+            let size = q[i].abs().max(v[i].abs());
+            let tolerable = absolute + tolerance.relative * size;
+            let bound = match 1.0 + size {
+                whole if tolerable > 1e-8 * whole => 0.1 * tolerable,
+                whole if tolerable < 1e-14 * whole => 0.01 * tolerable,
+                _ => tolerable,
+            };
+            // v = Σ (j + 1) cⱼ₊₁ τʲ
+            let over = 1.0 / bound;
+            for (worst, (row, j)) in worst.iter_mut().zip(rows.iter().zip(powers)) {
+                let ratio = match row[i] {
+                    0.0 => 0.0,
+                    c => (j as f64 * c.abs()) * over,
                 };
-                let ratio = (j as f64 * c.abs()) / bound;
                 // What is no number must not pass for none.
-                worst = if ratio > worst || ratio.is_nan() {
+                *worst = if ratio > *worst || ratio.is_nan() {
                     ratio
                 } else {
-                    worst
+                    *worst
                 };
             }
-            if worst > 0.0 {
-                length = length.min(power(worst, -1.0 / (j - 1) as f64));
+        }
+        // The logarithm of the length.
+        let mut length = f64::INFINITY;
+        for (worst, j) in worst.into_iter().zip(powers) {
+            if worst == f64::INFINITY {
+                return 0.0;
+            } else if worst > 0.0 {
+                length = length.min(rough_log2(worst) / (1.0 - j as f64));
             } else if worst.is_nan() {
                 return f64::NAN;
             }
         }
-        length
+        match length {
+            f64::INFINITY => length,
+            _ => rough_exp2(length),
+        }
     }
 
     /// The state at the end of a step of length `h`, as compensated sums.
     pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
         let coefficients = self.of_step();
-        for i in 0..before.q.as_slice().len() {
-            let [q, v] = rises(coefficients, i, h);
-            let low = before.v_low.as_slice()[i];
-            let q_low = before.q_low.as_slice()[i] + h * low;
-            (now.q.as_mut_slice()[i], now.q_low.as_mut_slice()[i]) =
-                two_sum(before.q.as_slice()[i], q_low + q);
-            (now.v.as_mut_slice()[i], now.v_low.as_mut_slice()[i]) =
-                two_sum(before.v.as_slice()[i], low + v);
-        }
+        in_blocks!(before.q.as_slice().len(), |start, B| {
+            let [q, v] = rises::<B, V>(coefficients, start, h);
+            for k in 0..B {
+                let i = start + k;
+                let low = before.v_low.as_slice()[i];
+                let q_low = before.q_low.as_slice()[i] + h * low;
+                (now.q.as_mut_slice()[i], now.q_low.as_mut_slice()[i]) =
+                    two_sum(before.q.as_slice()[i], q_low + q[k]);
+                (now.v.as_mut_slice()[i], now.v_low.as_mut_slice()[i]) =
+                    two_sum(before.v.as_slice()[i], low + v[k]);
+            }
+        });
     }
 }
 
-/// By how much coordinate `i` and its rate change in a time `tau`.
+/// By how much `B` coordinates from `start` on and their rates change in a time `tau`: side by side, so that the
+/// processor has several sums to work at.
 #[inline(always)]
-fn rises<V: Vector>(coefficients: &[V], i: usize, tau: f64) -> [f64; 2] {
-    let (mut q, mut v) = (0.0, 0.0);
+fn rises<const B: usize, V: Vector>(coefficients: &[V], start: usize, tau: f64) -> [[f64; B]; 2] {
+    let (mut q, mut v) = ([0.0; B], [0.0; B]);
+    let block = |j: usize| {
+        let row = coefficients[j].as_slice().get(start..start + B);
+        row.and_then(|row| row.first_chunk::<B>())
+            .copied()
+            .unwrap_or([f64::NAN; B])
+    };
     for j in (2..coefficients.len()).rev() {
-        let c = coefficients[j].as_slice()[i];
-        q = (q + c) * tau;
-        v = (v + j as f64 * c) * tau;
+        let (row, power) = (block(j), j as f64);
+        for (k, c) in row.into_iter().enumerate() {
+            q[k] = (q[k] + c) * tau;
+            v[k] = (v[k] + power * c) * tau;
+        }
     }
-    [(q + coefficients[1].as_slice()[i]) * tau, v]
+    let first = block(1);
+    for k in 0..B {
+        q[k] = (q[k] + first[k]) * tau;
+    }
+    [q, v]
 }
 
 /// Coordinates and rates at a time `tau` after the state that was expanded.
 pub(crate) fn state<V: Vector>(coefficients: &[V], tau: f64) -> (V, V) {
     let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
-    for i in 0..q.as_slice().len() {
-        let [by_q, by_v] = rises(coefficients, i, tau);
-        q.as_mut_slice()[i] += by_q;
-        v.as_mut_slice()[i] += by_v;
-    }
+    in_blocks!(q.as_slice().len(), |start, B| {
+        let [by_q, by_v] = rises::<B, V>(coefficients, start, tau);
+        for k in 0..B {
+            q.as_mut_slice()[start + k] += by_q[k];
+            v.as_mut_slice()[start + k] += by_v[k];
+        }
+    });
     (q, v)
 }
 

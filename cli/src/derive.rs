@@ -101,6 +101,7 @@ fn text(compiled: &Compiled, call: &call::Derive) -> String {
             &emit::rust::Options {
                 origin,
                 formulas: formulas(),
+                series: compiled.series.clone(),
                 ..Default::default()
             },
         ),

@@ -220,6 +220,7 @@ fn compile(job: Job) -> Result<Outcome, String> {
         Some(compiled) => {
             let options = rust::Options {
                 formulas: compiled.formulas(),
+                series: compiled.series.clone(),
                 ..options
             };
             rust::expansion(&compiled.program, &options)

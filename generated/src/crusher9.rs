@@ -192,6 +192,44 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
         let k25 = self.m0 * k28;
         let k27 = self.m0 * k26;
         let k29 = -k28;
+        let c0 = self.yc;
+        let c1 = -c0;
+        let c2 = self.w;
+        let c3 = self.xc;
+        let c4 = self.r1;
+        let c5 = self.r2;
+        let c6 = self.yb;
+        let c7 = -c6;
+        let c8 = self.xb;
+        let c9 = self.y0;
+        let c10 = -c9;
+        let c11 = self.x0;
+        let c12 = self.e;
+        let c13 = self.m1;
+        let c14 = self.m2;
+        let c15 = self.cx;
+        let c16 = self.bx;
+        let c17 = self.m;
+        let c18 = self.m0;
+        let c19 = self.cy;
+        let c20 = self.by;
+        let c21 = c18 * c11;
+        let c22 = c18 * c9;
+        let c23 = -c22;
+        let c24 = c15 * c0;
+        let c25 = -c24;
+        let c26 = c19 * c3;
+        let c27 = c16 * c6;
+        let c28 = -c27;
+        let c29 = c20 * c8;
+        let c30 = self.J;
+        let c31 = self.k1;
+        let c32 = self.d1;
+        let c33 = self.J1;
+        let c34 = self.k2;
+        let c35 = self.d2;
+        let c36 = -c14;
+        let c37 = self.J2;
         let singular = if vanishes(self.J1, self.J1, 7.993605777301127e-15) {
             Some(singular(5, self.J1, self.J1))
         } else if vanishes(self.J2, self.J2, 7.993605777301127e-15) {
@@ -265,6 +303,10 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
             k28,
             k29,
             singular,
+            series: [
+                c1, c2, c3, c4, c5, c7, c8, c10, c11, c12, c13, c14, c15, c16, c17, c18, c9, c19,
+                c20, c21, c23, c22, c25, c26, c28, c29, c30, c31, c32, c33, c34, c35, c36, c37,
+            ],
         }
     }
 
@@ -475,6 +517,8 @@ pub struct Prepared<S = f64> {
     k28: S,
     /// `-1/(m + m0)`
     k29: S,
+    /// What the Taylor series takes from the parameters.
+    series: [S; 34],
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -998,6 +1042,923 @@ pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
     s2
 }
 
+/// The Taylor series of the motion through a state, to be run with whatever instructions the
+/// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
+pub struct Series<'a, S> {
+    p: &'a Prepared<S>,
+    t: [S; 2],
+    q: &'a [S; 9],
+    v: &'a [S; 9],
+    coefficients: &'a mut [[S; 9]],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
+    type Output = Result<(), ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self {
+            p,
+            t,
+            q,
+            v,
+            coefficients,
+        } = self;
+        let n = N::load;
+        let x0 = n(q[0]);
+        let x1 = n(q[2]);
+        let x2 = n(p.series[0]);
+        let x3 = x2.mul_add(x1, x0);
+        let x4 = n(t[1]);
+        let x5 = n(t[0]);
+        let x6 = n(p.series[1]);
+        let x7 = x6.product_error(x5);
+        let x8 = x6.mul_add(x4, x7);
+        let x9 = x6 * x5;
+        let x10 = n(q[3]);
+        let x11 = n(q[4]);
+        let x12 = n(q[6]);
+        let x13 = n(q[7]);
+        let x14 = n(q[1]);
+        let x15 = n(p.series[2]);
+        let x16 = x15 * x1;
+        let x17 = x16 + x14;
+        let x18 = n(p.series[3]);
+        let x19 = -x18;
+        let x20 = x19 + x10;
+        let x21 = n(p.series[4]);
+        let x22 = -x21;
+        let x23 = x22 + x12;
+        let angles24 = [x9, x1, x11, x13];
+        let x24 = N::sin_cos_all(angles24);
+        let x25 = x24[0].0;
+        let x26 = x24[0].1;
+        let x27 = x8.mul_add(x26, x25);
+        let x28 = x8.neg_mul_add(x25, x26);
+        let x29 = x24[1].0;
+        let x30 = x24[1].1;
+        let x31 = x24[2].0;
+        let x32 = x24[2].1;
+        let x33 = x24[3].0;
+        let x34 = x24[3].1;
+        let x35 = x10 * x32;
+        let x36 = x12 * x34;
+        let x37 = x10 * x31;
+        let x38 = x12 * x33;
+        let x39 = n(v[0]);
+        let x40 = n(v[2]);
+        let x41 = x2.mul_add(x40, x39);
+        let x42 = x6 * x28;
+        let x43 = x6 * x27;
+        let x44 = -x43;
+        let x45 = x40 * x30;
+        let x46 = x40 * x29;
+        let x47 = -x46;
+        let x48 = n(v[3]);
+        let x49 = n(v[4]);
+        let x50 = x49 * x32;
+        let x51 = x49 * x31;
+        let x52 = -x51;
+        let x53 = x48 * x32;
+        let x54 = x10.mul_add(x52, x53);
+        let x55 = n(v[6]);
+        let x56 = n(v[7]);
+        let x57 = x56 * x34;
+        let x58 = x56 * x33;
+        let x59 = -x58;
+        let x60 = x55 * x34;
+        let x61 = x12.mul_add(x59, x60);
+        let x62 = n(v[1]);
+        let x63 = x15 * x40;
+        let x64 = x63 + x62;
+        let x65 = x48 * x31;
+        let x66 = x10.mul_add(x50, x65);
+        let x67 = x55 * x33;
+        let x68 = x12.mul_add(x57, x67);
+        let x69 = x6 * x44;
+        let x70 = N::from_f64(0.5);
+        let x71 = x70 * x69;
+        let x72 = x6 * x42;
+        let x73 = -x72;
+        let x74 = x70 * x73;
+        let x75 = x40 * x47;
+        let x76 = N::from_f64(2.0);
+        let x77 = x70 * x75;
+        let x78 = x40 * x45;
+        let x79 = -x78;
+        let x80 = x70 * x79;
+        let x81 = x49 * x52;
+        let x82 = x70 * x81;
+        let x83 = x49 * x50;
+        let x84 = -x83;
+        let x85 = x70 * x84;
+        let x86 = x48 * x52;
+        let x87 = x10.mul_add(x85, x86);
+        let x88 = x56 * x59;
+        let x89 = x70 * x88;
+        let x90 = x56 * x57;
+        let x91 = -x90;
+        let x92 = x70 * x91;
+        let x93 = x55 * x59;
+        let x94 = x12.mul_add(x92, x93);
+        let x95 = x48 * x50;
+        let x96 = x10.mul_add(x82, x95);
+        let x97 = x55 * x57;
+        let x98 = x12.mul_add(x89, x97);
+        let x99 = n(p.series[5]);
+        let x100 = x99.mul_add(x40, x39);
+        let x101 = n(p.series[6]);
+        let x102 = x101 * x40;
+        let x103 = x102 + x62;
+        let x104 = n(p.series[7]);
+        let x105 = x104 * x75;
+        let x106 = n(p.series[8]);
+        let x107 = x106.mul_add(x79, x105);
+        let x108 = n(p.series[9]);
+        let x109 = x108.mul_add(x73, x107);
+        let x110 = x76 * x87;
+        let x111 = x76 * x94;
+        let x112 = x110 + x111;
+        let x113 = n(p.series[10]);
+        let x114 = x113 * x110;
+        let x115 = n(p.series[11]);
+        let x116 = x115.mul_add(x112, x114);
+        let x117 = n(p.series[12]);
+        let x118 = x117 * x3;
+        let x119 = n(p.series[13]);
+        let x120 = x119.mul_add(x100, x118);
+        let x121 = n(p.series[14]);
+        let x122 = n(p.series[15]);
+        let x123 = x122.mul_add(x109, x120);
+        let x124 = x123 + x116;
+        let x125 = x106 * x75;
+        let x126 = n(p.series[16]);
+        let x127 = x126.mul_add(x79, x125);
+        let x128 = x108.mul_add(x69, x127);
+        let x129 = x76 * x96;
+        let x130 = x76 * x98;
+        let x131 = x129 + x130;
+        let x132 = x113 * x129;
+        let x133 = x115.mul_add(x131, x132);
+        let x134 = n(p.series[17]);
+        let x135 = x134 * x17;
+        let x136 = n(p.series[18]);
+        let x137 = x136.mul_add(x103, x135);
+        let x138 = x122.mul_add(x128, x137);
+        let x139 = x138 + x133;
+        let x140 = n(p.series[19]);
+        let x141 = x140 * x128;
+        let x142 = n(p.series[20]);
+        let x143 = x142.mul_add(x109, x141);
+        let x144 = x30 * x143;
+        let x145 = n(p.series[21]);
+        let x146 = x145 * x128;
+        let x147 = x140.mul_add(x109, x146);
+        let x148 = x29 * x147;
+        let x149 = n(p.series[22]);
+        let x150 = x149 * x3;
+        let x151 = n(p.series[23]);
+        let x152 = x151.mul_add(x17, x150);
+        let x153 = n(p.series[24]);
+        let x154 = x153.mul_add(x100, x152);
+        let x155 = n(p.series[25]);
+        let x156 = x155.mul_add(x103, x154);
+        let x157 = n(p.series[26]);
+        let x158 = x156 + x144;
+        let x159 = x158 - x148;
+        let x160 = x31 * x133;
+        let x161 = x32 * x116;
+        let x162 = n(p.series[27]);
+        let x163 = x162 * x20;
+        let x164 = n(p.series[28]);
+        let x165 = x164.mul_add(x48, x163);
+        let x166 = x165 + x160;
+        let x167 = x166 + x161;
+        let x168 = x35 * x133;
+        let x169 = x37 * x116;
+        let x170 = x168 - x169;
+        let x172 = x33 * x131;
+        let x173 = x34 * x112;
+        let x174 = n(p.series[30]);
+        let x175 = x174 * x23;
+        let x176 = n(p.series[31]);
+        let x177 = x176.mul_add(x55, x175);
+        let x178 = x115.mul_add(x172, x177);
+        let x179 = x115.mul_add(x173, x178);
+        let x180 = x36 * x131;
+        let x181 = x38 * x112;
+        let x182 = x115 * x180;
+        let x183 = n(p.series[32]);
+        let x184 = x183.mul_add(x181, x182);
+        let x186 = -x29;
+        let x187 = x104 * x30;
+        let x188 = x106.mul_add(x186, x187);
+        let x189 = -x31;
+        let x190 = x10 * x189;
+        let x191 = -x33;
+        let x192 = x12 * x191;
+        let x193 = x113 * x32;
+        let x194 = x113 * x190;
+        let x195 = x115 + x113;
+        let x196 = x115.mul_add(x32, x193);
+        let x197 = x115.mul_add(x190, x194);
+        let x198 = x115 * x34;
+        let x199 = x115 * x192;
+        let x200 = x122 + x121;
+        let x201 = x122 * x188;
+        let x202 = x195 + x200;
+        let x203 = x106 * x30;
+        let x204 = x126.mul_add(x186, x203);
+        let x205 = x113 * x31;
+        let x206 = x113 * x35;
+        let x207 = x115.mul_add(x31, x205);
+        let x208 = x115.mul_add(x35, x206);
+        let x209 = x115 * x33;
+        let x210 = x115 * x36;
+        let x211 = x122 * x204;
+        let x212 = x140 * x204;
+        let x213 = x142.mul_add(x188, x212);
+        let x214 = x30 * x142;
+        let x215 = x30 * x140;
+        let x216 = x30 * x213;
+        let x217 = x145 * x204;
+        let x218 = x140.mul_add(x188, x217);
+        let x219 = x29 * x140;
+        let x220 = x29 * x145;
+        let x221 = x29 * x218;
+        let x222 = x216 + x157;
+        let x223 = x214 - x219;
+        let x224 = x215 - x220;
+        let x225 = x222 - x221;
+        let x226 = x31 * x195;
+        let x227 = x31 * x207;
+        let x228 = x31 * x208;
+        let x229 = x31 * x209;
+        let x230 = x31 * x210;
+        let x231 = x32 * x195;
+        let x232 = x32 * x196;
+        let x233 = x32 * x197;
+        let x234 = x32 * x198;
+        let x235 = x32 * x199;
+        let x236 = x232 + x227;
+        let x237 = x233 + x228;
+        let x238 = x234 + x229;
+        let x239 = x235 + x230;
+        let x240 = x35 * x195;
+        let x241 = x35 * x207;
+        let x242 = x35 * x208;
+        let x243 = x35 * x209;
+        let x244 = x35 * x210;
+        let x245 = x37 * x195;
+        let x246 = x37 * x196;
+        let x247 = x37 * x197;
+        let x248 = x37 * x198;
+        let x249 = x37 * x199;
+        let x250 = -x245;
+        let x251 = x241 - x246;
+        let x252 = x242 - x247;
+        let x253 = x243 - x248;
+        let x254 = x244 - x249;
+        let x255 = x33 * x31;
+        let x256 = x33 * x35;
+        let x257 = x33 * x33;
+        let x258 = x33 * x36;
+        let x259 = x34 * x32;
+        let x260 = x34 * x190;
+        let x261 = x34 * x34;
+        let x262 = x34 * x192;
+        let x263 = x115 * x255;
+        let x264 = x115 * x256;
+        let x265 = x115 * x257;
+        let x266 = x115 * x258;
+        let x267 = x115.mul_add(x259, x263);
+        let x268 = x115.mul_add(x260, x264);
+        let x269 = x115.mul_add(x261, x265);
+        let x270 = x115.mul_add(x262, x266);
+        let x271 = x36 * x31;
+        let x272 = x36 * x35;
+        let x273 = x36 * x33;
+        let x274 = x36 * x36;
+        let x275 = x38 * x32;
+        let x276 = x38 * x190;
+        let x277 = x38 * x34;
+        let x278 = x38 * x192;
+        let x279 = x115 * x271;
+        let x280 = x115 * x272;
+        let x281 = x115 * x273;
+        let x282 = x115 * x274;
+        let x283 = x183 * x38;
+        let x284 = x183.mul_add(x275, x279);
+        let x285 = x183.mul_add(x276, x280);
+        let x286 = x183.mul_add(x277, x281);
+        let x287 = x183.mul_add(x278, x282);
+        let mut x288 = [
+            x202.store(),
+            N::ZERO.store(),
+            x201.store(),
+            x196.store(),
+            x197.store(),
+            x198.store(),
+            x199.store(),
+            N::ZERO.store(),
+            x202.store(),
+            x211.store(),
+            x207.store(),
+            x208.store(),
+            x209.store(),
+            x210.store(),
+            x223.store(),
+            x224.store(),
+            x225.store(),
+            N::ZERO.store(),
+            N::ZERO.store(),
+            N::ZERO.store(),
+            N::ZERO.store(),
+            x231.store(),
+            x226.store(),
+            N::ZERO.store(),
+            x236.store(),
+            x237.store(),
+            x238.store(),
+            x239.store(),
+            x250.store(),
+            x240.store(),
+            N::ZERO.store(),
+            x251.store(),
+            x252.store(),
+            x253.store(),
+            x254.store(),
+            x198.store(),
+            x209.store(),
+            N::ZERO.store(),
+            x267.store(),
+            x268.store(),
+            x269.store(),
+            x270.store(),
+            x283.store(),
+            x210.store(),
+            N::ZERO.store(),
+            x284.store(),
+            x285.store(),
+            x286.store(),
+            x287.store(),
+        ];
+        let members288 = [0, 1, 2, 3, 4, 6, 7];
+        let factored = ::lagrangian::series::factor::<N>(7, 7, &mut x288);
+        if let Err(vanished) = factored {
+            let singular = ::lagrangian::series::singular(vanished, &members288, 9);
+            return Err(singular);
+        }
+        let x291 = -x124;
+        let x292 = -x139;
+        let x293 = -x159;
+        let x294 = -x167;
+        let x295 = -x170;
+        let x296 = -x179;
+        let x297 = -x184;
+        let mut x298 = [
+            x291.store(),
+            x292.store(),
+            x293.store(),
+            x294.store(),
+            x295.store(),
+            x296.store(),
+            x297.store(),
+        ];
+        let mut room298 = x298;
+        let (x, room) = (&mut x298, &mut room298);
+        ::lagrangian::series::solve::<N>(7, &x288, x, room);
+        let x299 = n(x298[0]);
+        let x300 = n(x298[1]);
+        let x301 = n(x298[2]);
+        let x302 = n(x298[3]);
+        let x303 = n(x298[4]);
+        let x304 = n(x298[5]);
+        let x305 = n(x298[6]);
+        let x308 = x299 * x70;
+        let x309 = x300 * x70;
+        let x310 = x301 * x70;
+        let x311 = x302 * x70;
+        let x312 = x303 * x70;
+        let x313 = x304 * x70;
+        let x314 = x305 * x70;
+        let x315 = x32.mul_add(x302, x299);
+        let x316 = x190.mul_add(x303, x315);
+        let x317 = x34.mul_add(x304, x316);
+        let x318 = x192.mul_add(x305, x317);
+        let x319 = x112 + x318;
+        let x320 = x195 * x299;
+        let x321 = x196.mul_add(x302, x320);
+        let x322 = x197.mul_add(x303, x321);
+        let x323 = x198.mul_add(x304, x322);
+        let x324 = x199.mul_add(x305, x323);
+        let x325 = x116 + x324;
+        let x326 = x31.mul_add(x302, x300);
+        let x327 = x35.mul_add(x303, x326);
+        let x328 = x33.mul_add(x304, x327);
+        let x329 = x36.mul_add(x305, x328);
+        let x330 = x131 + x329;
+        let x331 = x195 * x300;
+        let x332 = x207.mul_add(x302, x331);
+        let x333 = x208.mul_add(x303, x332);
+        let x334 = x209.mul_add(x304, x333);
+        let x335 = x210.mul_add(x305, x334);
+        let x336 = x133 + x335;
+        let x337 = x142 * x299;
+        let x338 = x140.mul_add(x300, x337);
+        let x339 = x213.mul_add(x301, x338);
+        let x340 = x143 + x339;
+        let x341 = x140 * x299;
+        let x342 = x145.mul_add(x300, x341);
+        let x343 = x218.mul_add(x301, x342);
+        let x344 = x147 + x343;
+        let x345 = x2.mul_add(x301, x299);
+        let x346 = x70 * x345;
+        let x347 = x30 * x301;
+        let x348 = x70.mul_add(x347, x77);
+        let x349 = x186 * x301;
+        let x350 = x70.mul_add(x349, x80);
+        let x351 = x32 * x303;
+        let x352 = x70.mul_add(x351, x82);
+        let x353 = x189 * x303;
+        let x354 = x70.mul_add(x353, x85);
+        let x355 = x32 * x302;
+        let x356 = x190.mul_add(x303, x355);
+        let x357 = x70.mul_add(x356, x87);
+        let x358 = x34 * x305;
+        let x359 = x70.mul_add(x358, x89);
+        let x360 = x191 * x305;
+        let x361 = x70.mul_add(x360, x92);
+        let x362 = x34 * x304;
+        let x363 = x192.mul_add(x305, x362);
+        let x364 = x70.mul_add(x363, x94);
+        let x365 = x15.mul_add(x301, x300);
+        let x366 = x70 * x365;
+        let x367 = x31 * x302;
+        let x368 = x35.mul_add(x303, x367);
+        let x369 = x70.mul_add(x368, x96);
+        let x370 = x33 * x304;
+        let x371 = x36.mul_add(x305, x370);
+        let x372 = x70.mul_add(x371, x98);
+        let x373 = x70 * x302;
+        let x374 = x70 * x304;
+        let second = [
+            x308.store(),
+            x309.store(),
+            x310.store(),
+            x311.store(),
+            x312.store(),
+            N::ZERO.store(),
+            x313.store(),
+            x314.store(),
+            N::ZERO.store(),
+        ];
+        for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
+            *row = x;
+        }
+        let mut a0 = [[N::ZERO.store(); 16]; ::lagrangian::series::ROWS];
+        a0[2] = [
+            x301.store(),
+            x301.store(),
+            x303.store(),
+            x303.store(),
+            x311.store(),
+            x305.store(),
+            x305.store(),
+            x313.store(),
+            x311.store(),
+            x313.store(),
+            x340.store(),
+            x344.store(),
+            x336.store(),
+            x325.store(),
+            x336.store(),
+            x325.store(),
+        ];
+        let mut b0 = [[N::ZERO.store(); 16]; ::lagrangian::series::ROWS];
+        b0[2] = [
+            x350.store(),
+            x348.store(),
+            x354.store(),
+            x352.store(),
+            x354.store(),
+            x361.store(),
+            x359.store(),
+            x361.store(),
+            x352.store(),
+            x359.store(),
+            x350.store(),
+            x348.store(),
+            x352.store(),
+            x354.store(),
+            x357.store(),
+            x369.store(),
+        ];
+        let mut a1 = [[N::ZERO.store(); 4]; ::lagrangian::series::ROWS];
+        a1[2] = [x330.store(), x319.store(), x330.store(), x319.store()];
+        let mut b1 = [[N::ZERO.store(); 4]; ::lagrangian::series::ROWS];
+        b1[2] = [x359.store(), x361.store(), x364.store(), x372.store()];
+        let mut y18 = x346;
+        let mut y24 = x71;
+        let mut y25 = x74;
+        let mut y27 = x348;
+        let mut y28 = x350;
+        let mut y33 = x311;
+        let mut y35 = x352;
+        let mut y36 = x354;
+        let mut y40 = x313;
+        let mut y42 = x359;
+        let mut y43 = x361;
+        let mut y46 = x319;
+        let mut y47 = x325;
+        let mut y56 = x366;
+        let mut y65 = x330;
+        let mut y66 = x336;
+        let mut y77 = x340;
+        let mut y79 = x344;
+        let mut y88 = x373;
+        let mut y102 = x374;
+        let mut z14 = x301;
+        let mut z34 = x303;
+        let mut z41 = x305;
+        let mut older_y18 = x41;
+        let mut older_y56 = x64;
+        let mut older_y88 = x48;
+        let mut older_y102 = x55;
+        let mut r0 = x299;
+        let mut r1 = x300;
+        let mut r2 = x301;
+        let mut r3 = x302;
+        let mut r6 = x304;
+        let rows = coefficients.iter_mut().take(::lagrangian::series::ROWS);
+        for (order, row) in rows.enumerate().skip(3) {
+            let w0 = ::lagrangian::series::sweep::<N, 16>(&a0, &b0, order - 2);
+            let w1 = ::lagrangian::series::sweep::<N, 4>(&a1, &b1, order - 2);
+            let x375 = y25;
+            let x376 = x6 * x375;
+            let x377 = N::from_ratio(1, order as i64);
+            let x378 = x377 * x376;
+            let x379 = y24;
+            let x380 = x6 * x379;
+            let x381 = -x380;
+            let x382 = x377 * x381;
+            let x383 = w0[0];
+            let x384 = z14;
+            let x385 = x384.mul_add(x47, x383);
+            let x386 = y28;
+            let x387 = x40.mul_add(x386, x385);
+            let x388 = N::from_f64(order as f64);
+            let x389 = x377 * x387;
+            let x390 = w0[1];
+            let x391 = x384.mul_add(x45, x390);
+            let x392 = y27;
+            let x393 = x40.mul_add(x392, x391);
+            let x394 = -x393;
+            let x395 = x377 * x394;
+            let x396 = w0[2];
+            let x397 = z34;
+            let x398 = x397.mul_add(x52, x396);
+            let x399 = y36;
+            let x400 = x49.mul_add(x399, x398);
+            let x401 = x377 * x400;
+            let x402 = w0[3];
+            let x403 = x397.mul_add(x50, x402);
+            let x404 = y35;
+            let x405 = x49.mul_add(x404, x403);
+            let x406 = -x405;
+            let x407 = x377 * x406;
+            let x408 = w0[4];
+            let x409 = y33;
+            let x410 = x409.mul_add(x52, x408);
+            let x411 = x48.mul_add(x399, x410);
+            let x412 = x10.mul_add(x407, x411);
+            let x413 = w0[5];
+            let x414 = z41;
+            let x415 = x414.mul_add(x59, x413);
+            let x416 = y43;
+            let x417 = x56.mul_add(x416, x415);
+            let x418 = x377 * x417;
+            let x419 = w0[6];
+            let x420 = x414.mul_add(x57, x419);
+            let x421 = y42;
+            let x422 = x56.mul_add(x421, x420);
+            let x423 = -x422;
+            let x424 = x377 * x423;
+            let x425 = w0[7];
+            let x426 = y40;
+            let x427 = x426.mul_add(x59, x425);
+            let x428 = x55.mul_add(x416, x427);
+            let x429 = x12.mul_add(x424, x428);
+            let x430 = w0[8];
+            let x431 = x409.mul_add(x50, x430);
+            let x432 = x48.mul_add(x404, x431);
+            let x433 = x10.mul_add(x401, x432);
+            let x434 = w0[9];
+            let x435 = x426.mul_add(x57, x434);
+            let x436 = x55.mul_add(x421, x435);
+            let x437 = x12.mul_add(x418, x436);
+            let x438 = r0;
+            let x439 = r2;
+            let x440 = x99.mul_add(x439, x438);
+            let x441 = r1;
+            let x442 = x101 * x439;
+            let x443 = x442 + x441;
+            let x444 = r3;
+            let x445 = r6;
+            let x446 = N::from_f64((order - 1) as f64);
+            let x447 = x446 * x381;
+            let x448 = x446 * x387;
+            let x449 = x446 * x394;
+            let x450 = x104 * x448;
+            let x451 = x106.mul_add(x449, x450);
+            let x452 = x108.mul_add(x447, x451);
+            let x453 = x388 * x412;
+            let x454 = x446 * x453;
+            let x455 = x388 * x429;
+            let x456 = x446 * x455;
+            let x457 = x454 + x456;
+            let x458 = x113 * x454;
+            let x459 = x115.mul_add(x457, x458);
+            let x460 = older_y18;
+            let x461 = x117 * x460;
+            let x462 = x119.mul_add(x440, x461);
+            let x463 = x122.mul_add(x452, x462);
+            let x464 = x463 + x459;
+            let x465 = x446 * x376;
+            let x466 = x106 * x448;
+            let x467 = x126.mul_add(x449, x466);
+            let x468 = x108.mul_add(x465, x467);
+            let x469 = x388 * x433;
+            let x470 = x446 * x469;
+            let x471 = x388 * x437;
+            let x472 = x446 * x471;
+            let x473 = x470 + x472;
+            let x474 = x113 * x470;
+            let x475 = x115.mul_add(x473, x474);
+            let x476 = older_y56;
+            let x477 = x134 * x476;
+            let x478 = x136.mul_add(x443, x477);
+            let x479 = x122.mul_add(x468, x478);
+            let x480 = x479 + x475;
+            let x481 = x140 * x468;
+            let x482 = x142.mul_add(x452, x481);
+            let x483 = w0[10];
+            let x484 = y77;
+            let x485 = x484.mul_add(x47, x483);
+            let x486 = x482.mul_add(x30, x485);
+            let x487 = x145 * x468;
+            let x488 = x140.mul_add(x452, x487);
+            let x489 = w0[11];
+            let x490 = y79;
+            let x491 = x490.mul_add(x45, x489);
+            let x492 = x488.mul_add(x29, x491);
+            let x493 = x149 * x460;
+            let x494 = x151.mul_add(x476, x493);
+            let x495 = x153.mul_add(x440, x494);
+            let x496 = x155.mul_add(x443, x495);
+            let x497 = x496 + x486;
+            let x498 = x497 - x492;
+            let x499 = w0[12];
+            let x500 = y66;
+            let x501 = x500.mul_add(x50, x499);
+            let x502 = x475.mul_add(x31, x501);
+            let x503 = w0[13];
+            let x504 = y47;
+            let x505 = x504.mul_add(x52, x503);
+            let x506 = x459.mul_add(x32, x505);
+            let x507 = older_y88;
+            let x508 = x162 * x507;
+            let x509 = x164.mul_add(x444, x508);
+            let x510 = x509 + x502;
+            let x511 = x510 + x506;
+            let x512 = w0[14];
+            let x513 = x500.mul_add(x54, x512);
+            let x514 = x475.mul_add(x35, x513);
+            let x515 = w0[15];
+            let x516 = x504.mul_add(x66, x515);
+            let x517 = x459.mul_add(x37, x516);
+            let x518 = x514 - x517;
+            let x519 = w1[0];
+            let x520 = y65;
+            let x521 = x520.mul_add(x57, x519);
+            let x522 = x473.mul_add(x33, x521);
+            let x523 = w1[1];
+            let x524 = y46;
+            let x525 = x524.mul_add(x59, x523);
+            let x526 = x457.mul_add(x34, x525);
+            let x527 = older_y102;
+            let x528 = x174 * x527;
+            let x529 = x176.mul_add(x445, x528);
+            let x530 = x115.mul_add(x522, x529);
+            let x531 = x115.mul_add(x526, x530);
+            let x532 = w1[2];
+            let x533 = x520.mul_add(x61, x532);
+            let x534 = x473.mul_add(x36, x533);
+            let x535 = w1[3];
+            let x536 = x524.mul_add(x68, x535);
+            let x537 = x457.mul_add(x38, x536);
+            let x538 = x115 * x534;
+            let x539 = x183.mul_add(x537, x538);
+            let x540 = -x464;
+            let x541 = -x480;
+            let x542 = -x498;
+            let x543 = -x511;
+            let x544 = -x518;
+            let x545 = -x531;
+            let x546 = -x539;
+            let mut x547 = [
+                x540.store(),
+                x541.store(),
+                x542.store(),
+                x543.store(),
+                x544.store(),
+                x545.store(),
+                x546.store(),
+            ];
+            let mut room547 = x547;
+            let (x, room) = (&mut x547, &mut room547);
+            ::lagrangian::series::solve::<N>(7, &x288, x, room);
+            let x548 = n(x547[0]);
+            let x549 = n(x547[1]);
+            let x550 = n(x547[2]);
+            let x551 = n(x547[3]);
+            let x552 = n(x547[4]);
+            let x553 = n(x547[5]);
+            let x554 = n(x547[6]);
+            let x555 = N::from_ratio(1, order as i64 - 1);
+            let x556 = x548 * x555;
+            let x557 = x556 * x377;
+            let x558 = x549 * x555;
+            let x559 = x558 * x377;
+            let x560 = x550 * x555;
+            let x561 = x560 * x377;
+            let x562 = x551 * x555;
+            let x563 = x562 * x377;
+            let x564 = x552 * x555;
+            let x565 = x564 * x377;
+            let x566 = x553 * x555;
+            let x567 = x566 * x377;
+            let x568 = x554 * x555;
+            let x569 = x568 * x377;
+            let x570 = x555 * x377;
+            let x571 = x32.mul_add(x551, x548);
+            let x572 = x190.mul_add(x552, x571);
+            let x573 = x34.mul_add(x553, x572);
+            let x574 = x192.mul_add(x554, x573);
+            let x575 = x457 + x574;
+            let x576 = x195 * x548;
+            let x577 = x196.mul_add(x551, x576);
+            let x578 = x197.mul_add(x552, x577);
+            let x579 = x198.mul_add(x553, x578);
+            let x580 = x199.mul_add(x554, x579);
+            let x581 = x459 + x580;
+            let x582 = x31.mul_add(x551, x549);
+            let x583 = x35.mul_add(x552, x582);
+            let x584 = x33.mul_add(x553, x583);
+            let x585 = x36.mul_add(x554, x584);
+            let x586 = x473 + x585;
+            let x587 = x195 * x549;
+            let x588 = x207.mul_add(x551, x587);
+            let x589 = x208.mul_add(x552, x588);
+            let x590 = x209.mul_add(x553, x589);
+            let x591 = x210.mul_add(x554, x590);
+            let x592 = x475 + x591;
+            let x593 = x142 * x548;
+            let x594 = x140.mul_add(x549, x593);
+            let x595 = x213.mul_add(x550, x594);
+            let x596 = x482 + x595;
+            let x597 = x140 * x548;
+            let x598 = x145.mul_add(x549, x597);
+            let x599 = x218.mul_add(x550, x598);
+            let x600 = x488 + x599;
+            let x601 = x2.mul_add(x550, x548);
+            let x602 = x570 * x601;
+            let x603 = x30 * x550;
+            let x604 = x570.mul_add(x603, x389);
+            let x605 = x186 * x550;
+            let x606 = x570.mul_add(x605, x395);
+            let x607 = x32 * x552;
+            let x608 = x570.mul_add(x607, x401);
+            let x609 = x189 * x552;
+            let x610 = x570.mul_add(x609, x407);
+            let x611 = x32 * x551;
+            let x612 = x190.mul_add(x552, x611);
+            let x613 = x570.mul_add(x612, x412);
+            let x614 = x34 * x554;
+            let x615 = x570.mul_add(x614, x418);
+            let x616 = x191 * x554;
+            let x617 = x570.mul_add(x616, x424);
+            let x618 = x34 * x553;
+            let x619 = x192.mul_add(x554, x618);
+            let x620 = x570.mul_add(x619, x429);
+            let x621 = x15.mul_add(x550, x549);
+            let x622 = x570 * x621;
+            let x623 = x31 * x551;
+            let x624 = x35.mul_add(x552, x623);
+            let x625 = x570.mul_add(x624, x433);
+            let x626 = x33 * x553;
+            let x627 = x36.mul_add(x554, x626);
+            let x628 = x570.mul_add(x627, x437);
+            let x629 = x570 * x551;
+            let x630 = x570 * x553;
+            let x631 = y18;
+            let x632 = y56;
+            let x633 = y88;
+            let x634 = y102;
+            *row = [
+                x557.store(),
+                x559.store(),
+                x561.store(),
+                x563.store(),
+                x565.store(),
+                N::ZERO.store(),
+                x567.store(),
+                x569.store(),
+                N::ZERO.store(),
+            ];
+            if let Some(kept) = a0.get_mut(order) {
+                *kept = [
+                    x560.store(),
+                    x560.store(),
+                    x564.store(),
+                    x564.store(),
+                    x563.store(),
+                    x568.store(),
+                    x568.store(),
+                    x567.store(),
+                    x563.store(),
+                    x567.store(),
+                    x596.store(),
+                    x600.store(),
+                    x592.store(),
+                    x581.store(),
+                    x592.store(),
+                    x581.store(),
+                ];
+            }
+            if let Some(kept) = b0.get_mut(order) {
+                *kept = [
+                    x606.store(),
+                    x604.store(),
+                    x610.store(),
+                    x608.store(),
+                    x610.store(),
+                    x617.store(),
+                    x615.store(),
+                    x617.store(),
+                    x608.store(),
+                    x615.store(),
+                    x606.store(),
+                    x604.store(),
+                    x608.store(),
+                    x610.store(),
+                    x613.store(),
+                    x625.store(),
+                ];
+            }
+            if let Some(kept) = a1.get_mut(order) {
+                *kept = [x586.store(), x575.store(), x586.store(), x575.store()];
+            }
+            if let Some(kept) = b1.get_mut(order) {
+                *kept = [x615.store(), x617.store(), x620.store(), x628.store()];
+            }
+            y18 = x602;
+            y24 = x378;
+            y25 = x382;
+            y27 = x604;
+            y28 = x606;
+            y33 = x563;
+            y35 = x608;
+            y36 = x610;
+            y40 = x567;
+            y42 = x615;
+            y43 = x617;
+            y46 = x575;
+            y47 = x581;
+            y56 = x622;
+            y65 = x586;
+            y66 = x592;
+            y77 = x596;
+            y79 = x600;
+            y88 = x629;
+            y102 = x630;
+            z14 = x560;
+            z34 = x564;
+            z41 = x568;
+            older_y18 = x631;
+            older_y56 = x632;
+            older_y88 = x633;
+            older_y102 = x634;
+            r0 = x556;
+            r1 = x558;
+            r2 = x560;
+            r3 = x562;
+            r6 = x566;
+        }
+        Ok(())
+    }
+}
+
 /// Names and units.
 const PARAMETERS: [(&str, &str); 25] = [
     ("m", "kg"),
@@ -1130,6 +2091,31 @@ impl ::lagrangian::System for Prepared {
         result: &mut [f64; 9],
     ) -> Result<(), ::lagrangian::Singular> {
         <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    }
+
+    fn check_series(&self) -> Result<(), &str> {
+        Ok(())
+    }
+
+    fn series(
+        &self,
+        t: [f64; 2],
+        q: &[f64; 9],
+        v: &[f64; 9],
+        _: &Inputs,
+        coefficients: &mut [[f64; 9]],
+    ) -> Result<(), ::lagrangian::Singular> {
+        for row in coefficients.iter_mut().skip(::lagrangian::series::ROWS) {
+            *row = [f64::NAN; 9];
+        }
+        let series = Series {
+            p: self,
+            t,
+            q,
+            v,
+            coefficients,
+        };
+        <f64 as ::lagrangian::Number>::run(series)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1276,6 +2262,7 @@ where
             k28: lanes(|p| p.k28),
             k29: lanes(|p| p.k29),
             singular: None,
+            series: ::core::array::from_fn(|i| ::lagrangian::Lanes(systems.map(|p| p.series[i]))),
         }
     }
 

@@ -94,6 +94,17 @@ impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
         let k10 = -k8;
         let k11 = -k7;
         let k12 = S::ONE / pivot_0;
+        let c0 = self.g;
+        let c1 = self.l1;
+        let c2 = -c1;
+        let c3 = self.l2;
+        let c4 = -c3;
+        let c5 = self.m1;
+        let c6 = -c5;
+        let c7 = self.m2;
+        let c8 = -c7;
+        let c9 = c5 * c1;
+        let c10 = c7 * c3;
         let singular = if vanishes(pivot_0, pivot_0, 1.7763568394002505e-15) {
             Some(singular(0, pivot_0, pivot_0))
         } else {
@@ -116,6 +127,7 @@ impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
             k11,
             k12,
             singular,
+            series: [c0, c2, c1, c3, c4, c6, c8, c9, c7, c10],
         }
     }
 
@@ -206,6 +218,8 @@ pub struct Prepared<S = f64> {
     k11: S,
     /// `1/(m1*l1^2 + m2*l1^2)`
     k12: S,
+    /// What the Taylor series takes from the parameters.
+    series: [S; 10],
     /// Why these parameters leave the machine without accelerations, if they do.
     singular: Option<::lagrangian::Singular>,
 }
@@ -373,6 +387,318 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
     -(p.k1 * (cos_theta2 * p.l2 + cos_theta1 * p.l1) + cos_theta1 * p.k0)
 }
 
+/// The Taylor series of the motion through a state, to be run with whatever instructions the
+/// processor has: row `j` of `coefficients` becomes `q⁽ʲ⁾/j!`. The time is the sum of two numbers.
+pub struct Series<'a, S> {
+    p: &'a Prepared<S>,
+    q: &'a [S; 2],
+    v: &'a [S; 2],
+    coefficients: &'a mut [[S; 2]],
+}
+
+impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
+    type Output = Result<(), ::lagrangian::Singular>;
+
+    #[inline(always)]
+    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+        let Self {
+            p,
+            q,
+            v,
+            coefficients,
+        } = self;
+        let n = N::load;
+        let x0 = n(q[0]);
+        let x1 = n(q[1]);
+        let angles2 = [x0, x1];
+        let x2 = N::sin_cos_all(angles2);
+        let x3 = x2[0].0;
+        let x4 = x2[0].1;
+        let x5 = x2[1].0;
+        let x6 = x2[1].1;
+        let x7 = n(v[0]);
+        let x8 = x7 * x4;
+        let x9 = x7 * x3;
+        let x10 = -x9;
+        let x11 = n(v[1]);
+        let x12 = x11 * x6;
+        let x13 = x11 * x5;
+        let x14 = -x13;
+        let x15 = x7 * x10;
+        let x17 = N::from_f64(0.5);
+        let x18 = x17 * x15;
+        let x19 = x7 * x8;
+        let x20 = -x19;
+        let x21 = x17 * x20;
+        let x22 = x11 * x14;
+        let x23 = x17 * x22;
+        let x24 = x11 * x12;
+        let x25 = -x24;
+        let x26 = x17 * x25;
+        let x27 = n(p.series[0]);
+        let x28 = n(p.series[1]);
+        let x29 = x28.mul_add(x20, x27);
+        let x30 = n(p.series[2]);
+        let x31 = x30 * x15;
+        let x32 = n(p.series[3]);
+        let x33 = x32.mul_add(x22, x31);
+        let x34 = x28 * x20;
+        let x35 = n(p.series[4]);
+        let x36 = x35.mul_add(x25, x34);
+        let x37 = x27 + x36;
+        let x38 = n(p.series[5]);
+        let x39 = x38 * x29;
+        let x40 = n(p.series[6]);
+        let x41 = x40.mul_add(x37, x39);
+        let x42 = n(p.series[7]);
+        let x43 = x42 * x15;
+        let x44 = n(p.series[8]);
+        let x45 = x44.mul_add(x33, x43);
+        let x46 = x3 * x41;
+        let x47 = x4 * x45;
+        let x48 = x30 * x47;
+        let x49 = x28.mul_add(x46, x48);
+        let x50 = x5 * x37;
+        let x51 = x6 * x33;
+        let x52 = n(p.series[9]);
+        let x53 = x52 * x51;
+        let x54 = x52.mul_add(x50, x53);
+        let x55 = -x3;
+        let x56 = x28 * x55;
+        let x57 = -x5;
+        let x58 = x30 * x4;
+        let x59 = x32 * x6;
+        let x60 = x35 * x57;
+        let x61 = x38 * x56;
+        let x62 = x40.mul_add(x56, x61);
+        let x63 = x40 * x60;
+        let x64 = x42 * x4;
+        let x65 = x44.mul_add(x58, x64);
+        let x66 = x44 * x59;
+        let x67 = x3 * x62;
+        let x68 = x3 * x63;
+        let x69 = x4 * x65;
+        let x70 = x4 * x66;
+        let x71 = x30 * x69;
+        let x72 = x30 * x70;
+        let x73 = x28.mul_add(x67, x71);
+        let x74 = x28.mul_add(x68, x72);
+        let x75 = x5 * x56;
+        let x76 = x5 * x60;
+        let x77 = x6 * x58;
+        let x78 = x6 * x59;
+        let x79 = x52 * x77;
+        let x80 = x52 * x78;
+        let x81 = x52.mul_add(x75, x79);
+        let x82 = x52.mul_add(x76, x80);
+        let mut x83 = [x73.store(), x74.store(), x81.store(), x82.store()];
+        let members83 = [0, 1];
+        let factored = ::lagrangian::series::factor::<N>(2, 2, &mut x83);
+        if let Err(vanished) = factored {
+            let singular = ::lagrangian::series::singular(vanished, &members83, 2);
+            return Err(singular);
+        }
+        let x84 = -x49;
+        let x85 = -x54;
+        let x86 = n(x83[0]);
+        let x87 = x86 * x84;
+        let x88 = n(x83[2]);
+        let x89 = x88.mul_add(x85, x87);
+        let x90 = n(x83[1]);
+        let x91 = x90 * x84;
+        let x92 = n(x83[3]);
+        let x93 = x92.mul_add(x85, x91);
+        let x94 = x89 * x17;
+        let x95 = x93 * x17;
+        let x96 = x58 * x89;
+        let x97 = x59.mul_add(x93, x96);
+        let x98 = x33 + x97;
+        let x99 = x56 * x89;
+        let x100 = x60.mul_add(x93, x99);
+        let x101 = x37 + x100;
+        let x102 = x62 * x89;
+        let x103 = x63.mul_add(x93, x102);
+        let x104 = x41 + x103;
+        let x105 = x65 * x89;
+        let x106 = x66.mul_add(x93, x105);
+        let x107 = x45 + x106;
+        let x108 = x4 * x89;
+        let x109 = x17.mul_add(x108, x18);
+        let x110 = x55 * x89;
+        let x111 = x17.mul_add(x110, x21);
+        let x112 = x6 * x93;
+        let x113 = x17.mul_add(x112, x23);
+        let x114 = x57 * x93;
+        let x115 = x17.mul_add(x114, x26);
+        let second = [x94.store(), x95.store()];
+        for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
+            *row = x;
+        }
+        let mut a0 = [[N::ZERO.store(); 8]; ::lagrangian::series::ROWS];
+        a0[2] = [
+            x89.store(),
+            x89.store(),
+            x93.store(),
+            x93.store(),
+            x104.store(),
+            x107.store(),
+            x101.store(),
+            x98.store(),
+        ];
+        let mut b0 = [[N::ZERO.store(); 8]; ::lagrangian::series::ROWS];
+        b0[2] = [
+            x111.store(),
+            x109.store(),
+            x115.store(),
+            x113.store(),
+            x109.store(),
+            x111.store(),
+            x113.store(),
+            x115.store(),
+        ];
+        let mut y6 = x109;
+        let mut y7 = x111;
+        let mut y15 = x113;
+        let mut y16 = x115;
+        let mut y18 = x98;
+        let mut y22 = x101;
+        let mut y25 = x104;
+        let mut y26 = x107;
+        let mut z5 = x89;
+        let mut z14 = x93;
+        let rows = coefficients.iter_mut().take(::lagrangian::series::ROWS);
+        for (order, row) in rows.enumerate().skip(3) {
+            let w0 = ::lagrangian::series::sweep::<N, 8>(&a0, &b0, order - 2);
+            let x116 = w0[0];
+            let x117 = z5;
+            let x118 = x117.mul_add(x10, x116);
+            let x119 = y7;
+            let x120 = x7.mul_add(x119, x118);
+            let x122 = N::from_ratio(1, order as i64);
+            let x123 = x122 * x120;
+            let x124 = w0[1];
+            let x125 = x117.mul_add(x8, x124);
+            let x126 = y6;
+            let x127 = x7.mul_add(x126, x125);
+            let x128 = -x127;
+            let x129 = x122 * x128;
+            let x130 = w0[2];
+            let x131 = z14;
+            let x132 = x131.mul_add(x14, x130);
+            let x133 = y16;
+            let x134 = x11.mul_add(x133, x132);
+            let x135 = x122 * x134;
+            let x136 = w0[3];
+            let x137 = x131.mul_add(x12, x136);
+            let x138 = y15;
+            let x139 = x11.mul_add(x138, x137);
+            let x140 = -x139;
+            let x141 = x122 * x140;
+            let x142 = N::from_f64((order - 1) as f64);
+            let x143 = x142 * x120;
+            let x144 = x142 * x128;
+            let x145 = x28 * x144;
+            let x146 = x142 * x134;
+            let x147 = x30 * x143;
+            let x148 = x32.mul_add(x146, x147);
+            let x149 = x142 * x140;
+            let x150 = x35.mul_add(x149, x145);
+            let x151 = x38 * x145;
+            let x152 = x40.mul_add(x150, x151);
+            let x153 = x42 * x143;
+            let x154 = x44.mul_add(x148, x153);
+            let x155 = w0[4];
+            let x156 = y25;
+            let x157 = x156.mul_add(x8, x155);
+            let x158 = x152.mul_add(x3, x157);
+            let x159 = w0[5];
+            let x160 = y26;
+            let x161 = x160.mul_add(x10, x159);
+            let x162 = x154.mul_add(x4, x161);
+            let x163 = x30 * x162;
+            let x164 = x28.mul_add(x158, x163);
+            let x165 = w0[6];
+            let x166 = y22;
+            let x167 = x166.mul_add(x12, x165);
+            let x168 = x150.mul_add(x5, x167);
+            let x169 = w0[7];
+            let x170 = y18;
+            let x171 = x170.mul_add(x14, x169);
+            let x172 = x148.mul_add(x6, x171);
+            let x173 = x52 * x172;
+            let x174 = x52.mul_add(x168, x173);
+            let x175 = -x164;
+            let x176 = -x174;
+            let x177 = x86 * x175;
+            let x178 = x88.mul_add(x176, x177);
+            let x179 = x90 * x175;
+            let x180 = x92.mul_add(x176, x179);
+            let x181 = N::from_ratio(1, order as i64 - 1);
+            let x182 = x178 * x181;
+            let x183 = x182 * x122;
+            let x184 = x180 * x181;
+            let x185 = x184 * x122;
+            let x186 = x181 * x122;
+            let x187 = x58 * x178;
+            let x188 = x59.mul_add(x180, x187);
+            let x189 = x148 + x188;
+            let x190 = x56 * x178;
+            let x191 = x60.mul_add(x180, x190);
+            let x192 = x150 + x191;
+            let x193 = x62 * x178;
+            let x194 = x63.mul_add(x180, x193);
+            let x195 = x152 + x194;
+            let x196 = x65 * x178;
+            let x197 = x66.mul_add(x180, x196);
+            let x198 = x154 + x197;
+            let x199 = x4 * x178;
+            let x200 = x186.mul_add(x199, x123);
+            let x201 = x55 * x178;
+            let x202 = x186.mul_add(x201, x129);
+            let x203 = x6 * x180;
+            let x204 = x186.mul_add(x203, x135);
+            let x205 = x57 * x180;
+            let x206 = x186.mul_add(x205, x141);
+            *row = [x183.store(), x185.store()];
+            if let Some(kept) = a0.get_mut(order) {
+                *kept = [
+                    x182.store(),
+                    x182.store(),
+                    x184.store(),
+                    x184.store(),
+                    x195.store(),
+                    x198.store(),
+                    x192.store(),
+                    x189.store(),
+                ];
+            }
+            if let Some(kept) = b0.get_mut(order) {
+                *kept = [
+                    x202.store(),
+                    x200.store(),
+                    x206.store(),
+                    x204.store(),
+                    x200.store(),
+                    x202.store(),
+                    x204.store(),
+                    x206.store(),
+                ];
+            }
+            y6 = x200;
+            y7 = x202;
+            y15 = x204;
+            y16 = x206;
+            y18 = x189;
+            y22 = x192;
+            y25 = x195;
+            y26 = x198;
+            z5 = x182;
+            z14 = x184;
+        }
+        Ok(())
+    }
+}
+
 /// Names and units.
 const PARAMETERS: [(&str, &str); 5] = [
     ("m1", "kg"),
@@ -451,6 +777,30 @@ impl ::lagrangian::System for Prepared {
         result: &mut [f64; 2],
     ) -> Result<(), ::lagrangian::Singular> {
         <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+
+    fn check_series(&self) -> Result<(), &str> {
+        Ok(())
+    }
+
+    fn series(
+        &self,
+        _: [f64; 2],
+        q: &[f64; 2],
+        v: &[f64; 2],
+        _: &Inputs,
+        coefficients: &mut [[f64; 2]],
+    ) -> Result<(), ::lagrangian::Singular> {
+        for row in coefficients.iter_mut().skip(::lagrangian::series::ROWS) {
+            *row = [f64::NAN; 2];
+        }
+        let series = Series {
+            p: self,
+            q,
+            v,
+            coefficients,
+        };
+        <f64 as ::lagrangian::Number>::run(series)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -554,6 +904,7 @@ where
             k11: lanes(|p| p.k11),
             k12: lanes(|p| p.k12),
             singular: None,
+            series: ::core::array::from_fn(|i| ::lagrangian::Lanes(systems.map(|p| p.series[i]))),
         }
     }
 

@@ -99,6 +99,8 @@ pub struct Model<'d> {
     pub derivatives: Vec<Variable>,
     /// Which stages of the accelerations are to be computed by themselves.
     pub stages: Stages,
+    /// Where emitted code is asked to have the Taylor series of the motion, if it is.
+    pub taylor: Option<Span>,
     /// Which start values stay as they are where the start does not obey the constraints:
     /// coordinates and rates, each once.
     pub kept: Vec<Variable>,

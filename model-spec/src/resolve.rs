@@ -22,6 +22,7 @@
 //! | [`relaxation`] | the same machine with its guides relaxed |
 //! | [`derivatives`] | what accelerations are to be differentiated by |
 //! | [`stages`] | which of their stages are to be computed by themselves |
+//! | [`methods`] | the methods of integration that emitted code is to have more for |
 //! | [`keep`] | which start values stay as they are |
 //! | [`brachistochrone`] | where the fastest motion ends |
 //! | [`outside`] | values that are given from outside |
@@ -40,6 +41,7 @@ mod frames;
 mod items;
 mod keep;
 mod layers;
+mod methods;
 mod names;
 mod outside;
 mod published;
@@ -255,6 +257,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         });
         let outputs = self.each(Outputs, Self::output);
         let derivatives = self.variables(Derivatives, Self::differentiated_by);
+        let methods = self.each(Methods, Self::method);
         let stages = self.each(Stages, |resolver, member| Some(resolver.stage(member)));
         let kept = self.variables(Keep, Self::kept);
         let destination = self.destination(layers, &coordinates);
@@ -297,6 +300,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
                 time: stages.iter().any(|stages| stages.time),
                 coordinates: stages.iter().any(|stages| stages.coordinates),
             },
+            taylor: methods.into_iter().next(),
             kept,
             destination,
             published,

@@ -12,7 +12,7 @@
 //! source      = machine
 //! machine     = "machine" NAME {"in" ("plane" | "space") | "extends" TEXT} "{" {entry} "}"
 //! entry       = quantities | values | records | constraints | assume | approximations
-//!             | derivatives | stages | keep | brachistochrone | gravity | published | remove
+//!             | derivatives | stages | methods | keep | brachistochrone | gravity | published | remove
 //!
 //! quantities  = ("parameters" | "constants" | "coordinates" | "inputs" | "outputs")
 //!               "{" list(declared [":" unit] ["=" expression]) "}"
@@ -28,6 +28,7 @@
 //! approximations = "approximations" "{" list(declared ":" ("frozen" | "small")) "}"
 //! derivatives = "derivatives" "{" list(declared) "}"
 //! stages      = "stages" "{" list(declared) "}"
+//! methods     = "methods" "{" list(declared) "}"
 //! keep        = "keep" "{" list(start) "}"
 //! start       = declared | "der" "(" declared ")"
 //! brachistochrone = "brachistochrone" "{" list(declared "=" expression) "}"

@@ -1,6 +1,7 @@
 //! The machines of the library run, and are held against closed forms, publications and more digits.
 
 mod crushers;
+mod emitted_series;
 mod friction;
 mod library;
 mod mechanisms;

@@ -108,6 +108,7 @@ fn compile(root: &Path, path: &Path) -> Result<Machine, String> {
     let options = rust::Options {
         origin: vec![origin.clone()],
         formulas: compiled.formulas(),
+        series: compiled.series.clone(),
         ..rust::Options::default()
     };
     Ok(Machine {

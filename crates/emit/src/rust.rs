@@ -13,6 +13,7 @@ mod lanes;
 mod language;
 mod library;
 mod prepared;
+mod series;
 mod stages;
 mod structs;
 mod stub;
@@ -25,6 +26,7 @@ use super::body::Plan;
 use super::layout::Writer;
 use super::names::{Field, Scope, identifier, snake_case};
 use docs::prose;
+use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_mechanics::{Proved, Unproved};
 use lagrangian_program::{Counts, Function, Op, Program, Role};
 use types::{Group, Types};
@@ -40,6 +42,8 @@ pub struct Options {
     pub origin: Vec<String>,
     /// For each role the formulas that its documentation shows, `T = 1/2*m*der(x)^2`.
     pub formulas: BTreeMap<Role, Vec<String>>,
+    /// The Taylor series of the motion, if the machine asks for it.
+    pub series: Option<ProvedSeries>,
     /// The most operations of a function that is not cut into pieces. Beyond some thousand a compiler that describes every
     /// variable to a debugger needs more stack than it has.
     pub longest_whole: usize,
@@ -65,6 +69,7 @@ impl Default for Options {
             runtime: "::lagrangian".into(),
             origin: Vec::new(),
             formulas: BTreeMap::new(),
+            series: None,
             longest_whole: super::cut::LONGEST_WHOLE,
             shortest_rolled: SHORTEST_ROLLED,
             marks: false,
@@ -185,6 +190,9 @@ impl<'a> Emitter<'a> {
         let rolled = program.functions.iter().filter(|f| is_whole(f.role));
         let plans: BTreeMap<Role, Plan> = rolled.filter_map(plan).collect();
         let mut scope = Scope::with(&["singular"]);
+        if options.series.is_some() {
+            scope.take("series");
+        }
         let prepared_families = prepared::families(program, &plans, &mut scope);
         let prepared = prepared::paths(program, &prepared_families, &mut scope);
         Emitter {
@@ -220,6 +228,7 @@ impl<'a> Emitter<'a> {
         if !self.outputs.is_empty() {
             self.all_outputs();
         }
+        self.series_kernel();
         self.tables();
         self.table_of_constraints();
         self.table_of_contacts();

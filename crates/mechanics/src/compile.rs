@@ -7,9 +7,10 @@ use crate::Proved;
 use crate::equations::refusal::refuse_large;
 use crate::formulas;
 use crate::lower::lower_by;
+use crate::series::ProvedSeries;
 use lagrangian_program::choose::best;
 use lagrangian_program::{Basis, Role};
-use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::diagnostic::{Code, Diagnostic, Report};
 use lagrangian_spec::model::Model;
 
 /// A machine, through every stage.
@@ -21,6 +22,8 @@ pub struct Compiled<'d> {
     pub equations: Equations<'d>,
     /// How they are computed; held against Lagrange's equations of this machine.
     pub program: Proved,
+    /// The Taylor series of its motion, proved; where the machine asks for it.
+    pub series: Option<ProvedSeries>,
 }
 
 impl<'d> Compiled<'d> {
@@ -54,15 +57,43 @@ impl<'d> Compiled<'d> {
             Some(expanded) if is_expanded => expanded,
             _ => equations,
         };
+        let series = match model.taylor.map(|span| (span, emitted_series(&model))) {
+            None => None,
+            Some((_, Ok(series))) => Some(series),
+            Some((span, Err(reason))) => {
+                let message = format!("`{}` has no Taylor series here: {reason}", model.name);
+                let help = "without `taylor` it can be derived, and other methods integrate it";
+                let diagnostic = Diagnostic::new(Code::NotSupported, span, message);
+                report.push(diagnostic.help(help));
+                return None;
+            }
+        };
         Some(Compiled {
             model,
             equations,
             program,
+            series,
         })
     }
 
     /// For each function the formulas that its documentation shows.
     pub fn formulas(&self) -> BTreeMap<Role, Vec<String>> {
         formulas::formulas(&self.program, &self.model, &self.equations)
+    }
+}
+
+/// The series of a machine as emitted code has it.
+fn emitted_series(model: &Model<'_>) -> Result<ProvedSeries, String> {
+    if !model.contacts.is_empty() {
+        return Err("it has contacts that close and open".into());
+    }
+    let series = ProvedSeries::derive(model).map_err(|reason| reason.to_string())?;
+    if series.unwritten().is_some() {
+        let reason = "emitted code multiplies positions, their sines and forces only; the interpreter has it";
+        return Err(reason.into());
+    }
+    match series.is_short() {
+        true => Ok(series),
+        false => Err("it is too long to be written down".into()),
     }
 }

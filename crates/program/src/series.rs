@@ -17,6 +17,7 @@
 //! Derivatives*, 2nd ed., 2008, ch. 13.
 
 mod expand;
+mod recurrence;
 mod rows;
 
 use std::fmt;
@@ -24,6 +25,7 @@ use std::fmt;
 use lagrangian_symbolic::{Function as Call, Rational};
 
 pub use expand::Expander;
+pub use recurrence::{Along, Arithmetic, Coefficient, Convolution, Order, Stream};
 
 /// The index of a row in [`Series::rows`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -116,6 +118,8 @@ pub struct Series {
     /// For each row the coordinates by which it changes at its own level: positions by coordinates, what depends on
     /// accelerations by these.
     pub depends: Vec<Vec<u32>>,
+    /// For each row whether it is the time or a sum that grows with it: what rounding takes from it is known.
+    pub exact: Vec<bool>,
     /// The rows of the residuals, one for each coordinate and one for each constraint, in the order of what is solved for.
     pub residuals: Vec<RowId>,
     /// The number of coordinates.
@@ -135,6 +139,37 @@ impl Series {
     /// How many numbers are solved for at each order: accelerations, and multipliers of constraints.
     pub fn unknowns(&self) -> usize {
         self.residuals.len()
+    }
+
+    /// Whether straight code for it is not longer than a compiler of such code takes in seconds.
+    pub fn is_short(&self) -> bool {
+        let gradients: usize = self.depends.iter().map(Vec::len).sum();
+        gradients + 4 * self.rows.len() <= MOST_STRAIGHT
+    }
+
+    /// The first row whose operation is interpreted and not written down: straight code has sums, products, sines and cosines of
+    /// positions, forces along them, and rates as they stand.
+    pub fn unwritten(&self) -> Option<&Row> {
+        let rows = (0..self.rows.len() as u32).map(RowId);
+        let mut varying = rows.filter(|row| self.varies(*row));
+        let found = varying.find(|&row| {
+            let is_known = matches!(
+                self.rows[row.index()],
+                Row::Input(_)
+                    | Row::Time
+                    | Row::Coordinate(_)
+                    | Row::Rate(_)
+                    | Row::Acceleration(_)
+                    | Row::Second(_)
+                    | Row::Sum(_)
+                    | Row::Product(..)
+                    | Row::Sin(..)
+                    | Row::Cos(..)
+            );
+            let sums = self.convolutions(row);
+            !is_known || sums.iter().any(|sum| sum.along == Along::Rest)
+        });
+        found.map(|row| &self.rows[row.index()])
     }
 
     /// How many products of series one order takes: a square counts half, a sine with its cosine two.
@@ -199,6 +234,9 @@ impl fmt::Display for NoSeries {
 }
 
 impl std::error::Error for NoSeries {}
+
+/// The most operations of a series that is written down as straight code.
+const MOST_STRAIGHT: usize = 20_000;
 
 /// The most rows of a series.
 pub const MOST_ROWS: usize = 100_000;

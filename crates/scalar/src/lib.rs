@@ -16,6 +16,8 @@ mod kernel;
 mod real;
 pub mod residue;
 #[doc(hidden)]
+pub mod series;
+#[doc(hidden)]
 pub mod text;
 
 pub use ball::Ball;

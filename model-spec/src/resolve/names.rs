@@ -181,6 +181,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         });
         self.declare_section(layer, Derivatives, &spec.derivatives, |()| Content::Nothing);
         self.declare_section(layer, Stages, &spec.stages, |()| Content::Nothing);
+        self.declare_section(layer, Methods, &spec.methods, |()| Content::Nothing);
         self.declare_section(layer, Keep, &spec.keep, |()| Content::Nothing);
     }
 

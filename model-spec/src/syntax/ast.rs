@@ -62,6 +62,8 @@ pub struct Spec {
     pub derivatives: Vec<Item<()>>,
     /// `time`, `coordinates`
     pub stages: Vec<Item<()>>,
+    /// The methods of integration that emitted code is to have more for than its accelerations.
+    pub methods: Vec<Item<()>>,
     /// `theta`, or `der(theta)`, which is the name of a rate here
     pub keep: Vec<Item<()>>,
     /// `coordinate = expression`
@@ -190,6 +192,7 @@ sections! {
     Outputs => "outputs",
     Derivatives => "derivatives",
     Stages => "stages",
+    Methods => "methods",
     Keep => "keep",
     Brachistochrone => "brachistochrone",
     Published => "published",
@@ -264,6 +267,7 @@ impl SectionKind {
             SectionKind::Outputs => "an output",
             SectionKind::Derivatives => "a derivative",
             SectionKind::Stages => "a stage",
+            SectionKind::Methods => "a method of integration",
             SectionKind::Keep => "a start value that is kept",
             SectionKind::Brachistochrone => "the end of a coordinate",
             SectionKind::Published => "a published equation",

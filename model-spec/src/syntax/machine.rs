@@ -258,6 +258,7 @@ impl Parser<'_> {
             SectionKind::Approximations => self.approximations(&mut spec.approximations),
             SectionKind::Derivatives => self.words(kind, &mut spec.derivatives),
             SectionKind::Stages => self.words(kind, &mut spec.stages),
+            SectionKind::Methods => self.words(kind, &mut spec.methods),
             SectionKind::Keep => self.kept(&mut spec.keep),
             SectionKind::Brachistochrone => self.values(kind, &mut spec.brachistochrone, '='),
             SectionKind::Assume => self.assume(&mut spec.assume),

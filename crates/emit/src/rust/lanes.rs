@@ -1,6 +1,7 @@
 //! Several systems at once: what the runtime's `Batch` asks of emitted code.
 
 use super::Emitter;
+use super::structs::with_field;
 use super::types::Types;
 use crate::layout::{self, Layout};
 use lagrangian_program::Role;
@@ -42,7 +43,12 @@ impl Emitter<'_> {
         let gather = format!("let lanes = |number: fn(&Self) -> {f64}|");
         self.writer.gap();
         let is_empty = self.prepared.is_empty();
-        let argument = if is_empty { "_" } else { "systems" };
+        let has_series = self.number_of_constants_of_series().is_some();
+        let argument = if is_empty && !has_series {
+            "_"
+        } else {
+            "systems"
+        };
         self.writer.signature(
             "fn batch",
             &[format!("{argument}: [&Self; {lanes}]")],
@@ -58,6 +64,12 @@ impl Emitter<'_> {
         if let (Layout::Struct(_, fields), true) = (&mut value, has_guards) {
             fields.push(("singular".into(), Layout::Atom("None".into())));
         }
+        let series = self.number_of_constants_of_series().map(|_| {
+            let value = "::core::array::from_fn(|i| Lanes(systems.map(|p| p.series[i])))";
+            let value = value.replace("Lanes", &format!("{runtime}::Lanes"));
+            ("series".to_owned(), Layout::Atom(value))
+        });
+        let value = with_field(value, series);
         self.writer.expression("", &value, "");
         self.writer.close("}");
 

@@ -287,7 +287,7 @@ fn method(function: symbolic::Function) -> &'static str {
 }
 
 /// A rational number, exact in every type that can hold it.
-fn rational(scalar: &str, value: &Rational) -> Text {
+pub(super) fn rational(scalar: &str, value: &Rational) -> Text {
     let nearest = value.to_f64();
     Text::call(match (value.numerator(), value.denominator()) {
         (Some(0), Some(1)) => return Text::leaf(format!("{scalar}::ZERO")),

@@ -212,6 +212,7 @@ impl Emitter<'_> {
                 texts.into_iter().map(|text| text.text).collect()
             }
         };
+        let series = self.constants_of_series();
         let (values, pivots) = texts.split_at(self.prepared.len());
         for (i, (guard, pair)) in function.guards.iter().zip(pivots.chunks(2)).enumerate() {
             let (pivot, scale) = (&pair[0], &pair[1]);
@@ -237,6 +238,7 @@ impl Emitter<'_> {
             }
             prepared => prepared,
         };
+        let prepared = with_field(prepared, series);
         self.writer.expression("", &prepared, "");
         self.writer.close("}");
     }
@@ -382,6 +384,10 @@ impl Emitter<'_> {
         if self.prepared.is_empty() {
             self.writer.line(marker);
         }
+        if let Some(count) = self.number_of_constants_of_series() {
+            self.docs("What the Taylor series takes from the parameters.");
+            self.writer.line(format!("series: [{scalar}; {count}],"));
+        }
         if !self.program.prepare.guards.is_empty() {
             self.docs("Why these parameters leave the machine without accelerations, if they do.");
             self.writer.line(format!(
@@ -390,5 +396,16 @@ impl Emitter<'_> {
             ));
         }
         self.writer.close("}");
+    }
+}
+
+/// A struct with one field more.
+pub(super) fn with_field(literal: Layout, field: Option<(String, Layout)>) -> Layout {
+    match (literal, field) {
+        (Layout::Struct(name, mut fields), Some(field)) => {
+            fields.push(field);
+            Layout::Struct(name, fields)
+        }
+        (literal, _) => literal,
     }
 }

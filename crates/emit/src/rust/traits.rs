@@ -38,7 +38,7 @@ impl Emitter<'_> {
     /// A method of a trait. Arguments that its body does not name are `_`.
     pub(super) fn method(
         &mut self,
-        name: &str,
+        method: &str,
         arguments: &[&str],
         result: Option<&str>,
         body: impl FnOnce(&mut Writer),
@@ -56,16 +56,17 @@ impl Emitter<'_> {
         let mut list = vec!["&self".to_owned()];
         list.extend(arguments.iter().map(|&name| {
             let shown = if is_used(name) { name } else { "_" };
-            format!("{shown}: {}", self.kind(name))
+            format!("{shown}: {}", self.kind(method, name))
         }));
         self.writer.gap();
-        self.writer.signature(&format!("fn {name}"), &list, result);
+        self.writer
+            .signature(&format!("fn {method}"), &list, result);
         self.writer.raw(&inner);
         self.writer.close("}");
     }
 
     /// The type of an argument of a method.
-    fn kind(&self, argument: &str) -> String {
+    fn kind(&self, name: &str, argument: &str) -> String {
         let Types {
             coordinates,
             inputs,
@@ -75,7 +76,9 @@ impl Emitter<'_> {
         let f64 = self.types.known("f64");
         let n = self.program.dimension();
         match argument {
+            "t" if name == "series" => format!("[{f64}; 2]"),
             "t" => f64,
+            "coefficients" => format!("&mut [[{f64}; {n}]]"),
             "u" | "inputs" => format!("&{inputs}"),
             "outputs" => format!("&{outputs}"),
             "coordinates" => format!("&{coordinates}"),
@@ -230,6 +233,7 @@ impl Emitter<'_> {
             body.line("coordinates.to_array()");
         });
         self.accelerations();
+        self.methods_of_series();
         self.quantities();
         self.inputs_and_outputs();
         self.assumptions();

@@ -20,6 +20,8 @@ pub(super) struct Types {
     pub(super) derivatives: String,
     /// For each function that is called often, a call of it, and what its pieces are.
     pub(super) calls: BTreeMap<Role, [String; 2]>,
+    /// A call of the Taylor series.
+    pub(super) series: String,
     /// What a stage of the accelerations leaves to the next one.
     pub(super) at_time: String,
     pub(super) at_position: String,
@@ -41,6 +43,7 @@ impl Types {
             outputs: scope.take("Outputs"),
             prepared: scope.take("Prepared"),
             derivatives: scope.take("Derivatives"),
+            series: scope.take("Series"),
             at_time: scope.take("AtTime"),
             at_position: scope.take("AtPosition"),
             calls: calls(&mut scope),

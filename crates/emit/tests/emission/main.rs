@@ -2,4 +2,5 @@
 
 mod c;
 mod loops;
+mod series;
 mod skipping;

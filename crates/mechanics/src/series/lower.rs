@@ -21,6 +21,7 @@ pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
     let Lowering { rows, levels, .. } = lowering;
     let series = Series {
         depends: vec![Vec::new(); rows.len()],
+        exact: vec![false; rows.len()],
         rows,
         levels,
         residuals,
@@ -28,7 +29,7 @@ pub(super) fn series(model: &Model<'_>) -> Result<Series, NoSeries> {
         parameters: model.parameters.len(),
         inputs: model.inputs.len(),
     };
-    series.pruned().with_dependences()
+    series.pruned().in_time().with_dependences()
 }
 
 /// Expressions on their way to rows.

@@ -14,6 +14,7 @@ pub fn assert_proved(machine: &Compiled<'_>) {
         model,
         equations,
         program,
+        ..
     } = machine;
     assert_eq!(program.verify(), Ok(()), "{}", program.name);
     assert_eq!(
@@ -99,6 +100,7 @@ pub fn mistakes_found(machine: &Compiled<'_>, stride: usize) -> (usize, usize) {
         model,
         equations,
         program,
+        ..
     } = machine;
     let (oracle, quantities) = (Oracle::derive(model), quantities(model, equations));
     let mut tried = 0;

@@ -34,6 +34,7 @@ fn assert_stopped(machine: &Compiled<'_>, stride: usize) {
         model,
         equations,
         program,
+        ..
     } = machine;
     let (mut tried, mut idle) = (0, 0);
     for Mutant {
@@ -138,6 +139,7 @@ fn what_the_field_cannot_carry_is_compared_in_double_doubles() {
             model,
             equations,
             program,
+            ..
         } = machine;
         let mut at_states = 0;
         for Mutant {
@@ -186,6 +188,7 @@ fn blamed(
         model,
         equations,
         program,
+        ..
     } = machine;
     let of_role = mutants(program, 1).filter(|mutant| mutant.change.starts_with(&role.name()));
     let mut found = of_role.filter_map(|mutant| {
@@ -245,6 +248,7 @@ fn damaged_row(machine: &Compiled<'_>, constraint: usize) -> String {
         model,
         equations,
         program,
+        ..
     } = machine;
     let mut wrong: Program = (**program).clone();
     let n = wrong.dimension();

@@ -6,12 +6,13 @@
 //! rows of positions their gradient by `q` times `q₍k₊₂₎`, to forces their gradient by `a` times `aₖ`. Gradients are
 //! those at the start, since what multiplies the newest coefficient is of order 0.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 
-use lagrangian_scalar::Scalar;
-use lagrangian_symbolic::Function as Call;
+use lagrangian_scalar::{Scalar, series as steps};
+use lagrangian_symbolic::{Function as Call, Rational};
 
-use super::{Level, Row, RowId, Series};
+use super::{Along, Arithmetic, Coefficient, Level, Order, Row, RowId, Series};
 use crate::Singular;
 use crate::interpret::{binary, unary};
 
@@ -28,23 +29,53 @@ pub struct Expander<T> {
     by_level: [Vec<u32>; 3],
     /// Rows of positions and forces that the newest accelerations change.
     repaired: [Vec<u32>; 2],
-    /// Whether a row knows what rounding took from it at order 0.
-    has_low: Vec<bool>,
+    /// Rows of which a multiple by the order is asked for.
+    scaled: Vec<bool>,
+    /// Where the multiples by orders of a row begin, of rows that sums ask for.
+    weighted_places: Vec<Option<usize>>,
+    /// For each row the sums over orders that it takes.
+    sums: Vec<Vec<Sum>>,
     coefficients: Vec<T>,
+    /// `j cⱼ` of some rows.
+    weighted: Vec<T>,
+    /// The newest coefficient of a row, times its order.
+    newest: Vec<T>,
+    /// What rounding took from the coefficient of order 0.
     low: Vec<T>,
     /// Where the gradient of each row begins.
     places: Vec<usize>,
     gradients: Vec<T>,
     /// Coefficients of the coordinates, one coordinate after another.
     motion: Vec<T>,
+    /// Coefficients of their rates, in the same places.
+    rates: Vec<T>,
     inputs: Vec<T>,
     /// Coefficients of the multipliers, one constraint after another.
     multipliers: Vec<T>,
-    /// The lower triangle of L and the reciprocals of D, of the matrix of what is solved for.
-    factors: Vec<T>,
-    right: Vec<T>,
+    /// Unknowns that act on each other, and the factors of their matrix.
+    blocks: Vec<Block<T>>,
+    /// What was solved for last.
+    unknowns: Vec<T>,
+    /// Room for the unknowns of one block, twice.
+    room: [Vec<T>; 2],
     /// 0, 1, 2 … and their reciprocals, the first of which is not read.
     numbers: Vec<[T; 2]>,
+}
+
+/// A sum over orders: where its factors begin, among the coefficients or their multiples.
+#[derive(Clone, Copy, Debug)]
+struct Sum {
+    factors: [(usize, bool); 2],
+    along: Along,
+}
+
+#[derive(Clone, Debug)]
+struct Block<T> {
+    /// The unknowns.
+    members: Vec<u32>,
+    /// For each unknown its place among the members.
+    place: Vec<u32>,
+    matrix: Vec<T>,
 }
 
 impl<T: Scalar<Stored = T>> Expander<T> {
@@ -56,37 +87,61 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         assert_eq!(parameters.len(), series.parameters, "one number for each");
         let (rows, n, width) = (series.rows.len(), series.dimension(), order + 2);
         let unknowns = series.unknowns();
+        let all = || (0..rows as u32).map(RowId);
         let at_level = |level: Level| -> Vec<u32> {
-            let levels = (0..).zip(&series.levels);
-            levels
-                .filter(|(_, l)| **l == level)
-                .map(|(i, _)| i)
-                .collect()
+            let rows = all().filter(|row| series.level(*row) == level);
+            rows.map(|row| row.0).collect()
         };
-        let mut is_factor = vec![false; rows];
-        for row in &series.rows {
-            if let Row::Product(a, b) | Row::Quotient(a, b) = row {
-                (is_factor[a.index()], is_factor[b.index()]) = (true, true);
-            }
-        }
+        let streams = series.streams();
         let changes = |row: &u32| !series.depends[*row as usize].is_empty();
         let mut repaired = [at_level(Level::Position), at_level(Level::Acceleration)];
         repaired[0].retain(changes);
-        repaired[1].retain(|row| changes(row) && is_factor[*row as usize]);
-        let mut has_low: Vec<bool> = Vec::with_capacity(rows);
+        repaired[1].retain(|row| changes(row) && streams[*row as usize] != [false; 2]);
+        let mut scaled: Vec<bool> = streams.iter().map(|[_, weighted]| *weighted).collect();
         for row in &series.rows {
-            has_low.push(match row {
-                Row::Time => true,
-                Row::Sum(terms) => terms.iter().any(|(_, row)| has_low[row.index()]),
-                _ => false,
-            });
+            if let Row::Second(of) = row {
+                scaled[of.index()] = true;
+            }
         }
-        let mut places = Vec::with_capacity(rows);
         let mut length = 0;
+        let mut take = |count: usize| {
+            length += count;
+            length - count
+        };
+        let weighted_places = streams.iter().map(|[_, is]| is.then(|| take(width)));
+        let weighted_places: Vec<Option<usize>> = weighted_places.collect();
+        let of_weighted = length;
+        let mut length = 0;
+        let mut places = Vec::with_capacity(rows);
         for depends in &series.depends {
             places.push(length);
             length += depends.len();
         }
+        let sums = all().map(|row| {
+            let sums = series.convolutions(row).into_iter();
+            let sum = |sum: super::Convolution| Sum {
+                along: sum.along,
+                factors: sum.factors.map(|stream| {
+                    let row = stream.row.index();
+                    match weighted_places[row] {
+                        Some(place) if stream.weighted => (place, true),
+                        _ => (row * width, false),
+                    }
+                }),
+            };
+            sums.map(sum).collect()
+        });
+        let block = |members: Vec<u32>| {
+            let mut place = vec![0; unknowns];
+            for (at, member) in (0..).zip(&members) {
+                place[*member as usize] = at;
+            }
+            Block {
+                matrix: vec![T::ZERO; members.len() * members.len()],
+                place,
+                members,
+            }
+        };
         let number = |j: usize| {
             let j = j as i64;
             [T::from_ratio(j, 1), T::from_ratio(1, j.max(1))]
@@ -94,19 +149,25 @@ impl<T: Scalar<Stored = T>> Expander<T> {
         let mut expander = Expander {
             by_level: [Level::Position, Level::Rate, Level::Acceleration].map(at_level),
             repaired,
-            has_low,
+            scaled,
+            sums: sums.collect(),
             parameters: parameters.to_vec(),
             order,
             width,
             coefficients: vec![T::ZERO; rows * width],
+            weighted: vec![T::ZERO; of_weighted],
+            weighted_places,
+            newest: vec![T::ZERO; rows],
             low: vec![T::ZERO; rows],
             places,
             gradients: vec![T::ZERO; length],
             motion: vec![T::ZERO; n * width],
+            rates: vec![T::ZERO; n * width],
             inputs: vec![T::ZERO; series.inputs],
             multipliers: vec![T::ZERO; (unknowns - n) * order],
-            factors: vec![T::ZERO; unknowns * unknowns],
-            right: vec![T::ZERO; unknowns],
+            blocks: series.blocks().into_iter().map(block).collect(),
+            unknowns: vec![T::ZERO; unknowns],
+            room: [(); 2].map(|()| vec![T::ZERO; unknowns]),
             numbers: (0..=width).map(number).collect(),
             series,
         };
@@ -116,9 +177,11 @@ impl<T: Scalar<Stored = T>> Expander<T> {
 
     /// Computes what depends on parameters alone.
     fn prepare(&mut self) {
-        for index in 0..self.series.rows.len() {
-            if self.series.levels[index] == Level::Constant {
-                let (value, _) = self.value::<T>(index, T::ZERO);
+        let series = self.series.clone();
+        for index in 0..series.rows.len() {
+            if series.levels[index] == Level::Constant {
+                let row = RowId(index as u32);
+                let value = series.value(row, &mut self.at::<T>(0, 0, T::ZERO));
                 self.coefficients[index * self.width] = value;
             }
         }
@@ -141,6 +204,17 @@ impl<T: Copy> Expander<T> {
         &self.multipliers[constraint * self.order..][..self.order]
     }
 
+    #[inline(always)]
+    fn at<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize, t: N) -> At<'_, T, N> {
+        At {
+            of: self,
+            level,
+            m,
+            t,
+            numbers: PhantomData,
+        }
+    }
+
     /// Expands the motion through a state in arithmetic on numbers `N`. The time is the sum of the two.
     ///
     /// An error where the mass matrix cannot be inverted.
@@ -152,60 +226,82 @@ impl<T: Copy> Expander<T> {
         v: &[T],
         u: &[T],
     ) -> Result<(), Singular> {
-        let (n, width) = (self.series.dimension(), self.width);
+        let series = self.series.clone();
+        let (n, width) = (series.dimension(), self.width);
         self.inputs.copy_from_slice(u);
+        self.motion.fill(N::ZERO.store());
+        self.rates.fill(N::ZERO.store());
         for i in 0..n {
-            let motion = &mut self.motion[i * width..][..width];
-            motion.fill(N::ZERO.store());
-            motion[0] = q[i];
-            motion[1] = v[i];
+            self.motion[i * width] = q[i];
+            self.motion[i * width + 1] = v[i];
+            self.rates[i * width] = v[i];
         }
         for at in 0..self.by_level[0].len() {
-            let index = self.by_level[0][at] as usize;
-            let (value, low) = match self.series.rows[index] {
-                Row::Time => (N::load(t[0]), N::load(t[1])),
-                _ => self.value::<N>(index, N::load(t[0])),
-            };
-            self.coefficients[index * width] = value.store();
-            self.low[index] = low.store();
-        }
-        for at in 0..self.by_level[0].len() {
-            let index = self.by_level[0][at] as usize;
-            self.coefficients[index * width + 1] = self.coefficient::<N>(index, 1).store();
-        }
-        for round in 0..self.order {
-            for at in 0..self.by_level[0].len() {
-                let index = self.by_level[0][at] as usize;
-                let value = self.coefficient::<N>(index, round + 2);
-                self.coefficients[index * width + round + 2] = value.store();
+            let row = RowId(self.by_level[0][at]);
+            if let Row::Time = series.rows[row.index()] {
+                self.low[row.index()] = t[1];
             }
+            let value = series.value(row, &mut self.at::<N>(0, 0, N::load(t[0])));
+            self.coefficients[row.index() * width] = value.store();
+        }
+        self.advance::<N>(&series, 0, 1);
+        self.keep_weighted::<N>(0, 1);
+        for round in 0..self.order {
+            self.advance::<N>(&series, 0, round + 2);
             for level in 1..3 {
-                for at in 0..self.by_level[level].len() {
-                    let index = self.by_level[level][at] as usize;
-                    let value = match round {
-                        0 => self.value::<N>(index, N::ZERO).0,
-                        _ => self.coefficient::<N>(index, round),
-                    };
-                    self.coefficients[index * width + round] = value.store();
-                }
+                self.advance::<N>(&series, level, round);
             }
             if round == 0 {
-                self.differentiate::<N>();
-                self.factor::<N>()?;
+                self.differentiate::<N>(&series);
+                self.factor::<N>(&series)?;
             }
-            self.solve::<N>(round);
+            self.solve::<N>(&series, round);
+            self.keep_weighted::<N>(0, round + 2);
+            for level in 1..3 {
+                self.keep_weighted::<N>(level, round);
+            }
         }
         Ok(())
     }
 
+    /// Computes the coefficients of an order of all rows of a level.
     #[inline(always)]
-    fn read<N: Scalar<Stored = T>>(&self, row: RowId, k: usize) -> N {
-        N::load(self.coefficients[row.index() * self.width + k])
+    fn advance<N: Scalar<Stored = T>>(&mut self, series: &Series, level: usize, m: usize) {
+        for at in 0..self.by_level[level].len() {
+            let row = RowId(self.by_level[level][at]);
+            let mut arithmetic = self.at::<N>(level, m, N::ZERO);
+            let Coefficient { plain, weighted } = match m {
+                0 => Coefficient {
+                    plain: series.value(row, &mut arithmetic),
+                    weighted: Some(N::ZERO),
+                },
+                1 => series.coefficient(row, Order::First, &mut arithmetic),
+                _ => series.coefficient(row, Order::Later, &mut arithmetic),
+            };
+            self.coefficients[row.index() * self.width + m] = plain.store();
+            if self.scaled[row.index()] {
+                let weighted = weighted.unwrap_or_else(|| self.number::<N>(m) * plain);
+                self.newest[row.index()] = weighted.store();
+            }
+        }
     }
 
+    /// Multiplies coefficients of an order, which are final, by it.
     #[inline(always)]
-    fn first<N: Scalar<Stored = T>>(&self, row: RowId) -> N {
-        self.read(row, 0)
+    fn keep_weighted<N: Scalar<Stored = T>>(&mut self, level: usize, m: usize) {
+        for at in 0..self.by_level[level].len() {
+            let index = self.by_level[level][at] as usize;
+            let Some(place) = self.weighted_places[index] else {
+                continue;
+            };
+            self.weighted[place + m] = match self.series.rows[index] {
+                Row::Coordinate(i) if m > 0 => self.rates[i as usize * self.width + m - 1],
+                _ => {
+                    let x = N::load(self.coefficients[index * self.width + m]);
+                    (self.number::<N>(m) * x).store()
+                }
+            };
+        }
     }
 
     #[inline(always)]
@@ -218,269 +314,54 @@ impl<T: Copy> Expander<T> {
         N::load(self.numbers[j][1])
     }
 
-    /// The coefficients `from..=to` of a row.
-    #[inline(always)]
-    fn range(&self, row: RowId, from: usize, to: usize) -> &[T] {
-        &self.coefficients[row.index() * self.width..][from..to + 1]
-    }
-
-    /// The value of a row at the start, and what rounding took from it where that is known.
-    #[inline(always)]
-    fn value<N: Scalar<Stored = T>>(&self, index: usize, t: N) -> (N, N) {
-        let x = |row: RowId| self.first::<N>(row);
-        let value = match self.series.rows[index] {
-            Row::Number(ref number) => number.evaluate(),
-            Row::Pi => N::pi(),
-            Row::Parameter(i) => N::load(self.parameters[i as usize]),
-            Row::Input(i) => N::load(self.inputs[i as usize]),
-            Row::Time => t,
-            Row::Coordinate(i) => N::load(self.motion[i as usize * self.width]),
-            Row::Rate(i) => N::load(self.motion[i as usize * self.width + 1]),
-            Row::Acceleration(_) => N::ZERO,
-            Row::First(p) => self.read(p, 1),
-            Row::Second(p) => self.number::<N>(2) * self.read(p, 2),
-            Row::Sum(ref terms) => return self.sum_with_low(terms, self.has_low[index]),
-            Row::Product(a, b) => x(a) * x(b),
-            Row::Square(a) => x(a) * x(a),
-            Row::Quotient(a, b) => x(a) / x(b),
-            Row::Sqrt(a) => x(a).sqrt(),
-            Row::Sin(a, _) => self.sin_cos::<N>(a).0,
-            Row::Cos(a, _) => self.sin_cos::<N>(a).1,
-            Row::Sinh(a, _) => x(a).sinh(),
-            Row::Cosh(a, _) => x(a).cosh(),
-            Row::Tanh(a, _) => x(a).tanh(),
-            Row::TanhSlope(a) => N::ONE - x(a) * x(a),
-            Row::Exp(a) => x(a).exp(),
-            Row::Power(a, r) => x(a).powf(x(r)),
-            Row::Primitive(call, a, _) => unary(call, x(a)),
-            Row::Atan2(y, over, _) => x(y).atan2(x(over)),
-            Row::Constant(call, a, b) => match call {
-                Call::Sin => x(a).sin(),
-                Call::Cos => x(a).cos(),
-                Call::Atan2 | Call::Min | Call::Max | Call::Pow => binary(call, x(a), x(b)),
-                _ => unary(call, x(a)),
-            },
-        };
-        (value, N::ZERO)
-    }
-
-    /// A sum at order 0. With what rounding took from its terms and from itself, so that a phase is exact.
-    #[inline(always)]
-    fn sum_with_low<N: Scalar<Stored = T>>(
-        &self,
-        terms: &[(Option<RowId>, RowId)],
-        has_low: bool,
-    ) -> (N, N) {
-        let (mut sum, mut low) = (N::ZERO, N::ZERO);
-        for (coefficient, row) in terms {
-            let x = self.first::<N>(*row);
-            if !has_low {
-                sum = match coefficient {
-                    None => sum + x,
-                    Some(c) => self.first::<N>(*c).mul_add(x, sum),
-                };
-                continue;
-            }
-            let x_low = N::load(self.low[row.index()]);
-            let (term, term_low) = match coefficient {
-                None => (x, x_low),
-                Some(c) => {
-                    let c = self.first::<N>(*c);
-                    (c * x, c.product_error(x) + c * x_low)
-                }
-            };
-            low = low + (term_low + sum.sum_error(term));
-            sum = sum + term;
-        }
-        (sum, low)
-    }
-
-    /// Sine and cosine of a row at order 0, turned by what rounding took from it.
-    #[inline(always)]
-    fn sin_cos<N: Scalar<Stored = T>>(&self, a: RowId) -> (N, N) {
-        let (sin, cos) = self.first::<N>(a).sin_cos();
-        if !self.has_low[a.index()] {
-            return (sin, cos);
-        }
-        let low = N::load(self.low[a.index()]);
-        (sin + low * cos, cos - low * sin)
-    }
-
-    /// Coefficient `k ≥ 1` of a row, those before it and those of its operands being known.
-    #[inline(always)]
-    fn coefficient<N: Scalar<Stored = T>>(&self, index: usize, k: usize) -> N {
-        let row = RowId(index as u32);
-        let x = |row: RowId| self.read::<N>(row, k);
-        let varies = |row: RowId| self.series.levels[row.index()] > Level::Constant;
-        let dot = |a: RowId, b: RowId, from: usize, to: usize| -> N {
-            dot(self.range(a, from, to), self.range(b, k - to, k - from))
-        };
-        // Σ j a_j b_{k−j}
-        let weighted = |a: RowId, b: RowId, to: usize| -> N {
-            let pairs = self
-                .range(a, 1, to)
-                .iter()
-                .zip(self.range(b, k - to, k - 1).iter().rev());
-            let numbers = &self.numbers[1..=to];
-            pairs.zip(numbers).fold(N::ZERO, |sum, ((&a, &b), j)| {
-                (N::load(j[0]) * N::load(a)).mul_add(N::load(b), sum)
-            })
-        };
-        match self.series.rows[index] {
-            Row::Number(_) | Row::Pi | Row::Parameter(_) | Row::Constant(..) | Row::Input(_) => {
-                N::ZERO
-            }
-            Row::Time => match k {
-                1 => N::ONE,
-                _ => N::ZERO,
-            },
-            Row::Coordinate(i) => N::load(self.motion[i as usize * self.width + k]),
-            Row::Rate(i) => {
-                self.number::<N>(k + 1) * N::load(self.motion[i as usize * self.width + k + 1])
-            }
-            Row::Acceleration(_) => N::ZERO,
-            Row::First(p) => self.number::<N>(k + 1) * self.read(p, k + 1),
-            Row::Second(p) => {
-                self.number::<N>(k + 1) * (self.number::<N>(k + 2) * self.read::<N>(p, k + 2))
-            }
-            Row::Sum(ref terms) => terms.iter().fold(N::ZERO, |sum, (c, row)| match c {
-                None => sum + x(*row),
-                Some(c) => self.first::<N>(*c).mul_add(x(*row), sum),
-            }),
-            Row::Product(a, b) => match [varies(a), varies(b)] {
-                [true, true] => dot(a, b, 0, k),
-                [false, _] => self.first::<N>(a) * x(b),
-                [_, false] => x(a) * self.first::<N>(b),
-            },
-            Row::Square(a) => self.square(a, k, 0),
-            Row::Quotient(a, b) if !varies(b) => x(a) / self.first(b),
-            Row::Quotient(a, b) => (x(a) - dot(b, row, 1, k)) / self.first(b),
-            Row::Sqrt(a) => {
-                let root = self.first::<N>(row);
-                (x(a) - self.square::<N>(row, k, 1)) / (root + root)
-            }
-            Row::Sin(a, other) | Row::Sinh(a, other) | Row::Cosh(a, other) => {
-                self.over::<N>(k) * weighted(a, other, k)
-            }
-            Row::Cos(a, other) => -(self.over::<N>(k) * weighted(a, other, k)),
-            Row::Tanh(a, slope) => self.over::<N>(k) * weighted(a, slope, k),
-            Row::TanhSlope(a) => -self.square::<N>(a, k, 0),
-            Row::Exp(a) => self.over::<N>(k) * weighted(a, row, k),
-            Row::Power(a, r) => {
-                let r = self.first::<N>(r);
-                let mut sum = N::ZERO;
-                for j in 0..k {
-                    let weight = r * self.number(k - j) - self.number::<N>(j);
-                    let product = self.read::<N>(a, k - j) * self.read(row, j);
-                    sum = weight.mul_add(product, sum);
-                }
-                self.over::<N>(k) * sum / self.first(a)
-            }
-            Row::Primitive(_, a, slope) => {
-                let known = match k {
-                    1 => N::ZERO,
-                    _ => weighted(row, slope, k - 1),
-                };
-                (x(a) - self.over::<N>(k) * known) / self.first(slope)
-            }
-            Row::Atan2(y, x, slope) => {
-                let known = match k {
-                    1 => N::ZERO,
-                    _ => weighted(row, slope, k - 1),
-                };
-                let area = weighted(y, x, k) - weighted(x, y, k);
-                self.over::<N>(k) * (area - known) / self.first(slope)
-            }
-        }
-    }
-
-    /// `Σ a_j a_{k−j}` over `from ≤ j ≤ k − from`, each pair once.
-    #[inline(always)]
-    fn square<N: Scalar<Stored = T>>(&self, a: RowId, k: usize, from: usize) -> N {
-        let mut sum = N::ZERO;
-        for j in from..k.div_ceil(2) {
-            sum = self.read::<N>(a, j).mul_add(self.read(a, k - j), sum);
-        }
-        sum = sum + sum;
-        if k.is_multiple_of(2) && k >= 2 * from {
-            let middle = self.read::<N>(a, k / 2);
-            sum = middle.mul_add(middle, sum);
-        }
-        sum
-    }
-
     /// The gradients of all rows at the start, by the chain rule.
     #[inline(always)]
-    fn differentiate<N: Scalar<Stored = T>>(&mut self) {
-        for index in 0..self.series.rows.len() {
-            if self.series.depends[index].is_empty() {
+    fn differentiate<N: Scalar<Stored = T>>(&mut self, series: &Series) {
+        for index in 0..series.rows.len() {
+            if series.depends[index].is_empty() {
                 continue;
             }
             let row = RowId(index as u32);
             let place = self.places[index];
-            let count = self.series.depends[index].len();
+            let count = series.depends[index].len();
             self.gradients[place..place + count].fill(N::ZERO.store());
-            let x = |row: RowId| self.first::<N>(row);
-            let one = N::ONE;
-            let two = |x: N| x + x;
-            // The operands and the derivatives by them.
-            let parts: [Option<(RowId, N)>; 2] = match self.series.rows[index] {
+            match &series.rows[index] {
                 Row::Coordinate(_) | Row::Acceleration(_) => {
                     self.gradients[place] = N::ONE.store();
-                    continue;
                 }
-                Row::Sum(_) => {
-                    let length = match &self.series.rows[index] {
-                        Row::Sum(terms) => terms.len(),
-                        _ => 0,
-                    };
-                    for term in 0..length {
-                        let Row::Sum(terms) = &self.series.rows[index] else {
-                            continue;
+                Row::Sum(terms) => {
+                    for (c, of) in terms {
+                        let slope = match c {
+                            Some(c) => self.at::<N>(0, 0, N::ZERO).first(*c),
+                            None => N::ONE,
                         };
-                        let (c, of) = terms[term];
-                        let c = c.map_or(N::ONE, |c| self.first::<N>(c));
-                        self.add_gradient(index, of, c);
+                        self.add_gradient(series, row, *of, slope);
                     }
-                    continue;
                 }
-                Row::Second(p) => [Some((p, one)), None],
-                Row::Product(a, b) => [Some((a, x(b))), Some((b, x(a)))],
-                Row::Square(a) => [Some((a, two(x(a)))), None],
-                Row::Quotient(a, b) => {
-                    let slope = one / x(b);
-                    [Some((a, slope)), Some((b, -(x(row) * slope)))]
+                _ => {
+                    let slopes = series.slopes(row, &mut self.at::<N>(0, 0, N::ZERO));
+                    for (of, slope) in slopes.into_iter().flatten() {
+                        self.add_gradient(series, row, of, slope);
+                    }
                 }
-                Row::Sqrt(a) => [Some((a, one / two(x(row)))), None],
-                Row::Sin(a, cos) => [Some((a, x(cos))), None],
-                Row::Cos(a, sin) => [Some((a, -x(sin))), None],
-                Row::Sinh(a, other) | Row::Cosh(a, other) => [Some((a, x(other))), None],
-                Row::Tanh(a, slope) => [Some((a, x(slope))), None],
-                Row::TanhSlope(a) => [Some((a, -two(x(a)))), None],
-                Row::Exp(a) => [Some((a, x(row))), None],
-                Row::Power(a, r) => [Some((a, x(r) * x(row) / x(a))), None],
-                Row::Primitive(_, a, slope) => [Some((a, one / x(slope))), None],
-                Row::Atan2(y, over, slope) => [
-                    Some((y, x(over) / x(slope))),
-                    Some((over, -(x(y) / x(slope)))),
-                ],
-                _ => [None, None],
-            };
-            for (of, slope) in parts.into_iter().flatten() {
-                self.add_gradient(index, of, slope);
             }
         }
     }
 
     /// Adds a multiple of the gradient of one row to that of another. What changes at another level does not count.
     #[inline(always)]
-    fn add_gradient<N: Scalar<Stored = T>>(&mut self, to: usize, of: RowId, slope: N) {
-        let of = of.index();
-        let (levels, depends) = (&self.series.levels, &self.series.depends);
-        let is_second = matches!(self.series.rows[to], Row::Second(_));
-        if levels[of] != levels[to] && !is_second {
+    fn add_gradient<N: Scalar<Stored = T>>(
+        &mut self,
+        series: &Series,
+        to: RowId,
+        of: RowId,
+        slope: N,
+    ) {
+        if !series.passes(to, of) {
             return;
         }
+        let (to, of) = (to.index(), of.index());
+        let depends = &series.depends;
         let mut at = 0;
         for (j, coordinate) in depends[of].iter().enumerate() {
             while depends[to][at] != *coordinate {
@@ -498,94 +379,70 @@ impl<T: Copy> Expander<T> {
     /// Factors the mass matrix, bordered by the rows of constraints, which is the gradient of the residuals: L D Lᵀ. Of
     /// the pivots those of constraints are negative, as long as these do not depend on each other.
     #[inline(always)]
-    fn factor<N: Scalar<Stored = T>>(&mut self) -> Result<(), Singular> {
-        let n = self.series.unknowns();
-        self.factors.fill(N::ZERO.store());
-        for i in 0..n {
-            let row = self.series.residuals[i].index();
-            if self.series.levels[row] != Level::Acceleration {
-                continue;
-            }
-            let place = self.places[row];
-            for (j, column) in self.series.depends[row].iter().enumerate() {
-                self.factors[i * n + *column as usize] = self.gradients[place + j];
-            }
-        }
-        let tolerance = N::from_f64(n as f64 * f64::EPSILON);
-        for i in 0..n {
-            let diagonal = N::load(self.factors[i * n + i]);
-            let is_constraint = i >= self.series.dimension();
-            let (mut pivot, mut scale) = (diagonal, diagonal);
-            for j in 0..i {
-                // Holds L D until the row is done.
-                let mut entry = N::load(self.factors[i * n + j]);
-                for k in 0..j {
-                    let other = N::load(self.factors[j * n + k]);
-                    entry = N::load(self.factors[i * n + k]).neg_mul_add(other, entry);
+    fn factor<N: Scalar<Stored = T>>(&mut self, series: &Series) -> Result<(), Singular> {
+        for block in &mut self.blocks {
+            let count = block.members.len();
+            block.matrix.fill(N::ZERO.store());
+            for (i, member) in block.members.iter().enumerate() {
+                let row = series.residuals[*member as usize];
+                if series.level(row) != Level::Acceleration {
+                    continue;
                 }
-                self.factors[i * n + j] = entry.store();
-            }
-            for j in 0..i {
-                let entry = N::load(self.factors[i * n + j]);
-                let scaled = entry * N::load(self.factors[j * n + j]);
-                pivot = entry.neg_mul_add(scaled, pivot);
-                if is_constraint && j < self.series.dimension() {
-                    scale = entry.mul_add(scaled, scale);
+                let place = self.places[row.index()];
+                for (j, column) in series.depends[row.index()].iter().enumerate() {
+                    let column = block.place[*column as usize] as usize;
+                    block.matrix[i * count + column] = self.gradients[place + j];
                 }
-                self.factors[i * n + j] = scaled.store();
             }
-            let left = if is_constraint { -pivot } else { pivot };
-            if !left.exceeds(scale * tolerance) {
-                return Err(Singular {
-                    coordinate: i,
-                    ratio: (left / scale).to_f64(),
-                });
-            }
-            self.factors[i * n + i] = (N::ONE / pivot).store();
+            let is_held = |member: &u32| *member as usize >= series.dimension();
+            let held = block.members.iter().position(is_held).unwrap_or(count);
+            steps::factor::<N>(count, held, &mut block.matrix).map_err(|vanished| Singular {
+                coordinate: block.members[vanished.row] as usize,
+                ratio: (vanished.pivot / vanished.scale).to_f64(),
+            })?;
         }
         Ok(())
     }
 
     /// Finds the accelerations of order `round`, and adds what they change.
     #[inline(always)]
-    fn solve<N: Scalar<Stored = T>>(&mut self, round: usize) {
-        let (n, width) = (self.series.unknowns(), self.width);
-        for i in 0..n {
-            let mut sum = -self.read::<N>(self.series.residuals[i], round);
-            for j in 0..i {
-                let known = N::load(self.right[j]);
-                sum = N::load(self.factors[i * n + j]).neg_mul_add(known, sum);
+    fn solve<N: Scalar<Stored = T>>(&mut self, series: &Series, round: usize) {
+        let width = self.width;
+        for block in &self.blocks {
+            let [x, room] = &mut self.room;
+            for (at, member) in block.members.iter().enumerate() {
+                let row = series.residuals[*member as usize].index();
+                x[at] = (-N::load(self.coefficients[row * width + round])).store();
             }
-            self.right[i] = sum.store();
-        }
-        for i in (0..n).rev() {
-            let mut sum = N::load(self.right[i]) * N::load(self.factors[i * n + i]);
-            for j in i + 1..n {
-                let known = N::load(self.right[j]);
-                sum = N::load(self.factors[j * n + i]).neg_mul_add(known, sum);
+            steps::solve::<N>(block.members.len(), &block.matrix, x, room);
+            for (at, member) in block.members.iter().enumerate() {
+                self.unknowns[*member as usize] = x[at];
             }
-            self.right[i] = sum.store();
         }
-        let share = self.over::<N>(round + 1) * self.over::<N>(round + 2);
+        let [over_v, over_q] = [self.over::<N>(round + 1), self.over::<N>(round + 2)];
+        let share = over_v * over_q;
         for at in 0..self.repaired[1].len() {
             let index = self.repaired[1][at] as usize;
             let change = self.change::<N>(index);
             let place = &mut self.coefficients[index * width + round];
             *place = (N::load(*place) + change).store();
         }
-        let coordinates = self.series.dimension();
-        for (k, multiplier) in self.right[coordinates..].iter().enumerate() {
+        let coordinates = series.dimension();
+        for (k, multiplier) in self.unknowns[coordinates..].iter().enumerate() {
             self.multipliers[k * self.order + round] = *multiplier;
         }
         for i in 0..coordinates {
-            let q = N::load(self.right[i]) * share;
-            self.motion[i * width + round + 2] = q.store();
+            let rate = N::load(self.unknowns[i]) * over_v;
+            self.rates[i * width + round + 1] = rate.store();
+            self.motion[i * width + round + 2] = (rate * over_q).store();
         }
         for at in 0..self.repaired[0].len() {
             let index = self.repaired[0][at] as usize;
-            let change = self.change::<N>(index);
-            let place = &mut self.coefficients[index * width + round + 2];
-            *place = share.mul_add(change, N::load(*place)).store();
+            let known = N::load(self.coefficients[index * width + round + 2]);
+            self.coefficients[index * width + round + 2] = match series.rows[index] {
+                Row::Coordinate(i) => self.motion[i as usize * width + round + 2],
+                _ => share.mul_add(self.change::<N>(index), known).store(),
+            };
         }
     }
 
@@ -596,12 +453,201 @@ impl<T: Copy> Expander<T> {
         let gradient = &self.gradients[self.places[index]..][..depends.len()];
         let pairs = depends.iter().zip(gradient);
         pairs.fold(N::ZERO, |sum, (i, g)| {
-            N::load(*g).mul_add(N::load(self.right[*i as usize]), sum)
+            N::load(*g).mul_add(N::load(self.unknowns[*i as usize]), sum)
         })
     }
 }
 
-/// `Σ a_j b_{n−j}`, the newest coefficients last, in two sums that do not wait for each other.
+/// The recurrences at an order, on numbers `N`.
+struct At<'e, T, N> {
+    of: &'e mut Expander<T>,
+    /// 0 for rows of positions.
+    level: usize,
+    m: usize,
+    t: N,
+    numbers: PhantomData<N>,
+}
+
+impl<T: Copy, N: Scalar<Stored = T>> At<'_, T, N> {
+    #[inline(always)]
+    fn read(&self, row: RowId, m: usize) -> N {
+        N::load(self.of.coefficients[row.index() * self.of.width + m])
+    }
+}
+
+impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
+    type X = N;
+
+    #[inline(always)]
+    fn zero(&mut self) -> N {
+        N::ZERO
+    }
+    #[inline(always)]
+    fn one(&mut self) -> N {
+        N::ONE
+    }
+    #[inline(always)]
+    fn rational(&mut self, value: &Rational) -> N {
+        value.evaluate()
+    }
+    #[inline(always)]
+    fn pi(&mut self) -> N {
+        N::pi()
+    }
+    #[inline(always)]
+    fn parameter(&mut self, index: u32) -> N {
+        N::load(self.of.parameters[index as usize])
+    }
+    #[inline(always)]
+    fn input(&mut self, index: u32) -> N {
+        N::load(self.of.inputs[index as usize])
+    }
+    #[inline(always)]
+    fn time(&mut self) -> N {
+        self.t
+    }
+    #[inline(always)]
+    fn motion(&mut self, coordinate: u32, is_rate: bool) -> N {
+        let place = coordinate as usize * self.of.width + self.m;
+        N::load(match is_rate {
+            true => self.of.rates[place],
+            false => self.of.motion[place],
+        })
+    }
+    #[inline(always)]
+    fn first(&mut self, row: RowId) -> N {
+        self.read(row, 0)
+    }
+    #[inline(always)]
+    fn newest(&mut self, row: RowId) -> N {
+        self.read(row, self.m)
+    }
+    #[inline(always)]
+    fn before(&mut self, row: RowId) -> N {
+        self.read(row, self.m - 1)
+    }
+    #[inline(always)]
+    fn weighted(&mut self, row: RowId) -> N {
+        match self.of.weighted_places[row.index()] {
+            // Of positions, whose own order is two more, what is final.
+            Some(place) if self.level > 0 && self.of.series.level(row) == Level::Position => {
+                N::load(self.of.weighted[place + self.m])
+            }
+            _ => N::load(self.of.newest[row.index()]),
+        }
+    }
+    #[inline(always)]
+    fn derivative(&mut self, row: RowId) -> N {
+        let m = self.m + 1;
+        self.of.number::<N>(m) * self.read(row, m)
+    }
+    #[inline(always)]
+    fn second_derivative(&mut self, row: RowId) -> N {
+        let m = self.m + 1;
+        self.of.number::<N>(m) * N::load(self.of.newest[row.index()])
+    }
+    #[inline(always)]
+    fn convolution(&mut self, row: RowId, number: usize) -> N {
+        let Sum { factors, along } = self.of.sums[row.index()][number];
+        let [a, b] = factors.map(|(place, weighted)| match weighted {
+            true => &self.of.weighted[place..place + self.of.width],
+            false => &self.of.coefficients[place..place + self.of.width],
+        });
+        convolve(a, b, self.m, along)
+    }
+    #[inline(always)]
+    fn sin_cos(&mut self, row: RowId) -> [N; 2] {
+        let (sin, cos) = self.first(row).sin_cos();
+        if !self.of.series.exact[row.index()] {
+            return [sin, cos];
+        }
+        let low = N::load(self.of.low[row.index()]);
+        [low.mul_add(cos, sin), low.neg_mul_add(sin, cos)]
+    }
+    #[inline(always)]
+    fn call(&mut self, call: Call, a: N, b: N) -> N {
+        match call {
+            Call::Sqrt => a.sqrt(),
+            Call::Sin => a.sin(),
+            Call::Cos => a.cos(),
+            Call::Atan2 | Call::Min | Call::Max | Call::Pow => binary(call, a, b),
+            _ => unary(call, a),
+        }
+    }
+    #[inline(always)]
+    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> N {
+        let (mut sum, mut low) = (N::ZERO, N::ZERO);
+        for (coefficient, of) in terms {
+            let x = self.first(*of);
+            let x_low = match self.of.series.exact[of.index()] {
+                true => N::load(self.of.low[of.index()]),
+                false => N::ZERO,
+            };
+            let (term, term_low) = match coefficient {
+                None => (x, x_low),
+                Some(c) => {
+                    let c = self.first(*c);
+                    (c * x, c.mul_add(x_low, c.product_error(x)))
+                }
+            };
+            low = low + (term_low + sum.sum_error(term));
+            sum = sum + term;
+        }
+        self.of.low[row.index()] = low.store();
+        sum
+    }
+    #[inline(always)]
+    fn over_order(&mut self) -> N {
+        self.of.over(self.m)
+    }
+
+    #[inline(always)]
+    fn add(&mut self, a: N, b: N) -> N {
+        a + b
+    }
+    #[inline(always)]
+    fn subtract(&mut self, a: N, b: N) -> N {
+        a - b
+    }
+    #[inline(always)]
+    fn multiply(&mut self, a: N, b: N) -> N {
+        a * b
+    }
+    #[inline(always)]
+    fn divide(&mut self, a: N, b: N) -> N {
+        a / b
+    }
+    #[inline(always)]
+    fn negate(&mut self, a: N) -> N {
+        -a
+    }
+    #[inline(always)]
+    fn multiply_add(&mut self, a: N, b: N, c: N) -> N {
+        a.mul_add(b, c)
+    }
+}
+
+/// The sum of a [`Convolution`](super::Convolution) at order `m`, in the order that [`Along`] says.
+#[inline(always)]
+fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: Along) -> N {
+    let x = |list: &[T], j: usize| N::load(list[j]);
+    match along {
+        Along::Position if m < 2 => N::ZERO,
+        Along::Position if m == 2 => x(a, 1) * x(b, 1),
+        Along::Position => {
+            let sum = dot::<T, N>(&a[2..m - 1], &b[2..m - 1]);
+            let sum = x(a, m - 1).mul_add(x(b, 1), sum);
+            x(a, 1).mul_add(x(b, m - 1), sum)
+        }
+        Along::Force => {
+            let sum = dot::<T, N>(&a[..m - 1], &b[2..m + 1]);
+            x(a, m - 1).mul_add(x(b, 1), sum)
+        }
+        Along::Rest => dot(&a[1..m], &b[1..m]),
+    }
+}
+
+/// `Σ a_j b_{n−j}` in two sums that do not wait for each other.
 #[inline(always)]
 fn dot<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T]) -> N {
     let (mut even, mut odd) = (N::ZERO, N::ZERO);

@@ -1,6 +1,6 @@
 //! What rows are made from, and what they depend on.
 
-use super::{Level, NoSeries, Row, RowId, Series};
+use super::{Level, NoSeries, Row, RowId, Series, Stream};
 
 impl Series {
     /// Without rows that nobody needs.
@@ -29,6 +29,7 @@ impl Series {
                 .collect(),
             residuals: self.residuals.iter().map(|r| place[r.index()]).collect(),
             depends: vec![Vec::new(); count as usize],
+            exact: vec![false; count as usize],
             ..self
         }
     }
@@ -70,8 +71,77 @@ impl Series {
             found.sort_unstable();
             found.dedup();
             self.depends[index] = found;
+            self.exact[index] = match row {
+                Row::Time => true,
+                Row::Sum(terms) => terms.iter().any(|(_, row)| self.exact[row.index()]),
+                _ => false,
+            };
         }
         Ok(self)
+    }
+
+    /// With the terms of each sum in the order in which they become known: what waits longest is added last.
+    pub fn in_time(mut self) -> Series {
+        let mut ready = vec![0_u32; self.rows.len()];
+        for index in 0..self.rows.len() {
+            if let Row::Sum(terms) = &mut self.rows[index] {
+                terms.sort_by_key(|(_, row)| (self.levels[row.index()], ready[row.index()], *row));
+            }
+            let mut after = 0;
+            self.rows[index].for_each_operand(|operand| {
+                let is_before = operand.index() < index;
+                if is_before && self.levels[operand.index()] > Level::Constant {
+                    after = after.max(ready[operand.index()]);
+                }
+            });
+            ready[index] = after + 1;
+        }
+        self
+    }
+
+    /// The unknowns in groups that do not act on each other, each in the order of the unknowns.
+    pub fn blocks(&self) -> Vec<Vec<u32>> {
+        let count = self.unknowns();
+        let mut group: Vec<usize> = (0..count).collect();
+        let residuals = self.residuals.iter().enumerate();
+        for (i, row) in residuals.filter(|(_, row)| self.level(**row) == Level::Acceleration) {
+            for &other in &self.depends[row.index()] {
+                let (one, two) = (group[i], group[other as usize]);
+                let (low, high) = (one.min(two), one.max(two));
+                group
+                    .iter_mut()
+                    .filter(|g| **g == high)
+                    .for_each(|g| *g = low);
+            }
+        }
+        let mut blocks: Vec<Vec<u32>> = Vec::new();
+        let mut place = vec![None; count];
+        for (i, group) in (0..).zip(group) {
+            match place[group] {
+                Some(at) => {
+                    let block: &mut Vec<u32> = &mut blocks[at];
+                    block.push(i);
+                }
+                None => {
+                    place[group] = Some(blocks.len());
+                    blocks.push(vec![i]);
+                }
+            }
+        }
+        blocks
+    }
+
+    /// The rows whose earlier coefficients are asked for by sums over orders: as they are, and multiplied by their orders.
+    pub fn streams(&self) -> Vec<[bool; 2]> {
+        let mut streams = vec![[false; 2]; self.rows.len()];
+        for index in 0..self.rows.len() {
+            for convolution in self.convolutions(RowId(index as u32)) {
+                for Stream { row, weighted } in convolution.factors {
+                    streams[row.index()][usize::from(weighted)] = true;
+                }
+            }
+        }
+        streams
     }
 }
 

@@ -1,0 +1,751 @@
+//! The recurrences as code: what the interpreter computes is written down, operation by operation.
+
+use std::collections::{BTreeSet, HashMap};
+
+use lagrangian_program::series::{
+    Along, Arithmetic, Coefficient, Convolution, Level, Order, Row, RowId, Series, Stream,
+};
+use lagrangian_symbolic::{Function as Call, Rational};
+
+use super::code::{Code, Op, Part, X};
+use super::{Carried, FEWEST_APPLIED, Finals, MOST_STRAIGHT, WIDTH};
+use crate::rust::language;
+
+/// Code that computes a series.
+pub struct Symbolic<'s> {
+    series: &'s Series,
+    pub code: Code,
+    /// Where what is written now stands.
+    pub part: Part,
+    /// The order that is computed: 0, 1, 2, or 3 for that of the loop. Of what depends on rates it is that of the
+    /// accelerations, two less.
+    m: usize,
+    /// Whether what is computed now is of the order of positions.
+    pub is_of_positions: bool,
+    /// The names of parameters, where constants are computed; else these are read.
+    parameters: Option<Vec<String>>,
+    /// The names of inputs.
+    inputs: Vec<String>,
+    /// What the parameters decide and the rest needs.
+    pub constants: Vec<RowId>,
+    pub first: Vec<Option<X>>,
+    /// Coefficients of positions of order 1.
+    pub linear: Vec<Option<X>>,
+    pub newest: Vec<Option<X>>,
+    /// The same times their order, where that is known.
+    scaled: Vec<Option<X>>,
+    low: Vec<Option<X>>,
+    circular: HashMap<RowId, [X; 2]>,
+    /// Derivatives of a row at the start by coordinates.
+    gradients: Vec<Vec<X>>,
+    pub lanes: [Vec<Convolution>; 2],
+    places: HashMap<Convolution, (usize, usize)>,
+    pub carried: BTreeSet<Carried>,
+    /// Rows of forces that are asked for by sums.
+    forces: Vec<RowId>,
+}
+
+impl<'s> Symbolic<'s> {
+    pub fn new(series: &'s Series, number: &str, inputs: &[String]) -> Symbolic<'s> {
+        let none = || vec![None; series.rows.len()];
+        let streams = series.streams();
+        let rows = (0..series.rows.len() as u32).map(RowId);
+        let is_force = |row: &RowId| {
+            series.level(*row) == Level::Acceleration
+                && streams[row.index()] != [false; 2]
+                && !series.depends[row.index()].is_empty()
+        };
+        let mut symbolic = Symbolic {
+            series,
+            code: Code::new(number, 'x'),
+            part: Part::Start,
+            m: 0,
+            is_of_positions: true,
+            parameters: None,
+            inputs: inputs.to_vec(),
+            constants: Vec::new(),
+            first: none(),
+            linear: none(),
+            newest: none(),
+            scaled: none(),
+            low: none(),
+            circular: HashMap::new(),
+            gradients: vec![Vec::new(); series.rows.len()],
+            lanes: [Vec::new(), Vec::new()],
+            places: HashMap::new(),
+            carried: BTreeSet::new(),
+            forces: rows.clone().filter(is_force).collect(),
+        };
+        for row in rows {
+            for convolution in series.convolutions(row) {
+                symbolic.take_lane(convolution);
+            }
+        }
+        symbolic
+    }
+
+    /// The constants, from parameters of these names.
+    pub fn of_constants(series: &'s Series, number: &str, parameters: &[String]) -> Symbolic<'s> {
+        Symbolic {
+            code: Code::new(number, 'c'),
+            parameters: Some(parameters.to_vec()),
+            ..Symbolic::new(series, number, &[])
+        }
+    }
+
+    fn take_lane(&mut self, convolution: Convolution) {
+        if self.places.contains_key(&convolution) {
+            return;
+        }
+        let kind = usize::from(convolution.along == Along::Rest);
+        self.places
+            .insert(convolution, (kind, self.lanes[kind].len()));
+        self.lanes[kind].push(convolution);
+        if kind == 0 {
+            let [a, b] = convolution.factors;
+            self.carry(a);
+            if convolution.along == Along::Position {
+                self.carry(b);
+            }
+        }
+    }
+
+    pub fn carry(&mut self, Stream { row, weighted }: Stream) {
+        self.carried.insert(match weighted {
+            true => Carried::Weighted(row),
+            false => Carried::Plain(row),
+        });
+    }
+
+    fn push(&mut self, op: Op) -> X {
+        self.code.push(op, self.part)
+    }
+
+    /// What is there already, wherever it is asked for.
+    fn given(&mut self, text: String) -> X {
+        self.push(Op::Given(text))
+    }
+
+    /// `of::<N>(…)`.
+    pub fn made(&mut self, function: &str) -> X {
+        let text = format!("{}::{function}", self.code.number());
+        self.given(text)
+    }
+
+    fn variable(&mut self, carried: Carried) -> X {
+        self.carried.insert(carried);
+        self.given(carried.name())
+    }
+
+    /// The order that is computed, plus so much, as a number.
+    fn order(&mut self, more: usize) -> X {
+        match self.m {
+            3 => {
+                // Orders of accelerations are two less than those of positions.
+                let less = 2 * usize::from(!self.is_of_positions);
+                let function = match less - more.min(less) {
+                    0 if more == less => "from_f64(order as f64)".to_owned(),
+                    0 => format!("from_f64((order + {}) as f64)", more - less),
+                    less => format!("from_f64((order - {less}) as f64)"),
+                };
+                self.made(&function)
+            }
+            m => match m + more {
+                0 => X::Zero,
+                1 => X::One,
+                m => self.made(&format!("from_f64({m}.0)")),
+            },
+        }
+    }
+
+    /// Goes on to an order of positions.
+    pub fn begin(&mut self, part: Part, m: usize) {
+        (self.part, self.m, self.is_of_positions) = (part, m, true);
+        self.forget(Level::Position);
+    }
+
+    /// Goes on to an order of what depends on rates and accelerations.
+    pub fn begin_others(&mut self, m: usize) {
+        (self.m, self.is_of_positions) = (m, false);
+        self.forget(Level::Rate);
+        self.forget(Level::Acceleration);
+    }
+
+    fn forget(&mut self, level: Level) {
+        for index in 0..self.series.rows.len() {
+            if self.series.levels[index] == level {
+                (self.newest[index], self.scaled[index]) = (None, None);
+            }
+        }
+    }
+
+    /// Values of positions at the start, as many sines at once as there are.
+    pub fn values_of_positions(&mut self, positions: &[RowId]) {
+        let angle = |row: &RowId| match self.series.rows[row.index()] {
+            Row::Sin(a, _) | Row::Cos(a, _) => Some(a),
+            _ => None,
+        };
+        // What waits for no sine.
+        let mut waits = vec![false; self.series.rows.len()];
+        let mut angles = Vec::new();
+        for row in positions {
+            let mut is_late = false;
+            self.series.rows[row.index()].for_each_operand(|operand| {
+                is_late |= operand.index() < row.index() && waits[operand.index()];
+            });
+            if let Some(a) = angle(row) {
+                if !waits[a.index()] && !angles.contains(&a) {
+                    angles.push(a);
+                }
+                is_late = true;
+            }
+            waits[row.index()] = is_late;
+        }
+        let (early, late): (Vec<RowId>, Vec<RowId>) =
+            positions.iter().partition(|row| !waits[row.index()]);
+        for row in early {
+            self.value(row);
+        }
+        let values: Vec<X> = angles.iter().map(|row| self.first(*row)).collect();
+        if !values.is_empty() {
+            let all = self.push(Op::Circular(values));
+            for (at, row) in angles.into_iter().enumerate() {
+                let [sin, cos] = [false, true].map(|cos| self.push(Op::Member(all, at, cos)));
+                let turned = self.turned(row, [sin, cos]);
+                self.circular.insert(row, turned);
+            }
+        }
+        for row in late {
+            self.value(row);
+        }
+    }
+
+    /// The value of a row at the start.
+    pub fn value(&mut self, row: RowId) {
+        if let Row::Time = self.series.rows[row.index()] {
+            let low = self.given("n(t[1])".into());
+            self.low[row.index()] = Some(low);
+        }
+        let value = self.series.value(row, self);
+        self.first[row.index()] = Some(value);
+        self.newest[row.index()] = Some(value);
+    }
+
+    /// Sine and cosine turned by what rounding took from the angle.
+    fn turned(&mut self, row: RowId, [sin, cos]: [X; 2]) -> [X; 2] {
+        let low = match self.series.exact[row.index()] {
+            true => self.low[row.index()].unwrap_or(X::Zero),
+            false => X::Zero,
+        };
+        match low {
+            X::Zero => [sin, cos],
+            _ => [
+                self.multiply_add(low, cos, sin),
+                self.push(Op::Method("neg_mul_add", vec![low, sin, cos])),
+            ],
+        }
+    }
+
+    /// The coefficient of a row at the order that has begun.
+    pub fn coefficient(&mut self, row: RowId, order: Order) {
+        let Coefficient { plain, weighted } = self.series.coefficient(row, order, self);
+        self.newest[row.index()] = Some(plain);
+        self.scaled[row.index()] = weighted;
+    }
+
+    /// Gradients of all rows at the start.
+    pub fn differentiate(&mut self) {
+        let series = self.series;
+        for index in 0..series.rows.len() {
+            let row = RowId(index as u32);
+            let count = series.depends[index].len();
+            if count == 0 {
+                continue;
+            }
+            self.gradients[index] = vec![X::Zero; count];
+            match &series.rows[index] {
+                Row::Coordinate(_) | Row::Acceleration(_) => self.gradients[index][0] = X::One,
+                Row::Sum(terms) => {
+                    for (c, of) in terms {
+                        let slope = c.map_or(X::One, |c| self.first(c));
+                        self.add_gradient(row, *of, slope);
+                    }
+                }
+                _ => {
+                    for (of, slope) in series.slopes(row, self).into_iter().flatten() {
+                        self.add_gradient(row, of, slope);
+                    }
+                }
+            }
+        }
+    }
+
+    fn add_gradient(&mut self, to: RowId, of: RowId, slope: X) {
+        if !self.series.passes(to, of) {
+            return;
+        }
+        let (to, of) = (to.index(), of.index());
+        for (j, coordinate) in self.series.depends[of].iter().enumerate() {
+            let Ok(at) = self.series.depends[to].binary_search(coordinate) else {
+                continue;
+            };
+            let (known, g) = (self.gradients[to][at], self.gradients[of][j]);
+            self.gradients[to][at] = self.multiply_add(slope, g, known);
+        }
+    }
+
+    /// The factored matrices of unknowns that act on each other.
+    pub fn matrices(&mut self) -> Vec<(Vec<u32>, X)> {
+        let mut matrices = Vec::new();
+        for members in self.series.blocks() {
+            let mut entries = Vec::new();
+            for row in &members {
+                let row = self.series.residuals[*row as usize];
+                for column in &members {
+                    let is_solved_for = self.series.level(row) == Level::Acceleration;
+                    let depends = &self.series.depends[row.index()];
+                    entries.push(match depends.binary_search(column) {
+                        Ok(at) if is_solved_for => self.gradients[row.index()][at],
+                        _ => X::Zero,
+                    });
+                }
+            }
+            let held = members
+                .iter()
+                .filter(|row| (**row as usize) < self.series.dimension());
+            let op = Op::Factored(entries, held.count(), members.clone());
+            let matrix = self.push(op);
+            matrices.push((members, matrix));
+        }
+        matrices
+    }
+
+    /// What is solved for at the order that has begun.
+    pub fn accelerations(&mut self, matrices: &[(Vec<u32>, X)]) -> Vec<X> {
+        let mut all = vec![X::Zero; self.series.unknowns()];
+        for (members, matrix) in matrices {
+            let residuals = members
+                .iter()
+                .map(|row| self.series.residuals[*row as usize]);
+            let mut right = Vec::new();
+            for row in residuals.collect::<Vec<_>>() {
+                let residual = self.newest(row);
+                right.push(self.negate(residual));
+            }
+            let count = members.len();
+            let found: Vec<X> = match count {
+                ..=MOST_STRAIGHT => (0..count)
+                    .map(|i| {
+                        let mut sum = X::Zero;
+                        for (j, known) in right.iter().enumerate() {
+                            let part = std::mem::replace(&mut self.part, Part::Start);
+                            let element = self.push(Op::Element(*matrix, j * count + i));
+                            self.part = part;
+                            sum = self.multiply_add(element, *known, sum);
+                        }
+                        sum
+                    })
+                    .collect(),
+                _ => {
+                    let solved = self.push(Op::Solved(*matrix, right));
+                    (0..count)
+                        .map(|i| self.push(Op::Element(solved, i)))
+                        .collect()
+                }
+            };
+            for (member, x) in members.iter().zip(found) {
+                all[*member as usize] = x;
+            }
+        }
+        all
+    }
+
+    /// What accelerations change in forces as the columns of a matrix, where that is worth it.
+    pub fn matrix_of_forces(&mut self) -> Option<Vec<Vec<X>>> {
+        let count = self
+            .forces
+            .iter()
+            .map(|row| self.series.depends[row.index()].len());
+        if count.sum::<usize>() <= FEWEST_APPLIED {
+            return None;
+        }
+        let column = |unknown: u32| -> Vec<X> {
+            let entry = |row: &RowId| {
+                let depends = &self.series.depends[row.index()];
+                match depends.binary_search(&unknown) {
+                    Ok(at) => self.gradients[row.index()][at],
+                    Err(_) => X::Zero,
+                }
+            };
+            self.forces.iter().map(entry).collect()
+        };
+        let columns = (0..self.series.unknowns() as u32).map(column);
+        Some(columns.collect())
+    }
+
+    /// The final coefficients of an order, once the accelerations are known; `over` are the reciprocals of the orders of
+    /// rates and coordinates.
+    pub fn finals(&mut self, a: &[X], [over_v, over_q]: [X; 2], is_applied: bool) -> Finals {
+        let series = self.series;
+        let mut finals = Finals {
+            rows: self.newest.clone(),
+            motion: Vec::new(),
+            rates: Vec::new(),
+        };
+        for &a in &a[..series.dimension()] {
+            let rate = self.multiply(a, over_v);
+            finals.rates.push(rate);
+            let q = self.multiply(rate, over_q);
+            finals.motion.push(q);
+        }
+        let share = self.multiply(over_v, over_q);
+        let applied = match is_applied {
+            true => Some(self.push(Op::Applied(self.forces.len(), a.to_vec()))),
+            false => None,
+        };
+        for (at, row) in self.forces.clone().into_iter().enumerate() {
+            let change = match applied {
+                Some(applied) => self.push(Op::OfApplied(applied, at)),
+                None => self.change(row, a),
+            };
+            let known = self.newest(row);
+            finals.rows[row.index()] = Some(self.add(known, change));
+        }
+        for index in 0..series.rows.len() {
+            let row = RowId(index as u32);
+            if series.level(row) != Level::Position || series.depends[index].is_empty() {
+                continue;
+            }
+            finals.rows[index] = Some(match series.rows[index] {
+                Row::Coordinate(i) => finals.motion[i as usize],
+                _ => {
+                    let change = self.change(row, a);
+                    let known = self.newest[index].unwrap_or(X::Zero);
+                    self.multiply_add(share, change, known)
+                }
+            });
+        }
+        finals
+    }
+
+    /// The gradient of a row times the newest accelerations.
+    fn change(&mut self, row: RowId, a: &[X]) -> X {
+        let series = self.series;
+        let mut sum = X::Zero;
+        for (at, i) in series.depends[row.index()].iter().enumerate() {
+            let g = self.gradients[row.index()][at];
+            sum = self.multiply_add(g, a[*i as usize], sum);
+        }
+        sum
+    }
+
+    /// What a stream keeps of an order that is final: that of positions has begun as `m`.
+    pub fn kept(&mut self, finals: &Finals, Stream { row, weighted }: Stream, m: usize) -> X {
+        if !self.is_of_positions && self.series.level(row) == Level::Position {
+            return self.variable(Carried::Older(row, weighted));
+        }
+        let plain = finals.rows[row.index()].unwrap_or(X::Zero);
+        if !weighted {
+            return plain;
+        }
+        match self.series.rows[row.index()] {
+            Row::Coordinate(i) => finals.rates[i as usize],
+            _ => {
+                let is_of_positions = self.series.level(row) == Level::Position;
+                let before = (self.m, self.is_of_positions);
+                (self.m, self.is_of_positions) = (m, is_of_positions);
+                let order = self.order(0);
+                (self.m, self.is_of_positions) = before;
+                self.multiply(order, plain)
+            }
+        }
+    }
+}
+
+impl Symbolic<'_> {
+    /// What a variable holds once an order is final.
+    pub fn carried_by(&mut self, carried: Carried, finals: &Finals, m: usize) -> X {
+        let stream = |row: RowId, weighted: bool| Stream { row, weighted };
+        match carried {
+            Carried::Plain(row) => self.kept(finals, stream(row, false), m),
+            Carried::Weighted(row) => self.kept(finals, stream(row, true), m),
+            Carried::Older(row, _) if m < 3 => self.linear[row.index()].unwrap_or(X::Zero),
+            Carried::Older(row, weighted) => self.variable(match weighted {
+                true => Carried::Weighted(row),
+                false => Carried::Plain(row),
+            }),
+            Carried::Rate(i) => finals.rates[i as usize],
+        }
+    }
+}
+
+impl Arithmetic for Symbolic<'_> {
+    type X = X;
+
+    fn zero(&mut self) -> X {
+        X::Zero
+    }
+    fn one(&mut self) -> X {
+        X::One
+    }
+    fn rational(&mut self, value: &Rational) -> X {
+        if value.is_zero() {
+            X::Zero
+        } else if value.is_one() {
+            X::One
+        } else if *value == Rational::MINUS_ONE {
+            X::MinusOne
+        } else {
+            let text = language::rational(self.code.number(), value).text;
+            self.given(text)
+        }
+    }
+    fn pi(&mut self) -> X {
+        self.made("pi()")
+    }
+    fn parameter(&mut self, index: u32) -> X {
+        let names = self.parameters.as_ref();
+        let name = names.map_or("", |names| names[index as usize].as_str());
+        self.given(format!("self.{name}"))
+    }
+    fn input(&mut self, index: u32) -> X {
+        let text = format!("n(u.{})", self.inputs[index as usize]);
+        self.given(text)
+    }
+    fn time(&mut self) -> X {
+        self.given("n(t[0])".into())
+    }
+    fn motion(&mut self, coordinate: u32, is_rate: bool) -> X {
+        match (self.m, is_rate) {
+            (0, false) => self.given(format!("n(q[{coordinate}])")),
+            (0, true) | (1, false) => self.given(format!("n(v[{coordinate}])")),
+            (_, false) => X::Zero,
+            (_, true) => self.variable(Carried::Rate(coordinate)),
+        }
+    }
+    fn first(&mut self, row: RowId) -> X {
+        if let Some(known) = self.first[row.index()] {
+            return known;
+        }
+        if self.series.varies(row) {
+            // Asked for before it is known: no row does so.
+            return X::Zero;
+        }
+        let value = match (&self.series.rows[row.index()], &self.parameters) {
+            (Row::Number(number), _) if is_plain(number) => self.rational(number),
+            (_, Some(_)) => self.series.value(row, self),
+            (_, None) => {
+                let at = self.constants.len();
+                self.constants.push(row);
+                let part = std::mem::replace(&mut self.part, Part::Start);
+                let read = self.given(format!("n(p.series[{at}])"));
+                self.part = part;
+                read
+            }
+        };
+        self.first[row.index()] = Some(value);
+        value
+    }
+    fn newest(&mut self, row: RowId) -> X {
+        match self.series.level(row) {
+            Level::Constant => X::Zero,
+            // Its own order is two more.
+            Level::Position if !self.is_of_positions && self.m == 0 => self.first(row),
+            Level::Position if !self.is_of_positions => self.variable(Carried::Older(row, false)),
+            _ => self.newest[row.index()].unwrap_or(X::Zero),
+        }
+    }
+    fn before(&mut self, row: RowId) -> X {
+        match self.m {
+            1 => self.first(row),
+            2 => self.linear[row.index()].unwrap_or(X::Zero),
+            _ => self.variable(Carried::Plain(row)),
+        }
+    }
+    fn weighted(&mut self, row: RowId) -> X {
+        let is_older = self.series.level(row) == Level::Position && !self.is_of_positions;
+        match self.scaled[row.index()] {
+            _ if is_older => self.variable(Carried::Older(row, true)),
+            Some(scaled) => scaled,
+            None => {
+                let (order, newest) = (self.order(0), self.newest(row));
+                self.multiply(order, newest)
+            }
+        }
+    }
+    fn derivative(&mut self, row: RowId) -> X {
+        let coefficient = match self.m {
+            0 => self.linear[row.index()].unwrap_or(X::Zero),
+            _ => self.variable(Carried::Plain(row)),
+        };
+        let order = self.order(1);
+        self.multiply(order, coefficient)
+    }
+    fn second_derivative(&mut self, row: RowId) -> X {
+        // The row was computed at an order that is two more.
+        let scaled = match self.scaled[row.index()] {
+            Some(scaled) => scaled,
+            None => {
+                let newest = self.newest[row.index()].unwrap_or(X::Zero);
+                let order = self.order(2);
+                self.multiply(order, newest)
+            }
+        };
+        let order = self.order(1);
+        self.multiply(order, scaled)
+    }
+    fn convolution(&mut self, row: RowId, number: usize) -> X {
+        let convolution = self.series.convolutions(row)[number];
+        let [a, b] = convolution.factors;
+        if self.m < 3 {
+            // Of positions alone: one term of the second order, none of the first.
+            let of =
+                |symbolic: &Self, stream: Stream| match symbolic.series.rows[stream.row.index()] {
+                    _ if symbolic.m < 2 => X::Zero,
+                    _ => symbolic.linear[stream.row.index()].unwrap_or(X::Zero),
+                };
+            let [a, b] = [a, b].map(|stream| of(self, stream));
+            return self.multiply(a, b);
+        }
+        let (kind, lane) = self.places[&convolution];
+        let letter = ["w", "s"][kind];
+        let sum = self.given(format!("{letter}{}[{}]", lane / WIDTH, lane % WIDTH));
+        let carried = |Stream { row, weighted }: Stream| match weighted {
+            true => Carried::Weighted(row),
+            false => Carried::Plain(row),
+        };
+        let linear = |symbolic: &Self, stream: Stream| {
+            symbolic.linear[stream.row.index()].unwrap_or(X::Zero)
+        };
+        match convolution.along {
+            Along::Rest => sum,
+            Along::Force => {
+                let (a, b) = (self.variable(carried(a)), linear(self, b));
+                self.multiply_add(a, b, sum)
+            }
+            Along::Position => {
+                let [first_a, first_b] = [linear(self, a), linear(self, b)];
+                let a = self.variable(carried(a));
+                let sum = self.multiply_add(a, first_b, sum);
+                let b = self.variable(carried(b));
+                self.multiply_add(first_a, b, sum)
+            }
+        }
+    }
+    fn sin_cos(&mut self, row: RowId) -> [X; 2] {
+        if let Some(known) = self.circular.get(&row) {
+            return *known;
+        }
+        let angle = self.first(row);
+        let pair = self.push(Op::Circular(vec![angle]));
+        let both = [false, true].map(|cos| self.push(Op::Member(pair, 0, cos)));
+        let turned = self.turned(row, both);
+        self.circular.insert(row, turned);
+        turned
+    }
+    fn call(&mut self, call: Call, a: X, b: X) -> X {
+        match call {
+            Call::Pow => self.push(Op::Method("powf", vec![a, b])),
+            Call::Atan2 => self.push(Op::Method("atan2", vec![a, b])),
+            Call::Min => self.push(Op::Method("min", vec![a, b])),
+            Call::Max => self.push(Op::Method("max", vec![a, b])),
+            _ => self.push(Op::Method(call.name(), vec![a])),
+        }
+    }
+    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> X {
+        let (mut sum, mut low) = (X::Zero, X::Zero);
+        for (coefficient, of) in terms {
+            let x = self.first(*of);
+            let x_low = match self.series.exact[of.index()] {
+                true => self.low[of.index()].unwrap_or(X::Zero),
+                false => X::Zero,
+            };
+            let (term, term_low) = match coefficient {
+                None => (x, x_low),
+                Some(c) => {
+                    let c = self.first(*c);
+                    let error = match (c, x) {
+                        (X::Value(_), X::Value(_)) => {
+                            self.push(Op::Method("product_error", vec![c, x]))
+                        }
+                        _ => X::Zero,
+                    };
+                    let low = self.multiply_add(c, x_low, error);
+                    (self.multiply(c, x), low)
+                }
+            };
+            let error = match (sum, term) {
+                (X::Zero, _) | (_, X::Zero) => X::Zero,
+                _ => self.push(Op::Method("sum_error", vec![sum, term])),
+            };
+            let more = self.add(term_low, error);
+            low = self.add(low, more);
+            sum = self.add(sum, term);
+        }
+        self.low[row.index()] = Some(low);
+        sum
+    }
+    fn over_order(&mut self) -> X {
+        match (self.m, self.is_of_positions) {
+            (1, _) => X::One,
+            (2, _) => self.made("from_f64(0.5)"),
+            (_, true) => self.made("from_ratio(1, order as i64)"),
+            (_, false) => self.made("from_ratio(1, order as i64 - 2)"),
+        }
+    }
+
+    fn add(&mut self, a: X, b: X) -> X {
+        match (a, b) {
+            (X::Zero, x) | (x, X::Zero) => x,
+            (x, X::MinusOne) => self.push(Op::Infix("-", x, X::One)),
+            _ => self.push(Op::Infix("+", a, b)),
+        }
+    }
+    fn subtract(&mut self, a: X, b: X) -> X {
+        match (a, b) {
+            (x, X::Zero) => x,
+            (X::Zero, x) => self.negate(x),
+            (x, X::MinusOne) => self.push(Op::Infix("+", x, X::One)),
+            _ => self.push(Op::Infix("-", a, b)),
+        }
+    }
+    fn multiply(&mut self, a: X, b: X) -> X {
+        match (a, b) {
+            (X::Zero, _) | (_, X::Zero) => X::Zero,
+            (X::One, x) | (x, X::One) => x,
+            (X::MinusOne, x) | (x, X::MinusOne) => self.negate(x),
+            _ => self.push(Op::Infix("*", a, b)),
+        }
+    }
+    fn divide(&mut self, a: X, b: X) -> X {
+        match (a, b) {
+            (X::Zero, _) => X::Zero,
+            (x, X::One) => x,
+            (x, X::MinusOne) => self.negate(x),
+            _ => self.push(Op::Infix("/", a, b)),
+        }
+    }
+    fn negate(&mut self, a: X) -> X {
+        match a {
+            X::Zero => X::Zero,
+            X::One => X::MinusOne,
+            X::MinusOne => X::One,
+            _ => self.push(Op::Negative(a)),
+        }
+    }
+    fn multiply_add(&mut self, a: X, b: X, c: X) -> X {
+        match (a, b, c) {
+            (X::Zero, _, c) | (_, X::Zero, c) => c,
+            (a, b, X::Zero) => self.multiply(a, b),
+            (X::One, x, c) | (x, X::One, c) => self.add(x, c),
+            (X::MinusOne, x, c) | (x, X::MinusOne, c) => self.subtract(c, x),
+            (a, b, X::MinusOne) => self.push(Op::Method("mul_sub", vec![a, b, X::One])),
+            _ => self.push(Op::Method("mul_add", vec![a, b, c])),
+        }
+    }
+}
+
+/// Whether a number is written as it is.
+fn is_plain(number: &Rational) -> bool {
+    number.is_zero() || number.is_one() || *number == Rational::MINUS_ONE
+}

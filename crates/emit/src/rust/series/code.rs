@@ -1,0 +1,233 @@
+//! Straight code as it is made: operations that know what they need, of which only those that are needed are written.
+
+use std::collections::HashMap;
+
+use crate::layout::{Layout, Writer};
+
+/// A number in the code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum X {
+    /// 0.
+    Zero,
+    /// 1.
+    One,
+    /// −1.
+    MinusOne,
+    /// The result of an operation.
+    Value(u32),
+}
+
+/// Where an operation stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Part {
+    /// Before the loop over orders.
+    Start,
+    /// In it.
+    Order,
+}
+
+/// An operation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// What is there already, by its text.
+    Given(String),
+    /// `a + b` and the like.
+    Infix(&'static str, X, X),
+    /// `−a`.
+    Negative(X),
+    /// `a.method(b, c)`.
+    Method(&'static str, Vec<X>),
+    /// Sines and cosines of several angles.
+    Circular(Vec<X>),
+    /// One of these: which angle, and whether its cosine.
+    Member(X, usize, bool),
+    /// The factored matrix of unknowns that act on each other: its entries row by row, how many of the unknowns are
+    /// coordinates, and which they are.
+    Factored(Vec<X>, usize, Vec<u32>),
+    /// What is solved for: the matrix, and the right-hand sides.
+    Solved(X, Vec<X>),
+    /// An element of a matrix or of what was solved for.
+    Element(X, usize),
+    /// The matrix of forces times numbers, and how long its columns are.
+    Applied(usize, Vec<X>),
+    /// An element of that.
+    OfApplied(X, usize),
+}
+
+impl Op {
+    fn operands(&self) -> Vec<X> {
+        match self {
+            Op::Given(_) => Vec::new(),
+            Op::Infix(_, a, b) => vec![*a, *b],
+            Op::Negative(a) | Op::Member(a, ..) | Op::Element(a, _) | Op::OfApplied(a, _) => {
+                vec![*a]
+            }
+            Op::Method(_, all)
+            | Op::Circular(all)
+            | Op::Factored(all, ..)
+            | Op::Applied(_, all) => all.clone(),
+            Op::Solved(matrix, all) => [*matrix].into_iter().chain(all.iter().copied()).collect(),
+        }
+    }
+}
+
+/// Operations in the order in which they are done.
+#[derive(Debug)]
+pub struct Code {
+    /// The type of the numbers.
+    number: String,
+    /// What the names of results begin with.
+    letter: char,
+    ops: Vec<(Op, Part)>,
+    known: HashMap<Op, u32>,
+    is_needed: Vec<bool>,
+}
+
+impl Code {
+    pub fn new(number: &str, letter: char) -> Code {
+        Code {
+            number: number.to_owned(),
+            letter,
+            ops: Vec::new(),
+            known: HashMap::new(),
+            is_needed: Vec::new(),
+        }
+    }
+
+    pub fn number(&self) -> &str {
+        &self.number
+    }
+
+    pub fn push(&mut self, op: Op, part: Part) -> X {
+        if let Some(known) = self.known.get(&op) {
+            return X::Value(*known);
+        }
+        let id = self.ops.len() as u32;
+        self.known.insert(op.clone(), id);
+        self.ops.push((op, part));
+        X::Value(id)
+    }
+
+    /// Leaves out what none of these needs.
+    pub fn prune(&mut self, wanted: impl Iterator<Item = X>) {
+        self.is_needed = vec![false; self.ops.len()];
+        let mut open: Vec<X> = wanted.collect();
+        while let Some(x) = open.pop() {
+            if let X::Value(id) = x
+                && !std::mem::replace(&mut self.is_needed[id as usize], true)
+            {
+                open.extend(self.ops[id as usize].0.operands());
+            }
+        }
+    }
+
+    /// A number as it is written.
+    pub fn text(&self, x: X) -> String {
+        match x {
+            X::Zero => format!("{}::ZERO", self.number),
+            X::One => format!("{}::ONE", self.number),
+            X::MinusOne => format!("-{}::ONE", self.number),
+            X::Value(id) => format!("{}{id}", self.letter),
+        }
+    }
+
+    /// An array of numbers as they are kept, with zeros up to a length.
+    pub fn kept(&self, all: &[X], length: usize) -> Layout {
+        let rest = length.saturating_sub(all.len());
+        let all = all
+            .iter()
+            .copied()
+            .chain(std::iter::repeat_n(X::Zero, rest));
+        Layout::array(all.map(|x| format!("{}.store()", self.text(x))))
+    }
+
+    /// Writes the operations of a part. The machine has so many coordinates.
+    pub fn write(&self, writer: &mut Writer, part: Part, runtime: &str, coordinates: usize) {
+        let text = |x: &X| self.text(*x);
+        let list = |all: &[X]| -> Vec<String> { all.iter().map(text).collect() };
+        let number = &self.number;
+        for (id, (op, at)) in self.ops.iter().enumerate() {
+            if *at != part || !self.is_needed[id] {
+                continue;
+            }
+            let name = format!("{}{id}", self.letter);
+            let value = match op {
+                Op::Given(given) => given.clone(),
+                Op::Infix(sign, a, b) => format!("{} {sign} {}", text(a), text(b)),
+                Op::Negative(a) => format!("-{}", text(a)),
+                Op::Method(method, all) => {
+                    let all = list(all);
+                    format!("{}.{method}({})", all[0], all[1..].join(", "))
+                }
+                Op::Circular(all) => {
+                    let angles = Layout::array(list(all));
+                    writer.expression(&format!("let angles{id} = "), &angles, ";");
+                    format!("{number}::sin_cos_all(angles{id})")
+                }
+                Op::Member(of, at, is_cos) => {
+                    format!("{}[{at}].{}", text(of), usize::from(*is_cos))
+                }
+                Op::Factored(entries, held, members) => {
+                    let entries = self.kept(entries, 0);
+                    writer.expression(&format!("let mut {name} = "), &entries, ";");
+                    let count = members.len();
+                    let members = Layout::array(members.iter().map(u32::to_string));
+                    writer.expression(&format!("let members{id} = "), &members, ";");
+                    let call = Layout::List(
+                        format!("{runtime}::series::factor::<{number}>("),
+                        [count.to_string(), held.to_string(), format!("&mut {name}")]
+                            .map(Layout::Atom)
+                            .to_vec(),
+                        ")",
+                    );
+                    writer.expression("let factored = ", &call, ";");
+                    writer.open("if let Err(vanished) = factored {");
+                    let error = Layout::List(
+                        format!("{runtime}::series::singular("),
+                        [
+                            "vanished".to_owned(),
+                            format!("&members{id}"),
+                            coordinates.to_string(),
+                        ]
+                        .map(Layout::Atom)
+                        .to_vec(),
+                        ")",
+                    );
+                    writer.expression("let singular = ", &error, ";");
+                    writer.line("return Err(singular);");
+                    writer.close("}");
+                    continue;
+                }
+                Op::Solved(matrix, right) => {
+                    let matrix = text(matrix);
+                    let sides = self.kept(right, 0);
+                    writer.expression(&format!("let mut {name} = "), &sides, ";");
+                    writer.line(format!("let mut room{id} = {name};"));
+                    writer.line(format!("let (x, room) = (&mut {name}, &mut room{id});"));
+                    let count = right.len();
+                    writer.line(format!(
+                        "{runtime}::series::solve::<{number}>({count}, &{matrix}, x, room);"
+                    ));
+                    continue;
+                }
+                Op::Element(of, at) => format!("n({}[{at}])", text(of)),
+                Op::OfApplied(of, at) => format!("{}[{at}]", text(of)),
+                Op::Applied(length, all) => {
+                    let arguments = Layout::array(list(all));
+                    writer.expression(&format!("let factors{id} = "), &arguments, ";");
+                    let count = all.len();
+                    let call = Layout::List(
+                        format!("{runtime}::series::apply::<{number}, {length}, {count}>("),
+                        ["&forces".to_owned(), format!("&factors{id}")]
+                            .map(Layout::Atom)
+                            .to_vec(),
+                        ")",
+                    );
+                    writer.expression(&format!("let {name} = "), &call, ";");
+                    continue;
+                }
+            };
+            writer.expression(&format!("let {name} = "), &Layout::Atom(value), ";");
+        }
+    }
+}

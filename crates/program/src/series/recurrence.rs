@@ -1,0 +1,523 @@
+//! One coefficient of a row from those before it: the recurrences, over whatever computes them.
+//!
+//! They are written once, over an [`Arithmetic`]: the interpreter computes with them, an emitter writes down what is to be
+//! computed. So both do the same operations in the same order.
+
+use lagrangian_symbolic::{Function as Call, Rational};
+
+use super::{Level, Row, RowId, Series};
+
+/// A factor of a [`Convolution`]: the coefficients of a row, or each multiplied by its order, `j aⱼ`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Stream {
+    /// The row.
+    pub row: RowId,
+    /// Whether its coefficients are multiplied by their orders.
+    pub weighted: bool,
+}
+
+/// The sum of products over the orders between the first and the one that is computed, `Σ aⱼ b₍m−j₎`.
+///
+/// What belongs to the orders 0 and m is added by whoever knows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Convolution {
+    /// The factors; where they are added up [by force](Along::Force), first the one that depends on accelerations.
+    pub factors: [Stream; 2],
+    /// In which order the terms are added.
+    pub along: Along,
+}
+
+/// In which order the terms of a sum over orders are added: what becomes known last comes last.
+///
+/// All are a sum of two, of terms with even and with odd j, and what follows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Along {
+    /// Of positions: `2 ≤ j ≤ m − 2`, then `j = m − 1`, then `j = 1`.
+    Position,
+    /// Of a force and a position: `0 ≤ j ≤ m − 2`, then `j = m − 1`. The term of order 0 is among them.
+    Force,
+    /// Of everything else: `1 ≤ j ≤ m − 1`.
+    Rest,
+}
+
+/// What recurrences are computed with. `m` is the order of the coefficient that is asked for.
+pub trait Arithmetic {
+    /// A number.
+    type X: Copy;
+
+    /// 0.
+    fn zero(&mut self) -> Self::X;
+    /// 1.
+    fn one(&mut self) -> Self::X;
+    /// A rational number.
+    fn rational(&mut self, value: &Rational) -> Self::X;
+    /// π.
+    fn pi(&mut self) -> Self::X;
+    /// A parameter.
+    fn parameter(&mut self, index: u32) -> Self::X;
+    /// An input.
+    fn input(&mut self, index: u32) -> Self::X;
+    /// The time at the start.
+    fn time(&mut self) -> Self::X;
+    /// Coefficient `m` of a coordinate, or of its rate.
+    fn motion(&mut self, coordinate: u32, is_rate: bool) -> Self::X;
+    /// Coefficient 0 of a row.
+    fn first(&mut self, row: RowId) -> Self::X;
+    /// Coefficient `m` of a row at the level of this one, as it was just computed.
+    fn newest(&mut self, row: RowId) -> Self::X;
+    /// Coefficient `m − 1` of a row.
+    fn before(&mut self, row: RowId) -> Self::X;
+    /// `m` times coefficient `m` of a row at the level of this one, as it was just computed.
+    fn weighted(&mut self, row: RowId) -> Self::X;
+    /// Coefficient `m + 1` of a row of positions, times `m + 1`.
+    fn derivative(&mut self, row: RowId) -> Self::X;
+    /// Coefficient `m + 2` of a row of positions, as it was just computed, times `(m + 1)(m + 2)`.
+    fn second_derivative(&mut self, row: RowId) -> Self::X;
+    /// One of the sums of this row.
+    fn convolution(&mut self, row: RowId, number: usize) -> Self::X;
+    /// Sine and cosine of a row at order 0, turned by what rounding took from it.
+    fn sin_cos(&mut self, row: RowId) -> [Self::X; 2];
+    /// A function of numbers, at order 0.
+    fn call(&mut self, call: Call, a: Self::X, b: Self::X) -> Self::X;
+    /// A sum at order 0, where what rounding takes from it is to be known.
+    fn exact_sum(&mut self, row: RowId, terms: &[(Option<RowId>, RowId)]) -> Self::X;
+    /// 1/m.
+    fn over_order(&mut self) -> Self::X;
+
+    /// `a + b`.
+    fn add(&mut self, a: Self::X, b: Self::X) -> Self::X;
+    /// `a − b`.
+    fn subtract(&mut self, a: Self::X, b: Self::X) -> Self::X;
+    /// `a b`.
+    fn multiply(&mut self, a: Self::X, b: Self::X) -> Self::X;
+    /// `a/b`.
+    fn divide(&mut self, a: Self::X, b: Self::X) -> Self::X;
+    /// `−a`.
+    fn negate(&mut self, a: Self::X) -> Self::X;
+    /// `a b + c`, rounded once where numbers know how.
+    fn multiply_add(&mut self, a: Self::X, b: Self::X, c: Self::X) -> Self::X;
+}
+
+/// A coefficient: of the row itself, and, where that comes first and costs nothing, multiplied by its order.
+pub struct Coefficient<X> {
+    /// Coefficient `m`.
+    pub plain: X,
+    /// `m` times it.
+    pub weighted: Option<X>,
+}
+
+impl Series {
+    /// The sums that a coefficient of a row takes.
+    pub fn convolutions(&self, row: RowId) -> Vec<Convolution> {
+        let plain = |row: RowId| Stream {
+            row,
+            weighted: false,
+        };
+        let weighted = |row: RowId| Stream {
+            row,
+            weighted: true,
+        };
+        let pairs = match self.rows[row.index()] {
+            _ if self.level(row) == Level::Constant => Vec::new(),
+            Row::Product(a, b) if self.varies(a) && self.varies(b) => vec![[plain(a), plain(b)]],
+            Row::Square(a) | Row::TanhSlope(a) => vec![[plain(a), plain(a)]],
+            Row::Quotient(_, b) if self.varies(b) => vec![[plain(b), plain(row)]],
+            Row::Sqrt(_) => vec![[plain(row), plain(row)]],
+            Row::Sin(a, other) | Row::Cos(a, other) if self.phase(a).is_none() => {
+                vec![[weighted(a), plain(other)]]
+            }
+            Row::Sinh(a, other) | Row::Cosh(a, other) | Row::Tanh(a, other) => {
+                vec![[weighted(a), plain(other)]]
+            }
+            Row::Exp(a) => vec![[weighted(a), plain(row)]],
+            Row::Power(a, _) => vec![[weighted(a), plain(row)], [weighted(row), plain(a)]],
+            Row::Primitive(_, _, slope) => vec![[weighted(row), plain(slope)]],
+            Row::Atan2(y, x, slope) => vec![
+                [weighted(y), plain(x)],
+                [weighted(x), plain(y)],
+                [weighted(row), plain(slope)],
+            ],
+            _ => Vec::new(),
+        };
+        let level = self.level(row);
+        let sum = |factors: [Stream; 2]| {
+            let levels = factors.map(|stream| self.level(stream.row));
+            match (level, &self.rows[row.index()], levels) {
+                (Level::Position, ..) => Convolution {
+                    factors,
+                    along: Along::Position,
+                },
+                (_, Row::Product(..), [Level::Acceleration, Level::Position]) => Convolution {
+                    factors,
+                    along: Along::Force,
+                },
+                (_, Row::Product(..), [Level::Position, Level::Acceleration]) => Convolution {
+                    factors: [factors[1], factors[0]],
+                    along: Along::Force,
+                },
+                _ => Convolution {
+                    factors,
+                    along: Along::Rest,
+                },
+            }
+        };
+        pairs.into_iter().map(sum).collect()
+    }
+
+    /// What a row depends on.
+    pub fn level(&self, row: RowId) -> Level {
+        self.levels[row.index()]
+    }
+
+    /// Whether a row depends on more than parameters.
+    pub fn varies(&self, row: RowId) -> bool {
+        self.level(row) > Level::Constant
+    }
+
+    /// The rate of a row that grows with time and with nothing else, a constant: `ω` of `ω t`, 1 of the time itself where there
+    /// is none.
+    pub fn phase(&self, row: RowId) -> Option<Option<RowId>> {
+        match &self.rows[row.index()] {
+            Row::Time => Some(None),
+            Row::Sum(terms) => {
+                let mut rate = None;
+                for (coefficient, term) in terms {
+                    match self.rows[term.index()] {
+                        Row::Time if rate.is_none() => rate = Some(*coefficient),
+                        _ if !self.varies(*term) => {}
+                        _ => return None,
+                    }
+                }
+                rate
+            }
+            _ => None,
+        }
+    }
+
+    /// Coefficient 0 of a row.
+    #[inline(always)]
+    pub fn value<A: Arithmetic>(&self, row: RowId, to: &mut A) -> A::X {
+        match self.rows[row.index()] {
+            Row::Number(ref number) => to.rational(number),
+            Row::Pi => to.pi(),
+            Row::Parameter(i) => to.parameter(i),
+            Row::Input(i) => to.input(i),
+            Row::Time => to.time(),
+            Row::Coordinate(i) => to.motion(i, false),
+            Row::Rate(i) => to.motion(i, true),
+            Row::Acceleration(_) => to.zero(),
+            Row::First(p) => to.derivative(p),
+            Row::Second(p) => to.second_derivative(p),
+            Row::Sum(ref terms) => match self.has_phase(row) {
+                true => to.exact_sum(row, terms),
+                false => self.sum_of(terms, to, A::first),
+            },
+            Row::Product(a, b) => {
+                let [a, b] = [a, b].map(|row| to.first(row));
+                to.multiply(a, b)
+            }
+            Row::Square(a) => {
+                let a = to.first(a);
+                to.multiply(a, a)
+            }
+            Row::Quotient(a, b) => {
+                let [a, b] = [a, b].map(|row| to.first(row));
+                to.divide(a, b)
+            }
+            Row::Sin(a, _) => to.sin_cos(a)[0],
+            Row::Cos(a, _) => to.sin_cos(a)[1],
+            Row::Sqrt(a) => self.call(Call::Sqrt, a, a, to),
+            Row::Sinh(a, _) => self.call(Call::Sinh, a, a, to),
+            Row::Cosh(a, _) => self.call(Call::Cosh, a, a, to),
+            Row::Tanh(a, _) => self.call(Call::Tanh, a, a, to),
+            Row::Exp(a) => self.call(Call::Exp, a, a, to),
+            Row::Power(a, r) => self.call(Call::Pow, a, r, to),
+            Row::Primitive(call, a, _) => self.call(call, a, a, to),
+            Row::Atan2(y, x, _) => self.call(Call::Atan2, y, x, to),
+            Row::Constant(call, a, b) => self.call(call, a, b, to),
+            Row::TanhSlope(a) => {
+                let [one, a] = [to.one(), to.first(a)];
+                let square = to.multiply(a, a);
+                to.subtract(one, square)
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn call<A: Arithmetic>(&self, call: Call, a: RowId, b: RowId, to: &mut A) -> A::X {
+        let [a, b] = [a, b].map(|row| to.first(row));
+        to.call(call, a, b)
+    }
+
+    /// Whether what changes a row at its own level changes another: positions change second derivatives with them, what
+    /// is of another level stays.
+    pub fn passes(&self, to: RowId, of: RowId) -> bool {
+        let is_second = matches!(self.rows[to.index()], Row::Second(_));
+        self.level(of) == self.level(to) || is_second
+    }
+
+    /// Whether a row is a sum that grows with time: what rounding takes from it is worth knowing.
+    pub fn has_phase(&self, row: RowId) -> bool {
+        self.exact[row.index()]
+    }
+
+    /// `Σ c x`.
+    #[inline(always)]
+    fn sum_of<A: Arithmetic>(
+        &self,
+        terms: &[(Option<RowId>, RowId)],
+        to: &mut A,
+        x: impl Fn(&mut A, RowId) -> A::X,
+    ) -> A::X {
+        let mut sum = to.zero();
+        for (coefficient, row) in terms {
+            let x = x(to, *row);
+            sum = match coefficient {
+                None => to.add(sum, x),
+                Some(c) => {
+                    let c = to.first(*c);
+                    to.multiply_add(c, x, sum)
+                }
+            };
+        }
+        sum
+    }
+
+    /// Coefficient `m ≥ 1` of a row that varies, those before it and those of its operands being known.
+    #[inline(always)]
+    pub fn coefficient<A: Arithmetic>(
+        &self,
+        row: RowId,
+        m: Order,
+        to: &mut A,
+    ) -> Coefficient<A::X> {
+        let plain = |plain: A::X| Coefficient {
+            plain,
+            weighted: None,
+        };
+        // The sum over all orders of a product of two rows whose factors are `a` and `b`.
+        macro_rules! product {
+            ($a:expr, $b:expr) => {{
+                let sum = to.convolution(row, 0);
+                let (b_0, a_m) = (to.first($b), to.newest($a));
+                match self.is_force(row) {
+                    true => to.multiply_add(a_m, b_0, sum),
+                    false => {
+                        let (a_0, b_m) = (to.first($a), to.newest($b));
+                        let sum = to.multiply_add(a_m, b_0, sum);
+                        to.multiply_add(a_0, b_m, sum)
+                    }
+                }
+            }};
+        }
+        // 1/m times a sum whose last term is m a_m b_0: with its multiple by m.
+        macro_rules! integral {
+            ($a:expr, $b:expr, $negative:expr) => {{
+                let sum = to.convolution(row, 0);
+                let (a_m, b_0) = (to.weighted($a), to.first($b));
+                let sum = to.multiply_add(a_m, b_0, sum);
+                let sum = if $negative { to.negate(sum) } else { sum };
+                let over = to.over_order();
+                Coefficient {
+                    plain: to.multiply(over, sum),
+                    weighted: Some(sum),
+                }
+            }};
+        }
+        match self.rows[row.index()] {
+            Row::Number(_)
+            | Row::Pi
+            | Row::Parameter(_)
+            | Row::Constant(..)
+            | Row::Input(_)
+            | Row::Acceleration(_) => plain(to.zero()),
+            Row::Time => plain(match m {
+                Order::First => to.one(),
+                _ => to.zero(),
+            }),
+            Row::Coordinate(i) => plain(to.motion(i, false)),
+            Row::Rate(i) => plain(to.motion(i, true)),
+            Row::First(p) => plain(to.derivative(p)),
+            Row::Second(p) => plain(to.second_derivative(p)),
+            Row::Sum(ref terms) => plain(self.sum_of(terms, to, A::newest)),
+            Row::Product(a, b) => plain(match [self.varies(a), self.varies(b)] {
+                [true, true] if self.is_force(row) && self.level(a) < self.level(b) => {
+                    product!(b, a)
+                }
+                [true, true] => product!(a, b),
+                [false, _] => {
+                    let (a, b) = (to.first(a), to.newest(b));
+                    to.multiply(a, b)
+                }
+                [_, false] => {
+                    let (a, b) = (to.newest(a), to.first(b));
+                    to.multiply(a, b)
+                }
+            }),
+            Row::Square(a) => plain(self.square(row, a, to)),
+            Row::TanhSlope(a) => {
+                let square = self.square(row, a, to);
+                plain(to.negate(square))
+            }
+            Row::Quotient(a, b) if !self.varies(b) => {
+                let (a, b) = (to.newest(a), to.first(b));
+                plain(to.divide(a, b))
+            }
+            Row::Quotient(a, b) => {
+                let sum = to.convolution(row, 0);
+                let a = to.newest(a);
+                let left = to.subtract(a, sum);
+                let (b_m, c_0, b_0) = (to.newest(b), to.first(row), to.first(b));
+                let known = to.multiply(b_m, c_0);
+                let left = to.subtract(left, known);
+                plain(to.divide(left, b_0))
+            }
+            Row::Sqrt(a) => {
+                let sum = to.convolution(row, 0);
+                let (a, root) = (to.newest(a), to.first(row));
+                let (left, twice) = (to.subtract(a, sum), to.add(root, root));
+                plain(to.divide(left, twice))
+            }
+            Row::Sin(a, other) | Row::Cos(a, other) => {
+                let is_cos = matches!(self.rows[row.index()], Row::Cos(..));
+                let Some(rate) = self.phase(a) else {
+                    return integral!(a, other, is_cos);
+                };
+                let before = to.before(other);
+                let sum = match rate {
+                    None => before,
+                    Some(rate) => {
+                        let rate = to.first(rate);
+                        to.multiply(rate, before)
+                    }
+                };
+                let sum = if is_cos { to.negate(sum) } else { sum };
+                let over = to.over_order();
+                Coefficient {
+                    plain: to.multiply(over, sum),
+                    weighted: Some(sum),
+                }
+            }
+            Row::Sinh(a, other) | Row::Cosh(a, other) | Row::Tanh(a, other) => {
+                integral!(a, other, false)
+            }
+            Row::Exp(a) => integral!(a, row, false),
+            Row::Power(a, r) => {
+                let sums = [to.convolution(row, 0), to.convolution(row, 1)];
+                let (a_m, p_0, r) = (to.weighted(a), to.first(row), to.first(r));
+                let rising = to.multiply_add(a_m, p_0, sums[0]);
+                let rising = to.multiply(r, rising);
+                let left = to.subtract(rising, sums[1]);
+                let (over, a_0) = (to.over_order(), to.first(a));
+                let left = to.multiply(over, left);
+                plain(to.divide(left, a_0))
+            }
+            Row::Primitive(_, a, slope) => {
+                let known = to.convolution(row, 0);
+                let (over, a, slope) = (to.over_order(), to.newest(a), to.first(slope));
+                let known = to.multiply(over, known);
+                let left = to.subtract(a, known);
+                plain(to.divide(left, slope))
+            }
+            Row::Atan2(y, x, slope) => {
+                let sums = [0, 1, 2].map(|number| to.convolution(row, number));
+                let [y_m, x_m] = [y, x].map(|row| to.weighted(row));
+                let [y_0, x_0, slope] = [y, x, slope].map(|row| to.first(row));
+                let rising = to.multiply_add(y_m, x_0, sums[0]);
+                let falling = to.multiply_add(x_m, y_0, sums[1]);
+                let area = to.subtract(rising, falling);
+                let left = to.subtract(area, sums[2]);
+                let over = to.over_order();
+                let left = to.multiply(over, left);
+                plain(to.divide(left, slope))
+            }
+        }
+    }
+
+    /// Whether a row is a product of what depends on accelerations with a position.
+    pub fn is_force(&self, row: RowId) -> bool {
+        match self.rows[row.index()] {
+            Row::Product(a, b) if self.level(row) == Level::Acceleration => {
+                let mut levels = [self.level(a), self.level(b)];
+                levels.sort_unstable();
+                levels == [Level::Position, Level::Acceleration]
+            }
+            _ => false,
+        }
+    }
+
+    #[inline(always)]
+    fn square<A: Arithmetic>(&self, row: RowId, a: RowId, to: &mut A) -> A::X {
+        let sum = to.convolution(row, 0);
+        let (a_0, a_m) = (to.first(a), to.newest(a));
+        let sum = to.multiply_add(a_m, a_0, sum);
+        to.multiply_add(a_0, a_m, sum)
+    }
+
+    /// What a row is made from at its own level, and its derivatives by these at the start; but sums, whose coefficients are
+    /// the derivatives.
+    #[inline(always)]
+    pub fn slopes<A: Arithmetic>(&self, row: RowId, to: &mut A) -> [Option<(RowId, A::X)>; 2] {
+        match self.rows[row.index()] {
+            Row::Second(p) => [Some((p, to.one())), None],
+            Row::Product(a, b) => {
+                let [x_a, x_b] = [a, b].map(|row| to.first(row));
+                [Some((a, x_b)), Some((b, x_a))]
+            }
+            Row::Square(a) => {
+                let x = to.first(a);
+                [Some((a, to.add(x, x))), None]
+            }
+            Row::Quotient(a, b) => {
+                let (one, x_b, x) = (to.one(), to.first(b), to.first(row));
+                let slope = to.divide(one, x_b);
+                let other = to.multiply(x, slope);
+                [Some((a, slope)), Some((b, to.negate(other)))]
+            }
+            Row::Sqrt(a) => {
+                let (one, x) = (to.one(), to.first(row));
+                let twice = to.add(x, x);
+                [Some((a, to.divide(one, twice))), None]
+            }
+            Row::Sin(a, other)
+            | Row::Sinh(a, other)
+            | Row::Cosh(a, other)
+            | Row::Tanh(a, other) => [Some((a, to.first(other))), None],
+            Row::Cos(a, sin) => {
+                let sin = to.first(sin);
+                [Some((a, to.negate(sin))), None]
+            }
+            Row::TanhSlope(a) => {
+                let x = to.first(a);
+                let twice = to.add(x, x);
+                [Some((a, to.negate(twice))), None]
+            }
+            Row::Exp(a) => [Some((a, to.first(row))), None],
+            Row::Power(a, r) => {
+                let (r, x, x_a) = (to.first(r), to.first(row), to.first(a));
+                let product = to.multiply(r, x);
+                [Some((a, to.divide(product, x_a))), None]
+            }
+            Row::Primitive(_, a, slope) => {
+                let (one, slope) = (to.one(), to.first(slope));
+                [Some((a, to.divide(one, slope))), None]
+            }
+            Row::Atan2(y, x, slope) => {
+                let [y_0, x_0, slope] = [y, x, slope].map(|row| to.first(row));
+                let rising = to.divide(x_0, slope);
+                let falling = to.divide(y_0, slope);
+                [Some((y, rising)), Some((x, to.negate(falling)))]
+            }
+            _ => [None, None],
+        }
+    }
+}
+
+/// The order of a coefficient, as far as it matters to a recurrence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Order {
+    /// 1.
+    First,
+    /// 2 or more.
+    Later,
+}

@@ -1,0 +1,198 @@
+//! Arithmetic that every Taylor series of a motion needs: sums of products over orders, and what is solved for at each.
+//!
+//! The interpreter of series and compiled machines both call it, so that their numbers have the same bits. All of it runs in
+//! registers `N` and keeps numbers as `N::Stored`.
+
+use crate::Scalar;
+
+/// Beyond so many unknowns the matrix is not inverted but substituted into: an inverse takes n³ operations a step, and waits
+/// for less at each order.
+const MOST_INVERTED: usize = 24;
+
+/// Pairs of streams of coefficients that are multiplied together, [`WIDTH`] of them at most.
+///
+/// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`, in two sums that do not wait for each other. What has just been computed is not among
+/// these terms but added behind them, so that the sum runs while the last order is still being solved for.
+#[inline(always)]
+pub fn sweep<N: Scalar, const P: usize>(
+    a: &[[N::Stored; P]],
+    b: &[[N::Stored; P]],
+    k: usize,
+) -> [N; P] {
+    let (mut even, mut odd) = ([N::ZERO; P], [N::ZERO; P]);
+    let (Some(a), Some(b)) = (a.get(2..=k), b.get(2..=k)) else {
+        return even;
+    };
+    let mut pairs = a.iter().zip(b.iter().rev());
+    while let Some((a, b)) = pairs.next() {
+        for p in 0..P {
+            even[p] = N::load(a[p]).mul_add(N::load(b[p]), even[p]);
+        }
+        if let Some((a, b)) = pairs.next() {
+            for p in 0..P {
+                odd[p] = N::load(a[p]).mul_add(N::load(b[p]), odd[p]);
+            }
+        }
+    }
+    for p in 0..P {
+        even[p] = even[p] + odd[p];
+    }
+    even
+}
+
+/// How many streams one [`sweep`] takes: as many as two sums of each leave registers for.
+pub const WIDTH: usize = 16;
+
+/// A pivot that elimination left nothing of but rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vanished<N> {
+    /// Its row.
+    pub row: usize,
+    /// What is left.
+    pub pivot: N,
+    /// The size of what it was made from.
+    pub scale: N,
+}
+
+/// Factors a symmetric matrix of `n` rows, of which the lower triangle is given, for [`solve`]. Rows from `held` on are
+/// those of constraints, whose pivots are negative.
+///
+/// # Errors
+/// If a pivot vanishes.
+#[inline(always)]
+pub fn factor<N: Scalar>(
+    n: usize,
+    held: usize,
+    matrix: &mut [N::Stored],
+) -> Result<(), Vanished<N>> {
+    let m = &mut matrix[..n * n];
+    let tolerance = N::from_f64(n as f64 * f64::EPSILON);
+    for i in 0..n {
+        let diagonal = N::load(m[i * n + i]);
+        let is_constraint = i >= held;
+        let (mut pivot, mut scale) = (diagonal, diagonal);
+        for j in 0..i {
+            // Holds L D until the row is done.
+            let mut entry = N::load(m[i * n + j]);
+            for k in 0..j {
+                let other = N::load(m[j * n + k]);
+                entry = N::load(m[i * n + k]).neg_mul_add(other, entry);
+            }
+            m[i * n + j] = entry.store();
+        }
+        for j in 0..i {
+            let entry = N::load(m[i * n + j]);
+            let scaled = entry * N::load(m[j * n + j]);
+            pivot = entry.neg_mul_add(scaled, pivot);
+            if is_constraint && j < held {
+                scale = entry.mul_add(scaled, scale);
+            }
+            m[i * n + j] = scaled.store();
+        }
+        let left = if is_constraint { -pivot } else { pivot };
+        if !left.exceeds(scale * tolerance) {
+            return Err(Vanished {
+                row: i,
+                pivot: left,
+                scale,
+            });
+        }
+        m[i * n + i] = (N::ONE / pivot).store();
+    }
+    if n <= MOST_INVERTED {
+        invert::<N>(n, m);
+    }
+    Ok(())
+}
+
+/// From L and the reciprocals of D to the whole of the inverse, `L⁻ᵀ D⁻¹ L⁻¹`, in place.
+#[inline(always)]
+fn invert<N: Scalar>(n: usize, m: &mut [N::Stored]) {
+    // L⁻¹ row by row, below the diagonal.
+    for i in 1..n {
+        for j in 0..i {
+            let mut sum = -N::load(m[i * n + j]);
+            for k in j + 1..i {
+                sum = N::load(m[i * n + k]).neg_mul_add(N::load(m[k * n + j]), sum);
+            }
+            // Elements of this row to the right are read by those to the left no more.
+            m[j * n + i] = sum.store();
+        }
+        for j in 0..i {
+            m[i * n + j] = m[j * n + i];
+        }
+    }
+    // Σ over rows k of L⁻¹: element (i, j) reads rows from max(i, j) on, so the first rows may be overwritten first.
+    for i in 0..n {
+        for j in 0..=i {
+            let below = |k: usize, j: usize| match k == j {
+                true => N::ONE,
+                false => N::load(m[k * n + j]),
+            };
+            let mut sum = N::ZERO;
+            for k in i..n {
+                let pivot = N::load(m[k * n + k]);
+                sum = (below(k, i) * pivot).mul_add(below(k, j), sum);
+            }
+            m[j * n + i] = sum.store();
+        }
+    }
+    for i in 0..n {
+        for j in 0..i {
+            m[i * n + j] = m[j * n + i];
+        }
+    }
+}
+
+/// Solves for `x`, which holds the right-hand side, with what [`factor`] made; `room` is for as many numbers.
+#[inline(always)]
+pub fn solve<N: Scalar>(
+    n: usize,
+    matrix: &[N::Stored],
+    x: &mut [N::Stored],
+    room: &mut [N::Stored],
+) {
+    let (m, x, room) = (&matrix[..n * n], &mut x[..n], &mut room[..n]);
+    if n <= MOST_INVERTED {
+        room.fill(N::ZERO.store());
+        for j in 0..n {
+            let known = N::load(x[j]);
+            for i in 0..n {
+                room[i] = N::load(m[j * n + i])
+                    .mul_add(known, N::load(room[i]))
+                    .store();
+            }
+        }
+        x.copy_from_slice(room);
+        return;
+    }
+    for i in 0..n {
+        let mut sum = N::load(x[i]);
+        for j in 0..i {
+            sum = N::load(m[i * n + j]).neg_mul_add(N::load(x[j]), sum);
+        }
+        x[i] = sum.store();
+    }
+    for i in (0..n).rev() {
+        let mut sum = N::load(x[i]) * N::load(m[i * n + i]);
+        for j in i + 1..n {
+            sum = N::load(m[j * n + i]).neg_mul_add(N::load(x[j]), sum);
+        }
+        x[i] = sum.store();
+    }
+}
+
+/// A matrix, column by column, times a vector.
+#[inline(always)]
+pub fn apply<N: Scalar, const R: usize, const C: usize>(
+    columns: &[[N::Stored; R]; C],
+    x: &[N; C],
+) -> [N; R] {
+    let mut sums = [N::ZERO; R];
+    for (column, x) in columns.iter().zip(x) {
+        for r in 0..R {
+            sums[r] = N::load(column[r]).mul_add(*x, sums[r]);
+        }
+    }
+    sums
+}

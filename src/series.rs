@@ -1,0 +1,24 @@
+//! What emitted Taylor series call.
+
+pub use lagrangian_scalar::series::{Vanished, apply, factor, solve, sweep};
+
+use crate::{Scalar, Singular};
+
+/// The most coefficients that emitted code computes of each coordinate; [`TAYLOR`](crate::TAYLOR) asks for 22.
+pub const ROWS: usize = 24;
+
+/// The error of a pivot that vanished among these unknowns, of a machine with so many coordinates.
+#[cold]
+pub fn singular<N: Scalar>(
+    vanished: Vanished<N>,
+    members: &[usize],
+    coordinates: usize,
+) -> Singular {
+    let Vanished { row, pivot, scale } = vanished;
+    let unknown = members.get(row).copied().unwrap_or(row);
+    let (pivot, scale) = (pivot.to_f64(), scale.to_f64());
+    match unknown.checked_sub(coordinates) {
+        Some(constraint) => Singular::constraint(constraint, pivot, scale),
+        None => Singular::new(unknown, pivot, scale),
+    }
+}

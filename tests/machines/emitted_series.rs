@@ -1,0 +1,130 @@
+//! Taylor series of compiled machines: those of the interpreter, bit for bit, and so are runs.
+#![cfg(feature = "macros")]
+
+use crate::support::library;
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Machine, Simulation, State, System, TAYLOR, Vector};
+use lagrangian_machines::{Crusher9, DoublePendulum, SimplePendulum};
+use lagrangian_mechanics::Compiled;
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::source::{Disk, Sources};
+use lagrangian_symbolic::Dag;
+
+/// A machine that asks for its series, interpreted.
+fn interpreted(text: &str) -> InterpretedMachine {
+    let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+    let path = library::path("test");
+    let (sources, files) = (&mut sources, &mut Disk);
+    let model = lagrangian_spec::model(&dag, &path, text, &[], files, sources, &mut report);
+    match model.and_then(|model| Compiled::new(model, &mut report)) {
+        Some(Compiled {
+            program,
+            series: Some(series),
+            ..
+        }) => InterpretedMachine::new(program).with_series(Ok(series)),
+        _ => panic!("{}", report.render_short(sources)),
+    }
+}
+
+/// Numbers between −1 and 1.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        // xorshift64*, S. Vigna, An experimental exploration of Marsaglia's xorshift generators, 2016.
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
+        bits as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+fn vector<V: Vector>(numbers: &[f64]) -> V {
+    let mut vector = V::zeros(numbers.len());
+    vector.as_mut_slice().copy_from_slice(numbers);
+    vector
+}
+
+/// The coefficients of a compiled machine are those of the interpreter at many states, at times that are rounded, and for any
+/// number of them.
+fn agrees<M: Machine + Default>(text: &str) {
+    let machine = interpreted(text);
+    let (ours, theirs) = (M::default().prepare(), machine.prepare());
+    assert_eq!(ours.check_series(), Ok(()));
+    assert_eq!(theirs.check_series(), Ok(()));
+    let n = ours.coordinates().len();
+    let seed = u64::from(std::process::id()) | 1;
+    println!("seed {seed}");
+    let mut numbers = Numbers(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let mut good = 0;
+    for rows in [3, 4, 5, 14, 22, 24].repeat(5) {
+        let t = [10.0 * numbers.next(), 1e-15 * numbers.next()];
+        let [q, v]: [Vec<f64>; 2] =
+            std::array::from_fn(|_| (0..n).map(|_| numbers.next()).collect());
+        let mut emitted = vec![<M::System as System>::Vector::zeros(n); rows];
+        let (own_q, own_v) = (vector(&q), vector(&v));
+        let one = ours.series(t, &own_q, &own_v, &ours.default_inputs(), &mut emitted);
+        let mut expected = vec![vec![0.0; n]; rows];
+        let two = theirs.series(t, &q, &v, &theirs.default_inputs(), &mut expected);
+        assert_eq!(one, two, "{q:?} {v:?}");
+        if one.is_err() {
+            continue;
+        }
+        good += 1;
+        for (order, (row, expected)) in emitted.iter().zip(&expected).enumerate() {
+            for (i, (x, y)) in row.as_slice().iter().zip(expected).enumerate() {
+                // Terms that are 0 are left out, so a zero may have another sign.
+                assert!(
+                    x == y && x.is_finite(),
+                    "{}: coordinate {i}, order {order} of {rows}: {x:e} {y:e} at {q:?} {v:?}",
+                    machine.name()
+                );
+            }
+        }
+    }
+    assert!(good > 20, "{good}");
+}
+
+#[test]
+fn coefficients_are_those_of_the_interpreter() {
+    agrees::<DoublePendulum>(&library::text("double_pendulum"));
+    agrees::<Crusher9>(&library::text("crusher9"));
+}
+
+#[test]
+fn a_compiled_run_is_an_interpreted_run() {
+    let interpreted = interpreted(&library::text("crusher9"));
+    let compiled = Crusher9::default();
+    let prepared = compiled.prepare();
+    let start = compiled.start();
+    let named = interpreted.start();
+    let again = State {
+        t: 0.0,
+        q: prepared.to_coordinates(&vector(&named.q.values)),
+        v: prepared.to_coordinates(&vector(&named.v.values)),
+    };
+    assert_eq!(start, again);
+    let run = Simulation::new(&compiled).method(&TAYLOR).until(2.0);
+    let run = run.run(start).unwrap();
+    let other = Simulation::new(&interpreted).method(&TAYLOR).until(2.0);
+    let other = other.run(named).unwrap();
+    assert_eq!(run.statistics().steps, other.statistics().steps);
+    assert!(run.statistics().steps > 50);
+    let [q, v] = [&run.end().q, &run.end().v].map(|of| prepared.to_vector(of).to_vec());
+    assert_eq!([&q, &v], [&other.end().q.values, &other.end().v.values]);
+}
+
+#[test]
+fn who_does_not_ask_has_none() {
+    let system = SimplePendulum::default().prepare();
+    assert!(system.check_series().is_err());
+    // Beyond what emitted code has room for nothing is told.
+    let system = DoublePendulum::default().prepare();
+    let mut rows = [[1.0; 2]; 26];
+    let (q, v) = ([0.1, 0.2], [0.3, 0.4]);
+    system
+        .series([0.0; 2], &q, &v, &system.default_inputs(), &mut rows)
+        .unwrap();
+    assert!(rows[23][0].is_finite() && rows[24][0].is_nan() && rows[25][1].is_nan());
+}
