@@ -7,6 +7,11 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     Scalar::sqrt(x)
 }
 
+/// `x` to a real power, `x ≥ 0`.
+pub(crate) fn power(x: f64, exponent: f64) -> f64 {
+    Scalar::powf(x, exponent)
+}
+
 /// The binary logarithm of a positive number, to 1e-4: more than the root of a high order needs.
 #[cfg(feature = "std")]
 #[inline]
