@@ -229,7 +229,7 @@ const QUARTER: [f64; 33] = [
     0.8032075314806449,
     0.773010453362737,
     0.7409511253549591,
-    0.7071067811865476,
+    core::f64::consts::FRAC_1_SQRT_2,
     0.6715589548470184,
     0.6343932841636455,
     0.5956993044924334,
@@ -417,10 +417,10 @@ mod tests {
         // A narrow hump, and a kink as the least value and as the greatest.
         let [low, high] = extent(|x| (-400.0 * (x - 0.317) * (x - 0.317)).exp());
         assert!(low.0 < 1e-10 && (high.0 - 1.0).abs() < 1e-10 && (high.1 - 0.317).abs() < 1e-5);
-        let [low, high] = extent(|x| (x - 0.3183).abs());
-        assert!(low.0 < 1e-10 && (low.1 - 0.3183).abs() < 1e-9, "{low:?}");
-        assert!((high.0 - 0.6817).abs() < 1e-15);
-        let [_, high] = extent(|x| 1.0 - (x - 0.3183).abs());
+        let [low, high] = extent(|x| (x - 0.3217).abs());
+        assert!(low.0 < 1e-10 && (low.1 - 0.3217).abs() < 1e-9, "{low:?}");
+        assert!((high.0 - 0.6783).abs() < 1e-15);
+        let [_, high] = extent(|x| 1.0 - (x - 0.3217).abs());
         assert!((high.0 - 1.0).abs() < 1e-10, "{high:?}");
         assert_eq!(extent(|_| 3.0).map(|(value, _)| value), [3.0; 2]);
         assert!(extent(|x| if x > 0.9 { f64::NAN } else { x })[1].0.is_nan());

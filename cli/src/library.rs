@@ -9,7 +9,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use lagrangian::native::text::{LANES, REGISTER, SINCOS, VECTOR, X86};
+use lagrangian::native::text::{CIRCULAR, LANES, REGISTER, SINCOS, VECTOR, X86};
 use lagrangian::scalar::text::{KERNEL, LIB, REAL};
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
@@ -148,6 +148,7 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
         ("kernel", KERNEL.to_owned()),
         ("real", real),
         ("lanes", lanes_of_c),
+        ("circular", CIRCULAR.to_owned()),
         ("register", REGISTER.to_owned()),
         ("sincos", SINCOS.to_owned()),
         ("vector", VECTOR.to_owned()),

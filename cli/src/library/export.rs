@@ -7,7 +7,7 @@ use core::ptr::null;
 
 use lanes::Lanes;
 use machine::{COORDINATES, INPUTS, PARAMETERS, Prepared};
-use register::Register;
+use vector::Register;
 use scalar::{Kernel, Piece, Scalar};
 
 /// The functions of `libm` that generated code may call, by the C library. Sines and cosines are polynomials of this library

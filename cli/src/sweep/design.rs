@@ -181,7 +181,8 @@ fn varied(text: &str, model: &Model<'_>) -> Result<Varied, String> {
     if parts.next().is_some() {
         return Err(wanted.into());
     }
-    if log && !(from / to > 0.0) {
+    let have_one_sign = from / to > 0.0;
+    if log && !have_one_sign {
         return Err("both ends of a geometric grid have the same sign, and none is 0".into());
     }
     Ok(Varied::Fixed(Factor::Grid {

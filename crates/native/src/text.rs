@@ -1,5 +1,7 @@
 //! The text of modules of this crate, for libraries that are written as one file.
 
+/// Sines and cosines of several angles.
+pub const CIRCULAR: &str = include_str!("circular.rs");
 /// Numbers side by side.
 pub const LANES: &str = include_str!("lanes.rs");
 /// Registers.

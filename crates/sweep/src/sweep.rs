@@ -543,7 +543,7 @@ impl Sweep {
                         match function {
                             Function::Count => Some(times.count() as f64),
                             Function::FirstEvent => times.next(),
-                            _ => times.last(),
+                            _ => times.next_back(),
                         }
                     }
                     (_, Some(tracker)) => tracker.result(),
