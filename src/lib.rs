@@ -99,6 +99,8 @@ mod names;
 #[cfg(feature = "std")]
 mod observation;
 #[cfg(feature = "std")]
+mod phases;
+#[cfg(feature = "std")]
 mod room;
 #[cfg(feature = "std")]
 mod roots;
@@ -106,6 +108,8 @@ mod roots;
 mod run;
 #[cfg(feature = "std")]
 mod sensitivities;
+#[cfg(feature = "std")]
+mod settings;
 #[cfg(feature = "std")]
 mod simulation;
 #[cfg(feature = "std")]
@@ -155,7 +159,8 @@ pub use roots::extremes;
 #[cfg(feature = "std")]
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]
-pub use simulation::{Progress, Simulation};
+pub use settings::Progress;
+pub use simulation::Simulation;
 #[cfg(feature = "std")]
 pub use solution::{Ending, Solution, Statistics};
 

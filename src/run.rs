@@ -18,8 +18,9 @@ use crate::friction::{Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
 use crate::observation::Sight;
+use crate::phases::Kept;
 use crate::roots;
-use crate::simulation::{Callbacks, Of, Progress, Settings, Simulation};
+use crate::settings::{Callbacks, Of, Progress, Settings, Task};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
 use crate::stages::Point;
 use crate::step_error::StepError;
@@ -35,18 +36,18 @@ use explained::Explained;
 ///
 /// An error instead of a solution means that the run could not begin.
 pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>(
-    simulation: Simulation<'_, M, L>,
+    task: Task<'_, M, L>,
     start: State<Coordinates<M>>,
     quadratures: A,
 ) -> Result<(Solution<M, L>, Option<Error>), Error> {
     let clock = Instant::now();
-    let Simulation {
+    let Task {
         of,
         law,
         settings,
         mut callbacks,
         resumed,
-    } = simulation;
+    } = task;
     let until = settings.check()?;
     let system = match of {
         Of::Machine(machine) => {
@@ -142,7 +143,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             events: Vec::new(),
             energies: Vec::new(),
             contacts: Vec::new(),
-            unilateral: contacts::Kept::default(),
+            unilateral: Kept::default(),
             kinetic_energy: 0.0,
             explained: Explained::default(),
         },
@@ -266,7 +267,7 @@ struct Record<M: Machine> {
     /// The states of the contacts, and since when.
     contacts: Vec<(f64, Contacts)>,
     /// What unilateral contacts did.
-    unilateral: contacts::Kept<Coordinates<M>, VectorOf<M>>,
+    unilateral: Kept<Coordinates<M>, VectorOf<M>>,
     /// The greatest so far, in J.
     kinetic_energy: f64,
     /// What tolerance and rounding explain of the energy balance's residual.

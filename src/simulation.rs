@@ -1,16 +1,16 @@
 //! A run from start to end: settings, events, samples, balance.
 
 use std::boxed::Box;
-use std::string::String;
 use std::vec::Vec;
 
 use crate::balance::{EnergyIntegrals, NoBalance};
-use crate::event::{Crossing, OfState, Watch, Watched};
+use crate::event::{Crossing, Watch, Watched};
 use crate::inputs::{DefaultInputs, InputFunction, InputLaw};
 use crate::methods::Method;
 use crate::observation::Observation;
-use crate::run::{self, sampled::Sampled};
-use crate::solution::Solution;
+use crate::run;
+use crate::settings::{Callbacks, Of, Progress, Resumed, Sampled, Settings, Stream, Task};
+use crate::solution::{Ending, Solution};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
 /// A run to be made: machine, end, tolerance, and what to watch for.
@@ -42,125 +42,6 @@ pub struct Simulation<'a, M: Machine, L = DefaultInputs> {
     pub(crate) callbacks: Callbacks<'a, M>,
     /// Where it goes on from, if it does.
     pub(crate) resumed: Option<Resumed>,
-}
-
-/// What is to be run.
-pub(crate) enum Of<'a, M: Machine> {
-    /// A machine, to be prepared.
-    Machine(&'a M),
-    /// The equations of motion of a run that was made.
-    System(M::System),
-}
-
-/// The end of the run that a simulation goes on with.
-#[derive(Clone, Debug)]
-pub(crate) struct Resumed {
-    /// Time, in s.
-    pub t: f64,
-    /// The event that ended it.
-    pub event: Option<String>,
-}
-
-/// What a simulation was told, in numbers.
-#[derive(Clone, Debug)]
-pub(crate) struct Settings {
-    pub method: &'static Method,
-    pub until: Option<f64>,
-    pub relative: f64,
-    pub absolute: f64,
-    pub absolute_of: Vec<(String, f64)>,
-    pub first_step: Option<f64>,
-    pub longest_step: f64,
-    pub max_steps: usize,
-    /// What the description says where nobody says anything.
-    pub kept: Option<Vec<String>>,
-    pub every: Option<f64>,
-    /// The intervals at which somebody observes.
-    pub observed_every: Vec<f64>,
-    pub keep_steps: bool,
-    pub energy_balance: bool,
-    /// Whether the energies after every step are kept, and not only the first and the last.
-    pub keep_energies: bool,
-    /// Whether both tolerances were given as one.
-    pub one_tolerance: bool,
-}
-
-/// What a simulation was told, in functions.
-pub(crate) struct Callbacks<'a, M: Machine> {
-    pub watches: Vec<Watch<'a, M>>,
-    pub progress: Option<Box<dyn FnMut(Progress) + 'a>>,
-    pub stop: Option<OfState<'a, M, bool>>,
-    pub sampled: Option<Sampled<'a, M>>,
-    pub streams: Vec<Stream<'a, M>>,
-    pub observer: Option<Observer<'a, M>>,
-}
-
-/// Somebody who is shown the states of a run as it goes.
-pub(crate) struct Stream<'a, M: Machine> {
-    /// Between two of them, in s.
-    pub interval: f64,
-    /// How many were shown.
-    pub count: usize,
-    /// When the last of them was.
-    last: f64,
-    observer: OfState<'a, M, ()>,
-}
-
-impl<M: Machine> Stream<'_, M> {
-    /// Shows the start of a run.
-    pub fn begin(&mut self, start: &State<Coordinates<M>>) {
-        self.count = 0;
-        self.take(start);
-    }
-
-    /// Shows a state.
-    pub fn take(&mut self, state: &State<Coordinates<M>>) {
-        self.count += 1;
-        self.last = state.t;
-        (self.observer)(state);
-    }
-
-    /// Shows the end of a run, if that was not shown.
-    pub fn end(&mut self, end: &State<Coordinates<M>>) {
-        if end.t != self.last {
-            self.take(end);
-        }
-    }
-}
-
-/// What looks at each step.
-pub(crate) type Observer<'a, M> = Box<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a>;
-
-impl<M: Machine> Default for Callbacks<'_, M> {
-    fn default() -> Self {
-        Self {
-            watches: Vec::new(),
-            progress: None,
-            stop: None,
-            sampled: None,
-            streams: Vec::new(),
-            observer: None,
-        }
-    }
-}
-
-/// How far a run has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Progress {
-    /// Time reached, in s.
-    pub t: f64,
-    /// The part of the run that is done, from 0 to 1.
-    pub fraction: f64,
-    /// Steps taken.
-    pub steps: usize,
-    /// Length of the last of them, in s.
-    pub step: f64,
-    /// When the motion was first seen to be stiff, in s: from there on steps are held short by the
-    /// stability of the method, and `radau5` takes longer ones. Seen as soon as an explicit method knows:
-    /// after fifteen signs, by a test that follows every thousandth step.
-    pub stiff_since: Option<f64>,
 }
 
 impl<'a, M: Machine> Simulation<'a, M> {
@@ -586,10 +467,79 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         start: State<Coordinates<M>>,
     ) -> Result<(Solution<M, L>, Option<Error>), Error> {
-        if self.settings.energy_balance {
-            run::run(self, start, EnergyIntegrals::default())
+        let task = Task {
+            of: self.of,
+            law: self.law,
+            settings: self.settings,
+            callbacks: self.callbacks,
+            resumed: self.resumed,
+        };
+        if task.settings.energy_balance {
+            run::run(task, start, EnergyIntegrals::default())
         } else {
-            run::run(self, start, NoBalance)
+            run::run(task, start, NoBalance)
+        }
+    }
+}
+
+impl<M: Machine, L> Solution<M, L> {
+    /// A simulation that goes on with this run: the same machine, inputs, method, tolerances and end, and
+    /// the step that was next. Its start is given to [`run`](Simulation::run): [`end`](Self::end), or what
+    /// an impact makes of it. Events are functions that a run cannot keep, so they are stated again; the
+    /// one that ended this run is known by its name, and is not found again before its function has left
+    /// 0. Other inputs may be set before: a relay that has switched.
+    ///
+    /// Steps from one event to the next get no shorter than time can tell apart: bounces that would take less
+    /// than some 16 roundings of time are none, and the ball goes through the floor. A loop over impacts that
+    /// come to a rest has to end there by itself.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// use lagrangian::{Crossing, Ending, Simulation, State};
+    ///
+    /// // A ball falls from 2 m, and each bounce leaves it four fifths of its speed.
+    /// let ball = by_hand::ball();
+    /// let floor = |state: &State<[f64; 1]>| state.q[0];
+    /// let mut run = Simulation::new(&ball)
+    ///     .until(4.0)
+    ///     .until_event("the floor", Crossing::Falling, floor)
+    ///     .run(ball.start())?;
+    /// let mut bounces = 0;
+    /// while *run.ending() != Ending::End {
+    ///     bounces += 1;
+    ///     let mut start = *run.end();
+    ///     start.v[0] *= -0.8;
+    ///     run = run
+    ///         .resume()
+    ///         .until_event("the floor", Crossing::Falling, floor)
+    ///         .run(start)?;
+    /// }
+    /// // It falls for √(2h/g) = 0.6386 s, and each flight takes four fifths of the one before it.
+    /// assert_eq!((bounces, run.end().t), (5, 4.0));
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn resume<'a>(&self) -> Simulation<'a, M, L>
+    where
+        M::System: Clone,
+        L: Clone,
+    {
+        let mut settings = self.settings.clone();
+        if self.next_step > 0.0 && self.next_step.is_finite() {
+            settings.first_step = Some(self.next_step);
+        }
+        let event = match &self.ending {
+            Ending::Event(name) => Some(name.clone()),
+            _ => None,
+        };
+        Simulation {
+            of: Of::System(self.system.clone()),
+            law: self.law.clone(),
+            settings,
+            callbacks: Callbacks::default(),
+            resumed: Some(Resumed {
+                t: self.end.t,
+                event,
+            }),
         }
     }
 }

@@ -13,13 +13,13 @@ use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
 use crate::observation::{Known, Observation};
-use crate::run::contacts::{Kept, Phase};
-use crate::simulation::{Callbacks, Of, Resumed, Settings};
+use crate::phases::{Kept, Phase};
+use crate::settings::Settings;
 use crate::step_error::StepError;
 use crate::stepper::project;
 use crate::{
-    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Quadratures,
-    Simulation, State, Stepper, System, Vector, Warning,
+    ContactEvent, Coordinates, Energies, EnergyBalance, Error, Inputs, Machine, Quadratures, State,
+    Stepper, System, Vector, Warning,
 };
 
 /// A run: where the machine was at every instant of it, and what happened.
@@ -257,66 +257,6 @@ impl<M: Machine, L> Solution<M, L> {
         &self.end
     }
 
-    /// A simulation that goes on with this run: the same machine, inputs, method, tolerances and end, and
-    /// the step that was next. Its start is given to [`run`](Simulation::run): [`end`](Self::end), or what
-    /// an impact makes of it. Events are functions that a run cannot keep, so they are stated again; the
-    /// one that ended this run is known by its name, and is not found again before its function has left
-    /// 0. Other inputs may be set before: a relay that has switched.
-    ///
-    /// Steps from one event to the next get no shorter than time can tell apart: bounces that would take less
-    /// than some 16 roundings of time are none, and the ball goes through the floor. A loop over impacts that
-    /// come to a rest has to end there by itself.
-    ///
-    /// ```
-    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
-    /// use lagrangian::{Crossing, Ending, Simulation, State};
-    ///
-    /// // A ball falls from 2 m, and each bounce leaves it four fifths of its speed.
-    /// let ball = by_hand::ball();
-    /// let floor = |state: &State<[f64; 1]>| state.q[0];
-    /// let mut run = Simulation::new(&ball)
-    ///     .until(4.0)
-    ///     .until_event("the floor", Crossing::Falling, floor)
-    ///     .run(ball.start())?;
-    /// let mut bounces = 0;
-    /// while *run.ending() != Ending::End {
-    ///     bounces += 1;
-    ///     let mut start = *run.end();
-    ///     start.v[0] *= -0.8;
-    ///     run = run
-    ///         .resume()
-    ///         .until_event("the floor", Crossing::Falling, floor)
-    ///         .run(start)?;
-    /// }
-    /// // It falls for √(2h/g) = 0.6386 s, and each flight takes four fifths of the one before it.
-    /// assert_eq!((bounces, run.end().t), (5, 4.0));
-    /// # Ok::<(), lagrangian::Error>(())
-    /// ```
-    pub fn resume<'a>(&self) -> Simulation<'a, M, L>
-    where
-        M::System: Clone,
-        L: Clone,
-    {
-        let mut settings = self.settings.clone();
-        if self.next_step > 0.0 && self.next_step.is_finite() {
-            settings.first_step = Some(self.next_step);
-        }
-        let event = match &self.ending {
-            Ending::Event(name) => Some(name.clone()),
-            _ => None,
-        };
-        Simulation {
-            of: Of::System(self.system.clone()),
-            law: self.law.clone(),
-            settings,
-            callbacks: Callbacks::default(),
-            resumed: Some(Resumed {
-                t: self.end.t,
-                event,
-            }),
-        }
-    }
-
     /// How the run ended.
     pub fn ending(&self) -> &Ending {
         &self.ending
@@ -419,7 +359,7 @@ impl<M: Machine, L> Solution<M, L> {
     }
 }
 
-/// What happened, without what would make [`Solution::at`] possible: ask for [`samples`](Simulation::every) where the motion is
+/// What happened, without what would make [`Solution::at`] possible: ask for [`samples`](crate::Simulation::every) where the motion is
 /// to be told.
 #[cfg(feature = "serde")]
 impl<M: Machine<System: System<Coordinates: serde::Serialize>>, L> serde::Serialize

@@ -6,16 +6,16 @@ use std::vec::Vec;
 
 use super::{LastInterpolant, Run, VectorOf};
 use crate::balance::Quadratures;
-use crate::constraints::Constraints;
-use crate::contact::{Impact, Mode, Touching};
+use crate::contact::{Impact, Mode};
 use crate::event::{self, Crossing, Event, Triple, made, state};
 use crate::friction::Margin;
 use crate::inputs::InputLaw;
+use crate::phases::Phase;
 use crate::solution::Ending;
 use crate::step_error::StepError;
 use crate::stepper::{Cause, Happened};
 use crate::{
-    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, Machine, System, Warning,
+    ContactEvent, ContactEventKind, ContactImpact, ContactTrouble, Error, Machine, System,
 };
 
 /// How often contacts may change at one instant, for each of them and beyond.
@@ -27,53 +27,6 @@ const CORRECTIONS: usize = 8;
 /// Where several contacts share a load in ways that only all together can tell, a change is looked for so far
 /// behind the place where it is seen, as a part of the step.
 const BEYOND: f64 = 1e-9;
-
-/// What contacts did from some instant on.
-#[derive(Clone, Debug)]
-pub(crate) struct Phase<V> {
-    pub since: f64,
-    pub touching: Touching,
-    /// What is known of what they hold.
-    pub constraints: Option<Constraints<V>>,
-}
-
-/// What a run keeps of its contacts.
-#[derive(Clone, Debug)]
-pub(crate) struct Kept<C, V> {
-    pub phases: Vec<Phase<V>>,
-    pub events: Vec<ContactEvent<C>>,
-    /// For each contact how much energy its impacts took, in J.
-    pub losses: Vec<f64>,
-    /// Impacts that created energy: how many, and the worst.
-    gains: usize,
-    worst: Option<(usize, f64, f64)>,
-}
-
-impl<C, V> Default for Kept<C, V> {
-    fn default() -> Self {
-        Kept {
-            phases: Vec::new(),
-            events: Vec::new(),
-            losses: Vec::new(),
-            gains: 0,
-            worst: None,
-        }
-    }
-}
-
-impl<C, V> Kept<C, V> {
-    /// What the user should know.
-    pub fn warning<S: System>(&self, system: &S) -> Option<Warning> {
-        let (contact, t, gain) = self.worst?;
-        let mut contacts = system.unilateral_contacts();
-        Some(Warning::ImpactGains {
-            contact: contacts.nth(contact).map_or("?", |of| of.name).into(),
-            t,
-            gain,
-            impacts: self.gains,
-        })
-    }
-}
 
 /// A change that waits for the stepper to come to its instant.
 #[derive(Clone, Copy, Debug)]

@@ -1,27 +1,15 @@
 //! Controllers that look at a machine at certain instants, and what they set in between.
 
-use std::boxed::Box;
 use std::collections::VecDeque;
 
 use super::Run;
 use crate::balance::Quadratures;
 use crate::event::state;
 use crate::inputs::InputLaw;
+use crate::settings::Sampled;
 use crate::solution::{Ending, is_beyond};
 use crate::stepper::Cause;
-use crate::{Coordinates, Error, Inputs, Machine, State, System};
-
-/// What a simulation was told of a sampled controller.
-pub(crate) struct Sampled<'a, M: Machine> {
-    /// The time between two looks, in s.
-    pub period: f64,
-    /// How long after a look what it sets begins to act, in s.
-    pub delay: f64,
-    pub controller: Controller<'a, M>,
-}
-
-/// What looks at a state and sets inputs.
-type Controller<'a, M> = Box<dyn FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a>;
+use crate::{Error, Inputs, Machine, System};
 
 /// What it has set in a run.
 pub(super) struct Sampling<I> {
@@ -34,40 +22,6 @@ pub(super) struct Sampling<I> {
 }
 
 impl<M: Machine> Sampled<'_, M> {
-    /// Whether it can be followed in a run from `start` to `until`.
-    pub fn check(&self, start: f64, until: f64, is_alone: bool) -> Result<(), Error> {
-        let wrong = |setting, value, needed| {
-            Err(Error::InvalidSetting {
-                setting,
-                value,
-                needed,
-            })
-        };
-        let tick = 16.0 * f64::EPSILON * start.abs().max(until.abs());
-        if !(self.period > tick && self.period.is_finite()) {
-            let needed = "greater than 0, and than what the times of the run can tell apart";
-            return wrong("sampled", self.period, needed);
-        }
-        if !(self.delay >= 0.0 && self.delay.is_finite()) {
-            return wrong("delay", self.delay, "at least 0, and finite");
-        }
-        if until < start {
-            return wrong(
-                "until",
-                until,
-                "after the start: samples are taken forward in time",
-            );
-        }
-        match is_alone {
-            true => Ok(()),
-            false => wrong(
-                "sampled",
-                self.period,
-                "without `inputs`, which would set the same",
-            ),
-        }
-    }
-
     /// What is known of it at the start of a run.
     pub(super) fn begin(&self, system: &M::System) -> Sampling<Inputs<M>> {
         Sampling {

@@ -1,5 +1,7 @@
 //! What `machines/` compiles to, file by file; a test compares it with what is committed.
 
+pub mod modules;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

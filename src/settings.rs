@@ -1,0 +1,186 @@
+//! What a simulation was told, and its run is given.
+
+use std::boxed::Box;
+use std::string::String;
+use std::vec::Vec;
+
+use crate::event::{OfState, Watch};
+use crate::methods::Method;
+use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
+
+/// All that a run needs beside its start.
+pub(crate) struct Task<'a, M: Machine, L> {
+    pub of: Of<'a, M>,
+    pub law: L,
+    pub settings: Settings,
+    pub callbacks: Callbacks<'a, M>,
+    /// Where it goes on from, if it does.
+    pub resumed: Option<Resumed>,
+}
+
+/// What is to be run.
+pub(crate) enum Of<'a, M: Machine> {
+    /// A machine, to be prepared.
+    Machine(&'a M),
+    /// The equations of motion of a run that was made.
+    System(M::System),
+}
+
+/// The end of the run that a simulation goes on with.
+#[derive(Clone, Debug)]
+pub(crate) struct Resumed {
+    /// Time, in s.
+    pub t: f64,
+    /// The event that ended it.
+    pub event: Option<String>,
+}
+
+/// What a simulation was told, in numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub method: &'static Method,
+    pub until: Option<f64>,
+    pub relative: f64,
+    pub absolute: f64,
+    pub absolute_of: Vec<(String, f64)>,
+    pub first_step: Option<f64>,
+    pub longest_step: f64,
+    pub max_steps: usize,
+    /// What the description says where nobody says anything.
+    pub kept: Option<Vec<String>>,
+    pub every: Option<f64>,
+    /// The intervals at which somebody observes.
+    pub observed_every: Vec<f64>,
+    pub keep_steps: bool,
+    pub energy_balance: bool,
+    /// Whether the energies after every step are kept, and not only the first and the last.
+    pub keep_energies: bool,
+    /// Whether both tolerances were given as one.
+    pub one_tolerance: bool,
+}
+
+/// What a simulation was told, in functions.
+pub(crate) struct Callbacks<'a, M: Machine> {
+    pub watches: Vec<Watch<'a, M>>,
+    pub progress: Option<Box<dyn FnMut(Progress) + 'a>>,
+    pub stop: Option<OfState<'a, M, bool>>,
+    pub sampled: Option<Sampled<'a, M>>,
+    pub streams: Vec<Stream<'a, M>>,
+    pub observer: Option<Observer<'a, M>>,
+}
+
+/// Somebody who is shown the states of a run as it goes.
+pub(crate) struct Stream<'a, M: Machine> {
+    /// Between two of them, in s.
+    pub interval: f64,
+    /// How many were shown.
+    pub count: usize,
+    /// When the last of them was.
+    pub last: f64,
+    pub observer: OfState<'a, M, ()>,
+}
+
+impl<M: Machine> Stream<'_, M> {
+    /// Shows the start of a run.
+    pub fn begin(&mut self, start: &State<Coordinates<M>>) {
+        self.count = 0;
+        self.take(start);
+    }
+
+    /// Shows a state.
+    pub fn take(&mut self, state: &State<Coordinates<M>>) {
+        self.count += 1;
+        self.last = state.t;
+        (self.observer)(state);
+    }
+
+    /// Shows the end of a run, if that was not shown.
+    pub fn end(&mut self, end: &State<Coordinates<M>>) {
+        if end.t != self.last {
+            self.take(end);
+        }
+    }
+}
+
+/// What looks at each step.
+pub(crate) type Observer<'a, M> = Box<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a>;
+
+impl<M: Machine> Default for Callbacks<'_, M> {
+    fn default() -> Self {
+        Self {
+            watches: Vec::new(),
+            progress: None,
+            stop: None,
+            sampled: None,
+            streams: Vec::new(),
+            observer: None,
+        }
+    }
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Progress {
+    /// Time reached, in s.
+    pub t: f64,
+    /// The part of the run that is done, from 0 to 1.
+    pub fraction: f64,
+    /// Steps taken.
+    pub steps: usize,
+    /// Length of the last of them, in s.
+    pub step: f64,
+    /// When the motion was first seen to be stiff, in s: from there on steps are held short by the
+    /// stability of the method, and `radau5` takes longer ones. Seen as soon as an explicit method knows:
+    /// after fifteen signs, by a test that follows every thousandth step.
+    pub stiff_since: Option<f64>,
+}
+
+/// What a simulation was told of a sampled controller.
+pub(crate) struct Sampled<'a, M: Machine> {
+    /// The time between two looks, in s.
+    pub period: f64,
+    /// How long after a look what it sets begins to act, in s.
+    pub delay: f64,
+    pub controller: Controller<'a, M>,
+}
+
+/// What looks at a state and sets inputs.
+pub(crate) type Controller<'a, M> = Box<dyn FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a>;
+
+impl<M: Machine> Sampled<'_, M> {
+    /// Whether it can be followed in a run from `start` to `until`.
+    pub fn check(&self, start: f64, until: f64, is_alone: bool) -> Result<(), Error> {
+        let wrong = |setting, value, needed| {
+            Err(Error::InvalidSetting {
+                setting,
+                value,
+                needed,
+            })
+        };
+        let tick = 16.0 * f64::EPSILON * start.abs().max(until.abs());
+        if !(self.period > tick && self.period.is_finite()) {
+            let needed = "greater than 0, and than what the times of the run can tell apart";
+            return wrong("sampled", self.period, needed);
+        }
+        if !(self.delay >= 0.0 && self.delay.is_finite()) {
+            return wrong("delay", self.delay, "at least 0, and finite");
+        }
+        if until < start {
+            return wrong(
+                "until",
+                until,
+                "after the start: samples are taken forward in time",
+            );
+        }
+        match is_alone {
+            true => Ok(()),
+            false => wrong(
+                "sampled",
+                self.period,
+                "without `inputs`, which would set the same",
+            ),
+        }
+    }
+}
