@@ -21,7 +21,7 @@ use lagrangian_spec::token::normalized;
 mod engine;
 mod reading;
 
-use crate::room::Room;
+use crate::shared_workspace::SharedWorkspace;
 
 pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, Note};
 pub use crate::names::UnknownName;
@@ -76,13 +76,13 @@ pub struct InterpretedSystem {
     names: Arc<Names>,
     inputs: Vec<f64>,
     /// What calls write to.
-    running: Room<Running>,
+    running: SharedWorkspace<Running>,
     /// The parameters, and the same program over intervals once it is asked for; of machines with
     /// contacts.
     parameters: Vec<f64>,
-    enclosing: Room<Option<Interpreter<Interval>>>,
+    enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
-    expander: Room<Option<Expander<f64>>>,
+    expander: SharedWorkspace<Option<Expander<f64>>>,
 }
 
 /// What runs the functions of a system.
@@ -242,7 +242,7 @@ impl Machine for InterpretedMachine {
             program: self.program.clone(),
             names: self.names.clone(),
             inputs: self.inputs.clone(),
-            running: Room::new(Running {
+            running: SharedWorkspace::new(Running {
                 compiled: self.machine_code.prepared(&interpreter),
                 interpreter,
             }),
@@ -250,9 +250,9 @@ impl Machine for InterpretedMachine {
                 true => Vec::new(),
                 false => self.parameters.clone(),
             },
-            enclosing: Room::new(None),
+            enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
-            expander: Room::new(None),
+            expander: SharedWorkspace::new(None),
         }
     }
 
@@ -280,7 +280,7 @@ impl InterpretedSystem {
         arguments: Arguments<'_, f64>,
         results: &mut [f64],
     ) -> Result<(), Singular> {
-        let mut running = self.running.enter();
+        let mut running = self.running.lock();
         let called = running.call(role, arguments, results);
         called.map_err(|singular| where_it_stopped(&self.program, singular))
     }
@@ -434,10 +434,10 @@ impl System for InterpretedSystem {
         let (Ok(series), Some(order)) = (&self.series, coefficients.len().checked_sub(2)) else {
             return Ok(());
         };
-        let mut expander = self.expander.enter();
+        let mut expander = self.expander.lock();
         let known = expander.take().filter(|known| known.order() == order);
         let expander = expander.insert(known.unwrap_or_else(|| {
-            let running = self.running.enter();
+            let running = self.running.lock();
             Expander::new(series.clone(), running.interpreter.parameters(), order)
         }));
         let expanded = f64::run(Expand {
@@ -659,7 +659,7 @@ impl System for InterpretedSystem {
     fn slip_ranges(&self, t: f64, q: &Vec<f64>, v: &Vec<f64>, ranges: &mut [[f64; 2]]) {
         let near = |x: f64| Interval::new(x.next_down(), x.next_up());
         let list = |numbers: &[f64]| numbers.iter().map(|x| near(*x)).collect::<Vec<_>>();
-        let mut enclosing = self.enclosing.enter();
+        let mut enclosing = self.enclosing.lock();
         let enclosing = enclosing
             .get_or_insert_with(|| Interpreter::new(&self.program, &list(&self.parameters)));
         let mut slips = vec![Interval::UNKNOWN; ranges.len()];
@@ -743,7 +743,7 @@ impl Staged for InterpretedSystem {
             q: Vec::new(),
         };
         if self.program.stages.time {
-            stage.values = self.room(Role::AtTime);
+            stage.values = self.values_of(Role::AtTime);
             // Time alone makes no machine singular.
             let _ = self.call(Role::AtTime, at(t, &[], &[], &[]), &mut stage.values);
         }
@@ -755,7 +755,7 @@ impl Staged for InterpretedSystem {
             let (values, q) = (before.values.clone(), q.clone());
             return Ok(Stage { values, q });
         }
-        let mut values = self.room(Role::AtPosition);
+        let mut values = self.values_of(Role::AtPosition);
         let stage = (Role::AtTime, before.values.as_slice());
         self.call_after(stage, (Role::AtPosition, [q, &[], &[]]), &mut values)?;
         let q = Vec::new();
@@ -794,8 +794,8 @@ pub struct Stage {
 }
 
 impl InterpretedSystem {
-    /// Room for what a stage leaves.
-    fn room(&self, role: Role) -> Vec<f64> {
+    /// Zeros, as many as the values that a stage computes for later ones.
+    fn values_of(&self, role: Role) -> Vec<f64> {
         let function = self.program.function(role);
         vec![0.0; function.map_or(0, |function| function.results.len())]
     }
@@ -808,7 +808,7 @@ impl InterpretedSystem {
         (role, [q, v, u]): (Role, [&[f64]; 3]),
         results: &mut [f64],
     ) -> Result<(), Singular> {
-        let mut running = self.running.enter();
+        let mut running = self.running.lock();
         let t = match stage == Role::AtTime && !self.program.stages.time {
             true => left[0],
             false => {
@@ -891,7 +891,7 @@ impl InterpretedSystem {
         let duals = |values: &[f64]| -> Vec<Dual<f64>> {
             values.iter().copied().map(Dual::constant).collect()
         };
-        let parameters = duals(self.running.enter().interpreter.parameters());
+        let parameters = duals(self.running.lock().interpreter.parameters());
         let mut interpreter = Interpreter::new(&self.program, &parameters);
         let [mut q, mut v, u] = state.map(duals);
         let n = q.len();

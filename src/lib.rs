@@ -101,8 +101,6 @@ mod observation;
 #[cfg(feature = "std")]
 mod phases;
 #[cfg(feature = "std")]
-mod room;
-#[cfg(feature = "std")]
 mod roots;
 #[cfg(feature = "std")]
 mod run;
@@ -110,6 +108,8 @@ mod run;
 mod sensitivities;
 #[cfg(feature = "std")]
 mod settings;
+#[cfg(feature = "std")]
+mod shared_workspace;
 #[cfg(feature = "std")]
 mod simulation;
 #[cfg(feature = "std")]
@@ -160,6 +160,7 @@ pub use roots::extremes;
 pub use sensitivities::{Sensitive, SensitiveSystem, Varied};
 #[cfg(feature = "std")]
 pub use settings::Progress;
+#[cfg(feature = "std")]
 pub use simulation::Simulation;
 #[cfg(feature = "std")]
 pub use solution::{Ending, Solution, Statistics};

@@ -180,7 +180,7 @@ fn interpolate(
 }
 
 /// Whether a function is certainly not zero by an interpolant that may not have all of it. The coefficients of a smooth
-/// function fall like powers of the last two: what is left out is some times these.
+/// function fall like powers of the last two: the truncation error is a small multiple of these.
 fn is_far_from_zero(c: &[f64]) -> bool {
     let rest: f64 = c[1..].iter().map(|c| c.abs()).sum();
     let last = c[c.len() - 1].abs().max(c[c.len() - 2].abs());

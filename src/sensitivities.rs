@@ -16,7 +16,7 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::forward::forward;
-use crate::room::Room;
+use crate::shared_workspace::SharedWorkspace;
 use crate::{
     Assumption, Coordinates, Differentiate, Error, Machine, Quantity, Singular, State, System,
     Vector,
@@ -297,7 +297,7 @@ impl<M: Machine<System: Differentiate>> Machine for Sensitive<'_, M> {
             names: self.names.clone(),
             dimension: n,
             variables: self.variables.clone(),
-            scratch: Room::new(Scratch {
+            scratch: SharedWorkspace::new(Scratch {
                 matrices: [
                     <M::System as System>::Matrix::zeros(n * n),
                     <M::System as System>::Matrix::zeros(n * n),
@@ -323,7 +323,7 @@ pub struct SensitiveSystem<S: System> {
     names: Vec<(String, String)>,
     dimension: usize,
     variables: Vec<Variable>,
-    scratch: Room<Scratch<S::Matrix>>,
+    scratch: SharedWorkspace<Scratch<S::Matrix>>,
 }
 
 /// What an evaluation writes.
@@ -418,7 +418,7 @@ impl<S: Differentiate> System for SensitiveSystem<S> {
         a: &mut Vec<f64>,
     ) -> Result<(), Singular> {
         let n = self.dimension;
-        let mut scratch = self.scratch.enter();
+        let mut scratch = self.scratch.lock();
         let Scratch {
             matrices: [by_q, by_v],
             others,

@@ -146,7 +146,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Whether a stepper alone can follow a machine.
     fn check(system: &S, start: &(f64, S::Vector, S::Vector)) -> Result<(), StepError> {
-        // What closes, opens and sticks is found by whoever looks for events.
+        // Impacts and changes of unilateral contacts are events, which a run finds.
         if system.unilateral_contacts().len() != 0 {
             return Err(StepError::Contact {
                 contact: 0,
@@ -157,7 +157,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// The same for whoever looks for impacts.
+    /// [`new`](Self::new) for a run, which finds the events of unilateral contacts.
     pub(crate) fn begun(
         system: Whose<'s, S>,
         law: L,

@@ -122,8 +122,8 @@ pub type Outputs<M> = <<M as Machine>::System as System>::Outputs;
 /// a quantity that nobody asks for costs nothing.
 ///
 /// Written by hand, a system needs its five types, its coordinates, its accelerations, and the inputs and outputs as they are by
-/// default. What it does not say of itself is either nothing (no constraints, no damping) or not known, which is not a number:
-/// whoever asks is told.
+/// default. What it does not say of itself is either nothing (no constraints, no damping) or
+/// not known: it is NaN, and a run that needs it ends with an error.
 ///
 /// ```
 /// use lagrangian::{Quantity, Singular, System};

@@ -110,9 +110,9 @@ impl<V: Vector> Taylor<V> {
 
     /// The length of a step from now whose last two terms are tolerable; infinite where nothing moves.
     ///
-    /// With two, since after a start at rest, and at turning points, every second coefficient vanishes. What is left out
-    /// behind them is about `tolerable/(1 − h/R)`, with `R` the radius of convergence, near which steps of coarse tolerances
-    /// come: these ask for a tenth. Tolerances at the rounding of `f64` ask for a hundredth, so that what is left out stays
+    /// With two, since after a start at rest, and at turning points, every second coefficient vanishes. The truncation error
+    /// is about `tolerable/(1 − h/R)`, with `R` the radius of convergence, near which steps of coarse tolerances
+    /// come: these ask for a tenth. Tolerances at the rounding of `f64` ask for a hundredth, so that the truncation error stays
     /// below rounding, and errors of steps do not add up with the same sign.
     pub fn length(&self, tolerance: &Tolerance<V>) -> f64 {
         let coefficients = &self.coefficients[self.of_now()];

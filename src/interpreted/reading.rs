@@ -190,7 +190,7 @@ impl Reading {
     }
 }
 
-/// The errors of a report; warnings are for whoever edits the spec.
+/// The errors of a report, without its warnings.
 fn everything_wrong(report: &Report, sources: &Sources) -> Error {
     let place = |span: Span| {
         let (line, column) = sources.line_column(span);

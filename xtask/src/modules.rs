@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
+/// What a file holds.
+type Source<'a> = dyn Fn(&Path) -> std::io::Result<String> + 'a;
+
 /// The path of a module within its crate, or of an item; that of the crate's root is empty.
 pub type Names = Vec<String>;
 
@@ -54,23 +57,35 @@ impl Modules {
     ///
     /// A file that is missing, or that is not Rust.
     pub fn read(root: &Path) -> Result<Self, String> {
-        let mut crates = Self::default();
-        let folder = root.parent().unwrap_or(Path::new("."));
-        crates.read_file(root, folder, &Vec::new())?;
-        Ok(crates)
+        Self::read_from(root, &|path| fs::read_to_string(path))
     }
 
-    fn read_file(&mut self, path: &Path, children: &Path, module: &Names) -> Result<(), String> {
+    /// Reads a crate whose files are what `source` says.
+    fn read_from(root: &Path, source: &Source<'_>) -> Result<Self, String> {
+        let mut modules = Self::default();
+        let folder = root.parent().unwrap_or(Path::new("."));
+        modules.read_file(source, root, folder, &Vec::new())?;
+        Ok(modules)
+    }
+
+    fn read_file(
+        &mut self,
+        source: &Source<'_>,
+        path: &Path,
+        children: &Path,
+        module: &Names,
+    ) -> Result<(), String> {
         let wrong = |error: &dyn std::fmt::Display| format!("{}: {error}", path.display());
-        let text = fs::read_to_string(path).map_err(|error| wrong(&error))?;
+        let text = source(path).map_err(|error| wrong(&error))?;
         let tokens: TokenStream = text.parse().map_err(|error| wrong(&error))?;
         self.modules.entry(module.clone()).or_default();
-        self.read_tokens(tokens, children, module)
+        self.read_tokens(source, tokens, children, module)
     }
 
     /// Reads tokens of a module; the files of its children lie in `children`.
     fn read_tokens(
         &mut self,
+        source: &Source<'_>,
         tokens: TokenStream,
         children: &Path,
         module: &Names,
@@ -87,7 +102,7 @@ impl Modules {
                     at + 2
                 }
                 TokenTree::Ident(word) if *word == "mod" => {
-                    self.read_child(&tokens[at + 1..], children, module, &attributes)?;
+                    self.read_child(source, &tokens[at + 1..], children, module, &attributes)?;
                     attributes = Attributes::default();
                     at + 3
                 }
@@ -113,7 +128,7 @@ impl Modules {
                 TokenTree::Group(group) => {
                     let is_body = group.delimiter() == Delimiter::Brace;
                     if !(is_body && attributes.is_left_out) {
-                        self.read_tokens(group.stream(), children, module)?;
+                        self.read_tokens(source, group.stream(), children, module)?;
                     }
                     if is_body {
                         attributes = Attributes::default();
@@ -135,6 +150,7 @@ impl Modules {
     /// `name;` or `name { … }` behind `mod`.
     fn read_child(
         &mut self,
+        source: &Source<'_>,
         tokens: &[TokenTree],
         children: &Path,
         module: &Names,
@@ -150,10 +166,10 @@ impl Modules {
         let child: Names = module.iter().cloned().chain([name.clone()]).collect();
         if let Some(TokenTree::Group(group)) = tokens.get(1) {
             self.modules.entry(child.clone()).or_default();
-            return self.read_tokens(group.stream(), &children.join(&name), &child);
+            return self.read_tokens(source, group.stream(), &children.join(&name), &child);
         }
-        let (file, below) = place(children, &name, attributes.path.as_deref());
-        self.read_file(&file, &below, &child)
+        let (file, below) = place(source, children, &name, attributes.path.as_deref());
+        self.read_file(source, &file, &below, &child)
     }
 
     fn contents(&mut self, module: &Names) -> &mut Contents {
@@ -301,14 +317,19 @@ fn reached<'a>(name: &String, imports: &'a Imports) -> BTreeSet<&'a String> {
 }
 
 /// The file of a child, and the folder of its own children.
-fn place(folder: &Path, name: &str, attribute: Option<&str>) -> (PathBuf, PathBuf) {
+fn place(
+    source: &Source<'_>,
+    folder: &Path,
+    name: &str,
+    attribute: Option<&str>,
+) -> (PathBuf, PathBuf) {
     if let Some(path) = attribute {
         let path = folder.join(path);
         return (path.clone(), path.with_extension(""));
     }
     let below = folder.join(name);
     let flat = folder.join(format!("{name}.rs"));
-    if flat.exists() {
+    if source(&flat).is_ok() {
         (flat, below)
     } else {
         (below.join("mod.rs"), below)
@@ -409,6 +430,8 @@ fn leaves_of_use(
 
 #[cfg(test)]
 mod tests {
+    use std::io::ErrorKind;
+
     use super::*;
 
     /// The roots of the crates of the workspace.
@@ -442,19 +465,15 @@ mod tests {
         assert!(told.is_empty(), "{told}");
     }
 
-    /// A crate in a folder of its own.
+    /// A crate of these files.
     fn read(files: &[(&str, &str)]) -> Modules {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/tmp/modules");
-        let folder = folder.join(format!(
-            "{}",
-            files.iter().map(|f| f.1.len()).sum::<usize>()
-        ));
-        for (name, text) in files {
-            let path = folder.join(name);
-            fs::create_dir_all(path.parent().expect("a folder")).expect("it is made");
-            fs::write(path, text).expect("it is written");
-        }
-        Modules::read(&folder.join("lib.rs")).expect("a crate")
+        let source = |path: &Path| {
+            let found = files.iter().find(|(name, _)| path == Path::new(name));
+            found
+                .map(|(_, text)| (*text).to_owned())
+                .ok_or_else(|| ErrorKind::NotFound.into())
+        };
+        Modules::read_from(Path::new("lib.rs"), &source).expect("a crate")
     }
 
     #[test]

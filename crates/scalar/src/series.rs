@@ -43,14 +43,14 @@ pub fn sweep<N: Scalar, const P: usize>(
 /// How many streams one [`sweep`] takes: as many as two sums of each leave registers for.
 pub const WIDTH: usize = 16;
 
-/// A pivot that elimination left nothing of but rounding.
+/// A pivot that is zero up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vanished<N> {
     /// Its row.
     pub row: usize,
-    /// What is left.
+    /// The value of the pivot.
     pub pivot: N,
-    /// The size of what it was made from.
+    /// The size of the terms that it is the sum of.
     pub scale: N,
 }
 

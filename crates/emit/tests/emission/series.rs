@@ -8,7 +8,7 @@ use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_symbolic::Dag;
 
 #[test]
-fn whoever_does_not_ask_pays_nothing() {
+fn code_without_the_section_is_unchanged() {
     for name in [
         "heavy_top",
         "elastic_pendulum",

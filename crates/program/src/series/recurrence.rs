@@ -18,7 +18,7 @@ pub struct Stream {
 
 /// The sum of products over the orders between the first and the one that is computed, `Σ aⱼ b₍m−j₎`.
 ///
-/// What belongs to the orders 0 and m is added by whoever knows it.
+/// The terms of the orders 0 and m are not in it: each recurrence adds them, since they depend on its operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Convolution {
     /// The factors; where they are added up [by force](Along::Force), first the one that depends on accelerations.
