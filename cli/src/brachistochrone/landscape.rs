@@ -8,6 +8,7 @@ use lagrangian_spec::model::Model;
 use lagrangian_symbolic::{Evaluation, Expr, Symbol};
 
 /// Masses, forces and guides where the machine is.
+#[derive(Clone)]
 pub struct Landscape<'a, 'd> {
     model: &'a Model<'d>,
     form: Brachistochronic<'d>,
@@ -19,6 +20,8 @@ pub struct Landscape<'a, 'd> {
     slope: Evaluation<'a>,
     /// Of each guide, with its reaction by accelerations, and by loads.
     guides: Vec<[Evaluation<'a>; 2]>,
+    /// What coefficients of friction are multiplied by.
+    friction: f64,
 }
 
 /// What a guide is at one place, with every number of one kind.
@@ -63,6 +66,7 @@ impl<'a, 'd> Landscape<'a, 'd> {
             model,
             form,
             parameters,
+            friction: 1.0,
         }
     }
 
@@ -91,7 +95,7 @@ impl<'a, 'd> Landscape<'a, 'd> {
             let reaction = if loads { by_loads } else { by_weights };
             let mut values = self.values(reaction, q, v);
             let parts = values.split_off(n + count + 1);
-            let friction = values[n + count];
+            let friction = values[n + count] * N::from_f64(self.friction);
             values.truncate(n + count);
             let by_friction_forces = values.split_off(n);
             locals.push(Local {
@@ -164,6 +168,12 @@ impl Terrain for Landscape<'_, '_> {
 
     fn mass(&self, q: &[f64]) -> Vec<f64> {
         self.values(&self.mass, q, &[])
+    }
+
+    fn with_friction(&self, share: f64) -> Option<Self> {
+        let mut machine = self.clone();
+        machine.friction *= share;
+        (!self.form.guides.is_empty()).then_some(machine)
     }
 
     fn guides(&self) -> Vec<String> {

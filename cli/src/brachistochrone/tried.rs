@@ -53,6 +53,7 @@ fn entry(trial: &Trial, names: &[String]) -> Value {
             aside = pairs.collect::<Map<_, _>>().into();
             "aside"
         }
+        Start::Frictionless { .. } => "without friction",
         _ => "constant coefficients",
     };
     let (outcome, time) = match trial.outcome {
@@ -62,6 +63,7 @@ fn entry(trial: &Trial, names: &[String]) -> Value {
         Outcome::NotSmooth { time } => ("not smooth", Some(time)),
         Outcome::Lacks { .. } => ("lacks energy", None),
         Outcome::Lost { .. } => ("lost", None),
+        Outcome::Nothing => ("nothing to follow", None),
         _ => ("unfinished", None),
     };
     let same = match trial.outcome {

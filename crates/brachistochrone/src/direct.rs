@@ -15,14 +15,16 @@
 //!
 //! The way to the answer begins at several starts: the straight way, ways to either side of it, and guesses. Each becomes the
 //! fastest way of straight pieces near it (`descent`), for which nothing but energy has to be known, and if that is a new one, it is where
-//! Newton's method on the conditions starts. Where none leads to a motion, there is the machine with frozen coefficients, whose closed form is
-//! followed to the machine itself (`frozen`). The stretches are halved until the time settles, and of the motions that obey the
+//! Newton's method on the conditions starts. Where none leads to a motion, or a way of straight pieces is faster than all of them, the
+//! motions of the machine without friction are followed while friction grows (`followed`); and where that gives none, there is the machine with
+//! frozen coefficients, whose closed form is followed to the machine itself (`frozen`). The stretches are halved until the time settles, and of the motions that obey the
 //! conditions of Legendre and of Jacobi the fastest is taken. What was tried is told ([`Trial`]); how much may be done is counted
 //! (`budget`).
 
 mod budget;
 mod collocation;
 mod descent;
+mod followed;
 mod frozen;
 mod hamiltonian;
 mod motion;
@@ -62,6 +64,16 @@ pub trait Terrain {
         let (n, inertia) = (self.coordinates(), self.inertia(q));
         let even = |k: usize| 0.5 * (inertia[k] + inertia[k % n * n + k / n]);
         (0..n * n).map(even).collect()
+    }
+
+    /// This machine with every coefficient of friction multiplied by `share`, from 0 to 1; 1 is the machine itself. A search
+    /// that finds no motion follows those of the machine without friction to the machine itself. `None` where friction is not
+    /// known apart, or there is none.
+    fn with_friction(&self, _share: f64) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
     }
 
     /// Names of the guides.

@@ -17,6 +17,11 @@ pub enum Start {
     },
     /// The closed form of the machine with constant coefficients, followed to the machine itself.
     Frozen,
+    /// The motion of the machine without friction, followed while friction grows to that of the machine.
+    Frictionless {
+        /// The time that it takes without friction, in s; `None` where no motion without friction was found.
+        time: Option<f64>,
+    },
 }
 
 /// What came of a start.
@@ -51,11 +56,13 @@ pub enum Outcome {
         /// none would do.
         energy: f64,
     },
-    /// Followed from constant coefficients to those of the machine, the motion was lost.
+    /// Followed from constant coefficients, or from no friction, to those of the machine, the motion was lost.
     Lost {
         /// Which part of the way was gone.
         part: f64,
     },
+    /// The machine without friction has no motion that was found, so there was none to follow.
+    Nothing,
     /// It was not looked at to its end, as the search had done what it may.
     Unfinished,
 }
@@ -67,6 +74,18 @@ pub struct Trial {
     pub start: Start,
     /// What came of it.
     pub outcome: Outcome,
+}
+
+impl Trial {
+    /// Its time, in s, where it was not followed to a motion that is faster than its neighbours and is less than this one.
+    pub(crate) fn doubt(&self, known: f64) -> Option<f64> {
+        let time = match self.outcome {
+            Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => time,
+            _ => return None,
+        };
+        // Straight pieces are good to so much.
+        (time < (1.0 - 1e-3) * known).then_some(time)
+    }
 }
 
 impl Display for Start {
@@ -83,6 +102,13 @@ impl Display for Start {
                 write!(f, ") in the middle")
             }
             Self::Frozen => write!(f, "the machine with constant coefficients"),
+            Self::Frictionless { time: Some(time) } => {
+                write!(
+                    f,
+                    "the motion without friction, of {time:.6} s, with friction added in steps"
+                )
+            }
+            Self::Frictionless { time: None } => write!(f, "the machine without friction"),
         }
     }
 }
@@ -108,9 +134,10 @@ impl Display for Outcome {
             Self::Lacks { .. } => write!(f, "cannot be gone at any speed"),
             Self::Lost { part } => write!(
                 f,
-                "lost at {:.1} % of the way to those of the machine",
+                "lost at {:.1} % of the way to the machine itself",
                 100.0 * part
             ),
+            Self::Nothing => write!(f, "no motion was found from any of these starts"),
             Self::Unfinished => write!(f, "not finished: the search had done what it may"),
         }
     }

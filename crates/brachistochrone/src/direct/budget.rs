@@ -11,16 +11,21 @@ use crate::solution::Contact;
 /// real number in them.
 #[derive(Debug)]
 pub struct Budget {
-    most: u64,
+    most: Cell<u64>,
     spent: Cell<u64>,
 }
 
 impl Budget {
     pub fn new(most: u64) -> Budget {
         Budget {
-            most,
+            most: Cell::new(most),
             spent: Cell::new(0),
         }
+    }
+
+    /// From now on this much may be done in all.
+    pub fn allow(&self, most: u64) {
+        self.most.set(most);
     }
 
     /// How much was done.
@@ -30,7 +35,7 @@ impl Budget {
 
     /// Whether nothing more is to be begun.
     pub fn is_spent(&self) -> bool {
-        self.spent() >= self.most
+        self.spent() >= self.most.get()
     }
 
     fn take<N>(&self) {
@@ -49,6 +54,11 @@ pub struct Counted<'a, T> {
 impl<'a, T> Counted<'a, T> {
     pub fn new(terrain: &'a T, budget: &'a Budget) -> Self {
         Counted { terrain, budget }
+    }
+
+    /// The machine itself.
+    pub fn uncounted(&self) -> &'a T {
+        self.terrain
     }
 }
 

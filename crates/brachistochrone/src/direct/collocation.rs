@@ -26,6 +26,10 @@ const MOST: usize = 30;
 /// A step this small, relative to the greatest value of each quantity, is the last: its square is below rounding.
 const LAST: f64 = 1e-10;
 
+/// On the way from one machine to another the digits of the last step are not needed, and a step that takes more iterations
+/// than these is too long.
+const ON_THE_WAY: (usize, f64) = (10, 1e-4);
+
 /// What moves less than this part of what moves most is held against that: rounding of others reaches it.
 const STILL: f64 = 1e-3;
 
@@ -351,15 +355,37 @@ impl Path {
     /// The path between these ends, by Newton's method; `None` where that fails, finds a motion that stops on its way, or
     /// has no budget.
     pub fn corrected(
-        mut self,
+        self,
         system: &impl Pontryagin,
         from: &[f64],
         to: &[f64],
         budget: &Budget,
     ) -> Option<Path> {
+        self.converged(system, [from, to], budget, (MOST, LAST))
+    }
+
+    /// [`corrected`](Self::corrected) to a few digits, from a guess that is near.
+    pub fn nearly_corrected(
+        self,
+        system: &impl Pontryagin,
+        from: &[f64],
+        to: &[f64],
+        budget: &Budget,
+    ) -> Option<Path> {
+        self.converged(system, [from, to], budget, ON_THE_WAY)
+    }
+
+    /// By so many iterations at most, until a step is this small.
+    fn converged(
+        mut self,
+        system: &impl Pontryagin,
+        [from, to]: [&[f64]; 2],
+        budget: &Budget,
+        (most, small): (usize, f64),
+    ) -> Option<Path> {
         let scales = self.scales(system);
         let mut rest = self.rest(system, from, to, &scales);
-        for _ in 0..MOST {
+        for _ in 0..most {
             if budget.is_spent() {
                 return None;
             }
@@ -373,7 +399,7 @@ impl Path {
                 let next = self.moved(&step, part);
                 let left = next.rest(system, from, to, &scales);
                 // At rounding a step cannot gain, and is taken.
-                if left < rest || size < LAST {
+                if left < rest || size < small {
                     (self, rest) = (next, left);
                     break;
                 }
@@ -382,7 +408,7 @@ impl Path {
                 }
                 part /= 2.0;
             }
-            if size < LAST {
+            if size < small {
                 return self.is_motion(system).then_some(self);
             }
         }
@@ -598,6 +624,30 @@ impl Path {
         (0..self.stretches())
             .map(|k| self.stretch(system, k).map(rows))
             .collect()
+    }
+
+    /// On the straight line from another path to this one, beyond it by this part of what is between them.
+    pub fn beyond(&self, other: &Path, part: f64) -> Path {
+        let ahead = |to: &[f64], from: &[f64]| -> Vec<f64> {
+            let pairs = to.iter().zip(from);
+            pairs.map(|(to, from)| to + part * (to - from)).collect()
+        };
+        let stages = self.stages.iter().zip(&other.stages).map(|(to, from)| {
+            let pairs = to.iter().zip(from);
+            let stages = pairs.map(|(to, from)| Stage {
+                y: ahead(&to.y, &from.y),
+                z: ahead(&to.z, &from.z),
+            });
+            stages.collect()
+        });
+        let nodes = self.nodes.iter().zip(&other.nodes);
+        Path {
+            level: self.level.clone(),
+            time: self.time + part * (self.time - other.time),
+            nodes: nodes.map(|(to, from)| ahead(to, from)).collect(),
+            stages: stages.collect(),
+            last: ahead(&self.last, &other.last),
+        }
     }
 
     fn moved(&self, step: &Step, part: f64) -> Path {

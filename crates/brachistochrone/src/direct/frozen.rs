@@ -1,17 +1,11 @@
-//! Machines with constant coefficients, whose fastest motion is a closed form, and the way from there to a machine itself.
+//! Machines with constant coefficients, whose fastest motion is a closed form, and parts of the way from there to a machine itself.
 
 use lagrangian_scalar::Scalar;
 
 use super::Terrain;
-use super::budget::Budget;
-use super::collocation::Path;
-use super::pontryagin::Pontryagin;
 use super::{between, rows, symmetric};
 use crate::linear::{dot, times};
 use crate::problem::Problem;
-
-/// The least step on the way from the frozen machine to the real one.
-const LEAST_STEP: f64 = 1.0 / 64.0;
 
 /// A part θ of the way from constant coefficients to those of a machine.
 pub struct Blend<'a, T> {
@@ -111,31 +105,4 @@ pub fn frozen(terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<Frozen> {
         })
     });
     known.collect()
-}
-
-/// The path of the machine itself, from that of the frozen one; and how far it came.
-pub fn carried<P: Pontryagin>(
-    start: Path,
-    from: &[f64],
-    to: &[f64],
-    system: impl Fn(f64) -> P,
-    budget: &Budget,
-) -> (Option<Path>, f64) {
-    let (mut path, mut part, mut step) = (start, 0.0_f64, 1.0_f64);
-    while part < 1.0 {
-        let next = (part + step).min(1.0);
-        match path.clone().corrected(&system(next), from, to, budget) {
-            Some(found) => {
-                (path, part) = (found, next);
-                step *= 2.0;
-            }
-            None => {
-                step /= 2.0;
-                if step < LEAST_STEP || budget.is_spent() {
-                    return (None, part);
-                }
-            }
-        }
-    }
-    (Some(path), part)
 }

@@ -66,14 +66,9 @@ impl<T: Terrain> Sought<T> {
     /// The times of ways of straight pieces, or of extremals, in s, that are less than this one's and could not be followed to a motion that is
     /// faster than its neighbours: while there are any, this one may not be the fastest.
     pub fn doubts(&self) -> Vec<f64> {
-        let times = self.tried.iter().filter_map(|trial| match trial.outcome {
-            Outcome::NotSmooth { time } | Outcome::NotLeast { time, .. } => Some(time),
-            _ => None,
-        });
-        // Straight pieces are good to so much.
-        times
-            .filter(|time| *time < (1.0 - 1e-3) * self.time())
-            .collect()
+        let time = self.time();
+        let doubts = self.tried.iter().filter_map(|trial| trial.doubt(time));
+        doubts.collect()
     }
 
     /// How much the search did, in evaluations as [`Search::budget`](super::Search::budget) counts them.

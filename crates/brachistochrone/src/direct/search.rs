@@ -7,7 +7,8 @@ use lagrangian_scalar::Dual;
 use super::budget::{Budget, Counted};
 use super::collocation::{Level, Path};
 use super::descent::{Descent, Stop, Walk, Way};
-use super::frozen::{carried, frozen};
+use super::followed::followed;
+use super::frozen::frozen;
 use super::hamiltonian::Driven;
 use super::motion::Sought;
 use super::ways::{PIECES, guessed, ways};
@@ -87,8 +88,8 @@ impl Search {
     }
 
     /// Does so much at most, in evaluations of [`Terrain::inertia`] and [`Terrain::resistance`], each counted once for every
-    /// real number in the type it is made with. What was begun is ended, so somewhat more may be done. It is 4 million unless
-    /// it is said.
+    /// real number in the type it is made with; and as much again from the motions of the machine without friction. What was
+    /// begun is ended, so somewhat more may be done. It is 4 million unless it is said.
     pub fn budget(mut self, evaluations: u64) -> Search {
         self.budget = evaluations;
         self
@@ -108,12 +109,11 @@ impl Search {
         let frame = frame(&terrain, from)?;
         let skew = skew(&terrain, from, to);
         refuse_loops(from.len(), skew)?;
+        let smooth = terrain.with_friction(0.0);
+        let smooth = smooth.filter(|smooth| differs(&terrain, smooth, from, to));
         let budget = Budget::new(self.budget);
         let counted = Counted::new(&terrain, &budget);
-        let guesses = self.guesses.iter();
-        let guesses = guesses.map(|places| (Start::Guess, guessed(&counted, places, from, to)));
-        let mut starts: Vec<(Start, Way)> = guesses.collect();
-        starts.extend(ways(&counted, from, to));
+        let starts = self.starts(&counted, from, to);
         let rise = rise(&terrain, from, to);
         let falls = is_potential(&terrain, &starts);
         // What a potential takes, no way gives back. Level ends are a matter of rounding.
@@ -133,7 +133,31 @@ impl Search {
         };
         let mut tried = Vec::new();
         let found = match looks {
-            true => hunt.follow(starts, &mut tried),
+            true => {
+                let mut found = hunt.follow(starts, &mut tried);
+                if let Some(smooth) = smooth.filter(|_| leaves_doubts(&found, &tried)) {
+                    budget.allow(budget.spent() + self.budget);
+                    let smooth = Counted::new(&smooth, &budget);
+                    let starts = self.starts(&smooth, from, to);
+                    let without = Hunt {
+                        system: Driven::new(smooth.clone(), frame.clone()),
+                        descent: Descent::new(smooth, false, false),
+                        level: None,
+                        ..hunt
+                    };
+                    hunt.rub(&without, starts, &mut found, &mut tried);
+                }
+                // Closed forms have no multipliers at level ends.
+                if found.is_empty() && hunt.level.is_none() {
+                    let (outcome, smooth) = hunt.thawed(tried.len());
+                    tried.push(Trial {
+                        start: Start::Frozen,
+                        outcome,
+                    });
+                    found.extend(smooth);
+                }
+                fastest(found)
+            }
             false => None,
         };
         let Some(Smooth { path, change, .. }) = found else {
@@ -151,6 +175,13 @@ impl Search {
             tried,
             evaluations: budget.spent(),
         })
+    }
+
+    /// The guesses, the straight way, and ways beside it.
+    fn starts(&self, terrain: &impl Terrain, from: &[f64], to: &[f64]) -> Vec<(Start, Way)> {
+        let guesses = self.guesses.iter();
+        let guesses = guesses.map(|places| (Start::Guess, guessed(terrain, places, from, to)));
+        guesses.chain(ways(terrain, from, to)).collect()
     }
 
     fn refuse_lists(&self, n: usize, from: &[f64], to: &[f64]) -> Result<(), Unsolved> {
@@ -197,8 +228,8 @@ struct Hunt<'a, T> {
 }
 
 impl<T: Terrain> Hunt<'_, T> {
-    /// The fastest of the motions that these starts lead to.
-    fn follow(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Option<Smooth> {
+    /// The motions that these starts lead to.
+    fn follow(&self, starts: Vec<(Start, Way)>, tried: &mut Vec<Trial>) -> Vec<Smooth> {
         let mut found: Vec<Smooth> = Vec::new();
         for candidate in self.candidates(starts, tried) {
             let trial = candidate.trial;
@@ -206,23 +237,60 @@ impl<T: Terrain> Hunt<'_, T> {
             tried[trial].outcome = outcome;
             found.extend(smooth);
         }
-        // Closed forms have no multipliers at level ends.
-        if found.is_empty() && self.level.is_none() {
-            let (outcome, smooth) = self.thawed(tried.len());
+        found
+    }
+
+    /// Adds the motions to which those of the machine without friction lead while friction is added.
+    fn rub(
+        &self,
+        without: &Self,
+        starts: Vec<(Start, Way)>,
+        found: &mut Vec<Smooth>,
+        tried: &mut Vec<Trial>,
+    ) {
+        let mut ignored = Vec::new();
+        let mut none = true;
+        for candidate in without.candidates(starts, &mut ignored) {
+            let Ok((_, path)) = without.corrected(candidate) else {
+                continue;
+            };
+            none = false;
+            let trial = tried.len();
+            let time = Some(path.time);
+            let (outcome, smooth) = self.rubbed(trial, path, found);
             tried.push(Trial {
-                start: Start::Frozen,
+                start: Start::Frictionless { time },
                 outcome,
             });
             found.extend(smooth);
         }
-        // Of equal ones the first, as a mirror makes them equal.
-        let by_time = |a: &Smooth, b: &Smooth| a.path.time.total_cmp(&b.path.time);
-        found
-            .into_iter()
-            .reduce(|best, next| match by_time(&next, &best) {
-                Ordering::Less => next,
-                _ => best,
-            })
+        if none {
+            let outcome = match self.budget.is_spent() {
+                true => Outcome::Unfinished,
+                false => Outcome::Nothing,
+            };
+            tried.push(Trial {
+                start: Start::Frictionless { time: None },
+                outcome,
+            });
+        }
+    }
+
+    /// The motion of the machine itself, from one of the machine without friction.
+    fn rubbed(&self, trial: usize, path: Path, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+        let [from, to] = self.ends;
+        let corrected = |path: Path, share: f64| {
+            let machine = self.system.terrain.uncounted().with_friction(share)?;
+            let system = self.system.of(Counted::new(&machine, self.budget));
+            path.nearly_corrected(&system, from, to, self.budget)
+        };
+        let (path, part) = followed(path, corrected, self.budget);
+        let exact = |path: Path| path.corrected(&self.system, from, to, self.budget);
+        match (path.and_then(exact), part) {
+            (Some(path), _) => self.judged(trial, path, known),
+            (None, _) if self.budget.is_spent() => (Outcome::Unfinished, None),
+            (None, part) => (Outcome::Lost { part }, None),
+        }
     }
 
     /// Different ways of straight pieces that are the fastest nearby, the fastest first; every start has its trial.
@@ -257,6 +325,14 @@ impl<T: Terrain> Hunt<'_, T> {
 
     /// The smooth motion at a way of straight pieces.
     fn smoothed(&self, candidate: Candidate, known: &[Smooth]) -> (Outcome, Option<Smooth>) {
+        match self.corrected(candidate) {
+            Ok((trial, path)) => self.judged(trial, path, known),
+            Err(outcome) => (outcome, None),
+        }
+    }
+
+    /// The smooth path at a way of straight pieces, on a few stretches, and the number of its trial; or why there is none.
+    fn corrected(&self, candidate: Candidate) -> Result<(usize, Path), Outcome> {
         let Candidate {
             trial,
             mut way,
@@ -269,8 +345,8 @@ impl<T: Terrain> Hunt<'_, T> {
                 let released = self.descent.released(&mut way);
                 match released.and_then(|_| self.descent.fastest(&mut way)) {
                     Ok(finer) => walk = finer,
-                    Err(Stop::Lacks(energy)) => return (Outcome::Lacks { energy }, None),
-                    Err(Stop::Spent) => return (Outcome::Unfinished, None),
+                    Err(Stop::Lacks(energy)) => return Err(Outcome::Lacks { energy }),
+                    Err(Stop::Spent) => return Err(Outcome::Unfinished),
                 }
             }
             let stretches = self.stretches.unwrap_or(stretches);
@@ -280,13 +356,13 @@ impl<T: Terrain> Hunt<'_, T> {
             // Newton's method may have gone elsewhere.
             let near = |path: &Path| (path.time / walk.time() - 1.0).abs() < NEAR;
             if let Some(path) = path.filter(near) {
-                return self.judged(trial, path, known);
+                return Ok((trial, path));
             }
             if self.budget.is_spent() {
-                return (Outcome::Unfinished, None);
+                return Err(Outcome::Unfinished);
             }
         }
-        (Outcome::NotSmooth { time: walk.time() }, None)
+        Err(Outcome::NotSmooth { time: walk.time() })
     }
 
     /// The path on as many stretches as it takes, if it is a new one and faster than its neighbours.
@@ -361,14 +437,45 @@ impl<T: Terrain> Hunt<'_, T> {
             let Some(start) = start else {
                 continue;
             };
-            let (path, part) = carried(start, from, to, system, self.budget);
+            let corrected =
+                |path: Path, part: f64| path.nearly_corrected(&system(part), from, to, self.budget);
+            let (path, part) = followed(start, corrected, self.budget);
             reached = reached.max(part);
-            if let Some(path) = path {
+            let exact = |path: Path| path.corrected(&self.system, from, to, self.budget);
+            if let Some(path) = path.and_then(exact) {
                 return self.judged(trial, path, &[]);
             }
         }
         (Outcome::Lost { part: reached }, None)
     }
+}
+
+/// Of equal ones the first, as a mirror makes them equal.
+fn fastest(found: Vec<Smooth>) -> Option<Smooth> {
+    let by_time = |a: &Smooth, b: &Smooth| a.path.time.total_cmp(&b.path.time);
+    found
+        .into_iter()
+        .reduce(|best, next| match by_time(&next, &best) {
+            Ordering::Less => next,
+            _ => best,
+        })
+}
+
+/// Whether nothing was found, or what was tried may be faster than what was found.
+fn leaves_doubts(found: &[Smooth], tried: &[Trial]) -> bool {
+    let best = found.iter().map(|smooth| smooth.path.time);
+    let best = best.fold(f64::INFINITY, f64::min);
+    found.is_empty() || tried.iter().any(|trial| trial.doubt(best).is_some())
+}
+
+/// Whether two machines differ anywhere on the straight way, at rest.
+fn differs<T: Terrain>(one: &T, other: &T, from: &[f64], to: &[f64]) -> bool {
+    let rest = std::vec![0.0; from.len()];
+    [0.0, 0.25, 0.5, 0.75, 1.0].into_iter().any(|part| {
+        let q = between(from, to, part);
+        one.inertia(&q) != other.inertia(&q)
+            || one.resistance(&q, &rest) != other.resistance(&q, &rest)
+    })
 }
 
 /// How far ways with as many places are from each other, at most, in the metric of the middle, relative to the length.

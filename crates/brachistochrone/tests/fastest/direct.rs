@@ -1,4 +1,5 @@
 //! The direct method: closed forms in other coordinates, machines outside of the conditions (17), and its order.
+mod friction;
 mod hill;
 
 use std::f64::consts::PI;
@@ -38,6 +39,10 @@ impl Terrain for Wire {
     }
     fn resistance<N: Scalar>(&self, _: &[N], _: &[N]) -> Vec<N> {
         vec![N::from_f64(self.friction * G), N::from_f64(-G)]
+    }
+    fn with_friction(&self, share: f64) -> Option<Wire> {
+        let friction = share * self.friction;
+        Some(Wire { friction })
     }
 }
 
@@ -83,6 +88,10 @@ impl Terrain for Polar {
         let along = ahead - mu * aside + force[0] * cos + force[1] * sin;
         let across = mu * ahead + aside - force[0] * sin + force[1] * cos;
         vec![along, q[0] * across]
+    }
+    fn with_friction(&self, share: f64) -> Option<Polar> {
+        let (wire, centre) = (self.wire.with_friction(share)?, self.centre);
+        Some(Polar { wire, centre })
     }
 }
 
