@@ -20,6 +20,7 @@ use lagrangian_spec::token::normalized;
 
 mod engine;
 mod reading;
+mod recording;
 
 use crate::shared_workspace::SharedWorkspace;
 
@@ -27,6 +28,7 @@ pub use crate::error::{Diagnostic, MissingParameters, NoMachineCode, Note};
 pub use crate::names::UnknownName;
 pub use engine::Engine;
 pub use reading::Reading;
+pub use recording::{Column, Kind, Recording};
 
 use crate::{
     Assumption, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Linearize, Machine,

@@ -91,6 +91,8 @@ mod equations;
 #[cfg(feature = "std")]
 mod error;
 #[cfg(feature = "std")]
+mod evaluation;
+#[cfg(feature = "std")]
 mod event;
 #[cfg(feature = "std")]
 mod motion;
@@ -146,6 +148,8 @@ pub use contact::{
 pub use equations::check_equations;
 #[cfg(feature = "std")]
 pub use error::{Error, KeptContradiction, Warning};
+#[cfg(feature = "std")]
+pub use evaluation::Evaluation;
 #[cfg(feature = "std")]
 pub use event::{Crossing, Event};
 #[cfg(feature = "std")]

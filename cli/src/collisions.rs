@@ -1,7 +1,9 @@
 //! What runs tell of unilateral contacts: impacts, what closes, lifts, slips and sticks, and where energy went.
 
 use lagrangian::interpreted::{InterpretedSystem, Named};
-use lagrangian::{Compliance, ContactEvent, ContactEventKind, Event, System, unilateral_forces};
+use lagrangian::{
+    Compliance, ContactEvent, ContactEventKind, Event, System, UnilateralContact, UnilateralForce,
+};
 use serde_json::{Value, json};
 
 use crate::numbers::{by_name, shortest};
@@ -24,7 +26,7 @@ fn accounts(run: &Run) -> Vec<Account> {
     let closed = run.closed_contacts(run.end().t);
     let crushing = run.crushing_work();
     let contacts = run.system().unilateral_contacts().enumerate();
-    let of_contact = |(k, contact): (usize, lagrangian::UnilateralContact<'_>)| {
+    let of_contact = |(k, contact): (usize, UnilateralContact<'_>)| {
         let own = || {
             run.contact_events()
                 .iter()
@@ -156,21 +158,10 @@ fn event(event: &ContactEvent<Named>) -> Value {
     document
 }
 
-/// Gap, rates and forces of each contact at a state; the accelerations are those with what is closed there.
-///
-/// # Errors
-/// Where there are none.
-pub fn forces(
-    system: &InterpretedSystem,
-    at: (f64, &Vec<f64>, &Vec<f64>, &Named),
-    a: &mut Vec<f64>,
-) -> Result<Vec<(String, Value)>, lagrangian::StepError> {
-    let forces = unilateral_forces(system, at, a)?;
+/// Gap, rates and forces of each contact at a state.
+pub fn forces(system: &InterpretedSystem, forces: &[UnilateralForce]) -> Vec<(String, Value)> {
     let pairs = system.unilateral_contacts().zip(forces);
-    let entry = |(contact, force): (
-        lagrangian::UnilateralContact<'_>,
-        lagrangian::UnilateralForce,
-    )| {
+    let entry = |(contact, force): (UnilateralContact<'_>, &UnilateralForce)| {
         let force = json!({
             "gap": force.gap,
             "gap_rate": force.gap_rate,
@@ -182,5 +173,5 @@ pub fn forces(
         });
         (contact.name.to_owned(), force)
     };
-    Ok(pairs.map(entry).collect())
+    pairs.map(entry).collect()
 }

@@ -6,8 +6,8 @@ use std::io::Read;
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{
-    ContactForce, Error, Machine, Pivot, Simulation, State, StepError, System, check_equations,
-    contact_forces, least_multipliers,
+    ContactForce, Error, Evaluation, Machine, Pivot, Simulation, State, StepError, System,
+    check_equations,
 };
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::Dag;
@@ -188,50 +188,28 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     let (t, q, v) = (*t, &q.values, &v.values);
     let u = system.default_inputs();
     let n = q.len();
-    let zeros = || vec![0.0; n];
-    let (mut bias, mut applied, mut forces, mut a) = (zeros(), zeros(), zeros(), zeros());
-    let mut matrix = vec![0.0; n * n];
-    let mut multipliers = vec![0.0; system.constraints().len()];
-    let found = system
-        .accelerations(t, q, v, &u, &mut a)
-        .and_then(|()| system.multipliers(t, q, v, &u, &mut multipliers));
-    if let Err(singular) = found {
-        // What depends on others may be held by these in many ways, all with the same motion.
-        let least = match singular.at {
-            // Of what sticks and slides beside them nothing is known then.
-            Pivot::Constraint(_) if system.contacts().len() == 0 => {
-                least_multipliers(system, t, q, v, &u, &mut a, &mut multipliers)
-            }
-            _ => Err(StepError::Singular { singular, t }),
-        };
-        least.map_err(|error| in_words(system, error))?;
+    let evaluated = Evaluation::of(system, (t, q, v, &u));
+    let Evaluation {
+        mass_matrix: matrix,
+        bias,
+        applied,
+        forces,
+        accelerations: a,
+        multipliers,
+        reactions,
+        contacts: sliding,
+        unilateral,
+        kinetic_energy,
+        potential_energy,
+        dissipation,
+        outputs,
+        ..
+    } = evaluated.map_err(|error| in_words(system, error))?;
+    if !multipliers.is_empty() && unilateral.iter().any(|force| force.closed) {
+        return Err(
+            "the multipliers of constraints where contacts are closed are those of a run".into(),
+        );
     }
-    let mut collisions = Vec::new();
-    if system.unilateral_contacts().len() != 0 {
-        let found = collisions::forces(system, (t, q, v, &u), &mut a);
-        collisions = found.map_err(|error| in_words(system, error))?;
-        if !multipliers.is_empty() && collisions.iter().any(|(_, force)| force["closed"] == true) {
-            return Err(
-                "the multipliers of constraints where contacts are closed are those of a run"
-                    .into(),
-            );
-        }
-    }
-    let mut rows = vec![0.0; multipliers.len() * n];
-    system.constraint_matrix(t, q, &mut rows);
-    let reaction = |i: usize| {
-        let column = rows.iter().skip(i).step_by(n).zip(&multipliers);
-        column.map(|(g, multiplier)| g * multiplier).sum()
-    };
-    let reactions = match multipliers.is_empty() {
-        true => Vec::new(),
-        false => (0..n).map(reaction).collect(),
-    };
-    system.mass_matrix(t, q, &mut matrix);
-    system.bias(t, q, v, &mut bias);
-    system.applied(t, q, v, &u, &mut applied);
-    system.forces(t, q, v, &u, &mut forces);
-    let outputs = system.outputs(t, q, v, &a, &u);
     if let Some((coordinate, _)) = system.coordinates().zip(&a).find(|(_, a)| !a.is_finite()) {
         return Err(format!(
             "the acceleration of `{}` is not finite here",
@@ -240,11 +218,8 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
     }
     check_equations(system, (t, q, v, &u)).map_err(|error| error.to_string())?;
     let mut contacts = contacts::forces(system, &multipliers);
-    contacts.extend(sliding(system, (t, q, v, &u)));
-    contacts.extend(collisions);
-    let kinetic_energy = system.kinetic_energy(t, q, v);
-    let potential_energy = system.potential_energy(t, q, &u);
-    let dissipation = system.dissipation(t, q, v, &u);
+    contacts.extend(slips(system, &sliding));
+    contacts.extend(collisions::forces(system, &unilateral));
     // JSON has no word for what is greater than any number, and null would be read as nothing.
     let all: [(&str, &[f64]); 8] = [
         ("mass matrix", &matrix),
@@ -286,16 +261,7 @@ fn numbers(system: &InterpretedSystem, state: &State<Named>) -> Result<Value, St
 }
 
 /// Slip, normal reaction and friction of each contact that sticks or slides.
-fn sliding(
-    system: &InterpretedSystem,
-    at: (f64, &Vec<f64>, &Vec<f64>, &Named),
-) -> Vec<(String, Value)> {
-    let mut forces = vec![ContactForce::default(); system.contacts().len()];
-    if forces.is_empty() {
-        return Vec::new();
-    }
-    // Where they have no value, the accelerations have none.
-    let _ = contact_forces(system, at, &mut [], &mut [], &mut forces);
+fn slips(system: &InterpretedSystem, forces: &[ContactForce]) -> Vec<(String, Value)> {
     let entry = |(name, force): (&str, &ContactForce)| {
         let force = serde_json::json!({
             "slip": force.slip,
@@ -305,5 +271,5 @@ fn sliding(
         });
         (name.to_owned(), force)
     };
-    system.contacts().zip(&forces).map(entry).collect()
+    system.contacts().zip(forces).map(entry).collect()
 }

@@ -4,7 +4,7 @@ use plotters::prelude::*;
 use plotters::style::FontFamily;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::recording::{Kind, Panel, Recording, extent, thin};
+use crate::recording::{Kind, Panel, Recording, extent, panels, thin};
 
 /// Units of the drawing in 1/96 inch: the library rounds to whole units, and whole 1/96 inches show as stairs.
 pub const UNIT: u32 = 8;
@@ -47,7 +47,7 @@ const KINDS: [Kind; 6] = [
 /// # Errors
 /// What the drawing library says, as a sentence.
 pub fn svg(title: &str, recording: &Recording) -> Result<String, String> {
-    let panels = recording.panels(&KINDS);
+    let panels = panels(recording, &KINDS);
     let height = 48 * UNIT + PANEL * panels.len().max(1) as u32;
     svg_of(height, |backend| draw(title, recording, &panels, backend))
 }

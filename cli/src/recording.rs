@@ -1,113 +1,31 @@
-//! What a run leaves behind: one row for each instant, one column for each quantity.
+//! What is drawn of a recording.
 
 use lagrangian::Solution;
 use lagrangian::interpreted::InterpretedMachine;
+pub use lagrangian::interpreted::{Column, Kind, Recording};
 
 /// A run of a machine read from a spec.
 pub type Run = Solution<InterpretedMachine>;
 
-/// What a column holds; decides into which panel of the plot it goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A generalized coordinate.
-    Coordinate,
-    /// The rate of a coordinate.
-    Rate,
-    /// An energy: kinetic, potential, their sum.
-    Energy,
-    /// The residual of the energy balance.
-    Residual,
-    /// A quantity that the spec asks to observe.
-    Output,
-    /// The normal reaction, the friction or the slip of a contact.
-    Contact,
-    /// The multiplier of a constraint.
-    Multiplier,
-}
-
-/// One quantity along the run.
-#[derive(Clone, Debug)]
-pub struct Column {
-    /// Its name, as the header of a table shows it.
-    pub name: String,
-    /// Its unit, as a spec writes it.
-    pub unit: String,
-    /// What it is.
-    pub kind: Kind,
-    /// Its values, one for each instant.
-    pub values: Vec<f64>,
-}
-
-/// The whole run, column by column.
-#[derive(Clone, Debug, Default)]
-pub struct Recording {
-    /// The instants, in s.
-    pub times: Vec<f64>,
-    /// The quantities; all as long as `times`.
-    pub columns: Vec<Column>,
-}
-
-impl Recording {
-    /// The columns of one kind.
-    pub fn of_kind(&self, kind: Kind) -> impl Iterator<Item = &Column> {
-        self.columns
-            .iter()
-            .filter(move |column| column.kind == kind)
-    }
-
-    /// Every so many instants, and the last.
-    pub fn each(&self, stride: usize) -> Recording {
-        let last = self.times.len().saturating_sub(1);
-        let kept = |values: &[f64]| {
-            let numbered = values.iter().enumerate();
-            let kept = numbered.filter(|(row, _)| row % stride.max(1) == 0 || *row == last);
-            kept.map(|(_, value)| *value).collect()
-        };
-        Recording {
-            times: kept(&self.times),
-            columns: self
-                .columns
-                .iter()
-                .map(|column| Column {
-                    values: kept(&column.values),
-                    ..column.clone()
-                })
-                .collect(),
-        }
-    }
-
-    /// What is drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the kinds asked for,
-    /// each where there is something in it.
-    pub fn panels(&self, kinds: &[Kind]) -> Vec<Panel<'_>> {
-        let mut panels: Vec<Panel> = Vec::new();
-        for &kind in kinds {
-            for column in self.of_kind(kind) {
-                let unit = column.unit.as_str();
-                let same = |panel: &&mut Panel| panel.kind == kind && panel.unit == unit;
-                match panels.iter_mut().find(same) {
-                    Some(panel) => panel.columns.push(column),
-                    None => panels.push(Panel {
-                        kind,
-                        unit,
-                        columns: vec![column],
-                    }),
-                }
+/// What is drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the kinds asked for,
+/// each where there is something in it.
+pub fn panels<'a>(recording: &'a Recording, kinds: &[Kind]) -> Vec<Panel<'a>> {
+    let mut panels: Vec<Panel> = Vec::new();
+    for &kind in kinds {
+        for column in recording.of_kind(kind) {
+            let unit = column.unit.as_str();
+            let same = |panel: &&mut Panel| panel.kind == kind && panel.unit == unit;
+            match panels.iter_mut().find(same) {
+                Some(panel) => panel.columns.push(column),
+                None => panels.push(Panel {
+                    kind,
+                    unit,
+                    columns: vec![column],
+                }),
             }
         }
-        panels
     }
-
-    /// The headers of a table: the name with its unit, `s1 [m]`, time first.
-    pub fn headers(&self) -> impl Iterator<Item = String> + '_ {
-        let columns = self
-            .columns
-            .iter()
-            .map(|column| match column.unit.as_str() {
-                "1" => column.name.clone(),
-                unit => format!("{} [{unit}]", column.name),
-            });
-        std::iter::once("t [s]".to_owned()).chain(columns)
-    }
+    panels
 }
 
 /// Quantities that share an axis.

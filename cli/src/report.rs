@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 use crate::call;
 use crate::contacts::Found;
 use crate::recording::Run;
-use crate::recording::{Column, Kind, Recording, thin};
+use crate::recording::{Column, Kind, Recording, panels, thin};
 
 pub use page::{DRAWING, STYLE};
 pub use samples::{Samples, encoded, finer};
@@ -72,7 +72,7 @@ impl Report<'_, '_> {
             Kind::Energy,
             Kind::Residual,
         ];
-        let panels = self.recording.panels(&kinds);
+        let panels = panels(self.recording, &kinds);
         let stored = panels
             .iter()
             .filter(|panel| !matches!(panel.kind, Kind::Coordinate | Kind::Rate))

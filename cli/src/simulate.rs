@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Compliance, Ending, Energies, Error, Machine, Simulation, System, Warning};
+use lagrangian::{Ending, Error, Machine, Simulation, System, Warning};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
 use lagrangian_sweep::verdict;
@@ -21,7 +21,7 @@ use crate::numbers::{by_name, shortest};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
-use crate::recording::{Column, Kind, Recording, Run};
+use crate::recording::{Recording, Run};
 use crate::report::{self, Report};
 use crate::{plot, table};
 
@@ -258,131 +258,10 @@ fn write(files: &Files, name: &str, recording: &Recording) -> Vec<String> {
 
 /// The samples of a run, with what can be observed at each.
 pub fn record(run: &Run) -> Recording {
-    let system = run.system();
     // A run without length has no samples.
-    let states = match run.samples() {
-        [] => std::slice::from_ref(run.start()),
-        states => states,
-    };
-    let mut columns: Vec<Column> = Vec::new();
-    let mut column = |name: String, unit: String, kind| {
-        columns.push(Column {
-            name,
-            unit,
-            kind,
-            values: Vec::with_capacity(states.len()),
-        })
-    };
-    for quantity in system.coordinates() {
-        column(quantity.name.into(), quantity.unit.into(), Kind::Coordinate);
-    }
-    for quantity in system.coordinates() {
-        let unit = match quantity.unit {
-            "1" => "1/s".into(),
-            unit => format!("{unit}/s"),
-        };
-        column(format!("der({})", quantity.name), unit, Kind::Rate);
-    }
-    let start = run.start();
-    let (q, v) = (&start.q.values, &start.v.values);
-    let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &system.default_inputs());
-    for (quantity, _) in system.output_values(&outputs) {
-        column(quantity.name.into(), quantity.unit.into(), Kind::Output);
-    }
-    for constraint in system.constraints() {
-        let name = format!("multiplier({})", constraint.name);
-        column(name, constraint.multiplier_unit.into(), Kind::Multiplier);
-    }
-    for name in system.contacts() {
-        for (what, unit) in [("normal", "N"), ("friction", "N"), ("slip", "m/s")] {
-            column(format!("{what}({name})"), unit.into(), Kind::Contact);
-        }
-    }
-    for contact in system.unilateral_contacts() {
-        let name = contact.name;
-        for (what, unit) in [
-            ("gap", "m"),
-            ("normal", "N"),
-            ("friction", "N"),
-            ("slip", "m/s"),
-        ] {
-            column(format!("{what}({name})"), unit.into(), Kind::Contact);
-        }
-        if contact.compliance == Some(Compliance::Layer) {
-            column(format!("crushing({name})"), "J".into(), Kind::Contact);
-        }
-    }
-    for name in ["kinetic energy", "potential energy", "total energy"] {
-        column(name.into(), "J".into(), Kind::Energy);
-    }
-    column("energy residual".into(), "J".into(), Kind::Residual);
-
-    let is_layer: Vec<bool> = (system.unilateral_contacts())
-        .map(|contact| contact.compliance == Some(Compliance::Layer))
-        .collect();
-    let unknown = |count: usize| vec![f64::NAN; count];
-    let reactions = system.constraints().len()
-        + 3 * system.contacts().len()
-        + 4 * system.unilateral_contacts().len()
-        + is_layer.iter().filter(|is_layer| **is_layer).count();
-    for state in states {
-        // Where a run ends early there may be no accelerations, and then nothing that is made from them.
-        let (outputs, reactions, energies) = match run.observe_state(state) {
-            Ok(seen) => {
-                let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
-                let energies = [kinetic, potential, kinetic + potential];
-                let contacts = seen.contacts.iter();
-                let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip]);
-                let unilateral = seen.unilateral.iter();
-                let unilateral = unilateral.zip(&is_layer).flat_map(|(c, is_layer)| {
-                    let crushing = is_layer.then_some(c.crushing_work);
-                    [c.gap, c.normal, c.friction, c.slip]
-                        .into_iter()
-                        .chain(crushing)
-                });
-                let reactions = seen.multipliers.iter().copied().chain(contacts);
-                let reactions = reactions.chain(unilateral);
-                (seen.outputs.values, reactions.collect(), energies)
-            }
-            Err(_) => {
-                let outputs = unknown(outputs.values.len());
-                (outputs, unknown(reactions), [f64::NAN; 3])
-            }
-        };
-        let moving = state.q.values.iter().chain(&state.v.values).copied();
-        let residual = residual_at(run.energies(), state.t);
-        let observed = outputs.into_iter().chain(reactions);
-        let row = moving.chain(observed).chain(energies).chain([residual]);
-        for (column, value) in columns.iter_mut().zip(row) {
-            column.values.push(value);
-        }
-    }
-    Recording {
-        times: states.iter().map(|state| state.t).collect(),
-        columns,
-    }
-}
-
-/// The residual of the energy balance at a time: known at the ends of steps, interpolated between them.
-fn residual_at(energies: &[Energies], t: f64) -> f64 {
-    let Some(first) = energies.first() else {
-        return 0.0;
-    };
-    let residual = |e: &Energies| {
-        (e.kinetic + e.potential) - (first.kinetic + first.potential) - e.work + e.dissipated
-    };
-    let forward = energies.last().is_none_or(|last| last.t >= first.t);
-    let next = energies.partition_point(|e| if forward { e.t < t } else { e.t > t });
-    match (
-        next.checked_sub(1).and_then(|before| energies.get(before)),
-        energies.get(next),
-    ) {
-        (Some(a), Some(b)) => {
-            let share = (t - a.t) / (b.t - a.t);
-            residual(a) + share * (residual(b) - residual(a))
-        }
-        (Some(only), None) | (None, Some(only)) => residual(only),
-        (None, None) => 0.0,
+    match run.samples() {
+        [] => Recording::of(run, std::slice::from_ref(run.start())),
+        states => Recording::of(run, states),
     }
 }
 

@@ -9,7 +9,7 @@ use super::figures;
 use super::found::Found;
 use crate::failure::Failure;
 use crate::numbers::shortest;
-use crate::recording::{Column, Kind, Recording};
+use crate::recording::{self, Column, Kind, Recording};
 use crate::report::html::{self, Cell, text as safe};
 use crate::report::{self, DRAWING, STYLE, Samples, encoded, script};
 use crate::simulate::record;
@@ -97,7 +97,7 @@ fn panels(fastest: &Recording, free: Option<&Recording>) -> Vec<Value> {
             "values": encoded(column.values.iter().copied()),
         })
     };
-    let drawn = fastest.panels(&[Kind::Coordinate, Kind::Output]);
+    let drawn = recording::panels(fastest, &[Kind::Coordinate, Kind::Output]);
     let panel = |panel: &crate::recording::Panel<'_>| {
         let own = panel.columns.iter();
         let mut curves: Vec<Value> = own

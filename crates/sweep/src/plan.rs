@@ -267,7 +267,8 @@ impl SpecText {
 }
 
 /// Files as they were read, instead of those that are there now.
-pub(crate) struct Kept<'a>(pub &'a [ReadFile]);
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<'a>(pub &'a [ReadFile]);
 
 impl Files for Kept<'_> {
     fn read(&mut self, path: &str, from: Option<&str>) -> Result<(String, String), String> {

@@ -1,0 +1,67 @@
+"""Machines written down as specs, their equations derived symbolically, and run.
+
+>>> import lagrangian as lg
+>>> m = lg.load("machines/double_pendulum.machine", l2=0.5)
+>>> run = m.simulate(10, start={"theta1": 2.0}, tolerance=1e-10)
+>>> run["theta1"].shape
+(1001,)
+"""
+
+from . import errors
+from ._equations import Equations, Program
+from ._machine import Evaluation, Machine, load, loads
+from ._named import Named, State
+from ._native import __version__, set_engine, set_threads
+from ._simulate import Energy, Event, Run
+from ._sweep import LogUniform, Normal, Sweep, Triangular, Uniform, run_chunk
+from .errors import (
+    Diagnostic,
+    ExportError,
+    LagrangianError,
+    MissingParameters,
+    RunError,
+    SingularError,
+    SpecError,
+    UnknownName,
+)
+
+
+def __getattr__(name: str) -> object:
+    if name == "engine":
+        from . import _native
+
+        return _native.engine()
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+__all__ = [
+    "Diagnostic",
+    "Energy",
+    "Equations",
+    "Evaluation",
+    "Event",
+    "ExportError",
+    "LagrangianError",
+    "LogUniform",
+    "Machine",
+    "MissingParameters",
+    "Named",
+    "Normal",
+    "Program",
+    "Run",
+    "RunError",
+    "SingularError",
+    "SpecError",
+    "State",
+    "Sweep",
+    "Triangular",
+    "Uniform",
+    "UnknownName",
+    "__version__",
+    "errors",
+    "load",
+    "loads",
+    "run_chunk",
+    "set_engine",
+    "set_threads",
+]

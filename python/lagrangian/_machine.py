@@ -1,0 +1,455 @@
+"""Machines: specs, derived, with values of their parameters."""
+
+from __future__ import annotations
+
+import math
+import os
+from fractions import Fraction
+from types import MappingProxyType
+from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple, TypeVar, Union
+
+import numpy as np
+
+from . import _batch, _native, _simulate, _sweep
+from ._equations import Equations, Program
+from ._named import Named, State
+from .errors import Diagnostic, SingularError, unknown
+
+Number = Union[int, float]
+_T = TypeVar("_T")
+
+
+def load(path: Union[str, "os.PathLike[str]"], *, constants: Optional[Mapping[str, Any]] = None, **parameters: Number) -> "Machine":
+    """The machine of a spec in a file; what it extends is read beside that.
+
+    >>> m = load("machines/double_pendulum.machine", l2=0.5)
+    >>> m.parameters["l2"]
+    0.5
+    """
+    program = _native.derive(os.fspath(path), None, None, _constants(constants))
+    return Machine._of(program)._set(parameters)
+
+
+def loads(
+    text: str,
+    *,
+    name: str = "text.machine",
+    folder: Optional[Union[str, "os.PathLike[str]"]] = None,
+    files: Optional[Mapping[str, str]] = None,
+    constants: Optional[Mapping[str, Any]] = None,
+    **parameters: Number,
+) -> "Machine":
+    """The machine of a spec in a string.
+
+    ``name`` is what messages call it. What it extends is looked up in ``files``, or read from ``folder``.
+    """
+    if folder is not None and files is not None:
+        raise ValueError("bases come from `files` or from `folder`, not from both")
+    if folder is not None:
+        name = os.path.join(os.fspath(folder), name)
+    given = None if files is None else list(files.items())
+    program = _native.derive(name, text, given, _constants(constants))
+    return Machine._of(program)._set(parameters)
+
+
+def _constants(constants: Optional[Mapping[str, Any]]) -> List[Tuple[str, str]]:
+    return sorted((name, _exactly(name, value)) for name, value in (constants or {}).items())
+
+
+def _exactly(name: str, value: Any) -> str:
+    """A constant as text: a float as the decimal that it prints as."""
+    if isinstance(value, bool):
+        raise TypeError(f"the constant {name} is {value!r}, wanted a number")
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, Fraction):
+        return f"{value.numerator}/{value.denominator}"
+    if isinstance(value, (float, np.floating)):
+        if not math.isfinite(value):
+            raise ValueError(f"the constant {name} is {value!r}, wanted a finite number")
+        return format(Fraction(repr(float(value))), "") if float(value) else "0"
+    if isinstance(value, str):
+        return value
+    raise TypeError(f"the constant {name} is of type {type(value).__name__}, wanted a number")
+
+
+class Evaluation:
+    """Everything that a machine computes at states of shape S, with the numbers of ``lagrangian evaluate``."""
+
+    mass_matrix: np.ndarray
+    """(*S, n, n)"""
+    bias: np.ndarray
+    """(*S, n)"""
+    applied: np.ndarray
+    """(*S, n)"""
+    forces: np.ndarray
+    """(*S, n)"""
+    accelerations: np.ndarray
+    """(*S, n)"""
+    reactions: np.ndarray
+    """Generalized reactions of the constraints, (*S, n)."""
+    kinetic_energy: np.ndarray
+    """S, in J."""
+    potential_energy: np.ndarray
+    """S, in J."""
+    dissipation: np.ndarray
+    """The dissipation function: S, in W."""
+    outputs: Mapping[str, np.ndarray]
+    multipliers: Mapping[str, np.ndarray]
+    contacts: Mapping[str, Mapping[str, np.ndarray]]
+    """By name: ``normal`` and ``friction`` in N, ``slip`` in m/s, ``sticks``; of those that open and close ``gap`` in m and
+    ``closed`` as well."""
+    ok: np.ndarray
+    """Which states have accelerations; the numbers of others are NaN."""
+
+    def __init__(self, **numbers: Any) -> None:
+        self.__dict__.update(numbers)
+
+    def __repr__(self) -> str:
+        return f"Evaluation(of shape {np.shape(self.ok)}: {', '.join(self.__dict__)})"
+
+
+class Machine(_native.Machine):
+    """A machine: a spec, derived, with values of its parameters. Immutable; equal if text, constants and values are.
+
+    Made by :func:`load` and :func:`loads`.
+    """
+
+    __slots__ = ("_known",)
+    _known: Dict[str, Any]
+
+    @classmethod
+    def _of(cls, program: Any) -> "Machine":
+        parameters = [math.nan if value is None else value for *_, value in program.parameters]
+        return cls._with(program, parameters, [value for *_, value in program.inputs])
+
+    @classmethod
+    def _with(cls, program: Any, parameters: Sequence[float], inputs: Sequence[float]) -> "Machine":
+        made: Machine = cls(program, list(parameters), list(inputs))
+        made._known = {}
+        return made
+
+    def _set(self, values: Mapping[str, Number]) -> "Machine":
+        """The same program with other values, families first."""
+        if not values:
+            return self
+        names, inputs = tuple(self.parameters), tuple(self.inputs)
+        given, driven = (list(of) for of in self._values)
+        sets_parameter = False
+        for is_member in (False, True):
+            for name, value in values.items():
+                if ("[" in name) is not is_member:
+                    continue
+                if isinstance(value, (str, bytes)) or np.ndim(value) != 0:
+                    raise TypeError(f"{name} is {value!r}, wanted a number")
+                number = float(value)
+                own, others = _batch.of_name(name, names), _batch.of_name(name, inputs)
+                if not own and not others:
+                    raise unknown("parameter or input", name, names + inputs)
+                for place in own:
+                    given[place] = number
+                    sets_parameter = True
+                for place in others:
+                    driven[place] = number
+        if sets_parameter:
+            refused = self._program.refused(given)
+            if refused is not None:
+                raise ValueError(refused)
+        return type(self)._with(self._program, given, driven)
+
+    def with_parameters(self, values: Optional[Mapping[str, Number]] = None, /, **parameters: Number) -> "Machine":
+        """The same program with other values of parameters and inputs: nothing is derived again.
+
+        A family's name sets all its members; what is no identifier goes through the mapping: ``{"k[3]": 2.0}``.
+        """
+        return self._set({**(values or {}), **parameters})
+
+    def with_constants(self, values: Optional[Mapping[str, Any]] = None, /, **constants: Any) -> "Machine":
+        """The machine with other values of constants, derived again. Parameters keep their values where they are still there."""
+        every = dict(self._program.constants)
+        every.update(_constants({**(values or {}), **constants}))
+        program = self._program.with_constants(sorted(every.items()))
+        made = type(self)._of(program)
+        names, inputs = set(made.parameters), set(made.inputs)
+        defaults = dict(zip(self.parameters, (value for *_, value in self._program.parameters)))
+        kept = {
+            name: value
+            for name, value in self.parameters.items()
+            if name in names and not math.isnan(value) and value != defaults[name]
+        }
+        driven = dict(zip(self.inputs, (value for *_, value in self._program.inputs)))
+        kept.update({n: x for n, x in self.inputs.items() if n in inputs and x != driven[n]})
+        return made._set(kept)
+
+    def _once(self, name: str, make: Callable[[], _T]) -> _T:
+        if name not in self._known:
+            self._known[name] = make()
+        return self._known[name]  # type: ignore[no-any-return]
+
+    @property
+    def name(self) -> str:
+        """The name that the spec gives it."""
+        return str(self._program.name)
+
+    @property
+    def docs(self) -> str:
+        """What the spec says of it."""
+        return str(self._program.docs)
+
+    @property
+    def text(self) -> str:
+        """The text of the spec."""
+        return str(self._program.text)
+
+    @property
+    def files(self) -> Mapping[str, str]:
+        """The texts that it extends, by name."""
+        return MappingProxyType(dict(self._program.files))
+
+    @property
+    def constants(self) -> Mapping[str, Fraction]:
+        """The constants that were given other values."""
+        return MappingProxyType({name: Fraction(value) for name, value in self._program.constants})
+
+    @property
+    def coordinates(self) -> Tuple[str, ...]:
+        """Their names, in the order of the spec."""
+        return self._once("coordinates", lambda: tuple(n for n, *_ in self._program.coordinates))
+
+    @property
+    def outputs(self) -> Tuple[str, ...]:
+        """Their names, in the order of the spec."""
+        return self._once("outputs", lambda: tuple(n for n, *_ in self._program.outputs))
+
+    @property
+    def constraints(self) -> Tuple[str, ...]:
+        """Their names, in the order of the spec; one that binds several numbers is several."""
+        return self._once("constraints", lambda: tuple(n for n, _ in self._program.constraints))
+
+    @property
+    def contacts(self) -> Tuple[str, ...]:
+        """The names of contacts that stick and slide, then of those that open and close."""
+        return self._once("contacts", lambda: tuple(self._program.contacts))
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Their values; NaN where there is none."""
+
+        def make() -> Mapping[str, float]:
+            names = (n for n, *_ in self._program.parameters)
+            return MappingProxyType(dict(zip(names, self._values[0])))
+
+        return self._once("parameters", make)
+
+    @property
+    def inputs(self) -> Mapping[str, float]:
+        """Their values where nobody sets them."""
+
+        def make() -> Mapping[str, float]:
+            names = (n for n, *_ in self._program.inputs)
+            return MappingProxyType(dict(zip(names, self._values[1])))
+
+        return self._once("inputs", make)
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """The unit of every parameter, input, coordinate, rate ``der(name)``, output and ``multiplier(name)``."""
+
+        def make() -> Mapping[str, str]:
+            program = self._program
+            units = {name: unit for name, unit, *_ in program.parameters + program.inputs}
+            for name, unit, _ in program.coordinates:
+                units[name] = unit
+                units[f"der({name})"] = "1/s" if unit == "1" else f"{unit}/s"
+            units.update({name: unit for name, unit, _ in program.outputs})
+            units.update({f"multiplier({name})": unit for name, unit in program.constraints})
+            return MappingProxyType(units)
+
+        return self._once("units", make)
+
+    @property
+    def docs_of(self) -> Mapping[str, str]:
+        """What the spec says of parameters, inputs, coordinates and outputs."""
+
+        def make() -> Mapping[str, str]:
+            program = self._program
+            every = program.parameters + program.inputs + program.coordinates + program.outputs
+            return MappingProxyType({of[0]: of[2] for of in every})
+
+        return self._once("docs_of", make)
+
+    @property
+    def start(self) -> State:
+        """The start of the spec under these parameters."""
+
+        def make() -> State:
+            q, v = self._start()
+            return State(0.0, Named(q, self.coordinates), Named(v, self.coordinates))
+
+        return self._once("start", make)
+
+    @property
+    def warnings(self) -> List[Diagnostic]:
+        """What is to be said of the spec although it is right."""
+        return [Diagnostic(*told) for told in self._program.warnings]
+
+    @property
+    def equations(self) -> Equations:
+        """The equations of motion; typeset in a notebook."""
+        return Equations(self._program)
+
+    @property
+    def program(self) -> Program:
+        """The arithmetic that was derived."""
+        return self._once("program", lambda: Program(self._program))
+
+    def derive(self, form: str) -> str:
+        """What ``lagrangian derive`` prints: ``markdown``, ``latex``, ``html``, ``rust``, ``c`` or ``program``."""
+        return str(self._program.derive(form))
+
+    def evaluate(
+        self,
+        q: Any = None,
+        v: Any = None,
+        t: Any = 0.0,
+        *,
+        u: Any = None,
+        parameters: Optional[Mapping[str, Any]] = None,
+        singular: str = "raise",
+    ) -> Evaluation:
+        """Everything at states of any shape: see :class:`Evaluation`. Arguments are those of ``accelerations``."""
+        given = _batch.Arguments(self, q, v, t, u, parameters)
+        try:
+            numbers, found = _native.evaluate(self, *given.native(), _batch.policy(singular))
+        except SingularError as error:
+            raise given.singular(error) from None
+        n, shape = len(self.coordinates), given.shape
+
+        def shaped(values: Any, *rest: int) -> Any:
+            return values.reshape(shape + rest)[()]
+
+        columns = {
+            "mass_matrix": shaped(numbers["mass_matrix"], n, n),
+            **{
+                name: shaped(numbers[name], n)
+                for name in ("bias", "applied", "forces", "accelerations", "reactions")
+            },
+            **{
+                name: shaped(numbers[name])
+                for name in ("kinetic_energy", "potential_energy", "dissipation")
+            },
+        }
+        for kind, names in (("outputs", self.outputs), ("multipliers", self.constraints)):
+            values = shaped(numbers[kind], len(names))
+            columns[kind] = MappingProxyType({name: values[..., i][()] for i, name in enumerate(names)})
+        contacts: Dict[str, Mapping[str, Any]] = {}
+        guides = numbers["contacts"].size // (4 * given.count) if given.count else 0
+        both = [
+            (numbers["contacts"], self.contacts[:guides], ("normal", "friction", "slip", "sticks")),
+            (
+                numbers["unilateral"],
+                self.contacts[guides:],
+                ("gap", "normal", "friction", "slip", "closed", "sticks"),
+            ),
+        ]
+        for values, names, parts in both:
+            values = shaped(values, len(names), len(parts))
+            for i, name in enumerate(names):
+                one = {part: values[..., i, k][()] for k, part in enumerate(parts)}
+                for flag in {"sticks", "closed"} & set(one):
+                    one[flag] = one[flag] == 1.0
+                contacts[name] = MappingProxyType(one)
+        ok = np.array(found, dtype=bool).reshape(shape)[()]
+        return Evaluation(**columns, contacts=MappingProxyType(contacts), ok=ok)
+
+    def rhs(self, u: Any = None, parameters: Optional[Mapping[str, Number]] = None) -> Callable[[Any, Any], np.ndarray]:
+        """``f(t, y)`` for ``solve_ivp`` and its kin: y is (2n,) or (2n, k), coordinates then rates."""
+        machine = self._set(dict(parameters or {})) if parameters else self
+        n = len(self.coordinates)
+
+        def f(t: Any, y: Any) -> np.ndarray:
+            y = np.asarray(y)
+            if y.shape[:1] != (2 * n,):
+                raise ValueError(f"y has shape {y.shape}, wanted ({2 * n},) or ({2 * n}, k)")
+            if y.ndim == 1:
+                a = machine.accelerations(y[:n], y[n:], float(t), u=u)
+                return np.concatenate([y[n:], a])
+            a = machine.accelerations(y[:n].T, y[n:].T, t, u=u)
+            return np.concatenate([y[n:], a.T])
+
+        return f
+
+    def jacobian(self, u: Any = None, parameters: Optional[Mapping[str, Number]] = None) -> Callable[[float, Any], np.ndarray]:
+        """``f(t, y)``: the derivatives of :meth:`rhs` by y, (2n, 2n); exact, not differences."""
+        machine = self._set(dict(parameters or {})) if parameters else self
+        n = len(self.coordinates)
+        inputs = _batch.vectors(u, tuple(self.inputs), list(machine.inputs.values()), "u", "input")
+
+        def f(t: float, y: Any) -> np.ndarray:
+            y = _batch.number_array(y, "y")
+            if y.shape != (2 * n,):
+                raise ValueError(f"y has shape {y.shape}, wanted ({2 * n},)")
+            by_q, by_v = _native.linearize(machine, float(t), y[:n].tolist(), y[n:].tolist(), inputs.tolist())
+            jacobian = np.zeros((2 * n, 2 * n))
+            jacobian[:n, n:] = np.eye(n)
+            jacobian[n:, :n] = by_q.reshape(n, n)
+            jacobian[n:, n:] = by_v.reshape(n, n)
+            return jacobian
+
+        return f
+
+    simulate = _simulate.simulate
+    sweep = _sweep.sweep
+
+    def _key(self) -> Tuple[Any, ...]:
+        parameters, inputs = self._values
+        # NaN is a parameter without a value, and equal to itself.
+        given = tuple("none" if math.isnan(x) else x for x in parameters)
+        return (self._program.state(), given, tuple(inputs))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Machine):
+            return NotImplemented
+        return self is other or self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._once("key", self._key))
+
+    def __copy__(self) -> "Machine":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Machine":
+        return self
+
+    def __reduce__(self) -> Any:
+        return (_again, (self._program.state(), *self._values))
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={value:g}" for name, value in self.parameters.items())
+        return f"<Machine {self.name}: {len(self.coordinates)} coordinates; {values}>"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows: List[Tuple[str, str, Optional[float]]] = []
+        start = self.start
+        for name, value in self.parameters.items():
+            rows.append(("parameter", name, value))
+        for name, value in self.inputs.items():
+            rows.append(("input", name, value))
+        for name in self.coordinates:
+            rows.append(("coordinate", name, start.q[name]))
+        for name in self.outputs:
+            rows.append(("output", name, None))
+        body = "".join(
+            f"<tr><td>{kind}</td><td><code>{escape(name)}</code></td><td>{'' if value is None else format(value, 'g')}</td>"
+            f"<td>{escape(self.units[name])}</td><td>{escape(self.docs_of[name])}</td></tr>"
+            for kind, name, value in rows
+        )
+        head = "<tr><th></th><th>name</th><th>value</th><th>unit</th><th></th></tr>"
+        return f"<b>{escape(self.name)}</b><p>{escape(self.docs)}</p><table>{head}{body}</table>"
+
+
+def _again(state: str, parameters: List[float], inputs: List[float]) -> Machine:
+    """A machine from its pickle."""
+    return Machine._with(_native.rebuild(state), parameters, inputs)

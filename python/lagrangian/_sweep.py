@@ -1,0 +1,574 @@
+"""One machine, many runs."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+import os
+import sys
+import time
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _batch, _native
+from ._named import State
+from .errors import unknown
+
+
+class _Distribution:
+    """How the values of what is varied are drawn."""
+
+    _kind = ""
+
+    def __init__(self, *numbers: float) -> None:
+        self._numbers = [float(x) for x in numbers]
+        if not all(map(math.isfinite, self._numbers)):
+            raise ValueError(f"{self!r}: the numbers must be finite")
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(map(repr, self._numbers))})"
+
+
+class Uniform(_Distribution):
+    """Evenly between a and b."""
+
+    _kind = "uniform"
+
+    def __init__(self, a: float, b: float) -> None:
+        super().__init__(a, b)
+        if not a < b:
+            raise ValueError(f"{self!r}: the first end must be the lower one")
+
+
+class LogUniform(_Distribution):
+    """With a logarithm that is evenly distributed, between a and b of the same sign."""
+
+    _kind = "log_uniform"
+
+    def __init__(self, a: float, b: float) -> None:
+        super().__init__(a, b)
+        if not (a < b and a * b > 0):
+            raise ValueError(f"{self!r}: both ends must have one sign, the first be the lower one")
+
+
+class Normal(_Distribution):
+    """Normally."""
+
+    _kind = "normal"
+
+    def __init__(self, mean: float, deviation: float) -> None:
+        super().__init__(mean, deviation)
+        if not deviation > 0:
+            raise ValueError(f"{self!r}: the deviation must be greater than 0")
+
+
+class Triangular(_Distribution):
+    """Between a and b, with a density that rises to the peak and falls from there."""
+
+    _kind = "triangular"
+
+    def __init__(self, a: float, b: float, peak: float) -> None:
+        super().__init__(a, b, peak)
+        if not (a < b and a <= peak <= b):
+            raise ValueError(f"{self!r}: the peak must lie between the ends")
+
+
+#: A column: name, unit, values.
+_Column = Tuple[str, Optional[str], Any]
+
+
+class Sweep:
+    """The rows of a sweep, a row a run. Immutable."""
+
+    def __init__(self, machine: Any, plan: str, columns: List[_Column], samples: Optional[List[_Column]], keywords: Dict[str, Any]) -> None:
+        self.machine = machine
+        self.plan = plan
+        """The plan, from which every chunk can be made again: JSON."""
+        self._columns = {name: values for name, _, values in columns}
+        self.units: Mapping[str, str] = {name: unit for name, unit, _ in columns if unit is not None}
+        self.samples: Optional[Dict[str, np.ndarray]] = None
+        """With ``record=every``: long columns ``run``, ``t``, coordinates and rates."""
+        if samples is not None:
+            self.samples = {name: values for name, _, values in samples}
+        self._keywords = keywords
+
+    @property
+    def columns(self) -> Tuple[str, ...]:
+        """Their names: ``run``, what was varied, ``status``, ``error``, ``t``, the end state, recorded instants ``x@0.5``,
+        reductions, ``steps``, ``energy residual``."""
+        return tuple(self._columns)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._columns:
+            raise unknown("column", name, self.columns)
+        values: np.ndarray = self._columns[name]
+        return values
+
+    def __len__(self) -> int:
+        return len(self._columns["run"])
+
+    @property
+    def failed(self) -> np.ndarray:
+        """The numbers of runs that failed; ``["error"]`` says why."""
+        return np.flatnonzero(self["status"] == "failed")
+
+    def grid(self, name: str) -> np.ndarray:
+        """A column in the shape of the design: an axis for each thing that is varied, in order."""
+        return self[name].reshape(self._keywords["shape"])
+
+    def run(self, i: int, **settings: Any) -> Any:
+        """Run i, made again with all its steps; settings as ``simulate`` has them."""
+        i = range(len(self))[i]
+        values = {name: float(self[name][i]) for name in self._keywords["varied"]}
+        start, rate = dict(self._keywords["start"]), dict(self._keywords["rate"])
+        given: Dict[str, float] = {}
+        for name, value in values.items():
+            kind, inner = _place(name)
+            {"start": start, "rate": rate, "set": given}[kind][inner] = value
+        machine = self.machine.with_parameters(given)
+        plain = {"start": start, "rate": rate, **self._keywords["run"], **settings}
+        return machine.simulate(self._keywords["until"], **plain)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame, its index the number of the run."""
+        import pandas
+
+        frame = pandas.DataFrame({name: values for name, values in self._columns.items() if name != "run"})
+        frame.index = pandas.Index(self["run"], name="run")
+        frame.attrs["units"] = dict(self.units)
+        return frame
+
+    def to_arrow(self) -> Any:
+        """A ``pyarrow.Table``, units in the metadata of the fields and the plan in that of the table."""
+        import pyarrow
+
+        arrays = {name: pyarrow.array(list(v) if v.dtype == object else v) for name, v in self._columns.items()}
+        fields = [
+            pyarrow.field(name, array.type, metadata={"unit": self.units[name]} if name in self.units else None)
+            for name, array in arrays.items()
+        ]
+        schema = pyarrow.schema(fields, metadata={"plan": self.plan})
+        return pyarrow.table(list(arrays.values()), schema=schema)
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes all rows: ``.parquet`` or ``.csv``; the file has its name only when it is complete."""
+        from ._simulate import _written_beside
+
+        path = os.fspath(path)
+        ending = os.path.splitext(path)[1].lower()
+        if ending == ".parquet":
+            import pyarrow.parquet
+
+            _written_beside(path, lambda file: pyarrow.parquet.write_table(self.to_arrow(), file))
+        elif ending == ".csv":
+            _written_beside(path, lambda file: file.write(self._csv().encode()))
+        else:
+            raise ValueError(f"{path}: the ending must be one of .parquet, .csv")
+
+    def _csv(self) -> str:
+        import csv
+        import io
+
+        text = io.StringIO()
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerow(f"{n} [{self.units[n]}]" if self.units.get(n, "1") != "1" else n for n in self._columns)
+
+        def cell(value: Any) -> str:
+            if value is None or (isinstance(value, float) and math.isnan(value)):
+                return ""
+            return repr(float(value)) if isinstance(value, float) else str(value)
+
+        for row in zip(*(values.tolist() for values in self._columns.values())):
+            writer.writerow(map(cell, row))
+        return text.getvalue()
+
+    def __repr__(self) -> str:
+        return f"<Sweep of {self.machine.name}: {len(self)} runs, {len(self.failed)} failed>"
+
+
+def _place(name: str) -> Tuple[str, str]:
+    """What a name stands for: a parameter or input, ``start(x)``, ``rate(x)``."""
+    for kind in ("start", "rate"):
+        if name.startswith(kind + "(") and name.endswith(")"):
+            return kind, name[len(kind) + 1 : -1].strip()
+    return "set", name
+
+
+def _factor(name: str, what: Any) -> Tuple[Dict[str, Any], int]:
+    """A factor of the design, and how many values it has."""
+    if isinstance(what, tuple) and len(what) == 3 and isinstance(what[2], int) and not isinstance(what[2], bool):
+        a, b, k = what
+        if k < 1:
+            raise ValueError(f"{name}: {k} values are none")
+        return {"grid": {"name": name, "from": float(a), "to": float(b), "count": k, "log": False}}, k
+    values = np.atleast_1d(_batch.number_array(what, f"vary[{name!r}]"))
+    if values.ndim != 1 or not len(values):
+        raise ValueError(f"vary[{name!r}] has shape {values.shape}, wanted (k,)")
+    return {"list": {"names": [name], "rows": values[:, None].tolist()}}, len(values)
+
+
+def _design(
+    vary: Any, samples: Optional[int], design: str, seed: int, together: Sequence[str]
+) -> Tuple[List[Dict[str, Any]], List[int], List[str]]:
+    """The factors of a design, the shape of its grid, and what is varied, in order."""
+    if not isinstance(vary, Mapping):
+        if not hasattr(vary, "columns"):
+            raise TypeError("vary is a mapping from names to values, or a DataFrame with a row a run")
+        names = [str(name) for name in vary.columns]
+        rows = np.asarray(vary, dtype=np.float64)
+        return [{"list": {"names": names, "rows": rows.tolist()}}], [len(rows)], names
+    drawn = [(n, {w._kind: w._numbers}) for n, w in vary.items() if isinstance(w, _Distribution)]
+    fixed = {name: what for name, what in vary.items() if not isinstance(what, _Distribution)}
+    if drawn and samples is None:
+        raise ValueError(f"{drawn[0][0]} is to be drawn from a distribution: say how often, samples=…")
+    if samples is not None and not drawn:
+        raise ValueError("samples are drawn from distributions, and none is given")
+    if design not in ("random", "latin", "sobol"):
+        raise ValueError(f"design={design!r}: must be 'random', 'latin' or 'sobol'")
+    together = list(together)
+    for name in together:
+        if name not in fixed:
+            raise unknown("varied name", name, tuple(fixed))
+    factors: List[Dict[str, Any]] = []
+    shape: List[int] = []
+    names = []
+    for name, what in fixed.items():
+        if name in together[1:]:
+            continue
+        if together and name == together[0]:
+            parts = [_factor(other, fixed[other]) for other in together]
+            counts = {count for _, count in parts}
+            if len(counts) != 1:
+                raise ValueError(f"together={together}: these have {sorted(counts)} values, and need as many each")
+            factors.append({"together": [part for part, _ in parts]})
+            shape.append(counts.pop())
+            names.extend(together)
+            continue
+        factor, count = _factor(name, what)
+        factors.append(factor)
+        shape.append(count)
+        names.append(name)
+    if drawn:
+        if samples is None or samples < 1:
+            raise ValueError(f"samples={samples}: must be at least 1")
+        variables = [[name, numbers] for name, numbers in drawn]
+        drawing = {"design": design, "count": int(samples), "seed": int(seed), "variables": variables}
+        factors.append({"sample": drawing})
+        shape.append(int(samples))
+        names.extend(name for name, _ in drawn)
+    return factors, shape, names
+
+
+#: Functions of reductions, as plans call them.
+_FUNCTIONS = ("max", "min", "range", "mean", "rms", "integral", "first", "last", "when_max", "when_min", "count")
+
+
+def _reduction(name: str, text: str, events: Iterable[str]) -> Dict[str, str]:
+    function, bracket, rest = text.strip().partition("(")
+    function, rest = function.strip(), rest.strip()
+    if not bracket or not rest.endswith(")"):
+        raise ValueError(f"reduce[{name!r}]: {text!r} is no reduction: write max(abs(x))")
+    if function not in _FUNCTIONS:
+        raise unknown("reduction", function, _FUNCTIONS)
+    of = rest[:-1].strip()
+    if of in events and function in ("first", "last"):
+        function += "_event"
+    return {"name": name, "function": function, "of": of}
+
+
+def sweep(
+    machine: Any,
+    vary: Any,
+    *,
+    until: float,
+    samples: Optional[int] = None,
+    design: str = "sobol",
+    seed: int = 0,
+    together: Sequence[str] = (),
+    start: Any = None,
+    rate: Any = None,
+    record: Any = "end",
+    reduce: Optional[Mapping[str, str]] = None,
+    after: Optional[float] = None,
+    inputs: Optional[Mapping[str, Any]] = None,
+    events: Optional[Mapping[str, Any]] = None,
+    tolerance: float = 1e-9,
+    method: str = "dop853",
+    max_steps: int = 10_000_000,
+    engine: Any = None,
+    threads: Optional[int] = None,
+    progress: Any = "auto",
+) -> Sweep:
+    """Runs the machine for many values: a row a run, in the order of the names, the last one fastest.
+
+    * ``vary``: a mapping from a parameter, an input, a family, ``start(q)`` or ``rate(q)`` to ``(a, b, k)``, which are k values
+      from a to b, to an array, or to a distribution (:class:`Uniform`, :class:`LogUniform`, :class:`Normal`,
+      :class:`Triangular`), of which ``samples`` are drawn by ``design`` (``random``, ``latin``, ``sobol``); or a DataFrame, a
+      row a run. Names in ``together`` go side by side and are not crossed.
+    * ``record``: ``"end"``, ``"at=0.5,1"``, ``"every=0.01"``, or several of these.
+    * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
+      ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
+      from ``after`` on, in s.
+    * ``inputs``, ``events``: numbers and formulas, as ``simulate`` has them. Functions in Python are refused: they are not
+      portable.
+    * ``engine``: None for the cores of this machine, ``"ray"``, ``"dask"``, or a client of ``dask.distributed``. All give the same
+      bits.
+
+    A run that fails is a row whose ``status`` is ``failed``.
+    """
+    factors, shape, varied = _design(vary, samples, design, seed, together)
+    values, driven = machine._values
+    names, input_names = tuple(machine.parameters), tuple(machine.inputs)
+    is_varied = set()
+    for name in varied:
+        kind, inner = _place(name)
+        if kind == "set":
+            is_varied.update(_batch.of_name(inner, names + input_names))
+    given = zip(names + input_names, [*values, *driven], itertools.count())
+    setting = [[name, x] for name, x, place in given if place not in is_varied and not math.isnan(x)]
+    laws = []
+    for name, what in (inputs or {}).items():
+        if isinstance(what, str):
+            laws.append([name, {"formula": what}])
+        elif callable(what):
+            raise TypeError(
+                f"input {name} is a function in Python, which a sweep cannot repeat elsewhere: write a formula, or a loop over simulate"
+            )
+        else:
+            setting = [pair for pair in setting if pair[0] != name] + [[name, float(what)]]
+    if set(name for name, _ in laws) & set(input_names):
+        setting = [pair for pair in setting if pair[0] not in {name for name, _ in laws}]
+    watches = []
+    for name, what in (events or {}).items():
+        formula = getattr(what, "what", what)
+        if not isinstance(formula, str):
+            raise TypeError(f"event {name} is a function in Python, which a sweep cannot repeat elsewhere: write a formula")
+        if getattr(what, "crossing", "any") != "any" or getattr(what, "terminal", 0) > 1:
+            raise ValueError(f"event {name}: in a sweep events count either way, and the first one ends a run or none does")
+        watches.append({"name": name, "formula": formula, "ends": bool(getattr(what, "terminal", False))})
+    at: List[float] = []
+    every: Optional[float] = None
+    for one in [record] if isinstance(record, str) or not isinstance(record, (list, tuple)) else record:
+        if one == "end":
+            continue
+        kind, _, rest = str(one).partition("=")
+        if kind == "at":
+            at += [float(t) for t in rest.split(",")]
+        elif kind == "every":
+            every = float(rest)
+        else:
+            raise ValueError(f"record={one!r}: must be 'end', 'at=0.5,1' or 'every=0.01'")
+    starts, rates = _by_name(start, machine, "start"), _by_name(rate, machine, "rate")
+    plan = {
+        "version": 1,
+        "spec": json.loads(machine._program.state()),
+        "set": setting,
+        "start": list(starts.items()),
+        "rate": list(rates.items()),
+        "keep": None,
+        "until": float(until),
+        "tolerance": float(tolerance),
+        "method": method,
+        "max_steps": int(max_steps),
+        "inputs": laws,
+        "events": watches,
+        "at": at,
+        "every": every,
+        "reduce": [_reduction(name, text, list(events or {})) for name, text in (reduce or {}).items()],
+        "after": after,
+        "design": factors,
+        "chunk": 1,
+    }
+    text, chunks, runs, warning = _native.plan(json.dumps(plan))
+    if warning is not None:
+        import warnings
+
+        warnings.warn(warning, stacklevel=3)
+    made = _run_all(text, chunks, runs, engine, threads, progress)
+    keywords = {
+        "shape": shape,
+        "varied": varied,
+        "until": until,
+        "start": starts,
+        "rate": rates,
+        "run": {
+            "inputs": inputs,
+            "events": events or (),
+            "tolerance": tolerance,
+            "method": method,
+            "max_steps": max_steps,
+        },
+    }
+    rows = _joined([rows for rows, _ in made])
+    kept = [own for _, own in made if own is not None]
+    return Sweep(machine, text, rows, _joined(kept) if kept else None, keywords)
+
+
+def _by_name(given: Any, machine: Any, what: str) -> Dict[str, float]:
+    if given is None:
+        return {}
+    if isinstance(given, State):
+        given = given.q if what == "start" else given.v
+    if isinstance(given, Mapping):
+        for name in given:
+            if not _batch.of_name(name, machine.coordinates):
+                raise unknown("coordinate", name, machine.coordinates)
+        return {name: float(x) for name, x in given.items()}
+    values = _batch.vectors(given, machine.coordinates, np.zeros(len(machine.coordinates)), what, "coordinate")
+    return dict(zip(machine.coordinates, values.tolist()))
+
+
+def _joined(parts: List[List[_Column]]) -> List[_Column]:
+    """Chunks below each other."""
+
+    def values(place: int) -> np.ndarray:
+        arrays = [np.asarray(part[place][2], dtype=object if isinstance(part[place][2], list) else None) for part in parts]
+        made = np.concatenate(arrays)
+        made.flags.writeable = False
+        return made
+
+    return [(name, unit, values(place)) for place, (name, unit, _) in enumerate(parts[0])]
+
+
+#: The rows of a chunk and its samples.
+_Chunk = Tuple[List[_Column], Optional[List[_Column]]]
+
+
+def run_chunk(plan: Union[str, bytes], chunk: int) -> Dict[str, Any]:
+    """The rows of one chunk of a plan, by name: the unit of work of a sweep.
+
+    A pure function of its arguments, wherever it runs; the GIL is released meanwhile.
+    """
+    text = plan.decode() if isinstance(plan, bytes) else plan
+    rows, _ = _native.run_chunk(text, chunk)
+    return {name: np.asarray(values, dtype=object) if isinstance(values, list) else values for name, _, values in rows}
+
+
+def _whole_chunk(plan: str, chunk: int) -> _Chunk:
+    """A chunk with its samples, on another machine."""
+    return _native.run_chunk(plan, chunk)
+
+
+def _run_all(
+    plan: str, chunks: int, runs: int, engine: Any, threads: Optional[int], progress: Any
+) -> List[_Chunk]:
+    """All chunks of a plan, in order."""
+    tell = _progress(progress, chunks, runs)
+    found: List[Optional[_Chunk]] = [None] * chunks
+    for chunk, made in _engine(engine)(plan, chunks, threads):
+        found[chunk] = made
+        tell()
+    return [made for made in found if made is not None]
+
+
+def _engine(engine: Any) -> Callable[[str, int, Optional[int]], Iterator[Tuple[int, _Chunk]]]:
+    if engine is None:
+        return _on_threads
+    if engine == "ray":
+        return _on_ray
+    if engine == "dask":
+        return lambda plan, chunks, threads: _on_dask(plan, chunks, None)
+    if hasattr(engine, "submit") and hasattr(engine, "scheduler_info"):
+        return lambda plan, chunks, threads: _on_dask(plan, chunks, engine)
+    raise ValueError(f"engine={engine!r}: must be None, 'ray', 'dask' or a client of dask.distributed")
+
+
+def _on_threads(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tuple[int, _Chunk]]:
+    """Chunks on the cores of this machine; Ctrl-C ends those under way."""
+    count = threads if threads is not None else (os.cpu_count() or 1)
+    if count < 1:
+        raise ValueError(f"threads={threads}: must be at least 1")
+    stop = _native.Stop()
+    pool = ThreadPoolExecutor(count)
+    todo, running = iter(range(chunks)), {}  # type: ignore[var-annotated]
+    try:
+        while True:
+            # No more than there is work for, so that results are not kept waiting.
+            for chunk in itertools.islice(todo, 2 * count - len(running)):
+                running[pool.submit(_native.run_chunk, plan, chunk, stop)] = chunk
+            if not running:
+                return
+            done, _ = wait(running, timeout=0.1, return_when=FIRST_COMPLETED)
+            for future in done:
+                yield running.pop(future), future.result()
+    finally:
+        stop.set()
+        pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _on_ray(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tuple[int, _Chunk]]:
+    """Chunks as tasks of Ray: the plan goes once through its store, and a worker that dies has its chunks made again."""
+    import ray
+
+    if not ray.is_initialized():
+        ray.init(num_cpus=threads, include_dashboard=False, log_to_driver=False)
+    task = ray.remote(num_cpus=1, max_retries=3)(_whole_chunk)
+    reference, todo, running = ray.put(plan), iter(range(chunks)), {}  # type: ignore[var-annotated]
+    limit = 4 * max(1, int(ray.cluster_resources().get("CPU", 1)))
+    try:
+        while True:
+            for chunk in itertools.islice(todo, limit - len(running)):
+                running[task.remote(reference, chunk)] = chunk
+            if not running:
+                return
+            done, _ = ray.wait(list(running), num_returns=1)
+            for one in done:
+                yield running.pop(one), ray.get(one)
+    finally:
+        for one in running:
+            ray.cancel(one, force=True)
+
+
+def _on_dask(plan: str, chunks: int, client: Any) -> Iterator[Tuple[int, _Chunk]]:
+    """Chunks as tasks of Dask. The plan goes along with each: what is scattered dies with its worker."""
+    import distributed
+
+    own = client is None
+    if own:
+        client = distributed.Client(processes=False, dashboard_address=None)
+    try:
+        limit = 4 * max(1, sum(client.nthreads().values()))
+        todo = iter(range(chunks))
+        waiting = distributed.as_completed([])
+        numbers: Dict[Any, int] = {}
+
+        def add(count: int) -> None:
+            for chunk in itertools.islice(todo, count):
+                future = client.submit(_whole_chunk, plan, chunk, pure=False, retries=3)
+                numbers[future.key] = chunk
+                waiting.add(future)
+
+        add(limit)
+        for future in waiting:
+            yield numbers.pop(future.key), future.result()
+            add(1)
+    finally:
+        if own:
+            client.close()
+
+
+def _progress(asked: Any, chunks: int, runs: int) -> Callable[[], None]:
+    done = 0
+    began = time.monotonic()
+
+    def tell() -> None:
+        nonlocal done
+        done += 1
+        fraction = done / chunks
+        if callable(asked):
+            asked(fraction, done, chunks)
+        elif asked == "auto" and sys.stderr.isatty():
+            passed = time.monotonic() - began
+            if passed >= 2.0:
+                left = passed / fraction - passed
+                sys.stderr.write(f"\r{fraction:.0%} of {runs} runs, {left:.0f} s left ")
+                if fraction >= 1.0:
+                    sys.stderr.write("\n")
+                sys.stderr.flush()
+
+    if not (callable(asked) or asked in ("auto", False, None)):
+        raise ValueError(f"progress={asked!r}: must be 'auto', False or a function")
+    return tell

@@ -1,0 +1,336 @@
+//! Batches of states, each as one state alone is evaluated.
+
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use lagrangian::interpreted::{InterpretedSystem, Named};
+use lagrangian::{Evaluation, Linearize, Machine as _, Pivot, Singular, StepError, System};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+use crate::machine::Machine;
+
+/// So many states are not worth a thread of their own: at some tenths of a microsecond each they take less than what
+/// starting it does.
+const ROWS_A_THREAD: usize = 4096;
+
+/// How many threads evaluate a batch; 0 where nobody has said it: as many as there are cores.
+static THREADS: AtomicUsize = AtomicUsize::new(0);
+
+/// Sets how many threads evaluate a batch; 0 for all cores.
+#[pyfunction]
+pub fn set_threads(count: usize) {
+    THREADS.store(count, Ordering::Relaxed);
+}
+
+fn threads() -> usize {
+    match THREADS.load(Ordering::Relaxed) {
+        0 => std::thread::available_parallelism().map_or(1, NonZero::get),
+        count => count,
+    }
+}
+
+/// The arguments of K states: coordinates, rates and inputs a row each, and values of parameters that differ.
+pub struct Batch<'a> {
+    pub t: &'a [f64],
+    pub q: &'a [f64],
+    pub v: &'a [f64],
+    pub u: &'a [f64],
+    /// Names of parameters with K values each.
+    pub varied: &'a [(String, Vec<f64>)],
+}
+
+/// A state for a call.
+struct Scratch {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    u: Named,
+    a: Vec<f64>,
+}
+
+impl Batch<'_> {
+    /// Does something with the system of each row, in order, and its state.
+    fn each(
+        &self,
+        machine: &Machine,
+        rows: std::ops::Range<usize>,
+        mut work: impl FnMut(usize, &InterpretedSystem, &mut Scratch),
+    ) {
+        let (n, m) = (machine.dimension(), machine.inputs.values.len());
+        let mut scratch = Scratch {
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+            u: machine.inputs.clone(),
+            a: vec![0.0; n],
+        };
+        let own = machine.system();
+        let mut other = machine.machine.clone();
+        for k in rows {
+            scratch.q.copy_from_slice(&self.q[k * n..][..n]);
+            scratch.v.copy_from_slice(&self.v[k * n..][..n]);
+            scratch.u.values.copy_from_slice(&self.u[k * m..][..m]);
+            if self.varied.is_empty() {
+                work(k, &own, &mut scratch);
+                continue;
+            }
+            for (name, values) in self.varied {
+                let _ = other.set(name, values[k]); // it was looked up
+            }
+            work(k, &other.prepare(), &mut scratch);
+        }
+    }
+
+    /// Raises `ValueError` where the values of a row are none that a machine can have.
+    fn check(&self, py: Python<'_>, machine: &Machine) -> PyResult<()> {
+        if self.varied.is_empty() {
+            return machine.check_parameters(py);
+        }
+        let mut other = machine.machine.clone();
+        let mut all = Vec::with_capacity(self.t.len());
+        for k in 0..self.t.len() {
+            for (name, values) in self.varied {
+                let set = other.set(name, values[k]);
+                set.map_err(|unknown| {
+                    errors::raise(
+                        py,
+                        "UnknownName",
+                        ("parameter", unknown.name, unknown.known, unknown.near),
+                    )
+                })?;
+            }
+            all.push(other.parameter_values().to_vec());
+        }
+        let refused = py.detach(|| machine.derived.first_refused(&all));
+        match refused.map_err(|trouble| trouble.raise(py))? {
+            None => Ok(()),
+            Some((place, message)) => {
+                let message = format!("parameters at {place}: {message}");
+                Err(PyValueError::new_err(message))
+            }
+        }
+    }
+}
+
+fn slice<'a>(array: &'a PyReadonlyArray2<'_, f64>) -> PyResult<&'a [f64]> {
+    array
+        .as_slice()
+        .map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// Accelerations of K states into `out`, (K, n). Whether each has any; those that have none are NaN.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are arrays")]
+pub fn accelerations<'py>(
+    machine: &Machine,
+    py: Python<'py>,
+    t: PyReadonlyArray1<'py, f64>,
+    q: PyReadonlyArray2<'py, f64>,
+    v: PyReadonlyArray2<'py, f64>,
+    u: PyReadonlyArray2<'py, f64>,
+    varied: Vec<(String, Vec<f64>)>,
+    mut out: PyReadwriteArray2<'py, f64>,
+    raises: bool,
+) -> PyResult<()> {
+    let batch = Batch {
+        t: t.as_slice()?,
+        q: slice(&q)?,
+        v: slice(&v)?,
+        u: slice(&u)?,
+        varied: &varied,
+    };
+    batch.check(py, machine)?;
+    let n = machine.dimension();
+    let out = out.as_slice_mut()?;
+    let rows = batch.t.len();
+    let failed: Mutex<Option<(usize, Singular)>> = Mutex::new(None);
+    py.detach(|| {
+        let parts = threads().min(rows.div_ceil(ROWS_A_THREAD)).max(1);
+        let length = rows.div_ceil(parts).max(1);
+        let part = |first: usize, out: &mut [f64]| {
+            let count = out.len().checked_div(n).unwrap_or(0);
+            batch.each(machine, first..first + count, |k, system, scratch| {
+                let Scratch { q, v, u, a } = scratch;
+                let to = &mut out[(k - first) * n..][..n];
+                match system.accelerations(batch.t[k], q, v, u, a) {
+                    Ok(()) => to.copy_from_slice(a),
+                    Err(singular) => {
+                        to.fill(f64::NAN);
+                        let is_number = q.iter().chain(&*v).all(|x| x.is_finite());
+                        let mut failed = failed.lock().unwrap_or_else(PoisonError::into_inner);
+                        if is_number && failed.is_none_or(|(known, _)| k < known) {
+                            *failed = Some((k, singular));
+                        }
+                    }
+                }
+            });
+        };
+        if parts == 1 {
+            part(0, out);
+            return;
+        }
+        std::thread::scope(|scope| {
+            for (number, out) in out.chunks_mut(length * n.max(1)).enumerate() {
+                let part = &part;
+                scope.spawn(move || part(number * length, out));
+            }
+        });
+    });
+    match failed.into_inner().unwrap_or_else(PoisonError::into_inner) {
+        Some((place, singular)) if raises => Err(errors::of_singular(
+            py,
+            &*machine.system(),
+            singular,
+            Some(place),
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Everything at K states: arrays by name, flat, a row each; and which rows have it.
+#[pyfunction]
+#[expect(clippy::too_many_arguments, reason = "they are arrays")]
+pub fn evaluate<'py>(
+    machine: &Machine,
+    py: Python<'py>,
+    t: PyReadonlyArray1<'py, f64>,
+    q: PyReadonlyArray2<'py, f64>,
+    v: PyReadonlyArray2<'py, f64>,
+    u: PyReadonlyArray2<'py, f64>,
+    varied: Vec<(String, Vec<f64>)>,
+    raises: bool,
+) -> PyResult<(Bound<'py, PyDict>, Vec<bool>)> {
+    let batch = Batch {
+        t: t.as_slice()?,
+        q: slice(&q)?,
+        v: slice(&v)?,
+        u: slice(&u)?,
+        varied: &varied,
+    };
+    batch.check(py, machine)?;
+    let mut results = Vec::with_capacity(batch.t.len());
+    py.detach(|| {
+        batch.each(machine, 0..batch.t.len(), |k, system, scratch| {
+            let Scratch { q, v, u, .. } = scratch;
+            results.push(Evaluation::of(system, (batch.t[k], q, v, u)));
+        });
+    });
+    let (n, system) = (machine.dimension(), machine.system());
+    let outputs = machine.derived.outputs.len();
+    let widths = [
+        ("mass_matrix", n * n),
+        ("bias", n),
+        ("applied", n),
+        ("forces", n),
+        ("accelerations", n),
+        ("reactions", n),
+        ("multipliers", system.constraints().len()),
+        ("outputs", outputs),
+        ("contacts", 4 * system.contacts().len()),
+        ("unilateral", 6 * system.unilateral_contacts().len()),
+        ("kinetic_energy", 1),
+        ("potential_energy", 1),
+        ("dissipation", 1),
+    ];
+    let mut columns: Vec<Vec<f64>> = widths
+        .iter()
+        .map(|(_, width)| Vec::with_capacity(width * results.len()))
+        .collect();
+    let mut found = Vec::with_capacity(results.len());
+    for (place, result) in results.into_iter().enumerate() {
+        found.push(result.is_ok());
+        let evaluation = match result {
+            Ok(evaluation) => evaluation,
+            Err(error) if raises => return Err(machine.raised(py, error, place)),
+            Err(_) => {
+                for (column, (_, width)) in columns.iter_mut().zip(widths) {
+                    column.resize(column.len() + width, f64::NAN);
+                }
+                continue;
+            }
+        };
+        let flag = |is: bool| f64::from(u8::from(is));
+        let contacts = evaluation.contacts.iter();
+        let contacts = contacts.flat_map(|c| [c.normal, c.friction, c.slip, flag(c.sticks)]);
+        let unilateral = evaluation.unilateral.iter().flat_map(|c| {
+            let [closed, sticks] = [c.closed, c.sticks].map(flag);
+            [c.gap, c.normal, c.friction, c.slip, closed, sticks]
+        });
+        let reactions = match evaluation.reactions.is_empty() {
+            true => vec![0.0; n],
+            false => evaluation.reactions,
+        };
+        let all = [
+            evaluation.mass_matrix,
+            evaluation.bias,
+            evaluation.applied,
+            evaluation.forces,
+            evaluation.accelerations,
+            reactions,
+            evaluation.multipliers,
+            evaluation.outputs.values[..outputs].to_vec(),
+            contacts.collect(),
+            unilateral.collect(),
+            vec![evaluation.kinetic_energy],
+            vec![evaluation.potential_energy],
+            vec![evaluation.dissipation],
+        ];
+        for (column, values) in columns.iter_mut().zip(all) {
+            column.extend(values);
+        }
+    }
+    let by_name = PyDict::new(py);
+    for ((name, _), column) in widths.iter().zip(columns) {
+        by_name.set_item(name, PyArray1::from_vec(py, column))?;
+    }
+    Ok((by_name, found))
+}
+
+/// By coordinates, and by rates.
+type Derivatives<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+/// Derivatives of the accelerations at a state: by coordinates and by rates, (n, n) flat.
+#[pyfunction]
+pub fn linearize<'py>(
+    machine: &Machine,
+    py: Python<'py>,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    u: Vec<f64>,
+) -> PyResult<Derivatives<'py>> {
+    machine.check_parameters(py)?;
+    let n = machine.dimension();
+    let mut inputs = machine.inputs.clone();
+    inputs.values.copy_from_slice(&u);
+    let (mut a, mut by_q, mut by_v) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
+    let system = machine.system();
+    match system.linearize(t, &q, &v, &inputs, &mut a, &mut by_q, &mut by_v) {
+        Ok(()) => Ok((PyArray1::from_vec(py, by_q), PyArray1::from_vec(py, by_v))),
+        Err(singular) if matches!(singular.at, Pivot::NotDifferentiated(_)) => {
+            Err(PyValueError::new_err(format!(
+                "the accelerations of a machine with contacts that stick, slide or open have no derivatives: `{}`",
+                singular.name(&*system)
+            )))
+        }
+        Err(singular) => Err(errors::of_singular(py, &*system, singular, None)),
+    }
+}
+
+impl Machine {
+    fn raised(&self, py: Python<'_>, error: StepError, place: usize) -> PyErr {
+        match error {
+            StepError::Singular { singular, .. } => {
+                errors::of_singular(py, &*self.system(), singular, Some(place))
+            }
+            error => {
+                let error = lagrangian::Error::of_step(error, &*self.system());
+                PyValueError::new_err(error.to_string())
+            }
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! The native half of the Python package: specs are derived, evaluated and run here; how that looks in Python is said in
+//! `lagrangian/`.
+
+mod errors;
+mod evaluate;
+mod inputs;
+mod machine;
+mod program;
+mod run;
+mod simulate;
+mod sweep;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<program::Program>()?;
+    module.add_class::<machine::Machine>()?;
+    module.add_class::<run::Run>()?;
+    module.add_function(wrap_pyfunction!(program::derive, module)?)?;
+    module.add_function(wrap_pyfunction!(program::rebuild, module)?)?;
+    module.add_function(wrap_pyfunction!(machine::set_engine, module)?)?;
+    module.add_function(wrap_pyfunction!(machine::engine, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::set_threads, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::accelerations, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::linearize, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
+    module.add_function(wrap_pyfunction!(simulate::methods, module)?)?;
+    module.add_class::<sweep::Stop>()?;
+    module.add_function(wrap_pyfunction!(sweep::plan, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::run_chunk, module)?)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))
+}

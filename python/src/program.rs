@@ -1,0 +1,503 @@
+//! From text to a program, which all machines with the same text share.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread;
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::series::ProvedSeries;
+use lagrangian_program::Slot;
+use lagrangian_spec::diagnostic::{Report, Severity};
+use lagrangian_spec::model::Model;
+use lagrangian_spec::resolve::Formula;
+use lagrangian_spec::source::{Disk, Files, Sources};
+use lagrangian_sweep::plan::{Kept, Recorded, SpecText};
+use lagrangian_symbolic::Dag;
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::errors::{self, Told};
+
+/// The stack of the thread that derives, as the command's.
+const STACK: usize = 64 << 20;
+
+/// How many programs are remembered.
+const REMEMBERED: usize = 64;
+
+/// A formula beside those of the spec: its name, what messages call it, its text and its unit.
+pub type Asked = (String, String, String, Option<String>);
+
+/// A quantity: name, unit, what the spec says of it.
+type Described = (String, String, String);
+
+/// A spec, derived.
+pub struct Derived {
+    pub text: SpecText,
+    pub formulas: Vec<Asked>,
+    pub machine: InterpretedMachine,
+    pub docs: String,
+    pub parameters: Vec<(String, String, String, Option<f64>)>,
+    pub inputs: Vec<(String, String, String, f64)>,
+    pub coordinates: Vec<Described>,
+    pub outputs: Vec<Described>,
+    /// Names and units of multipliers.
+    pub constraints: Vec<(String, String)>,
+    pub contacts: Vec<String>,
+    pub warnings: Vec<Told>,
+    /// For each formula the number of its output.
+    pub numbers: Vec<usize>,
+    series: OnceLock<Result<ProvedSeries, String>>,
+}
+
+/// Why there is no program.
+pub enum Trouble {
+    /// The spec has mistakes: as text, and each.
+    Spec(String, Vec<Told>),
+    /// A constant is no number.
+    Constant(String),
+    /// Something of the system's.
+    System(String),
+}
+
+impl Trouble {
+    pub fn raise(self, py: Python<'_>) -> PyErr {
+        match self {
+            Trouble::Spec(text, told) => errors::of_spec(py, text, told),
+            Trouble::Constant(message) => PyValueError::new_err(message),
+            Trouble::System(message) => PyRuntimeError::new_err(message),
+        }
+    }
+}
+
+/// Where the texts that a spec extends come from.
+pub enum Bases {
+    /// These, by the names by which the spec calls them.
+    Given(Vec<(String, String)>),
+    /// Files on disk.
+    Disk,
+    /// Those of a spec that was read before.
+    Kept,
+}
+
+struct Given(Vec<(String, String)>);
+
+impl Files for Given {
+    fn read(&mut self, path: &str, _: Option<&str>) -> Result<(String, String), String> {
+        let found = self.0.iter().find(|(name, _)| name == path);
+        let found = found.ok_or_else(|| "it is not among `files`".to_owned())?;
+        Ok(found.clone())
+    }
+}
+
+/// Programs that were derived, the last one used at the end.
+static KNOWN: Mutex<VecDeque<(String, Arc<Derived>)>> = Mutex::new(VecDeque::new());
+
+fn known(key: &str) -> Option<Arc<Derived>> {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let place = known.iter().position(|(of, _)| of == key)?;
+    let found = known.remove(place)?;
+    let derived = found.1.clone();
+    known.push_back(found);
+    Some(derived)
+}
+
+fn remember(key: String, derived: &Arc<Derived>) {
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if known.len() == REMEMBERED {
+        known.pop_front();
+    }
+    known.push_back((key, derived.clone()));
+}
+
+impl Derived {
+    /// Reads a text, and derives its program unless that is known.
+    pub fn new(
+        mut text: SpecText,
+        bases: Bases,
+        formulas: Vec<Asked>,
+    ) -> Result<Arc<Derived>, Trouble> {
+        let work = move || {
+            let constants = text.constants().map_err(Trouble::Constant)?;
+            let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+            let asked: Vec<Formula<'_>> = formulas.iter().map(asked).collect();
+            let kept = std::mem::take(&mut text.files);
+            let mut disk = Disk;
+            let mut given;
+            let mut read;
+            let files: &mut dyn Files = match bases {
+                Bases::Disk => &mut disk,
+                Bases::Given(files) => {
+                    given = Given(files);
+                    &mut given
+                }
+                Bases::Kept => {
+                    read = Kept(&kept);
+                    &mut read
+                }
+            };
+            let mut recorded = Recorded::new(files);
+            let spec = lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
+            let model = Model::resolve_with(
+                spec,
+                &dag,
+                &constants,
+                &asked,
+                &mut recorded,
+                &mut sources,
+                &mut report,
+            );
+            text.files = recorded.read;
+            let key = serde_json::to_string(&(&text, &formulas)).unwrap_or_default();
+            if model.is_some()
+                && let Some(derived) = known(&key)
+            {
+                return Ok(derived);
+            }
+            let compiled = model.and_then(|model| Compiled::new(model, &mut report));
+            let told = errors::told(&report, &sources);
+            let Some(compiled) = compiled else {
+                return Err(Trouble::Spec(errors::shown(&report, &sources), told));
+            };
+            let derived = Arc::new(Derived::of(&compiled, text, formulas, told));
+            remember(key, &derived);
+            Ok(derived)
+        };
+        let made = thread::Builder::new().stack_size(STACK).spawn(work);
+        match made.map(thread::JoinHandle::join) {
+            Ok(Ok(derived)) => derived,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => Err(Trouble::System(format!("no thread to derive in: {error}"))),
+        }
+    }
+
+    fn of(
+        compiled: &Compiled<'_>,
+        text: SpecText,
+        formulas: Vec<Asked>,
+        told: Vec<Told>,
+    ) -> Derived {
+        let model = &compiled.model;
+        let program = &compiled.program;
+        let own = program.outputs.len() - formulas.len();
+        let default = |slot: &Slot| slot.default.as_ref().map(|default| default.value);
+        let plain = |slot: &Slot| (slot.name.to_string(), slot.label(), slot.docs.clone());
+        let with = |slot: &Slot| {
+            let (name, unit, docs) = plain(slot);
+            (name, unit, docs, default(slot))
+        };
+        let machine = InterpretedMachine::new(program.clone());
+        let system = lagrangian::Machine::prepare(&machine);
+        let constraints = lagrangian::System::constraints(&system);
+        let constraints = constraints.map(|c| (c.name.to_owned(), c.multiplier_unit.to_owned()));
+        let contacts = lagrangian::System::contacts(&system).map(str::to_owned);
+        let unilateral = lagrangian::System::unilateral_contacts(&system);
+        let unilateral = unilateral.map(|contact| contact.name.to_owned());
+        Derived {
+            docs: model.docs.clone(),
+            parameters: program.parameters.iter().map(with).collect(),
+            inputs: program
+                .inputs
+                .iter()
+                .map(|slot| {
+                    let (name, unit, docs, value) = with(slot);
+                    (name, unit, docs, value.unwrap_or(0.0))
+                })
+                .collect(),
+            coordinates: program.coordinates.iter().map(plain).collect(),
+            outputs: program.outputs[..own].iter().map(plain).collect(),
+            constraints: constraints.collect(),
+            contacts: contacts.chain(unilateral).collect(),
+            numbers: (own..program.outputs.len()).collect(),
+            warnings: told,
+            machine,
+            text,
+            formulas,
+            series: OnceLock::new(),
+        }
+    }
+
+    /// Does something with the model of this text, which belongs to one thread.
+    pub fn with_model<T: Send>(
+        &self,
+        work: impl FnOnce(Model<'_>, &mut Report) -> T + Send,
+    ) -> Result<T, Trouble> {
+        let constants = self.text.constants().map_err(Trouble::Constant)?;
+        let made = thread::scope(|scope| {
+            let work = || {
+                let (dag, mut sources, mut report) = (Dag::new(), Sources::new(), Report::new());
+                let text = &self.text;
+                let spec =
+                    lagrangian_spec::parse(&mut sources, &text.name, &text.text, &mut report);
+                let asked: Vec<Formula<'_>> = self.formulas.iter().map(asked).collect();
+                let files = &mut Kept(&text.files);
+                let model = Model::resolve_with(
+                    spec,
+                    &dag,
+                    &constants,
+                    &asked,
+                    files,
+                    &mut sources,
+                    &mut report,
+                );
+                match model {
+                    Some(model) => Ok(work(model, &mut report)),
+                    None => Err(Trouble::Spec(
+                        errors::shown(&report, &sources),
+                        errors::told(&report, &sources),
+                    )),
+                }
+            };
+            let thread = thread::Builder::new().stack_size(STACK);
+            thread
+                .spawn_scoped(scope, work)
+                .map(thread::ScopedJoinHandle::join)
+        });
+        match made {
+            Ok(Ok(done)) => done,
+            Ok(Err(panic)) => std::panic::resume_unwind(panic),
+            Err(error) => Err(Trouble::System(format!("no thread to derive in: {error}"))),
+        }
+    }
+
+    /// The Taylor series of the motion, derived when it is first asked for; or why there is none.
+    pub fn series(&self) -> Result<ProvedSeries, String> {
+        let derive = || {
+            let derived = self.with_model(|model, _| {
+                ProvedSeries::derive(&model).map_err(|reason| reason.to_string())
+            });
+            derived.unwrap_or_else(|_| Err("it could not be derived".into()))
+        };
+        self.series.get_or_init(derive).clone()
+    }
+
+    /// What is wrong with values of the parameters: a negative mass.
+    pub fn refused(&self, values: &[f64]) -> Result<Option<String>, Trouble> {
+        self.with_model(|model, _| {
+            let said = model.refused_values(values);
+            let error = said.iter().find(|of| of.code.severity() == Severity::Error);
+            error.map(|error| format!("{} [{}]", error.message, error.code))
+        })
+    }
+
+    /// The same of many values at once; which of them, and what.
+    pub fn first_refused(&self, all: &[Vec<f64>]) -> Result<Option<(usize, String)>, Trouble> {
+        self.with_model(|model, _| {
+            for (place, values) in all.iter().enumerate() {
+                let said = model.refused_values(values);
+                let error = said.iter().find(|of| of.code.severity() == Severity::Error);
+                if let Some(error) = error {
+                    return Some((place, format!("{} [{}]", error.message, error.code)));
+                }
+            }
+            None
+        })
+    }
+}
+
+fn asked((name, said, text, unit): &Asked) -> Formula<'_> {
+    Formula {
+        name,
+        said,
+        text,
+        unit: unit.as_deref(),
+    }
+}
+
+/// A derived program.
+#[pyclass(frozen, module = "lagrangian._native")]
+pub struct Program {
+    pub derived: Arc<Derived>,
+}
+
+/// Derives a spec: a file where there is no text, else the text under a name, with the bases that it extends given, or read
+/// beside that name.
+#[pyfunction]
+pub fn derive(
+    py: Python<'_>,
+    name: String,
+    text: Option<String>,
+    files: Option<Vec<(String, String)>>,
+    constants: Vec<(String, String)>,
+) -> PyResult<Program> {
+    let (name, text) = match text {
+        Some(text) => (name, text),
+        None => Disk
+            .read(&name, None)
+            .map_err(|reason| PyOSError::new_err(format!("cannot read {name}: {reason}")))?,
+    };
+    let bases = files.map_or(Bases::Disk, Bases::Given);
+    let text = SpecText {
+        name,
+        text,
+        files: Vec::new(),
+        constants,
+    };
+    made(py, text, bases, Vec::new())
+}
+
+fn made(py: Python<'_>, text: SpecText, bases: Bases, formulas: Vec<Asked>) -> PyResult<Program> {
+    let derived = py.detach(|| Derived::new(text, bases, formulas));
+    let derived = derived.map_err(|trouble| trouble.raise(py))?;
+    Ok(Program { derived })
+}
+
+/// The program of what [`Program::state`] gave.
+#[pyfunction]
+pub fn rebuild(py: Python<'_>, state: &str) -> PyResult<Program> {
+    let text: SpecText = serde_json::from_str(state)
+        .map_err(|error| PyValueError::new_err(format!("this is no machine: {error}")))?;
+    made(py, text, Bases::Kept, Vec::new())
+}
+
+#[pymethods]
+impl Program {
+    /// Texts and constants, from which it can be made again.
+    fn state(&self) -> String {
+        serde_json::to_string(&self.derived.text).unwrap_or_default()
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        lagrangian::Machine::name(&self.derived.machine)
+    }
+
+    #[getter]
+    fn docs(&self) -> &str {
+        &self.derived.docs
+    }
+
+    #[getter]
+    fn file(&self) -> &str {
+        &self.derived.text.name
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.derived.text.text
+    }
+
+    #[getter]
+    fn files(&self) -> Vec<(String, String)> {
+        let files = self.derived.text.files.iter();
+        files
+            .map(|file| (file.name.clone(), file.text.clone()))
+            .collect()
+    }
+
+    #[getter]
+    fn constants(&self) -> Vec<(String, String)> {
+        self.derived.text.constants.clone()
+    }
+
+    /// Names, units, docs and values.
+    #[getter]
+    fn parameters(&self) -> Vec<(String, String, String, Option<f64>)> {
+        self.derived.parameters.clone()
+    }
+
+    /// Names, units, docs and values.
+    #[getter]
+    fn inputs(&self) -> Vec<(String, String, String, f64)> {
+        self.derived.inputs.clone()
+    }
+
+    /// Names, units and docs.
+    #[getter]
+    fn coordinates(&self) -> Vec<Described> {
+        self.derived.coordinates.clone()
+    }
+
+    /// Names, units and docs.
+    #[getter]
+    fn outputs(&self) -> Vec<Described> {
+        self.derived.outputs.clone()
+    }
+
+    /// Names, and the units of their multipliers.
+    #[getter]
+    fn constraints(&self) -> Vec<(String, String)> {
+        self.derived.constraints.clone()
+    }
+
+    #[getter]
+    fn contacts(&self) -> Vec<String> {
+        self.derived.contacts.clone()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<Told> {
+        self.derived.warnings.clone()
+    }
+
+    /// The numbers of the outputs that formulas are.
+    #[getter]
+    fn formulas(&self) -> Vec<usize> {
+        self.derived.numbers.clone()
+    }
+
+    /// The same with formulas beside it.
+    fn with_formulas(&self, py: Python<'_>, formulas: Vec<Asked>) -> PyResult<Program> {
+        made(py, self.derived.text.clone(), Bases::Kept, formulas)
+    }
+
+    /// The same with other values of constants.
+    fn with_constants(
+        &self,
+        py: Python<'_>,
+        constants: Vec<(String, String)>,
+    ) -> PyResult<Program> {
+        let mut text = self.derived.text.clone();
+        text.constants = constants;
+        made(py, text, Bases::Kept, Vec::new())
+    }
+
+    /// What is wrong with values of the parameters, in the words of the spec.
+    fn refused(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<Option<String>> {
+        let refused = py.detach(|| self.derived.refused(&values));
+        refused.map_err(|trouble| trouble.raise(py))
+    }
+
+    /// The equations or the code as text: `markdown`, `latex`, `html`, `rust`, `c` or `program`.
+    fn derive(&self, py: Python<'_>, form: &str) -> PyResult<String> {
+        use lagrangian_print::document::Document;
+        use lagrangian_print::{html, latex, markdown};
+        let name = std::path::Path::new(&self.derived.text.name).file_name();
+        let file = name.map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let origin = vec![format!("@generated from {file} by `lagrangian derive`.")];
+        let known = [
+            "markdown", "latex", "html", "article", "rust", "c", "program",
+        ];
+        if !known.contains(&form) {
+            return Err(PyValueError::new_err(format!(
+                "no form named {form:?}; there are: {}",
+                known.join(", ")
+            )));
+        }
+        let text = py.detach(|| {
+            self.derived.with_model(|model, report| {
+                let compiled = Compiled::new(model, report)?;
+                let formulas = || compiled.formulas();
+                Some(match form {
+                    "markdown" => markdown::text(&Document::new(&compiled)),
+                    "latex" => latex::text(&Document::new(&compiled)),
+                    "html" => html::text(&Document::new(&compiled)),
+                    "article" => html::article(&Document::new(&compiled)),
+                    "rust" => lagrangian_emit::rust::module(
+                        &compiled.program,
+                        &lagrangian_emit::rust::Options {
+                            origin,
+                            formulas: formulas(),
+                            series: compiled.series.clone(),
+                            ..Default::default()
+                        },
+                    ),
+                    "c" => lagrangian_emit::c::file(&compiled.program, &origin, &formulas()),
+                    _ => compiled.program.to_string(),
+                })
+            })
+        });
+        let text = text.map_err(|trouble| trouble.raise(py))?;
+        text.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
+    }
+}

@@ -1,0 +1,190 @@
+//! A run that was made.
+
+use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
+use lagrangian::{Ending, Solution, State, System};
+use lagrangian_sweep::verdict;
+use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::inputs::SharedLaw;
+
+/// A run, with the states that were asked for.
+#[pyclass(frozen, module = "lagrangian._native")]
+pub struct Run {
+    solution: Solution<InterpretedMachine, SharedLaw>,
+    states: Vec<State<Named>>,
+}
+
+/// Time, coordinates and rates, of k states in a row.
+type States<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+/// Name, unit and values.
+type Column<'py> = (String, String, Bound<'py, PyArray1<f64>>);
+
+fn arrays<'py>(py: Python<'py>, states: &[State<Named>]) -> States<'py> {
+    let t = states.iter().map(|state| state.t).collect();
+    let q = states
+        .iter()
+        .flat_map(|state| state.q.values.iter().copied());
+    let v = states
+        .iter()
+        .flat_map(|state| state.v.values.iter().copied());
+    let [t, q, v] = [t, q.collect(), v.collect()].map(|of| PyArray1::from_vec(py, of));
+    (t, q, v)
+}
+
+impl Run {
+    pub fn new(
+        solution: Solution<InterpretedMachine, SharedLaw>,
+        states: Vec<State<Named>>,
+    ) -> Run {
+        Run { solution, states }
+    }
+
+    fn states_at(&self, py: Python<'_>, times: Vec<f64>) -> PyResult<Vec<State<Named>>> {
+        let states = py.detach(|| self.solution.at_each(times));
+        states.map_err(|error| PyValueError::new_err(error.to_string()))
+    }
+}
+
+#[pymethods]
+impl Run {
+    /// The states that were asked for.
+    fn samples<'py>(&self, py: Python<'py>) -> States<'py> {
+        arrays(py, &self.states)
+    }
+
+    /// The states at times.
+    fn at<'py>(&self, py: Python<'py>, times: Vec<f64>) -> PyResult<States<'py>> {
+        Ok(arrays(py, &self.states_at(py, times)?))
+    }
+
+    /// Names, units and values of everything that can be observed, at the states that were asked for, or at times.
+    #[pyo3(signature = (times=None))]
+    fn columns<'py>(&self, py: Python<'py>, times: Option<Vec<f64>>) -> PyResult<Vec<Column<'py>>> {
+        let made;
+        let states = match times {
+            None => &self.states,
+            Some(times) => {
+                made = self.states_at(py, times)?;
+                &made
+            }
+        };
+        let recording = py.detach(|| Recording::of(&self.solution, states));
+        let columns = recording.columns.into_iter();
+        Ok(columns
+            .map(|column| {
+                (
+                    column.name,
+                    column.unit,
+                    PyArray1::from_vec(py, column.values),
+                )
+            })
+            .collect())
+    }
+
+    /// The inputs at times and states.
+    fn inputs<'py>(
+        &self,
+        py: Python<'py>,
+        t: Vec<f64>,
+        q: Vec<f64>,
+        v: Vec<f64>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let system = self.solution.system();
+        let n = system.coordinates().len();
+        let mut all = Vec::new();
+        for (k, t) in t.into_iter().enumerate() {
+            let part = |of: &[f64]| of[k * n..][..n].to_vec();
+            let mut state = self.solution.start().clone();
+            (state.t, state.q.values, state.v.values) = (t, part(&q), part(&v));
+            let seen = self.solution.observe_state(&state);
+            let seen = seen.map_err(|error| PyValueError::new_err(error.to_string()))?;
+            all.extend(seen.inputs.values);
+        }
+        Ok(PyArray1::from_vec(py, all))
+    }
+
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> States<'py> {
+        arrays(py, std::slice::from_ref(self.solution.start()))
+    }
+
+    #[getter]
+    fn end<'py>(&self, py: Python<'py>) -> States<'py> {
+        arrays(py, std::slice::from_ref(self.solution.end()))
+    }
+
+    #[getter]
+    fn ending(&self) -> String {
+        match self.solution.ending() {
+            Ending::End => "time".into(),
+            Ending::Event(name) => format!("event {name}"),
+            Ending::Stopped => "stop".into(),
+            _ => "error".into(),
+        }
+    }
+
+    /// Names, directions and states of events.
+    fn events<'py>(&self, py: Python<'py>) -> (Vec<String>, Vec<i32>, States<'py>) {
+        let events = self.solution.events();
+        let names = events.iter().map(|event| event.name.clone()).collect();
+        let directions = events.iter().map(|event| match event.crossing {
+            lagrangian::Crossing::Rising => 1,
+            lagrangian::Crossing::Falling => -1,
+            lagrangian::Crossing::Any => 0,
+        });
+        let states: Vec<_> = events.iter().map(|event| event.state.clone()).collect();
+        (names, directions.collect(), arrays(py, &states))
+    }
+
+    /// The balance of energy, if it was kept.
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        let Some(balance) = self.solution.energy_balance() else {
+            return Ok(None);
+        };
+        let all = PyDict::new(py);
+        for (name, value) in [
+            ("start", balance.start),
+            ("end", balance.end),
+            ("work", balance.work),
+            ("dissipated", balance.dissipated),
+            ("turned_over", balance.turned_over),
+            ("residual", balance.residual()),
+            ("relative", balance.relative()),
+        ] {
+            all.set_item(name, value)?;
+        }
+        Ok(Some(all))
+    }
+
+    #[getter]
+    fn statistics<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let statistics = self.solution.statistics();
+        let all = PyDict::new(py);
+        all.set_item("steps", statistics.steps)?;
+        all.set_item("rejected", statistics.rejected)?;
+        all.set_item("evaluations", statistics.evaluations)?;
+        all.set_item("constraint_residual", statistics.constraint_residual)?;
+        all.set_item("stiff_since", statistics.stiff_since)?;
+        all.set_item("seconds", statistics.seconds)?;
+        Ok(all)
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        let warnings = self.solution.warnings().iter();
+        warnings.map(ToString::to_string).collect()
+    }
+
+    /// What is wrong with a run that came to its end: more energy is missing than may be.
+    fn objection(&self) -> Option<String> {
+        verdict::objection(&self.solution)
+    }
+}

@@ -1,0 +1,380 @@
+//! A run, made.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::methods::{Method, TAYLOR};
+use lagrangian::{
+    Crossing, Error, InputLaw, Machine as _, Progress, Simulation, Solution, State, StepMotion,
+    System,
+};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::errors;
+use crate::inputs::{self, Law, Raised, Rule, SharedLaw};
+use crate::machine::Machine;
+use crate::run::Run;
+
+/// How often a run looks whether it is to be interrupted, and says how far it is.
+const BETWEEN: Duration = Duration::from_millis(50);
+
+/// More instants than this are a slip of the hand.
+const MOST_SAMPLES: f64 = 5e6;
+
+/// The names of methods.
+#[pyfunction]
+pub fn methods() -> Vec<&'static str> {
+    Method::all().map(|method| method.tableau.name).collect()
+}
+
+/// A number made of a state: the output that a formula is, or what a function returns.
+enum Watched {
+    Output(usize),
+    Function(Py<PyAny>),
+}
+
+/// An event that is looked for: name, number of a formula or function, direction (−1, 0, 1), and at which one the run ends.
+type Watch = (String, Option<usize>, Option<Py<PyAny>>, i32, Option<usize>);
+
+/// What sets an input: its number, its name, and the number of a formula or a function.
+type Ruled = (usize, String, Option<usize>, Option<Py<PyAny>>);
+
+/// The settings of a run.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Settings {
+    t0: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    until: f64,
+    relative: f64,
+    absolute: f64,
+    absolute_of: Vec<(String, f64)>,
+    method: String,
+    every: Option<f64>,
+    at: Option<Vec<f64>>,
+    dense: bool,
+    energy: bool,
+    first_step: Option<f64>,
+    longest_step: Option<f64>,
+    max_steps: usize,
+    keep: Option<Vec<String>>,
+    rules: Vec<Ruled>,
+    all_inputs: Option<Py<PyAny>>,
+    events: Vec<Watch>,
+    /// The number of a formula, or a function, which ends the run where it is true.
+    stop: Option<(Option<usize>, Option<Py<PyAny>>)>,
+    progress: Option<Py<PyAny>>,
+}
+
+/// The instants that are kept of a run.
+#[derive(Clone)]
+struct Samples {
+    at: Option<Vec<f64>>,
+    every: f64,
+    t0: f64,
+    until: f64,
+    /// How many were passed.
+    passed: usize,
+    states: Vec<State<Named>>,
+}
+
+impl Samples {
+    fn next(&self) -> Option<f64> {
+        match &self.at {
+            Some(times) => times.get(self.passed).copied(),
+            None => {
+                let t = self.t0 + self.passed as f64 * self.every.copysign(self.until - self.t0);
+                // The end is kept when it is there.
+                let left = (self.until - t) * (self.until - self.t0).signum();
+                (left > 4.0 * f64::EPSILON * self.until.abs().max(self.t0.abs())).then_some(t)
+            }
+        }
+    }
+
+    fn begin(&mut self, start: &State<Named>) {
+        while self.next() == Some(start.t) {
+            self.states.push(start.clone());
+            self.passed += 1;
+        }
+    }
+
+    fn take(&mut self, step: &mut dyn StepMotion<InterpretedMachine>) -> Result<(), Error> {
+        let [from, to] = step.span();
+        while let Some(t) = self.next().filter(|t| (to - t) * (to - from) >= 0.0) {
+            self.states.push(step.state(t)?);
+            self.passed += 1;
+        }
+        Ok(())
+    }
+
+    /// Adds the end where no instants were named. A start that constraints have moved is the one that was run.
+    fn end(&mut self, start: &State<Named>, end: &State<Named>) {
+        for state in self
+            .states
+            .iter_mut()
+            .take_while(|state| state.t == start.t)
+        {
+            *state = start.clone();
+        }
+        if self.at.is_none() && self.states.last().is_none_or(|last| last.t != end.t) {
+            self.states.push(end.clone());
+        }
+    }
+}
+
+impl Watched {
+    fn of(output: Option<usize>, function: Option<Py<PyAny>>) -> PyResult<Watched> {
+        match (output, function) {
+            (Some(output), _) => Ok(Watched::Output(output)),
+            (None, Some(function)) => Ok(Watched::Function(function)),
+            (None, None) => Err(PyValueError::new_err("neither a formula nor a function")),
+        }
+    }
+}
+
+/// Makes a run; and what ended it early, if something did.
+#[pyfunction]
+pub fn simulate(
+    py: Python<'_>,
+    of: &Machine,
+    settings: Settings,
+) -> PyResult<(Run, Option<String>)> {
+    of.check_parameters(py)?;
+    let Some(method) = Method::named(&settings.method) else {
+        let known = methods().join(", ");
+        return Err(PyValueError::new_err(format!(
+            "no method named {:?}; there are: {known}",
+            settings.method
+        )));
+    };
+    if let Some(every) = settings.every
+        && !(every > 0.0 && every.is_finite())
+    {
+        return Err(PyValueError::new_err(format!(
+            "every={every} must be greater than 0"
+        )));
+    }
+    let duration = settings.until - settings.t0;
+    let every = settings.every.unwrap_or(duration.abs() / 1000.0);
+    if settings.at.is_none() && duration.abs() / every > MOST_SAMPLES {
+        return Err(PyValueError::new_err(format!(
+            "every={every:e} would keep more than {MOST_SAMPLES:e} instants"
+        )));
+    }
+    let mut machine = of.machine.clone();
+    if std::ptr::eq(method, &TAYLOR) {
+        let series = py.detach(|| of.derived.series());
+        let series = series.map_err(|reason| {
+            PyValueError::new_err(format!("method taylor: no series: {reason}"))
+        })?;
+        machine = machine.with_series(Ok(series));
+    }
+    let raised = Raised::default();
+    let mut law = Law {
+        rules: Vec::new(),
+        all: settings.all_inputs,
+        raised: raised.clone(),
+    };
+    for (place, name, output, function) in settings.rules {
+        let rule = match Watched::of(output, function)? {
+            Watched::Output(output) => Rule::Output(output),
+            Watched::Function(function) => Rule::Function(function),
+        };
+        law.rules.push((place, name, rule));
+    }
+    let mut watches = Vec::new();
+    for (name, output, function, direction, ends) in settings.events {
+        let crossing = match direction {
+            1 => Crossing::Rising,
+            -1 => Crossing::Falling,
+            _ => Crossing::Any,
+        };
+        watches.push((name, Watched::of(output, function)?, crossing, ends));
+    }
+    let stop = settings.stop;
+    let stop = stop
+        .map(|(output, function)| Watched::of(output, function))
+        .transpose()?;
+    let mut start = machine.start();
+    start.t = settings.t0;
+    start.q.values = settings.q;
+    start.v.values = settings.v;
+    let task = Task {
+        law: SharedLaw(Arc::new(law)),
+        raised: raised.clone(),
+        watches,
+        stop,
+        progress: settings.progress,
+        samples: Samples {
+            at: settings.at,
+            every,
+            t0: settings.t0,
+            until: settings.until,
+            passed: 0,
+            states: Vec::new(),
+        },
+        method,
+        start,
+        dense: settings.dense,
+        keep: settings.keep,
+        absolute_of: settings.absolute_of,
+    };
+    let (relative, absolute) = (settings.relative, settings.absolute);
+    let (first, longest) = (settings.first_step, settings.longest_step);
+    let (max_steps, energy) = (settings.max_steps, settings.energy);
+    let until = settings.until;
+    let made = py.detach(|| {
+        let mut simulation = Simulation::new(&machine)
+            .relative(relative)
+            .absolute(absolute)
+            .until(until)
+            .max_steps(max_steps)
+            .energy_balance(energy);
+        if relative == absolute {
+            simulation = simulation.tolerance(relative);
+        }
+        if let Some(step) = first {
+            simulation = simulation.first_step(step);
+        }
+        if let Some(step) = longest {
+            simulation = simulation.longest_step(step);
+        }
+        task.run(&machine, simulation)
+    });
+    if let Some(exception) = raised.take() {
+        return Err(exception);
+    }
+    match made {
+        Ok((solution, states, error)) => {
+            let error = error.map(|error| error.to_string());
+            Ok((Run::new(solution, states), error))
+        }
+        Err(error) => Err(of_error(py, &error)),
+    }
+}
+
+/// The exception of a run that cannot begin.
+fn of_error(py: Python<'_>, error: &Error) -> PyErr {
+    match error {
+        Error::UnknownCoordinate { .. }
+        | Error::InvalidSetting { .. }
+        | Error::StartNotFinite { .. }
+        | Error::ParameterNotFinite { .. } => PyValueError::new_err(error.to_string()),
+        error => {
+            let none: Option<f64> = None;
+            errors::raise(py, "RunError", (error.to_string(), none, none))
+        }
+    }
+}
+
+/// A run to be made, apart from the numbers that the simulation was told.
+struct Task {
+    law: SharedLaw,
+    raised: Raised,
+    watches: Vec<(String, Watched, Crossing, Option<usize>)>,
+    stop: Option<Watched>,
+    progress: Option<Py<PyAny>>,
+    samples: Samples,
+    method: &'static Method,
+    start: State<Named>,
+    dense: bool,
+    keep: Option<Vec<String>>,
+    absolute_of: Vec<(String, f64)>,
+}
+
+/// A run, the states that were asked for, and what ended it early.
+type Made = (
+    Solution<InterpretedMachine, SharedLaw>,
+    Vec<State<Named>>,
+    Option<Error>,
+);
+
+impl Task {
+    fn run<'a>(
+        &'a self,
+        machine: &'a InterpretedMachine,
+        simulation: Simulation<'a, InterpretedMachine>,
+    ) -> Result<Made, Error> {
+        // Formulas are asked for while the run has its own system.
+        let system = machine.prepare();
+        let value = |watched: &Watched, name: &str, state: &State<Named>| -> f64 {
+            let State { t, q, v } = state;
+            let (t, q, v) = (*t, &q.values, &v.values);
+            match watched {
+                Watched::Output(output) => {
+                    let mut u = system.default_inputs();
+                    self.law.set(&system, t, q, v, &mut u);
+                    system.output(*output, t, q, v, &[], &u.values)
+                }
+                Watched::Function(function) => Python::attach(|py| {
+                    let value = inputs::number(py, function, name, (t, q, v));
+                    value.unwrap_or_else(|error| {
+                        self.raised.keep(py, error, t);
+                        f64::NAN
+                    })
+                }),
+            }
+        };
+        let value = &value;
+        let samples = RefCell::new(self.samples.clone());
+        samples.borrow_mut().begin(&self.start);
+        let last = Cell::new(Instant::now());
+        let mut simulation = simulation
+            .method(self.method)
+            .law(self.law.clone())
+            .each_step(|step| samples.borrow_mut().take(step))
+            .progress(|now| {
+                if last.get().elapsed() >= BETWEEN {
+                    last.set(Instant::now());
+                    self.tell(now);
+                }
+            })
+            .stop_if(|state| {
+                let stops = self.stop.as_ref();
+                let stops = stops.is_some_and(|watched| value(watched, "stop", state) > 0.0);
+                self.raised.is_kept() || stops
+            });
+        if !self.dense {
+            simulation = simulation.forget_steps();
+        }
+        for (name, of) in &self.absolute_of {
+            simulation = simulation.absolute_of(name, *of);
+        }
+        if let Some(keep) = &self.keep {
+            simulation = simulation.keep_none();
+            for name in keep {
+                simulation = simulation.keep(name);
+            }
+        }
+        for (name, watched, crossing, ends) in &self.watches {
+            let said = format!("event {name}");
+            let function = move |state: &State<Named>| value(watched, &said, state);
+            simulation = match ends {
+                None => simulation.event(name, *crossing, function),
+                Some(n) => simulation.until_nth_event(*n, name, *crossing, function),
+            };
+        }
+        let (solution, error) = simulation.run_as_far_as_possible(self.start.clone())?;
+        let mut samples = samples.into_inner();
+        samples.end(solution.start(), solution.end());
+        Ok((solution, samples.states, error))
+    }
+
+    /// Lets Python look for Ctrl-C, and says how far the run is.
+    fn tell(&self, now: Progress) {
+        Python::attach(|py| {
+            let told = py.check_signals().and_then(|()| match &self.progress {
+                None => Ok(()),
+                Some(function) => {
+                    let told = function.bind(py).call1((now.fraction, now.t, now.steps));
+                    told.map(|_| ())
+                }
+            });
+            told.unwrap_or_else(|error| self.raised.keep(py, error, now.t));
+        });
+    }
+}

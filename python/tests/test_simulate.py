@@ -1,0 +1,270 @@
+"""Runs: against closed forms, SciPy and the command."""
+
+import json
+import math
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import lagrangian as lg
+from test_evaluate import command
+
+
+def test_an_oscillator_moves_as_its_closed_form(oscillator):
+    run = oscillator.simulate(10, tolerance=1e-12)
+    # x = cos(ω t), ω = √(8/2). A tolerance of 1e-12 a step, some 200 steps.
+    np.testing.assert_allclose(run["x"], np.cos(2 * run.t), atol=1e-9)
+    np.testing.assert_allclose(run["der(x)"], -2 * np.sin(2 * run.t), atol=1e-9)
+    np.testing.assert_allclose(run["pull"], 8 * np.cos(2 * run.t), atol=1e-8)
+    assert len(run) == 1001 and run.t[-1] == 10.0
+    assert run.ending == "time"
+    assert abs(run.energy.residual) < 1e-9
+    np.testing.assert_allclose(run.energy.kinetic + run.energy.potential, 4.0, atol=1e-9)
+
+
+def test_states_between_samples(oscillator):
+    run = oscillator.simulate(10, tolerance=1e-12)
+    times = np.array([[7.77, 0.0], [1.234, 10.0]])
+    state = run.at(times)
+    assert state.q.shape == (2, 2, 1)
+    np.testing.assert_allclose(state.q["x"], np.cos(2 * times), atol=1e-9)
+    assert isinstance(run.at(1.0).q["x"], float)
+    np.testing.assert_allclose(run.observe(times)["pull"], 8 * np.cos(2 * times), atol=1e-8)
+    for outside in (-0.1, 10.1, math.nan):
+        with pytest.raises(ValueError, match="outside"):
+            run.at(outside)
+    with pytest.raises(ValueError, match="forgotten"):
+        oscillator.simulate(1, dense=False).at(0.5)
+
+
+def test_what_is_kept(oscillator):
+    assert oscillator.simulate(1, every=0.3).t.tolist() == pytest.approx([0, 0.3, 0.6, 0.9, 1.0])
+    assert oscillator.simulate(1, every=0.25).t.tolist() == [0, 0.25, 0.5, 0.75, 1.0]
+    assert oscillator.simulate(1, at=[0.1, 0.5]).t.tolist() == [0.1, 0.5]
+    assert oscillator.simulate(1, at=[0, 0.5, 1]).t.tolist() == [0, 0.5, 1]
+    backward = oscillator.simulate(-1, every=0.5)
+    assert backward.t.tolist() == [0, -0.5, -1.0]
+    np.testing.assert_allclose(backward["x"], np.cos(2 * backward.t), atol=1e-7)
+    np.testing.assert_allclose(backward.at([-0.7, -0.1]).q["x"], np.cos([1.4, 0.2]), atol=1e-7)
+    for wrong, why in (
+        ({"at": [0.5, 0.1]}, "sorted"),
+        ({"at": [2.0]}, "outside"),
+        ({"every": 0.0}, "greater than 0"),
+        ({"every": 1e-9}, "instants"),
+        ({"at": [0.1], "every": 0.1}, "not by both"),
+        ({"method": "euler"}, "no method named"),
+        ({"tolerance": -1.0}, "tolerance"),
+    ):
+        with pytest.raises(ValueError, match=why):
+            oscillator.simulate(1, **wrong)
+
+
+def test_starts(oscillator):
+    run = oscillator.simulate(1, start={"x": 0}, rate={"x": 2}, tolerance=1e-12)
+    np.testing.assert_allclose(run["x"], np.sin(2 * run.t), atol=1e-10)
+    further = oscillator.simulate(2, start=run.end, tolerance=1e-12)
+    assert further.t[0] == 1.0
+    np.testing.assert_allclose(further["x"], np.sin(2 * further.t), atol=1e-10)
+    with pytest.raises(ValueError, match="of its own"):
+        oscillator.simulate(2, start=run.end, rate={"x": 1})
+
+
+def driven(t):
+    """m x'' + k x = sin t from x = 1, at rest: ω = 2, F/m = 1/2."""
+    amplitude = 0.5 / (4 - 1)
+    return np.cos(2 * t) + amplitude * (np.sin(t) - 0.5 * np.sin(2 * t))
+
+
+@pytest.mark.parametrize(
+    "force",
+    [
+        "1*N*sin(1*rad/s*t)",
+        lambda t, q, v: math.sin(t),
+    ],
+)
+def test_inputs_are_formulas_or_functions(oscillator, force):
+    run = oscillator.simulate(5, inputs={"force": force}, tolerance=1e-11)
+    np.testing.assert_allclose(run["x"], driven(run.t), atol=1e-9)
+    np.testing.assert_allclose(run["force"], np.sin(run.t), atol=1e-14)
+    assert "force" in run.columns and run.units["force"] == "N"
+    assert not any("formula" in name for name in run.columns)
+
+
+def test_all_inputs_by_one_function(oscillator):
+    for function in (lambda t, q, v: [math.sin(t)], lambda t, q, v: {"force": math.sin(t)}):
+        run = oscillator.simulate(5, inputs=function, tolerance=1e-11)
+        np.testing.assert_allclose(run["x"], driven(run.t), atol=1e-9)
+    # A damper by feedback: x'' + 2 x' + 4 x = 0.
+    run = oscillator.simulate(5, inputs={"force": lambda t, q, v: -4 * v["x"]}, tolerance=1e-11)
+    w = math.sqrt(3)
+    closed = np.exp(-run.t) * (np.cos(w * run.t) + np.sin(w * run.t) / w)
+    np.testing.assert_allclose(run["x"], closed, atol=1e-9)
+
+
+def test_events_are_found_to_rounding(oscillator):
+    def falling(t, q, v):
+        return q["x"]
+
+    falling.direction, falling.terminal = -1, False
+    events = {"zero": "x", "falls": falling, "second": lg.Event("x", "rising", terminal=2)}
+    run = oscillator.simulate(20, events=events, tolerance=1e-12)
+    # cos(2 t) = 0 at (k + 1/2) π/2; it rises for the second time at k = 3.
+    zeros = (np.arange(4) + 0.5) * math.pi / 2
+    np.testing.assert_allclose(run.event("zero").t, zeros, atol=1e-10)
+    np.testing.assert_allclose(run.event("falls").t, zeros[::2], atol=1e-10)
+    assert run.ending == "event second" and run.end.t == pytest.approx(zeros[3], abs=1e-10)
+    assert run.poincare("zero").shape == (4, 2)
+    assert [event.name for event in run.events][:2] == ["zero", "falls"]
+    with pytest.raises(lg.UnknownName):
+        run.event("never")
+    assert oscillator.simulate(0.1, events={"never": "x"}).event("never").t.shape == (0,)
+    with pytest.raises(ValueError, match="crossing"):
+        lg.Event("x", "sideways")
+
+
+def test_a_condition_ends_a_run_at_a_step(oscillator):
+    for stop in ("-x", lambda t, q, v: q["x"] < 0):
+        run = oscillator.simulate(20, stop=stop)
+        assert run.ending == "stop"
+        assert math.pi / 4 < run.end.t < 2
+
+
+def test_the_period_of_a_pendulum(pendulum):
+    # 4 K(k)/ω with k = sin(A/2): the arithmetic-geometric mean of 1 and cos(A/2).
+    a, b = 1.0, math.cos(math.pi / 4)
+    for _ in range(6):
+        a, b = (a + b) / 2, math.sqrt(a * b)
+    period = 2 * math.pi / a * math.sqrt(1 / 9.81)
+    run = pendulum.simulate(10, events={"top": lg.Event("der(theta)", "falling")}, tolerance=1e-12)
+    np.testing.assert_allclose(run.event("top").t[:3], period * np.arange(1, 4), atol=1e-9)
+
+
+def test_taylor_and_stiff_methods(oscillator):
+    for method in ("taylor", "dopri5", "radau5"):
+        run = oscillator.simulate(5, method=method, tolerance=1e-9)
+        np.testing.assert_allclose(run["x"], np.cos(2 * run.t), atol=1e-5)
+
+
+def test_scipy_integrates_the_same_machine(double):
+    scipy = pytest.importorskip("scipy.integrate")
+    solved = scipy.solve_ivp(double.rhs(), (0, 2), double.start.y, method="DOP853", rtol=1e-12, atol=1e-12, vectorized=True)
+    run = double.simulate(2, tolerance=1e-13)
+    # Both within their tolerance, amplified by the motion by some 1e2.
+    np.testing.assert_allclose(solved.y[:, -1], run.end.y, atol=1e-9)
+    ivp = double.simulate(2, events={"down": "theta1"}, tolerance=1e-12).as_ivp()
+    assert ivp.success and ivp.status == 0 and ivp.y.shape == (4, 1001)
+    np.testing.assert_allclose(ivp.sol(2.0), ivp.y[:, -1])
+    assert len(ivp.t_events) == 1 and ivp.y_events[0].shape == (len(ivp.t_events[0]), 4)
+
+
+@pytest.mark.skipif(command() is None, reason="the command `lagrangian` is not built")
+@pytest.mark.parametrize("name", ["double_pendulum", "four_bar", "block_on_incline", "contacts/woodpecker"])
+def test_runs_are_those_of_the_command(machines, name, tmp_path):
+    path = machines / f"{name}.machine"
+    table = tmp_path / "run.csv"
+    until = 0.5
+    said = subprocess.run(
+        [command(), "simulate", str(path), "--until", str(until), "--every", "0.01", "--out", str(table), "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    document = json.loads(said.stdout)
+    run = lg.load(path).simulate(until, every=0.01)
+    assert dict(zip(run.q.names, run.end.q.tolist())) == document["q"]
+    assert run.statistics["steps"] == document["steps"]
+    run.save(tmp_path / "mine.csv")
+    theirs, mine = table.read_text().splitlines(), (tmp_path / "mine.csv").read_text().splitlines()
+    assert mine[0] == theirs[0]
+    numbers = [np.array([line.split(",") for line in lines[1:]], dtype=float) for lines in (theirs, mine)]
+    np.testing.assert_array_equal(*numbers)
+
+
+def test_tables(oscillator, tmp_path):
+    run = oscillator.simulate(1, every=0.1)
+    pandas = pytest.importorskip("pandas")
+    frame = run.to_pandas()
+    assert frame.index.name == "t" and frame["x"].iloc[-1] == run["x"][-1]
+    pyarrow = pytest.importorskip("pyarrow")
+    table = run.to_arrow()
+    assert table.schema.field("pull").metadata == {b"unit": b"N"}
+    run.save(tmp_path / "run.parquet")
+    assert pyarrow.parquet.read_table(tmp_path / "run.parquet") == table
+    run.save(tmp_path / "run.npz")
+    assert np.load(tmp_path / "run.npz")["x"].tolist() == run["x"].tolist()
+    run.save(tmp_path / "run.csv")
+    read = pandas.read_csv(tmp_path / "run.csv")
+    assert read["pull [N]"].tolist() == run["pull"].tolist()
+    assert run.to_numpy(["x", "pull"]).shape == (11, 2)
+    before = sorted(os.listdir(tmp_path))
+    with pytest.raises(ValueError, match="ending"):
+        run.save(tmp_path / "run.xlsx")
+    assert sorted(os.listdir(tmp_path)) == before
+
+
+def test_the_spectrum_of_a_sine(oscillator):
+    run = oscillator.simulate(10 * math.pi, every=math.pi / 100, tolerance=1e-11)
+    frequencies, amplitudes = run.spectrum("x")
+    peak = int(np.argmax(amplitudes))
+    # ten periods of 1/π Hz, but for the one sample that ends the run
+    assert frequencies[peak] == pytest.approx(1 / math.pi, rel=2e-3)
+    assert amplitudes[peak] == pytest.approx(1.0, abs=1e-2)
+    with pytest.raises(ValueError, match="equally spaced"):
+        oscillator.simulate(1, at=[0, 0.1, 0.5]).spectrum("x")
+
+
+def test_runs_pickle(oscillator):
+    run = oscillator.simulate(5, inputs={"force": "1*N*sin(1*rad/s*t)"}, events={"zero": "x"})
+    again = pickle.loads(pickle.dumps(run))
+    np.testing.assert_array_equal(again.q, run.q)
+    assert again.events[0].t == run.events[0].t
+
+
+def test_threads_share_a_machine(double):
+    results = {}
+
+    def work(k):
+        results[k] = double.simulate(3, start={"theta1": 0.1 * k}).end.y.tolist()
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for k in range(6):
+        assert results[k] == double.simulate(3, start={"theta1": 0.1 * k}).end.y.tolist()
+
+
+def test_progress_is_told_and_may_end_the_run(double):
+    told = []
+    double.simulate(400, progress=lambda *now: told.append(now), dense=False)
+    assert told and all(0 <= fraction <= 1 for fraction, _, _ in told)
+
+    def enough(fraction, t, steps):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        double.simulate(1e6, progress=enough, dense=False, energy=False)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_ctrl_c_ends_a_run(machines):
+    program = (
+        "import lagrangian as lg\n"
+        f"m = lg.load({str(machines / 'double_pendulum.machine')!r})\n"
+        "print('ready', flush=True)\n"
+        "m.simulate(1e6, dense=False, energy=False)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "ready\n"
+    time.sleep(0.5)
+    child.send_signal(signal.SIGINT)
+    _, said = child.communicate(timeout=10)
+    assert child.returncode != 0 and "KeyboardInterrupt" in said
