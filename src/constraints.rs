@@ -704,6 +704,9 @@ impl<V: Vector> Constraints<V> {
         let choice = self.best_at(system, t, q)?;
         in_workspace(system, t, q.as_slice().len(), |workspace| {
             reactions_along(system, workspace, &choice, (t, q, v, u), &mut z)?;
+            if workspace.is_lent {
+                reactions_of_inertia(system, workspace, choice.rank, (t, q, v, u), &mut z);
+            }
             multipliers.fill(0.0);
             workspace.least_norm(multipliers, |j| choice.row(j), choice.rank);
             Ok(())
@@ -773,6 +776,40 @@ fn reactions_along<S: System>(
         workspace.row[j] -= dot(along, z.as_slice());
     }
     Ok(())
+}
+
+/// Where `M` is singular and the metric is that of `M + Gᵀ W G`, reactions along the basis are those of accelerations
+/// that meet this inertia; put into `workspace.row` in place of them are `M a − f`. `z` is used up.
+fn reactions_of_inertia<S: System>(
+    system: &S,
+    workspace: &mut Workspace<'_, S::Matrix>,
+    rank: usize,
+    (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
+    z: &mut S::Vector,
+) {
+    let n = workspace.n;
+    let a = z.as_mut_slice();
+    for (along, row) in workspace.basis.chunks_exact(n).zip(&workspace.row[..rank]) {
+        a.iter_mut()
+            .zip(along)
+            .for_each(|(a, along)| *a += row * along);
+    }
+    backward(workspace.metric.as_slice(), a);
+    let mut mass = S::Matrix::zeros(n * n);
+    system.mass_matrix(t, q, &mut mass);
+    let mut reactions = q.zeros_like();
+    system.forces(t, q, v, u, &mut reactions);
+    let rows = mass.as_slice().chunks_exact(n);
+    for (reaction, row) in reactions.as_mut_slice().iter_mut().zip(rows) {
+        *reaction = dot(row, a) - *reaction;
+    }
+    forward(workspace.metric.as_slice(), reactions.as_mut_slice());
+    for (row, along) in workspace.row[..rank]
+        .iter_mut()
+        .zip(workspace.basis.chunks_exact(n))
+    {
+        *row = dot(along, reactions.as_slice());
+    }
 }
 
 /// `R⁻ᵀ row` in place, for the first `count` rows of `rank`.

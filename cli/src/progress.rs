@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::numbers::shortest;
+
 /// Until the line on a terminal appears, and between two of its states.
 const APPEARS: Duration = Duration::from_millis(1000);
 const BETWEEN: Duration = Duration::from_millis(200);
@@ -115,6 +117,7 @@ fn said(work: &Work, began: Instant) -> String {
     let steps = STEPS.load(Ordering::Relaxed);
     let percent = 100.0 * part();
     // As many digits as two lines in a row need to differ.
+    let until = shortest(until);
     format!("{what}: t = {t:.6e} s of {until} s, {percent:.1} %, {steps} steps, {seconds} s")
 }
 

@@ -243,6 +243,7 @@ pub fn assign(
 /// # Errors
 /// The call is at fault.
 pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure> {
+    check_kept_once(keep)?;
     for name in kept_names(keep).unwrap_or_default() {
         let rate = name.strip_prefix("der(");
         let rate = rate.and_then(|rate| rate.strip_suffix(')'));
@@ -255,6 +256,21 @@ pub fn check_kept(start: &State<Named>, keep: &call::Keep) -> Result<(), Failure
         }
     }
     Ok(())
+}
+
+/// Whether `--keep` names everything once.
+///
+/// # Errors
+/// The call is at fault.
+pub fn check_kept_once(keep: &call::Keep) -> Result<(), Failure> {
+    let names = &keep.names;
+    let mut repeated = names.iter().enumerate();
+    match repeated.find(|(k, name)| names[..*k].contains(name)) {
+        None => Ok(()),
+        Some((_, name)) => Err(Failure::Call(format!(
+            "--keep names `{name}` more than once"
+        ))),
+    }
 }
 
 /// A run that keeps what a call says of its start, if it says anything.

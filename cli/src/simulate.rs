@@ -78,7 +78,7 @@ impl Trouble<'_> {
 
     /// That the user ended the run, in words.
     fn interruption(&self, run: &Run, until: f64) -> Option<String> {
-        let t = run.end().t;
+        let (t, until) = (shortest(run.end().t), shortest(until));
         self.is_interrupted.then(|| {
             format!(
                 "the run was interrupted at t = {t} s, of {until} s; everything here ends there"
@@ -317,8 +317,8 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, conta
     output::line(format_args!(
         "{}: t = {} s to {} s, {}",
         machine.name(),
-        start.t,
-        end.t,
+        shortest(start.t),
+        shortest(end.t),
         method.tableau.title
     ));
     output::line(format_args!(

@@ -15,7 +15,7 @@ use lagrangian_spec::source::{Disk, Files, Sources};
 use lagrangian_sweep::plan::{Law, SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
-    Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all,
+    Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all, samples_beside,
 };
 use lagrangian_symbolic::Dag;
 use serde_json::json;
@@ -24,7 +24,7 @@ use crate::call::{self, Assignment};
 use crate::diagnostics;
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::{self, Destination, TABLE, keep_apart};
+use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
 use crate::reading;
 use crate::simulate;
@@ -67,7 +67,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
     };
     if let Some(path) = &call.plan {
         let to = Destination::new("--plan", path, &["json"])?;
-        keep_apart([&to], &[(&call.spec.path, "the spec")])?;
+        keep_from(call, &plan, [&to])?;
         let sweep = made(plan, engine)?;
         plan = sweep.plan().clone();
         plan.chunk = chunk_length(&sweep);
@@ -86,7 +86,7 @@ pub fn run(call: &call::Sweep) -> Result<(), Failure> {
         }
         return Ok(());
     }
-    let out = Out::of(call)?;
+    let out = Out::of(call, &plan)?;
     let is_part = call.chunk.is_some();
     let folder = Folder::open(&out.folder, out.format, is_part).map_err(refused)?;
     let known = match call.fresh && !is_part {
@@ -245,20 +245,14 @@ fn one_chunk(sweep: &Sweep, folder: &Folder, chunk: u64, json: bool) -> Result<(
 }
 
 impl Out {
-    fn of(call: &call::Sweep) -> Result<Out, Failure> {
+    fn of(call: &call::Sweep, plan: &Plan) -> Result<Out, Failure> {
         let Some(path) = &call.out else {
             return Err(Failure::Call(
                 "where do the rows go? --out FILE.csv, FILE.parquet or FOLDER".into(),
             ));
         };
-        let ending = path.extension().and_then(|ending| ending.to_str());
-        if !matches!(ending, Some("csv" | "parquet")) {
-            if path.is_file() {
-                return Err(Failure::Call(format!(
-                    "--out {}: it is a file; rows go to a `.csv`, a `.parquet` or a folder",
-                    path.display()
-                )));
-            }
+        let is_folder = path.as_os_str().as_encoded_bytes().ends_with(b"/") || path.is_dir();
+        if is_folder || (path.extension().is_none() && !path.exists()) {
             return Ok(Out {
                 folder: path.clone(),
                 format: match Format::Parquet.is_here() {
@@ -269,8 +263,18 @@ impl Out {
                 shown: path.clone(),
             });
         }
+        if !ending_is_one_of(path, TABLE) {
+            return Err(Failure::Call(format!(
+                "--out {}: rows go to a `.csv`, a `.parquet` or a folder; the name of a new folder with a dot in it ends with `/`",
+                path.display()
+            )));
+        }
         let to = Destination::new("--out", path, TABLE)?;
-        keep_apart([&to], &[(&call.spec.path, "the spec")])?;
+        let samples = match plan.every {
+            Some(_) => Some(Destination::new("--out", &samples_beside(path), TABLE)?),
+            None => None,
+        };
+        keep_from(call, plan, [&to].into_iter().chain(&samples))?;
         let Some(file) = to.file() else {
             return Err(Failure::Call(format!(
                 "--out {}: rows are joined from chunks beside the file, which a device has no place for",
@@ -289,6 +293,28 @@ impl Out {
             shown: path.clone(),
         })
     }
+}
+
+/// Refuses to write a file that the sweep is made from: its spec, one that this extends, or a table.
+fn keep_from<'a>(
+    call: &call::Sweep,
+    plan: &Plan,
+    destinations: impl IntoIterator<Item = &'a Destination>,
+) -> Result<(), Failure> {
+    let bases = plan.spec.files.iter().map(|file| Path::new(&file.name));
+    let mut read: Vec<(&Path, &str)> = vec![(&call.spec.path, "the spec")];
+    read.extend(bases.map(|path| (path, "which the spec extends")));
+    read.extend(
+        call.table
+            .iter()
+            .map(|path| (path.as_path(), "the table of runs")),
+    );
+    let inputs = call
+        .inputs
+        .iter()
+        .filter(|input| input.value.ends_with(".csv"));
+    read.extend(inputs.map(|input| (Path::new(&input.value), "the table of an input")));
+    keep_apart(destinations, &read)
 }
 
 /// The plan made ready.
@@ -448,6 +474,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
 
 /// Whether `--keep` names what is there.
 fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
+    reading::check_kept_once(keep)?;
     for name in reading::kept_names(keep).unwrap_or_default() {
         let rate = name.strip_prefix("der(");
         let coordinate = rate.and_then(|rate| rate.strip_suffix(')')).unwrap_or(name);

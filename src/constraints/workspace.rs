@@ -11,6 +11,8 @@ pub(super) struct Workspace<'r, M> {
     pub m: usize,
     /// `L`, lower triangle, row after row.
     pub metric: M,
+    /// Whether that is the factor of `M + Gᵀ W G`, since `M` alone has none.
+    pub is_lent: bool,
     /// `G`, row after row; while rows are chosen, `yₖ` relative to their lengths.
     pub matrix: &'r mut [f64],
     /// Orthonormal vectors that span the chosen `yₖ`.
@@ -40,31 +42,34 @@ impl<M: Vector> Workspace<'_, M> {
         let n = self.n;
         system.mass_matrix(t, q, &mut self.metric);
         self.fix(fixed);
+        self.is_lent = false;
         if cholesky(self.metric.as_mut_slice(), self.lengths).is_ok() {
             return Ok(());
         }
         // Something has no inertia of its own; perhaps the constraints hold it.
+        self.is_lent = true;
         system.mass_matrix(t, q, &mut self.metric);
         self.fix(fixed);
         let metric = self.metric.as_mut_slice();
-        let weights = &mut *self.row;
-        weights.fill(0.0);
+        let is_weighed = &mut *self.row;
+        is_weighed.fill(0.0);
         loop {
+            // What was there before this round counts, so that the order of rows makes no difference.
+            let inertias = &mut *self.lengths;
+            for (inertia, entry) in inertias.iter_mut().zip(metric.iter().step_by(n + 1)) {
+                *inertia = *entry;
+            }
+            let greatest = inertias.iter().fold(0.0, |a: f64, b| a.max(*b));
             let mut found = false;
-            for (weight, row) in weights.iter_mut().zip(self.matrix.chunks_exact(n)) {
-                if *weight > 0.0 {
-                    continue;
+            for lends in [Lends::WhatIsPushed, Lends::WhatThereIs(greatest)] {
+                // Rows that move nothing that has inertia come last.
+                if found {
+                    break;
                 }
-                // As much inertia along the constraint as there is in any of its coordinates.
-                for (j, g) in row.iter().enumerate().filter(|(_, g)| **g != 0.0) {
-                    *weight = weight.max(metric[j * n + j] / (g * g));
-                }
-                if *weight > 0.0 && weight.is_finite() {
-                    found = true;
-                    for i in 0..n {
-                        for j in 0..n {
-                            metric[i * n + j] += *weight * row[i] * row[j];
-                        }
+                for (is_weighed, row) in is_weighed.iter_mut().zip(self.matrix.chunks_exact(n)) {
+                    if *is_weighed == 0.0 && add_square(metric, row, lends.weight(row, inertias)) {
+                        *is_weighed = 1.0;
+                        found = true;
                     }
                 }
             }
@@ -186,6 +191,50 @@ impl<M: Vector> Workspace<'_, M> {
     }
 }
 
+/// How much inertia a constraint lends to the coordinates that have none.
+#[derive(Clone, Copy)]
+enum Lends {
+    /// As much as a push along the constraint meets: so no coordinate that has inertia is given more than it has, however
+    /// little of the row it is.
+    WhatIsPushed,
+    /// This much, or any.
+    WhatThereIs(f64),
+}
+
+impl Lends {
+    /// The weight of `g gᵀ`; not finite if nothing of the row has inertia.
+    fn weight(self, g: &[f64], inertias: &[f64]) -> f64 {
+        match self {
+            Lends::WhatIsPushed => {
+                let pushed = g
+                    .iter()
+                    .zip(inertias)
+                    .filter(|(_, inertia)| **inertia > 0.0);
+                let yields: f64 = pushed.map(|(g, inertia)| g * g / inertia).sum();
+                1.0 / yields
+            }
+            Lends::WhatThereIs(inertia) => {
+                let any = if inertia > 0.0 { inertia } else { 1.0 };
+                any / dot(g, g)
+            }
+        }
+    }
+}
+
+/// Adds `weight g gᵀ` to a matrix; says whether it could.
+fn add_square(matrix: &mut [f64], g: &[f64], weight: f64) -> bool {
+    let n = g.len();
+    if !(weight > 0.0 && weight.is_finite()) {
+        return false;
+    }
+    for i in 0..n {
+        for j in 0..n {
+            matrix[i * n + j] += weight * g[i] * g[j];
+        }
+    }
+    true
+}
+
 /// Hands out the workspace of the constraints, in parts.
 pub(super) fn in_workspace<S: System, R>(
     system: &S,
@@ -208,6 +257,7 @@ pub(super) fn in_workspace<S: System, R>(
             n,
             m,
             metric: S::Matrix::zeros(n * n),
+            is_lent: false,
             matrix: part(m * n)?,
             basis: part(rank * n)?,
             triangle: part(rank * rank)?,

@@ -15,3 +15,4 @@ mod report;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;
+mod without_inertia;

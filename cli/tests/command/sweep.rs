@@ -652,3 +652,72 @@ fn what_makes_no_sense_is_refused_before_the_first_run() {
         );
     }
 }
+
+/// Nothing that a sweep is made from is overwritten, by whatever name, and no file has an ending that says something else.
+#[test]
+fn what_a_sweep_reads_it_does_not_write() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let files = [
+        ("oscillator.machine", OSCILLATOR),
+        (
+            "top.machine",
+            "machine Top extends \"oscillator.machine\" { parameters { m: kg = 2 } }\n",
+        ),
+        ("sets.csv", "k\n1\n2\n"),
+        ("push.csv", "t,push\n0,0\n1,1\n"),
+        ("rows.samples.csv", "k\n1\n2\n"),
+    ];
+    for (name, text) in files {
+        std::fs::write(at(name), text).expect("a file");
+    }
+    std::fs::hard_link(at("oscillator.machine"), at("base.csv")).expect("a link");
+    let path = |name: &str| at(name).to_str().expect("text").to_owned();
+    let input = format!("push={}", path("push.csv"));
+    let table = path("sets.csv");
+    let samples = path("rows.samples.csv");
+    for (out, arguments, words) in [
+        ("sets.csv", &["--table", &table][..], "the table of runs"),
+        (
+            "rows.csv",
+            &["--table", &samples, "--record", "every=0.1"],
+            "the table of runs",
+        ),
+        (
+            "push.csv",
+            &["--vary", "k=1,2", "--input", &input],
+            "the table of an input",
+        ),
+        ("base.csv", &["--vary", "k=1,2"], "which the spec extends"),
+        (
+            "rows.json",
+            &["--vary", "k=1,2"],
+            "rows go to a `.csv`, a `.parquet` or a folder",
+        ),
+        (
+            "rows.csv.gz",
+            &["--vary", "k=1,2"],
+            "rows go to a `.csv`, a `.parquet` or a folder",
+        ),
+    ] {
+        let arguments = [&["--until", "1"], arguments].concat();
+        let said = sweep(&path("top.machine"), &at(out), &arguments);
+        assert_eq!(said.status, 2, "{out}: {}{}", said.out, said.error);
+        assert!(said.error.contains(words), "{out}: {}", said.error);
+    }
+    for (name, text) in files {
+        assert_eq!(
+            std::fs::read_to_string(at(name)).expect("a file"),
+            text,
+            "{name}"
+        );
+    }
+    assert!(!at("rows.json").exists() && !at("rows.csv.gz").exists());
+    // The case of an ending says nothing, and a slash makes a folder of any name.
+    let vary = ["--until", "1", "--vary", "k=1,2"];
+    for (out, made) in [("ROWS.CSV", "ROWS.CSV"), ("a.b/", "a.b/plan.json")] {
+        let said = sweep(&path("top.machine"), Path::new(&path(out)), &vary);
+        assert_eq!(said.status, 0, "{out}: {}", said.error);
+        assert!(at(made).is_file(), "{out}");
+    }
+}
