@@ -15,18 +15,17 @@ def number_array(given: Any, what: str) -> np.ndarray:
     array = np.asarray(given)
     if array.dtype.kind not in "fiub":
         raise TypeError(f"{what} is an array of {array.dtype}, wanted numbers")
-    made: np.ndarray = np.asarray(array, dtype=np.float64)
-    return made
+    return np.asarray(array, dtype=np.float64)
 
 
 def vectors(given: Any, names: Tuple[str, ...], default: Any, what: str, kind: str) -> np.ndarray:
     """(*S, n) of an array, or of a mapping from names to numbers or arrays; what it leaves out is the default."""
     n = len(names)
-    default = np.asarray(default, dtype=np.float64)
+    usual: np.ndarray = np.asarray(default, dtype=np.float64)
     if given is None:
-        return default
+        return usual
     if isinstance(given, Mapping):
-        columns: List[Any] = [default[i] for i in range(n)]
+        columns: List[Any] = [usual[i] for i in range(n)]
         for is_member in (False, True):
             for name, value in given.items():
                 if ("[" in name) is not is_member:

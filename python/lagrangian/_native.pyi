@@ -1,4 +1,4 @@
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ _Column = Tuple[str, Optional[str], Any]
 
 __version__: str
 
+@final
 class Program:
     name: str
     docs: str
@@ -48,6 +49,7 @@ class Machine:
         out: Optional[_Array] = ...,
     ) -> _Array: ...
 
+@final
 class Run:
     start: _States
     end: _States
@@ -62,6 +64,7 @@ class Run:
     def energy(self) -> Optional[Dict[str, float]]: ...
     def objection(self) -> Optional[str]: ...
 
+@final
 class Stop:
     def __new__(cls) -> Stop: ...
     def set(self) -> None: ...
@@ -103,6 +106,6 @@ def linearize(
     v: Sequence[float],
     u: Sequence[float],
 ) -> Tuple[_Array, _Array]: ...
-def simulate(machine: Machine, settings: Dict[str, Any]) -> Tuple[Run, Optional[str]]: ...
+def simulate(of: Machine, settings: Dict[str, Any]) -> Tuple[Run, Optional[str]]: ...
 def plan(text: str) -> Tuple[str, int, int, Optional[str]]: ...
 def run_chunk(text: str, chunk: int, stop: Optional[Stop] = ...) -> Tuple[List[_Column], Optional[List[_Column]]]: ...
