@@ -1,5 +1,7 @@
 //! Sums that remember what rounding took from them.
 
+use core::ops::{Add, Sub};
+
 /// A sum and what rounding took from it: `high + low` is the value, `|low|` at most half a unit in
 /// the last place of `high`.
 ///
@@ -20,9 +22,9 @@ impl Sum {
     }
 }
 
-/// `a + b` rounded, and exactly what rounding took from it.
+/// `a + b` rounded, and exactly what rounding took from it; of double-doubles, nearly so.
 #[inline(always)]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_sum<N: Copy + Add<Output = N> + Sub<Output = N>>(a: N, b: N) -> (N, N) {
     let sum = a + b;
     let b_seen = sum - a;
     let a_seen = sum - b_seen;

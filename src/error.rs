@@ -7,7 +7,7 @@ mod of_specs;
 pub use of_specs::{Diagnostic, MissingParameters, NoMachineCode, Note};
 
 use core::fmt::{self, Display};
-use std::string::String;
+use std::string::{String, ToString};
 
 use crate::{ContactTrouble, Pivot, Quantity, StepError, System};
 
@@ -269,6 +269,11 @@ pub enum Error {
     NoEnergyBalance,
     /// A time within the run was asked for, but its steps were not kept (`forget_steps`).
     StepsForgotten,
+    /// An [`ExplicitStepper`](crate::ExplicitStepper) or an [`Ensemble`](crate::Ensemble) cannot do what is asked of it.
+    Stepper {
+        /// Why, as its [`StepError`] says it.
+        message: String,
+    },
 }
 
 /// A constraint that a start cannot meet while some of its numbers are kept.
@@ -381,6 +386,12 @@ impl Error {
             StepError::OutsideStep { t, from, to } => Self::OutsideRun { t, from, to },
             StepError::NoWorkspace { t } => Self::NoWorkspaceForConstraints { t },
             StepError::Changed { t } => Self::InputsChanged { t },
+            StepError::NotExplicit { .. }
+            | StepError::FewDigits { .. }
+            | StepError::NotFree { .. }
+            | StepError::TooManySteps { .. } => Self::Stepper {
+                message: error.to_string(),
+            },
             StepError::StepTooSmall {
                 coordinate,
                 t,
@@ -731,6 +742,7 @@ impl Display for Error {
                     "the steps of this run were not kept; leave out `forget_steps()`"
                 )
             }
+            Self::Stepper { message } => write!(f, "{message}"),
         }
     }
 }

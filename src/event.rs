@@ -19,6 +19,7 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
+use crate::callbacks::Watched;
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
 use crate::observation::{Observation, Sight};
@@ -60,15 +61,8 @@ pub struct Event<C> {
     pub state: State<C>,
 }
 
-/// A function of the state that a user gave.
-pub(crate) type OfState<'a, M, T> = Box<dyn FnMut(&State<Coordinates<M>>) -> T + 'a>;
-
 /// Everything about a machine in a state, if it is asked for.
 pub(crate) type Observe<'x, M> = &'x dyn Fn() -> Result<Observation<M>, Error>;
-
-/// A function that is watched: of a state, and of what can be observed in it.
-pub(crate) type Watched<'a, M> =
-    Box<dyn FnMut(&State<Coordinates<M>>, Observe<'_, M>) -> Result<f64, Error> + 'a>;
 
 /// An event to watch for.
 pub(crate) struct Watch<'a, M: Machine> {
@@ -76,7 +70,7 @@ pub(crate) struct Watch<'a, M: Machine> {
     pub crossing: Crossing,
     /// How many more times it may happen: the last of them ends the run. Any number, if there is none.
     pub left: Option<usize>,
-    pub function: Watched<'a, M>,
+    pub function: Box<dyn Watched<'a, M> + 'a>,
     /// The sign that the function has had last, 0 from where it was zero.
     pub side: f64,
     /// What the function must exceed before its sign counts, after it was zero to rounding.
@@ -85,6 +79,16 @@ pub(crate) struct Watch<'a, M: Machine> {
     pub begun: bool,
     /// Whether the run starts from this very event.
     pub at_zero: bool,
+}
+
+impl<M: Machine> Clone for Watch<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            name: self.name.clone(),
+            function: self.function.clone(),
+            ..*self
+        }
+    }
 }
 
 /// A change of sign within the last step.

@@ -292,7 +292,7 @@ impl Implicit {
     fn estimate_again<V: Vector>(&mut self, row: &Row, h: f64, k: &[V; MAX_STAGES]) {
         let [positions, rates] = &mut self.error;
         for i in 0..self.n {
-            let [[position], [velocity]] = weigh::<1, V>(row, k, i);
+            let [[position], [velocity]] = weigh::<1, _, _>(row, k, i);
             positions[i] = h * h * position + self.change[0][i];
             rates[i] = h * velocity + self.change[1][i];
         }

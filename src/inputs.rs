@@ -80,6 +80,52 @@ impl<S: System> InputLaw<S> for HeldInputs<S::Inputs> {
     }
 }
 
+/// Inputs that are set in whatever way: of one type for all laws, at the price of a call through a pointer at each evaluation. Copies
+/// share the law.
+#[cfg(feature = "std")]
+pub struct AnyInputs<'a, S: System>(std::sync::Arc<dyn InputLaw<S> + Send + Sync + 'a>);
+
+#[cfg(feature = "std")]
+impl<'a, S: System> AnyInputs<'a, S> {
+    /// The inputs of this law.
+    pub fn new(law: impl InputLaw<S> + Send + Sync + 'a) -> Self {
+        Self(std::sync::Arc::new(law))
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System> Default for AnyInputs<'_, S> {
+    /// The defaults of the description.
+    fn default() -> Self {
+        Self::new(DefaultInputs)
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System> Clone for AnyInputs<'_, S> {
+    fn clone(&self) -> Self {
+        Self(std::sync::Arc::clone(&self.0))
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System> core::fmt::Debug for AnyInputs<'_, S> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("AnyInputs").finish_non_exhaustive()
+    }
+}
+
+#[cfg(feature = "std")]
+impl<S: System> InputLaw<S> for AnyInputs<'_, S> {
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        self.0.set(system, t, q, v, inputs);
+    }
+
+    fn is_constant(&self) -> bool {
+        self.0.is_constant()
+    }
+}
+
 /// The law of a simulation, or what a sampled controller holds in its place.
 #[cfg(feature = "std")]
 #[derive(Debug)]

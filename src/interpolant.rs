@@ -81,7 +81,7 @@ impl<V: Vector> Interpolant<V> {
             let c = tableau.c[stage];
             // The stages are kept where coefficients are not yet set.
             let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
-            stage_state((&scheme.rows[stage], c, h), [q0, v0], k, [q, v]);
+            stage_state((&scheme.rows[stage], c * h, h), [q0, v0], k, [q, v]);
             accelerations(start.high + (start.low + c * h), q, v, &mut k[stage])?;
         }
 
@@ -95,7 +95,7 @@ impl<V: Vector> Interpolant<V> {
                 interpolant.v[power].as_mut_slice()[i] = v[power];
             }
             for (row, power) in scheme.dense[..scheme.dense_length].iter().zip(4..) {
-                let [[position], [velocity]] = weigh::<1, V>(row, k, i);
+                let [[position], [velocity]] = weigh::<1, _, _>(row, k, i);
                 interpolant.q[power].as_mut_slice()[i] = h * h * position;
                 interpolant.v[power].as_mut_slice()[i] = h * velocity;
             }

@@ -195,7 +195,9 @@ pub trait Batched<const N: usize>: System + Copy {
 }
 
 /// `[Lanes<N>; D]`: a row of `N` lanes for each of D coordinates.
-pub trait LaneVector<const N: usize>: Copy + AsRef<[Lanes<N>]> + AsMut<[Lanes<N>]> {
+pub trait LaneVector<const N: usize>:
+    Copy + Vector<Lanes<N>> + AsRef<[Lanes<N>]> + AsMut<[Lanes<N>]>
+{
     /// One number for each coordinate.
     type Vector: Vector;
 

@@ -55,10 +55,16 @@ extern crate std;
 
 mod adapted;
 mod balance;
+#[cfg(feature = "std")]
+mod callbacks;
 mod compensated;
 mod constraints;
 #[cfg(feature = "std")]
 mod contact;
+mod control;
+#[doc(hidden)]
+pub mod emitted;
+mod explicit;
 mod forward;
 mod friction;
 #[cfg(feature = "std")]
@@ -68,12 +74,12 @@ mod interpolant;
 mod lanes;
 mod math;
 pub mod methods;
-#[doc(hidden)]
-pub mod series;
 mod stages;
 mod step_error;
+mod step_number;
 mod stepper;
 mod system;
+mod system_in;
 #[cfg(feature = "std")]
 mod taylor;
 mod tolerance;
@@ -120,20 +126,25 @@ mod solution;
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
+pub use explicit::{Arrival, Ensemble, ExplicitStepper, ExplicitStepperBuilder, Trajectory};
 pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
     multipliers_with_friction,
 };
+#[cfg(feature = "std")]
+pub use inputs::AnyInputs;
 pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method, TAYLOR};
 pub use step_error::StepError;
+pub use step_number::{Real, StepNumber};
 pub use stepper::{ControlledStepper, Stepper, StepperBuilder, Work};
 pub use system::{
     Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, MOST_CONTACTS, Machine,
     Outputs, Pivot, Quantity, Singular, Staged, State, System,
 };
+pub use system_in::{MachineIn, SystemIn};
 pub use tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 pub use unilateral::{
     Compliance, ContactTrouble, ImpactLaw, ImpactOrder, Painleve, UnilateralContact,

@@ -608,9 +608,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         if let Some(steps) = &mut self.record.steps {
             steps.push(&self.stepper);
         }
-        if let Some(progress) = &mut self.callbacks.progress {
+        if let Some(progress) = &self.callbacks.progress {
             let t = self.stepper.t();
-            progress(Progress {
+            (progress.lock())(Progress {
                 t,
                 fraction: (t - self.start) / (self.until - self.start),
                 steps: self.stepper.work().steps,
@@ -629,9 +629,9 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             callbacks,
             ..
         } = self;
-        match &mut callbacks.observer {
+        match &callbacks.observer {
             None => Ok(()),
-            Some(observer) => observer(&mut Within {
+            Some(observer) => (observer.lock())(&mut Within {
                 model,
                 stepper,
                 interpolant,

@@ -4,9 +4,10 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::event::{OfState, Watch};
+use crate::callbacks::{Condition, Controller, Shared};
+use crate::event::Watch;
 use crate::methods::Method;
-use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
+use crate::{Coordinates, Error, Machine, State, StepMotion};
 
 /// All that a run needs beside its start.
 pub(crate) struct Task<'a, M: Machine, L> {
@@ -24,6 +25,15 @@ pub(crate) enum Of<'a, M: Machine> {
     Machine(&'a M),
     /// The equations of motion of a run that was made.
     System(M::System),
+}
+
+impl<M: Machine<System: Clone>> Clone for Of<'_, M> {
+    fn clone(&self) -> Self {
+        match self {
+            Self::Machine(machine) => Self::Machine(machine),
+            Self::System(system) => Self::System(system.clone()),
+        }
+    }
 }
 
 /// The end of the run that a simulation goes on with.
@@ -62,8 +72,8 @@ pub(crate) struct Settings {
 /// What a simulation was told, in functions.
 pub(crate) struct Callbacks<'a, M: Machine> {
     pub watches: Vec<Watch<'a, M>>,
-    pub progress: Option<Box<dyn FnMut(Progress) + 'a>>,
-    pub stop: Option<OfState<'a, M, bool>>,
+    pub progress: Option<Shared<dyn FnMut(Progress) + Send + 'a>>,
+    pub stop: Option<Box<dyn Condition<'a, M> + 'a>>,
     pub sampled: Option<Sampled<'a, M>>,
     pub streams: Vec<Stream<'a, M>>,
     pub observer: Option<Observer<'a, M>>,
@@ -77,7 +87,7 @@ pub(crate) struct Stream<'a, M: Machine> {
     pub count: usize,
     /// When the last of them was.
     pub last: f64,
-    pub observer: OfState<'a, M, ()>,
+    pub observer: Shared<dyn FnMut(&State<Coordinates<M>>) + Send + 'a>,
 }
 
 impl<M: Machine> Stream<'_, M> {
@@ -91,7 +101,7 @@ impl<M: Machine> Stream<'_, M> {
     pub fn take(&mut self, state: &State<Coordinates<M>>) {
         self.count += 1;
         self.last = state.t;
-        (self.observer)(state);
+        (self.observer.lock())(state);
     }
 
     /// Shows the end of a run, if that was not shown.
@@ -103,7 +113,39 @@ impl<M: Machine> Stream<'_, M> {
 }
 
 /// What looks at each step.
-pub(crate) type Observer<'a, M> = Box<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a>;
+pub(crate) type Observer<'a, M> =
+    Shared<dyn FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + Send + 'a>;
+
+impl<M: Machine> Clone for Callbacks<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            watches: self.watches.clone(),
+            progress: self.progress.clone(),
+            stop: self.stop.clone(),
+            sampled: self.sampled.clone(),
+            streams: self.streams.clone(),
+            observer: self.observer.clone(),
+        }
+    }
+}
+
+impl<M: Machine> Clone for Stream<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            observer: self.observer.clone(),
+            ..*self
+        }
+    }
+}
+
+impl<M: Machine> Clone for Sampled<'_, M> {
+    fn clone(&self) -> Self {
+        Self {
+            controller: self.controller.clone(),
+            ..*self
+        }
+    }
+}
 
 impl<M: Machine> Default for Callbacks<'_, M> {
     fn default() -> Self {
@@ -143,11 +185,8 @@ pub(crate) struct Sampled<'a, M: Machine> {
     pub period: f64,
     /// How long after a look what it sets begins to act, in s.
     pub delay: f64,
-    pub controller: Controller<'a, M>,
+    pub controller: Box<dyn Controller<'a, M> + 'a>,
 }
-
-/// What looks at a state and sets inputs.
-pub(crate) type Controller<'a, M> = Box<dyn FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a>;
 
 impl<M: Machine> Sampled<'_, M> {
     /// Whether it can be followed in a run from `start` to `until`.

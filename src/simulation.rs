@@ -4,8 +4,9 @@ use std::boxed::Box;
 use std::vec::Vec;
 
 use crate::balance::{EnergyIntegrals, NoBalance};
-use crate::event::{Crossing, Watch, Watched};
-use crate::inputs::{DefaultInputs, InputFunction, InputLaw};
+use crate::callbacks::{Shared, Watched};
+use crate::event::{Crossing, Observe, Watch};
+use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw};
 use crate::methods::Method;
 use crate::observation::Observation;
 use crate::run;
@@ -14,6 +15,9 @@ use crate::solution::{Ending, Solution};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
 /// A run to be made: machine, end, tolerance, and what to watch for.
+///
+/// It can be copied, and sent to another thread. What steers a run (events, conditions, a sampled controller) is copied with it, so
+/// that each run has its own; observers, which only look, are shared by the copies.
 ///
 /// ```
 /// # mod by_hand { include!("../tests/by_hand/double_pendulum.rs"); }
@@ -120,7 +124,60 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
     }
 }
 
+impl<M: Machine<System: Clone>, L: Clone> Clone for Simulation<'_, M, L> {
+    fn clone(&self) -> Self {
+        Self {
+            of: self.of.clone(),
+            law: self.law.clone(),
+            settings: self.settings.clone(),
+            callbacks: self.callbacks.clone(),
+            resumed: self.resumed.clone(),
+        }
+    }
+}
+
 impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
+    /// The same run, of a type that does not say how the inputs are set: for what is decided while the program runs.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// # use by_hand::Toy;
+    /// use lagrangian::Simulation;
+    ///
+    /// // A mass of 1 kg, pushed or not.
+    /// let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
+    /// let run = |is_pushed: bool| {
+    ///     let simulation = Simulation::new(&mass).until(2.0);
+    ///     let simulation = match is_pushed {
+    ///         true => simulation.inputs(|_, _, _, force| *force = 1.0).any_inputs(),
+    ///         false => simulation.any_inputs(),
+    ///     };
+    ///     simulation.run(mass.start())
+    /// };
+    /// assert!((run(true)?.end().q[0] - 2.0).abs() < 1e-12);
+    /// assert_eq!(run(false)?.end().q[0], 0.0);
+    /// # Ok::<(), lagrangian::Error>(())
+    /// ```
+    pub fn any_inputs(self) -> Simulation<'a, M, AnyInputs<'a, M::System>>
+    where
+        L: Send + Sync + 'a,
+    {
+        let Self {
+            of,
+            law,
+            settings,
+            callbacks,
+            resumed,
+        } = self;
+        Simulation {
+            of,
+            law: AnyInputs::new(law),
+            settings,
+            callbacks,
+            resumed,
+        }
+    }
+
     /// When to end, in s; before the start to run backward in time.
     pub fn until(mut self, t: f64) -> Self {
         self.settings.until = Some(t);
@@ -252,9 +309,9 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// ```
     pub fn each_step(
         mut self,
-        observer: impl FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + 'a,
+        observer: impl FnMut(&mut dyn StepMotion<M>) -> Result<(), Error> + Send + 'a,
     ) -> Self {
-        self.callbacks.observer = Some(Box::new(observer));
+        self.callbacks.observer = Some(Shared::new(Box::new(observer)));
         self
     }
 
@@ -264,7 +321,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         name: &str,
         crossing: Crossing,
-        function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
+        function: impl FnMut(&State<Coordinates<M>>) -> f64 + Clone + Send + 'a,
     ) -> Self {
         self.watch(name, crossing, None, of_state::<M>(function))
     }
@@ -300,7 +357,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         name: &str,
         crossing: Crossing,
-        function: impl FnMut(&Observation<M>) -> f64 + 'a,
+        function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
     ) -> Self {
         self.watch(name, crossing, None, of_observation::<M>(function))
     }
@@ -311,7 +368,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         name: &str,
         crossing: Crossing,
-        function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
+        function: impl FnMut(&State<Coordinates<M>>) -> f64 + Clone + Send + 'a,
     ) -> Self {
         self.until_nth_event(1, name, crossing, function)
     }
@@ -322,7 +379,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         n: usize,
         name: &str,
         crossing: Crossing,
-        function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
+        function: impl FnMut(&State<Coordinates<M>>) -> f64 + Clone + Send + 'a,
     ) -> Self {
         self.watch(name, crossing, Some(n), of_state::<M>(function))
     }
@@ -332,7 +389,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         name: &str,
         crossing: Crossing,
-        function: impl FnMut(&Observation<M>) -> f64 + 'a,
+        function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
     ) -> Self {
         self.watch(name, crossing, Some(1), of_observation::<M>(function))
     }
@@ -342,7 +399,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         name: &str,
         crossing: Crossing,
         left: Option<usize>,
-        function: Watched<'a, M>,
+        function: Box<dyn Watched<'a, M> + 'a>,
     ) -> Self {
         self.callbacks.watches.push(Watch {
             name: name.into(),
@@ -374,14 +431,14 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     pub fn observe(
         mut self,
         interval: f64,
-        observer: impl FnMut(&State<Coordinates<M>>) + 'a,
+        observer: impl FnMut(&State<Coordinates<M>>) + Send + 'a,
     ) -> Self {
         self.settings.observed_every.push(interval);
         self.callbacks.streams.push(Stream {
             interval,
             count: 0,
             last: f64::NAN,
-            observer: Box::new(observer),
+            observer: Shared::new(Box::new(observer)),
         });
         self
     }
@@ -413,7 +470,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     pub fn sampled(
         mut self,
         period: f64,
-        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a,
+        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + Clone + Send + 'a,
     ) -> Self {
         self.callbacks.sampled = Some(Sampled {
             period,
@@ -429,7 +486,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         self,
         period: f64,
         delay: f64,
-        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + 'a,
+        controller: impl FnMut(&State<Coordinates<M>>, &mut Inputs<M>) + Clone + Send + 'a,
     ) -> Self {
         let mut simulation = self.sampled(period, controller);
         if let Some(sampled) = &mut simulation.callbacks.sampled {
@@ -439,14 +496,17 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     }
 
     /// Calls `callback` after every step.
-    pub fn progress(mut self, callback: impl FnMut(Progress) + 'a) -> Self {
-        self.callbacks.progress = Some(Box::new(callback));
+    pub fn progress(mut self, callback: impl FnMut(Progress) + Send + 'a) -> Self {
+        self.callbacks.progress = Some(Shared::new(Box::new(callback)));
         self
     }
 
     /// Ends the run after the first step at whose end `condition` holds. To end at the very
     /// instant, use [`until_event`](Self::until_event).
-    pub fn stop_if(mut self, condition: impl FnMut(&State<Coordinates<M>>) -> bool + 'a) -> Self {
+    pub fn stop_if(
+        mut self,
+        condition: impl FnMut(&State<Coordinates<M>>) -> bool + Clone + Send + 'a,
+    ) -> Self {
         self.callbacks.stop = Some(Box::new(condition));
         self
     }
@@ -546,14 +606,14 @@ impl<M: Machine, L> Solution<M, L> {
 
 /// A function of the state, to be watched.
 fn of_state<'a, M: Machine>(
-    mut function: impl FnMut(&State<Coordinates<M>>) -> f64 + 'a,
-) -> Watched<'a, M> {
-    Box::new(move |state, _| Ok(function(state)))
+    mut function: impl FnMut(&State<Coordinates<M>>) -> f64 + Clone + Send + 'a,
+) -> Box<dyn Watched<'a, M> + 'a> {
+    Box::new(move |state: &State<Coordinates<M>>, _: Observe<'_, M>| Ok(function(state)))
 }
 
 /// A function of what can be observed, to be watched.
 fn of_observation<'a, M: Machine>(
-    mut function: impl FnMut(&Observation<M>) -> f64 + 'a,
-) -> Watched<'a, M> {
-    Box::new(move |_, observe| Ok(function(&observe()?)))
+    mut function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
+) -> Box<dyn Watched<'a, M> + 'a> {
+    Box::new(move |_: &State<Coordinates<M>>, observe: Observe<'_, M>| Ok(function(&observe()?)))
 }

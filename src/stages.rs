@@ -8,36 +8,28 @@ use crate::Vector;
 use crate::compensated::two_sum;
 use crate::constraints::Place;
 use crate::methods::{MAX_STAGES, Row};
+use crate::step_number::StepNumber;
 
 /// A state, with what rounding took from it.
 #[derive(Clone, Debug)]
-pub(crate) struct Point<V> {
-    pub t: f64,
-    pub t_low: f64,
+pub(crate) struct Point<V, N = f64> {
+    pub t: N,
+    pub t_low: N,
     pub q: V,
     pub q_low: V,
     pub v: V,
     pub v_low: V,
 }
 
-impl<V: Vector> Point<V> {
-    pub fn new(t: f64, q: V, v: V) -> Self {
+impl<N: StepNumber, V: Vector<N>> Point<V, N> {
+    pub fn new(t: N, q: V, v: V) -> Self {
         Self {
             t,
-            t_low: 0.0,
+            t_low: N::NOTHING,
             q_low: q.zeros_like(),
             v_low: v.zeros_like(),
             q,
             v,
-        }
-    }
-
-    /// The state as one that may be moved.
-    pub fn place(&mut self) -> Place<'_, V> {
-        Place {
-            t: self.t,
-            q: [&mut self.q, &mut self.q_low],
-            v: [&mut self.v, &mut self.v_low],
         }
     }
 
@@ -49,6 +41,17 @@ impl<V: Vector> Point<V> {
         self.q_low.clone_from(&other.q_low);
         self.v.clone_from(&other.v);
         self.v_low.clone_from(&other.v_low);
+    }
+}
+
+impl<V: Vector> Point<V> {
+    /// The state as one that may be moved.
+    pub fn place(&mut self) -> Place<'_, V> {
+        Place {
+            t: self.t,
+            q: [&mut self.q, &mut self.q_low],
+            v: [&mut self.v, &mut self.v_low],
+        }
     }
 }
 
@@ -79,17 +82,27 @@ pub(crate) use in_blocks;
 /// `Σⱼ w̄ⱼ kⱼ` and `Σⱼ wⱼ kⱼ` for `B` coordinates from `start`: what positions and velocities take
 /// from the stages.
 #[inline(always)]
-pub(crate) fn weigh<const B: usize, V: Vector>(
+pub(crate) fn weigh<const B: usize, N: StepNumber, V: Vector<N>>(
     row: &Row,
     k: &[V; MAX_STAGES],
     start: usize,
-) -> [[f64; B]; 2] {
-    let (mut position, mut velocity) = ([0.0; B], [0.0; B]);
+) -> [[N; B]; 2] {
+    let (mut position, mut velocity) = ([N::NOTHING; B], [N::NOTHING; B]);
+    if N::IS_WIDE {
+        for (term, beyond) in row.wide_terms() {
+            let k = block::<B, N, V>(&k[term.stage], start);
+            for i in 0..B {
+                position[i] = position[i] + k[i].weighted(term.position, beyond.position);
+                velocity[i] = velocity[i] + k[i].weighted(term.velocity, beyond.velocity);
+            }
+        }
+        return [position, velocity];
+    }
     for term in row.terms() {
-        let k = block::<B, V>(&k[term.stage], start);
+        let k = block::<B, N, V>(&k[term.stage], start);
         for i in 0..B {
-            position[i] += term.position * k[i];
-            velocity[i] += term.velocity * k[i];
+            position[i] = position[i] + k[i].weighted(term.position, 0.0);
+            velocity[i] = velocity[i] + k[i].weighted(term.velocity, 0.0);
         }
     }
     [position, velocity]
@@ -97,63 +110,105 @@ pub(crate) fn weigh<const B: usize, V: Vector>(
 
 /// `B` numbers from `start`.
 #[inline(always)]
-pub(crate) fn block<const B: usize, V: Vector>(vector: &V, start: usize) -> [f64; B] {
+pub(crate) fn block<const B: usize, N: Copy, V: Vector<N>>(vector: &V, start: usize) -> [N; B] {
     let slice = &vector.as_slice()[start..start + B];
     core::array::from_fn(|i| slice[i])
 }
 
 #[inline(always)]
-fn set_block<const B: usize, V: Vector>(vector: &mut V, start: usize, numbers: [f64; B]) {
+fn set_block<const B: usize, N: Copy, V: Vector<N>>(vector: &mut V, start: usize, numbers: [N; B]) {
     vector.as_mut_slice()[start..start + B].copy_from_slice(&numbers);
 }
 
-/// State at a stage, `c` of the way: `qᵢ = q + cᵢ h v + h² Σ āᵢⱼ kⱼ`, `vᵢ = v + h Σ aᵢⱼ kⱼ`.
+/// State at a stage, `ch = cᵢ h` of the way: `qᵢ = q + cᵢ h v + h² Σ āᵢⱼ kⱼ`, `vᵢ = v + h Σ aᵢⱼ kⱼ`.
 #[inline(always)]
-pub(crate) fn stage_state<V: Vector>(
-    (row, c, h): (&Row, f64, f64),
+pub(crate) fn stage_state<N: StepNumber, V: Vector<N>>(
+    (row, ch, h): (&Row, N, N),
     [q0, v0]: [&V; 2],
     k: &[V; MAX_STAGES],
     [q, v]: [&mut V; 2],
 ) {
     in_blocks!(q0.as_slice().len(), |start, B| {
-        let [position, velocity] = weigh::<B, V>(row, k, start);
-        let (q0, v0) = (block::<B, V>(q0, start), block::<B, V>(v0, start));
-        let q_stage = core::array::from_fn(|i| q0[i] + (c * h * v0[i] + h * h * position[i]));
+        let [position, velocity] = weigh::<B, N, V>(row, k, start);
+        let (q0, v0) = (block::<B, N, V>(q0, start), block::<B, N, V>(v0, start));
+        let q_stage = core::array::from_fn(|i| q0[i] + (ch * v0[i] + h * h * position[i]));
         let v_stage = core::array::from_fn(|i| v0[i] + h * velocity[i]);
-        set_block::<B, V>(q, start, q_stage);
-        set_block::<B, V>(v, start, v_stage);
+        set_block::<B, N, V>(q, start, q_stage);
+        set_block::<B, N, V>(v, start, v_stage);
     });
 }
 
 /// State at the end of a step: the sums of [`stage_state`], compensated.
 #[inline(always)]
-pub(crate) fn advance_state<V: Vector>(
-    (row, h): (&Row, f64),
-    before: &Point<V>,
+pub(crate) fn advance_state<N: StepNumber, V: Vector<N>>(
+    (row, h): (&Row, N),
+    before: &Point<V, N>,
     k: &[V; MAX_STAGES],
-    now: &mut Point<V>,
+    now: &mut Point<V, N>,
 ) {
     in_blocks!(before.q.as_slice().len(), |start, B| {
-        let [position, velocity] = weigh::<B, V>(row, k, start);
+        let [position, velocity] = weigh::<B, N, V>(row, k, start);
         let (q, q_low) = (
-            block::<B, V>(&before.q, start),
-            block::<B, V>(&before.q_low, start),
+            block::<B, N, V>(&before.q, start),
+            block::<B, N, V>(&before.q_low, start),
         );
         let (v, v_low) = (
-            block::<B, V>(&before.v, start),
-            block::<B, V>(&before.v_low, start),
+            block::<B, N, V>(&before.v, start),
+            block::<B, N, V>(&before.v_low, start),
         );
-        let (mut q1, mut q1_low, mut v1, mut v1_low) = ([0.0; B], [0.0; B], [0.0; B], [0.0; B]);
+        let zeros = [N::NOTHING; B];
+        let (mut q1, mut q1_low, mut v1, mut v1_low) = (zeros, zeros, zeros, zeros);
         for i in 0..B {
             let rise = h * v[i] + (h * v_low[i] + h * h * position[i]);
             (q1[i], q1_low[i]) = two_sum(q[i], q_low[i] + rise);
             (v1[i], v1_low[i]) = two_sum(v[i], v_low[i] + h * velocity[i]);
         }
-        set_block::<B, V>(&mut now.q, start, q1);
-        set_block::<B, V>(&mut now.q_low, start, q1_low);
-        set_block::<B, V>(&mut now.v, start, v1);
-        set_block::<B, V>(&mut now.v_low, start, v1_low);
+        set_block::<B, N, V>(&mut now.q, start, q1);
+        set_block::<B, N, V>(&mut now.q_low, start, q1_low);
+        set_block::<B, N, V>(&mut now.v, start, v1);
+        set_block::<B, N, V>(&mut now.v_low, start, v1_low);
     });
+}
+
+/// The squares of the estimated errors of all coordinates and rates, relative to what is tolerable, added up for each
+/// trajectory; see [`StepNumber::squared_error`].
+#[inline(always)]
+pub(crate) fn squared_errors<N: StepNumber, V: Vector<N>>(
+    (row, h): (&Row, N),
+    [before, now]: [&Point<V, N>; 2],
+    k: &[V; MAX_STAGES],
+    (relative, absolute): (f64, &V),
+) -> N::Each<f64> {
+    let mut sums = N::each(|_| 0.0);
+    in_blocks!(now.q.as_slice().len(), |start, B| {
+        let [position, velocity] = weigh::<B, N, V>(row, k, start);
+        let absolute = block::<B, N, V>(absolute, start);
+        let mut of_block = N::each(|_| 0.0);
+        let errors = [
+            (position.map(|x| h * h * x), [&before.q, &now.q]),
+            (velocity.map(|x| h * x), [&before.v, &now.v]),
+        ];
+        for (errors, [before, now]) in errors {
+            let (before, now) = (
+                block::<B, N, V>(before, start),
+                block::<B, N, V>(now, start),
+            );
+            for i in 0..B {
+                let of_number = errors[i].squared_error([before[i], now[i]], absolute[i], relative);
+                add(&mut of_block, &of_number);
+            }
+        }
+        add(&mut sums, &of_block);
+    });
+    sums
+}
+
+/// Adds numbers to numbers.
+#[inline(always)]
+pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
+    for (sum, term) in sums.as_mut().iter_mut().zip(terms.as_ref()) {
+        *sum += term;
+    }
 }
 
 /// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
@@ -167,10 +222,13 @@ pub(crate) fn relative_errors<const B: usize, V: Vector>(
     (relative, absolute): (f64, &V),
     start: usize,
 ) -> [[f64; B]; 2] {
-    let [position, velocity] = weigh::<B, V>(row, k, start);
-    let absolute = block::<B, V>(absolute, start);
+    let [position, velocity] = weigh::<B, f64, V>(row, k, start);
+    let absolute = block::<B, f64, V>(absolute, start);
     let tolerable = |before: &V, now: &V| {
-        let (before, now) = (block::<B, V>(before, start), block::<B, V>(now, start));
+        let (before, now) = (
+            block::<B, f64, V>(before, start),
+            block::<B, f64, V>(now, start),
+        );
         core::array::from_fn::<f64, B, _>(|i| {
             let (before, now) = (before[i].abs(), now[i].abs());
             // Not `max`, which costs more because it passes over what is not a number.

@@ -82,6 +82,28 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
+    /// The method is implicit or by series, and the stepper takes explicit ones only.
+    NotExplicit {
+        /// Time, in s.
+        t: f64,
+    },
+    /// The numbers have more digits than `f64`, and the coefficients of the method are not known to more.
+    FewDigits {
+        /// Time, in s.
+        t: f64,
+    },
+    /// The machine has constraints or contacts, which only a [`Stepper`] keeps, or a [`Simulation`](crate::Simulation).
+    NotFree {
+        /// Time, in s.
+        t: f64,
+    },
+    /// A trajectory takes more steps than it may.
+    TooManySteps {
+        /// How many it may take.
+        steps: usize,
+        /// Time, in s.
+        t: f64,
+    },
     /// The step has shrunk to the roundoff of time, and its error is still too great.
     StepTooSmall {
         /// The coordinate with the greatest error.
@@ -142,6 +164,22 @@ impl Display for StepError {
                 contact + 1,
                 trouble.words()
             ),
+            Self::NotExplicit { t } => write!(
+                f,
+                "the method is not explicit, as this stepper needs it, at t = {t:e} s"
+            ),
+            Self::FewDigits { t } => write!(
+                f,
+                "the coefficients of the method are known to the digits of f64 only, and the numbers have more, at \
+                 t = {t:e} s"
+            ),
+            Self::NotFree { t } => write!(
+                f,
+                "the machine has constraints or contacts, which this stepper does not keep, at t = {t:e} s"
+            ),
+            Self::TooManySteps { steps, t } => {
+                write!(f, "{steps} steps lead to t = {t:e} s only")
+            }
             Self::StepTooSmall {
                 coordinate,
                 t,

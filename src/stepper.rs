@@ -19,6 +19,7 @@ use crate::compensated::{Sum, two_sum};
 use crate::constraints::Constraints;
 #[cfg(feature = "std")]
 use crate::contact::Touching;
+use crate::control;
 #[cfg(feature = "std")]
 use crate::friction::Change;
 use crate::friction::Contacts;
@@ -26,7 +27,7 @@ use crate::friction::Contacts;
 use crate::implicit::Implicit;
 use crate::inputs::{DefaultInputs, InputLaw};
 use crate::interpolant::{Ends, Interpolant, hermite};
-use crate::math::{power, rough_power, sqrt};
+use crate::math::sqrt;
 #[cfg(doc)]
 use crate::methods::Tableau;
 use crate::methods::{MAX_STAGES, Method, Row};
@@ -34,7 +35,7 @@ use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_stat
 use crate::step_error::StepError;
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
-use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, SAFETY, Tolerance};
+use crate::tolerance::{LEAST_RELATIVE_TOLERANCE, Tolerance};
 use crate::{ContactTrouble, System, Vector};
 #[cfg(feature = "std")]
 use std::boxed::Box;
@@ -645,7 +646,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.work.steps == 0 && self.step == 0.0 {
             self.step = self.first_step();
         }
-        let (shrink, grow) = self.method.tableau.step_change;
         // A few parts in 10¹⁵ of the time: shorter steps have no beginning and no end. Near t = 0
         // that is no limit; there the smallest numbers are.
         let least = (10.0 * f64::EPSILON * self.now.t.abs()).max(1e-290);
@@ -673,7 +673,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             let tried = self.attempt(h, last);
             let cause = match tried {
                 Ok(error) if error <= 1.0 => {
-                    let factor = self.growth(h, error, (shrink, grow));
+                    let factor = self.growth(h, error);
                     // Not longer right after a rejection: what stood in the way is still near.
                     self.step = h * if given_up { factor.min(1.0) } else { factor };
                     self.error_before = error.max(1e-4);
@@ -686,7 +686,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                     continue;
                 }
                 Ok(error) => {
-                    self.step = h * self.reduction(error, shrink);
+                    self.step = h * self.reduction(error);
                     None
                 }
                 Err(cause) => {
@@ -786,7 +786,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         for i in 1..stages {
             let c = method.tableau.c[i];
             let t = before.t + (before.t_low + c * h);
-            stage_state((&scheme.rows[i], c, h), [&before.q, &before.v], k, [q, v]);
+            stage_state(
+                (&scheme.rows[i], c * h, h),
+                [&before.q, &before.v],
+                k,
+                [q, v],
+            );
             model.accelerations(t, q, v, &mut k[i], work)?;
             model.take_rates(quadratures, i, (t, q, v, &k[i]));
         }
@@ -905,14 +910,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 coarse += squares(self.relative_errors::<B>(&scheme.coarse_error, h, start));
             }
         });
-        let denominator = fine + 0.01 * coarse;
-        // No error at all, whatever the estimate; or a machine without coordinates.
-        if denominator == 0.0 {
-            return 0.0;
-        }
-        let numbers = 2 * self.now.q.as_slice().len();
-        // Without a coarser estimate, this is the mean of `fine`.
-        sqrt(fine * (fine / denominator) / numbers as f64)
+        control::combined(fine, coarse, 2 * self.now.q.as_slice().len())
     }
 
     /// The same where constraints are about to depend on each other: of what goes across them, which they
@@ -928,7 +926,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             };
             let mut errors = [self.now.q.zeros_like(), self.now.q.zeros_like()];
             in_blocks!(self.now.q.as_slice().len(), |start, B| {
-                let [position, velocity] = weigh::<B, _>(row, &self.k, start);
+                let [position, velocity] = weigh::<B, _, _>(row, &self.k, start);
                 for i in 0..B {
                     errors[0].as_mut_slice()[start + i] = h * h * position[i];
                     errors[1].as_mut_slice()[start + i] = h * velocity[i];
@@ -955,12 +953,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             }
         }
         let [fine, coarse] = sums;
-        let denominator = fine + 0.01 * coarse;
-        if denominator == 0.0 {
-            return 0.0;
-        }
-        let numbers = 2 * self.now.q.as_slice().len();
-        sqrt(fine * (fine / denominator) / numbers as f64)
+        control::combined(fine, coarse, 2 * self.now.q.as_slice().len())
     }
 
     /// How far the step just tried was moved onto the constraints, in the norm of its
@@ -995,46 +988,33 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// By how much the next step may be longer than this good one of length `h`.
     #[inline(always)]
-    fn growth(&mut self, _h: f64, error: f64, (shrink, grow): (f64, f64)) -> f64 {
+    fn growth(&mut self, _h: f64, error: f64) -> f64 {
         #[cfg(feature = "std")]
         {
-            let exponent = self.error_exponent();
             if let Some(implicit) = &mut self.implicit {
-                return implicit.accept(_h, error, exponent, (shrink, grow));
+                let exponent = control::error_exponent(self.method);
+                return implicit.accept(_h, error, exponent, self.method.tableau.step_change);
             }
         }
-        self.step_factor(error).clamp(shrink, grow)
+        control::growth(self.method, error, self.error_before)
     }
 
     /// By how much the next try is to be shorter than this one, which was not good.
-    fn reduction(&self, error: f64, shrink: f64) -> f64 {
-        let exponent = self.error_exponent();
+    fn reduction(&self, error: f64) -> f64 {
         #[cfg(feature = "std")]
         if let Some(implicit) = &self.implicit {
-            return implicit.reject(error, exponent, shrink);
+            let (shrink, _) = self.method.tableau.step_change;
+            return implicit.reject(error, control::error_exponent(self.method), shrink);
         }
-        (SAFETY * rough_power(error, -exponent)).max(shrink)
-    }
-
-    /// By how much the next step may be longer than this one, whose error is `error`; see
-    /// [`Tableau::smoothing`].
-    fn step_factor(&self, error: f64) -> f64 {
-        let smoothing = self.method.tableau.smoothing;
-        let exponent = 0.75 * smoothing - self.error_exponent();
-        SAFETY * rough_power(error, exponent) * rough_power(self.error_before, smoothing)
-    }
-
-    /// `1/k` for an estimate of the error that falls as `h^k`.
-    fn error_exponent(&self) -> f64 {
-        1.0 / f64::from(self.method.tableau.error_power)
+        control::reduction(self.method, error)
     }
 
     /// A length for the first step, from the size of the first two derivatives: *Solving Ordinary
     /// Differential Equations I*, section II.4, "Starting Step Size".
     fn first_step(&mut self) -> f64 {
-        let order = f64::from(self.method.tableau.order);
         let left = self.end - self.now.t;
         let Self {
+            method,
             tolerance,
             model,
             now,
@@ -1060,13 +1040,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let a = k[0].as_slice();
         let size = norm(&|i| [now.q.as_slice()[i], now.v.as_slice()[i]]);
         let rate = norm(&|i| [now.v.as_slice()[i], a[i]]);
-        // A step of Euler's method by which the state changes by a hundredth.
-        let guess = if size <= 1e-5 || rate <= 1e-5 {
-            1e-6
-        } else {
-            0.01 * size / rate
-        };
-        let guess = guess.min(left.abs()).min(self.longest).copysign(left);
+        let guess = control::first_guess([size, rate], left, self.longest);
 
         let (q, v) = (&mut stage.0, &mut stage.1);
         for (i, a) in a.iter().enumerate() {
@@ -1086,20 +1060,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let ahead = ahead.as_slice();
         let change = norm(&|i| [guess * a[i], ahead[i] - a[i]]) / guess.abs();
 
-        // h^order · max(|y'|, |y''|) = 0.01
-        let greatest = change.max(rate);
-        let step = if greatest <= 1e-15 {
-            (1e-3 * guess.abs()).max(1e-6)
-        } else {
-            power(0.01 / greatest, 1.0 / order)
-        };
-        let step = step
-            .min(100.0 * guess.abs())
-            .min(left.abs())
-            .min(self.longest);
-        // Tolerances beyond all measure leave no number.
-        let is_good = step > 0.0 && step.is_finite();
-        (if is_good { step } else { 1e-6 * left.abs() }).copysign(left)
+        control::first_step(method, guess, [rate, change], left, self.longest)
     }
 
     /// `h |λ|` of the greatest eigenvalue, from the two evaluations at the end of the step.

@@ -2,20 +2,22 @@
 
 use core::fmt::Debug;
 
+use crate::step_number::StepNumber;
+
 /// A row of numbers of a length fixed when the machine is prepared: `[f64; N]` in compiled
-/// machines, `Vec<f64>` in interpreted ones.
+/// machines, `Vec<f64>` in interpreted ones; of other numbers `[N; D]`.
 ///
 /// With `[f64; N]` the compiler knows every length, unrolls and vectorises; nothing is ever
 /// allocated.
-pub trait Vector: Clone + Debug + PartialEq {
+pub trait Vector<N = f64>: Clone + Debug + PartialEq {
     /// `length` zeros. An array has its own length and takes no notice of `length`.
     fn zeros(length: usize) -> Self;
 
     /// The numbers.
-    fn as_slice(&self) -> &[f64];
+    fn as_slice(&self) -> &[N];
 
     /// The numbers, to be changed.
-    fn as_mut_slice(&mut self) -> &mut [f64];
+    fn as_mut_slice(&mut self) -> &mut [N];
 
     /// Zeros, as many as there are numbers in `self`.
     fn zeros_like(&self) -> Self {
@@ -23,34 +25,34 @@ pub trait Vector: Clone + Debug + PartialEq {
     }
 }
 
-impl<const N: usize> Vector for [f64; N] {
+impl<N: StepNumber, const D: usize> Vector<N> for [N; D] {
     #[inline(always)]
     fn zeros(_length: usize) -> Self {
-        [0.0; N]
+        [N::NOTHING; D]
     }
 
     #[inline(always)]
-    fn as_slice(&self) -> &[f64] {
+    fn as_slice(&self) -> &[N] {
         self
     }
 
     #[inline(always)]
-    fn as_mut_slice(&mut self) -> &mut [f64] {
+    fn as_mut_slice(&mut self) -> &mut [N] {
         self
     }
 }
 
 #[cfg(feature = "std")]
-impl Vector for std::vec::Vec<f64> {
+impl<N: StepNumber> Vector<N> for std::vec::Vec<N> {
     fn zeros(length: usize) -> Self {
-        std::vec![0.0; length]
+        std::vec![N::NOTHING; length]
     }
 
-    fn as_slice(&self) -> &[f64] {
+    fn as_slice(&self) -> &[N] {
         self
     }
 
-    fn as_mut_slice(&mut self) -> &mut [f64] {
+    fn as_mut_slice(&mut self) -> &mut [N] {
         self
     }
 }

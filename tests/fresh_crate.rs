@@ -21,6 +21,11 @@ struct Crate {
 impl Crate {
     /// A crate that depends on nothing but the library, as the checkout has it.
     fn new(name: &str) -> Crate {
+        Self::with(name, "")
+    }
+
+    /// The same with further settings of the dependency: `, default-features = false`.
+    fn with(name: &str, settings: &str) -> Crate {
         let alone = CARGO
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner());
@@ -34,7 +39,7 @@ impl Crate {
             "Cargo.toml",
             &format!(
                 "[package]\nname = {name:?}\nversion = \"0.1.0\"\nedition = \"2021\"\n\n\
-                 [dependencies]\nlagrangian = {{ path = {root:?} }}\n\n[workspace]\n"
+                 [dependencies]\nlagrangian = {{ path = {root:?}{settings} }}\n\n[workspace]\n"
             ),
         );
         // The versions that are here already: nothing is downloaded.
@@ -285,4 +290,136 @@ fn mistakes_are_told_at_the_users_tokens() {
             .replace("\r\n", "\n");
         assert_eq!(said, expected, "{program}");
     }
+}
+
+/// What a spec lacks for a use of its machine is said with the line to add to it.
+#[test]
+fn a_missing_ability_names_the_line_to_add_to_the_spec() {
+    let fresh = Crate::new("abilities");
+    fresh.write(
+        "src/main.rs",
+        r#"
+        lagrangian::machine! {
+            machine Plain in plane {
+                parameters { l: m = 1, g: m/s^2 = 9.81 }
+                coordinates { theta: rad = 1 }
+                bodies { bob { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+                gravity (0, -g);
+            }
+        }
+        lagrangian::machine! {
+            machine Held in plane {
+                parameters { l: m = 1 }
+                coordinates { x: m = 1, y: m }
+                bodies { bob { mass: 1, at: (x, y) } }
+                constraints { rod: x^2 + y^2 - l^2 }
+            }
+        }
+        fn linearize<S: lagrangian::Linearize>(_: &S) {}
+        fn differentiate<S: lagrangian::Differentiate>(_: &S) {}
+        fn stage<S: lagrangian::Staged>(_: &S) {}
+        fn in_single_precision<M: lagrangian::MachineIn<f32>>(_: &M) {}
+        fn main() {
+            let system = Plain::default().prepare();
+            linearize(&system);
+            differentiate(&system);
+            stage(&system);
+            in_single_precision(&Plain::default().map(|x| x as f32));
+            in_single_precision(&Held::default().map(|x| x as f32));
+        }
+        "#,
+    );
+    let output = fresh.cargo(&["check"]);
+    assert!(!output.status.success(), "it compiles");
+    let said = String::from_utf8_lossy(&output.stderr);
+    for part in [
+        "does not know how its accelerations change with the state",
+        "add the line `derivatives { coordinates, rates }` to the description of the machine",
+        "does not know how its accelerations change with the state, parameters and inputs",
+        "are not evaluated in stages",
+        "add the line `stages { time, coordinates }` to the description of the machine",
+        "is no machine in the numbers `f32`",
+        "where it has no constraints and no contacts",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in:\n{said}");
+    }
+    // The machine without constraints is one in these numbers.
+    assert_eq!(
+        said.matches("is no machine in the numbers").count(),
+        1,
+        "{said}"
+    );
+}
+
+/// A firmware has no standard library, and says itself what a panic does. Were the standard library anywhere in the tree, there
+/// would be two that say so, which the compiler refuses.
+#[test]
+fn a_firmware_needs_no_standard_library() {
+    let settings = ", default-features = false, features = [\"macros\"]";
+    let fresh = Crate::with("firmware", settings);
+    fresh.write(
+        "src/lib.rs",
+        r#"
+        #![no_std]
+        #![forbid(unsafe_code)]
+
+        lagrangian::machine! {
+            machine Pendulum in plane {
+                parameters { l: m = 0.5, g: m/s^2 = 9.81 }
+                coordinates { theta: rad = 1 }
+                inputs { torque: N*m }
+                bodies { bob { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+                gravity (0, -g);
+                forces { motor { on: theta, value: torque } }
+            }
+        }
+
+        #[panic_handler]
+        fn halt(_: &core::panic::PanicInfo<'_>) -> ! {
+            loop {}
+        }
+
+        use lagrangian::{ControlledStepper, Ensemble, ExplicitStepper, Method, StepError, Stepper, Trajectory};
+
+        pub struct Model(ControlledStepper<pendulum::Prepared>);
+
+        impl Model {
+            pub fn new() -> Result<Self, StepError> {
+                let machine = Pendulum::default();
+                let stepper = Stepper::builder(machine.prepare()).method(Method::BS32);
+                Ok(Self(stepper.tolerance(1e-5).start(machine.start())?))
+            }
+
+            pub fn tick(&mut self, t: f64, torque: f64) -> Result<f64, StepError> {
+                self.0.set_inputs(pendulum::Inputs { torque });
+                self.0.advance_to(t)?;
+                Ok(self.0.state().q.theta)
+            }
+        }
+
+        /// In single precision, as a processor without doubles has it.
+        pub fn single(t: f32) -> Result<f32, StepError> {
+            let machine = Pendulum::default().map(|x| x as f32);
+            let mut stepper = ExplicitStepper::builder(machine.prepare()).start(machine.start())?;
+            stepper.advance_to(t)?;
+            Ok(stepper.state().q.theta)
+        }
+
+        pub fn several(ends: [f64; 8]) -> [f64; 8] {
+            let machine = Pendulum::default();
+            let mut angles = [0.0; 8];
+            let trajectories = ends.map(|end| Trajectory::of(&machine, end));
+            Ensemble::<2>::new().run(trajectories, |number, arrived| {
+                angles[number] = arrived.map_or(f64::NAN, |arrival| arrival.end.q.theta);
+            });
+            angles
+        }
+        "#,
+    );
+    let output = fresh.cargo(&["check"]);
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
 }

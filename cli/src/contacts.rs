@@ -2,7 +2,7 @@
 //! `N` is negative, and asks for as much friction as it needs, `|T|/N` of its force. Neither changes the
 //! motion, so a run says from when on it assumes what no machine does.
 
-use std::cell::RefCell;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::{Crossing, Event, Machine, Pivot, Simulation, State, System, least_multipliers};
@@ -17,7 +17,7 @@ use crate::recording::Run;
 pub struct Contacts {
     system: InterpretedSystem,
     contacts: Vec<Contact>,
-    seen: RefCell<Seen>,
+    seen: Mutex<Seen>,
 }
 
 /// A rolling contact.
@@ -129,7 +129,7 @@ impl Contacts {
         Contacts {
             system,
             contacts,
-            seen: RefCell::new(seen),
+            seen: Mutex::new(seen),
         }
     }
 
@@ -152,10 +152,14 @@ impl Contacts {
         simulation
     }
 
+    fn seen(&self) -> MutexGuard<'_, Seen> {
+        self.seen.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// `N` and `T` at a state. Where they have no value they count as nothing: a run must not end for
     /// being looked at.
     fn look(&self, index: usize, state: &State<Named>) -> [f64; 2] {
-        let mut seen = self.seen.borrow_mut();
+        let mut seen = self.seen();
         if seen.last.as_ref().is_none_or(|(last, _)| last != state) {
             seen.last = Some((state.clone(), self.multipliers(state)));
         }
@@ -187,7 +191,7 @@ impl Contacts {
             let mut events = run.events().iter();
             events.find(|e| e.name == name).map(|e| e.state.t)
         };
-        let seen = self.seen.borrow();
+        let seen = self.seen();
         let found = self.contacts.iter().zip(&seen.tracks);
         let found = found.map(|(contact, track)| {
             let at_start = |is_wrong: &dyn Fn([f64; 2]) -> bool| {

@@ -1,7 +1,5 @@
 //! `lagrangian simulate`: the motion of a machine.
 
-use std::cell::Cell;
-
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Ending, Error, Machine, Simulation, System, Warning};
@@ -132,7 +130,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let interrupt = Interrupt::watch();
     progress::at(start.t, 0.0, 0);
     progress::run(call.until);
-    let is_said = Cell::new(false);
+    let mut is_said = false;
     let mut simulation = Simulation::new(&machine)
         .tolerance(call.tolerance)
         .method(method)
@@ -144,7 +142,10 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         .progress(|now| {
             progress::at(now.t, now.fraction, now.steps);
             // At once, and not when the run has taken its hours.
-            if let Some(t) = now.stiff_since.filter(|_| !is_said.replace(true)) {
+            if let Some(t) = now
+                .stiff_since
+                .filter(|_| !std::mem::replace(&mut is_said, true))
+            {
                 output::complain(format_args!(
                     "warning: {}: --method radau5",
                     Warning::Stiff { t }

@@ -113,7 +113,7 @@ fn expand(arguments: Arguments) -> TokenStream {
         }
     };
     let options = rust::Options {
-        runtime: arguments.runtime,
+        runtime: arguments.runtime + "::emitted",
         marks: true,
         ..rust::Options::default()
     };

@@ -236,7 +236,7 @@ impl<S> AndrewsSqueezer<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
+impl<S: ::lagrangian::emitted::Scalar> AndrewsSqueezer<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.e - self.ea;
@@ -406,7 +406,7 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let beta = S::from_f64(-0.06171389001427645) + S::from_f64(-1.1434870511134074e-18);
         let zero = S::ZERO;
         let gamma = S::from_f64(0.45527981916307037) + S::from_f64(1.522689981395877e-17);
@@ -416,7 +416,7 @@ impl<S: ::lagrangian::Scalar> AndrewsSqueezer<S> {
         let epsilon = S::from_f64(1.2305474445498212) + S::from_f64(-4.1863820199071897e-17);
         let q = [beta, zero, gamma, Phi, delta, Omega, epsilon];
         let v = [S::ZERO; 7];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -672,7 +672,7 @@ pub struct Prepared<S = f64> {
     /// `m6*zf*(zf - fa)`
     k56: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -691,7 +691,7 @@ pub struct Prepared<S = f64> {
 /// M[epsilon, epsilon] = m6*zf^2 - 2*(zf - fa)*m6*u*sin(Omega) - 2*m6*zf*fa + m6*fa^2 + m6*u^2
 ///     + m7*ua^2 + m7*ub^2 + I6 + I7
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [[S; 7]; 7] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [[S; 7]; 7] {
     let Theta = q[1];
     let Phi = q[3];
     let Omega = q[5];
@@ -732,7 +732,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [[S;
 /// h[epsilon] = -(zf - fa)*m6*u*cos(Omega)*der(Omega)^2
 ///     - 2*(zf - fa)*m6*u*cos(Omega)*der(Omega)*der(epsilon)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
     let Theta = q[1];
     let Phi = q[3];
     let Omega = q[5];
@@ -776,7 +776,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) ->
 /// Q[beta] = mom
 /// Q[gamma] = …
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 7] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 7] {
     let gamma = q[2];
     let (sin_gamma, cos_gamma) = gamma.sin_cos();
     let t0 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
@@ -790,7 +790,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 7] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> [S; 7] {
     let Theta = q[1];
     let gamma = q[2];
     let Phi = q[3];
@@ -848,7 +848,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) 
 /// g[x6] = d*cos(beta + Theta) - rr*cos(beta) + u*sin(epsilon) + zf*cos(Omega + epsilon) + xa
 /// g[y6] = d*sin(beta + Theta) - rr*sin(beta) - u*cos(epsilon) + zf*sin(Omega + epsilon) + ya
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 6] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+) -> [S; 6] {
     let beta = q[0];
     let Theta = q[1];
     let gamma = q[2];
@@ -895,7 +898,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]
 ///     + d*cos(beta + Theta)*(der(beta) + der(Theta))
 ///     + zf*cos(Omega + epsilon)*(der(Omega) + der(epsilon))
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 7],
     v: &[S; 7],
@@ -968,7 +971,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[y6, Omega] = zf*cos(Omega + epsilon)
 /// G[y6, epsilon] = u*sin(epsilon) + zf*cos(Omega + epsilon)
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 42] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> [S; 42] {
     let beta = q[0];
     let Theta = q[1];
     let gamma = q[2];
@@ -1027,7 +1030,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -
 /// gamma[y6] = d*sin(beta + Theta)*(der(beta) + der(Theta))^2 - rr*sin(beta)*der(beta)^2
 ///     - u*cos(epsilon)*der(epsilon)^2 + zf*sin(Omega + epsilon)*(der(Omega) + der(epsilon))^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 7],
     v: &[S; 7],
@@ -1081,11 +1084,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// machine, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 7],
     v: &[S; 7],
-) -> Result<[S; 7], ::lagrangian::Singular> {
+) -> Result<[S; 7], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -1099,11 +1102,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 7],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 7], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 7], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -1357,11 +1360,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 7],
     v: &[S; 7],
-) -> Result<[S; 6], ::lagrangian::Singular> {
+) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -1375,11 +1378,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 7],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -1631,7 +1634,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = …
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &[S; 7]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 7],
+    v: &[S; 7],
+) -> S {
     let Theta = q[1];
     let gamma = q[2];
     let Phi = q[3];
@@ -1676,7 +1683,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7], v: &
 /// V = 1/2*c0*(sqrt((xc - (sd*cos(gamma) + sc*sin(gamma) + xb))^2 + (yc - (sd*sin(gamma) -
 ///     sc*cos(gamma) + yb))^2) - l0)^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 7]) -> S {
     let gamma = q[2];
     let (sin_gamma, cos_gamma) = gamma.sin_cos();
     let t0 = p.xc - (sin_gamma * p.sc + (cos_gamma * p.sd + p.xb));
@@ -1690,7 +1697,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 7]) ->
 /// ```text
 /// P = mom*der(beta)
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 7]) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 7]) -> S {
     let beta_dot = v[0];
     beta_dot * p.mom
 }
@@ -1768,14 +1775,16 @@ const CONSTRAINTS: [(&str, &str, &str, bool); 6] = [
     ("y6", "m", "N", true),
 ];
 
-impl ::lagrangian::Machine for AndrewsSqueezer {
+impl ::lagrangian::emitted::Machine for AndrewsSqueezer {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "AndrewsSqueezer"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m1, self.m2, self.m3, self.m4, self.m5, self.m6, self.m7, self.I1, self.I2,
             self.I3, self.I4, self.I5, self.I6, self.I7, self.xa, self.ya, self.xb, self.yb,
@@ -1838,19 +1847,19 @@ impl ::lagrangian::Machine for AndrewsSqueezer {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 7];
     type Matrix = [f64; 49];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1869,8 +1878,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 7],
         _: &Inputs,
         result: &mut [f64; 7],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 7], matrix: &mut [f64; 49]) {
@@ -1935,7 +1947,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1943,7 +1955,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -1958,11 +1970,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 7],
         _: &[f64; 7],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -1973,27 +1985,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 7],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(7, 6)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(7, 6)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 7];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 7];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m2: lanes(|p| p.m2),
             m3: lanes(|p| p.m3),
@@ -2101,13 +2113,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -2115,23 +2127,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -2149,12 +2161,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -2164,20 +2176,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(7) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

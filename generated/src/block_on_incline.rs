@@ -76,7 +76,7 @@ impl<S> BlockOnIncline<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> BlockOnIncline<S> {
+impl<S: ::lagrangian::emitted::Scalar> BlockOnIncline<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k5 = self.m * self.rate;
@@ -116,11 +116,11 @@ impl<S: ::lagrangian::Scalar> BlockOnIncline<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let q = [zero];
         let v = [S::ZERO; 1];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -196,7 +196,7 @@ pub struct Prepared<S = f64> {
     /// `1/m`
     k9: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -204,7 +204,7 @@ pub struct Prepared<S = f64> {
 /// ```text
 /// M[s, s] = m
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
     [[p.m]]
 }
 
@@ -213,7 +213,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 /// ```text
 /// h[s] = -m*rate^2*s
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let s = q[0];
     let h_s = p.k7 * s;
     [h_s]
@@ -224,7 +224,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
 /// ```text
 /// Q[s] = m*g*sin(rate*t + alpha)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S) -> [S; 1] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S) -> [S; 1] {
     let t0 = p.rate * t;
     let t1 = t0 + p.alpha;
     let (sin_t1, cos_t1) = t1.sin_cos();
@@ -234,7 +234,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S) -> [S; 1] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let s = q[0];
     let t0 = p.rate * t;
     let t1 = t0 + p.alpha;
@@ -249,7 +249,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S;
 /// ```text
 /// w[face] = der(s)
 /// ```
-pub fn slips<S: ::lagrangian::Scalar>(v: &[S; 1]) -> [S; 1] {
+pub fn slips<S: ::lagrangian::emitted::Scalar>(v: &[S; 1]) -> [S; 1] {
     let s_dot = v[0];
     [s_dot]
 }
@@ -259,7 +259,7 @@ pub fn slips<S: ::lagrangian::Scalar>(v: &[S; 1]) -> [S; 1] {
 /// ```text
 /// tau[face, s] = 1
 /// ```
-pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
+pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 1] {
     let one = S::ONE;
     [one]
 }
@@ -270,12 +270,12 @@ pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
 /// multipliers.
 ///
 /// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::Number>(
+pub fn friction<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
     v: &[S; 1],
-) -> Result<[S; 8], ::lagrangian::Singular> {
+) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
     S::run(Friction { p, t, q, v })
 }
 
@@ -291,11 +291,11 @@ pub struct Friction<'a, S> {
     pub v: &'a [S; 1],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -335,7 +335,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
 /// ```text
 /// T = 1/2*m*der(s)^2 + 1/2*m*rate^2*s^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+) -> S {
     let s = q[0];
     let s_dot = v[0];
     let t0 = p.rate * t;
@@ -355,7 +360,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
 /// ```text
 /// V = -m*g*sin(rate*t + alpha)*s
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
     let s = q[0];
     let t0 = p.rate * t;
     let t1 = t0 + p.alpha;
@@ -369,7 +374,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 
 /// ```text
 /// P = 2*m*rate^2*s*der(s) - m*rate*g*cos(rate*t + alpha)*s
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
@@ -414,14 +419,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 /// The names of the contacts that stick and slide.
 const CONTACTS: [&str; 1] = ["face"];
 
-impl ::lagrangian::Machine for BlockOnIncline {
+impl ::lagrangian::emitted::Machine for BlockOnIncline {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "BlockOnIncline"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.alpha, self.rate, self.mu, self.mu0, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -442,19 +449,19 @@ impl ::lagrangian::Machine for BlockOnIncline {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 1];
     type Matrix = [f64; 1];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -473,8 +480,8 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 1],
         u: &Inputs,
         result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::Singular> {
-        ::lagrangian::accelerations_with_friction(self, t, q, v, u, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
@@ -535,7 +542,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -543,7 +550,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -558,7 +565,7 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 1],
         _: &[f64; 1],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
@@ -567,8 +574,9 @@ impl ::lagrangian::System for Prepared {
     }
 
     fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
-        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
-        let slips: [::lagrangian::scalar::Interval; _] = slips(&v.map(near));
+        let between = ::lagrangian::emitted::scalar::Interval::new;
+        let near = |x: f64| between(x.next_down(), x.next_up());
+        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&v.map(near));
         for (range, w) in ranges.iter_mut().zip(slips) {
             *range = [w.lo(), w.hi()];
         }
@@ -581,27 +589,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 1],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &friction(self, t, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::contact_workspace(1, 0, 1)];
+        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(1, 0, 1)];
         work(room.get_mut(..length))
     }
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
@@ -614,17 +622,18 @@ fn fill(to: &mut [f64], from: &[f64]) {
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

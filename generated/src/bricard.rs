@@ -82,7 +82,7 @@ impl<S> Bricard<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> Bricard<S> {
+impl<S: ::lagrangian::emitted::Scalar> Bricard<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.l * self.l;
@@ -176,11 +176,11 @@ impl<S: ::lagrangian::Scalar> Bricard<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let q = [zero, zero, zero, zero, zero];
         let v = [S::ZERO; 5];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -353,7 +353,7 @@ pub struct Prepared<S = f64> {
 /// M[q[5], q[3]] = 1/12*(4*l^2 + w^2)*m*sin(q[4]) - 1/2*l*m*sin(q[5])*(-l*sin(q[4]) - l)
 /// M[q[5], q[5]] = 1/3*l^2*m + 1/12*w^2*m
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -437,7 +437,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S;
 /// h[q[4]] = …
 /// h[q[5]] = …
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -539,7 +539,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) ->
 /// Q[q[5]] = -1/2*l*m*(cos(q[5])*(-g*cos(q[2])*sin(q[3])*sin(q[4]) - g*sin(q[2])*cos(q[4])) -
 ///     g*cos(q[2])*cos(q[3])*sin(q[5]))
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -564,7 +564,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -677,7 +677,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
 ///     cos(q[5])*(-sin(q[1])*cos(q[2])*cos(q[4]) - sin(q[4])*(cos(q[1])*cos(q[3]) -
 ///     sin(q[1])*sin(q[2])*sin(q[3])))
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+) -> [S; 5] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -730,7 +733,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]
 ///     cos(q[2])*sin(q[3])*cos(q[4])*der(q[4])))
 /// phi[turns] = …
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -857,7 +860,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 ///     sin(q[5])*(-sin(q[1])*cos(q[2])*cos(q[4]) - sin(q[4])*(cos(q[1])*cos(q[3]) -
 ///     sin(q[1])*sin(q[2])*sin(q[3])))
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 25] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 25] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -937,7 +940,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -
 /// gamma[tips] = …
 /// gamma[turns] = …
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -1101,11 +1104,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
-) -> Result<[S; 5], ::lagrangian::Singular> {
+) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -1119,11 +1122,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 5],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         let q_1 = n(q[0]);
@@ -1723,11 +1726,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
-) -> Result<[S; 5], ::lagrangian::Singular> {
+) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -1741,11 +1744,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 5],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         let q_1 = n(q[0]);
@@ -2329,7 +2332,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = …
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -2391,7 +2398,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &
 ///     - 7/2*l*m*g*cos(q[2]) - 1/2*l*m*g*sin(q[2])*cos(q[4])*sin(q[5])
 ///     - 3/2*l*m*g*sin(q[2])*cos(q[4])
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -2414,7 +2421,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) ->
 /// x3 = l*cos(q[1])*sin(q[2])*sin(q[3]) + l*cos(q[1])*sin(q[2]) + l*cos(q[1])
 ///     + l*sin(q[1])*cos(q[3])
 /// ```
-pub fn output_x3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+pub fn output_x3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -2430,7 +2437,7 @@ pub fn output_x3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
 /// ```text
 /// y3 = -l*cos(q[2])*sin(q[3]) - l*cos(q[2])
 /// ```
-pub fn output_y3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+pub fn output_y3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let sin_q_3 = q_3.sin();
@@ -2444,7 +2451,7 @@ pub fn output_y3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
 /// z3 = l*cos(q[1])*cos(q[3]) - l*sin(q[1])*sin(q[2])*sin(q[3]) - l*sin(q[1])*sin(q[2])
 ///     - l*sin(q[1])
 /// ```
-pub fn output_z3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+pub fn output_z3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -2456,7 +2463,7 @@ pub fn output_z3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> Outputs<S> {
     Outputs {
         x3: output_x3(p, q),
         y3: output_y3(p, q),
@@ -2491,14 +2498,16 @@ const CONSTRAINTS: [(&str, &str, &str, bool); 5] = [
     ("turns", "1", "N*m", true),
 ];
 
-impl ::lagrangian::Machine for Bricard {
+impl ::lagrangian::emitted::Machine for Bricard {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "Bricard"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.l, self.w, self.m, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -2517,19 +2526,19 @@ impl ::lagrangian::Machine for Bricard {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 5];
     type Matrix = [f64; 25];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -2548,8 +2557,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 5],
         _: &Inputs,
         result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
@@ -2614,7 +2626,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -2622,7 +2634,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.x3, outputs.y3, outputs.z3];
         quantities(&OUTPUTS, values)
     }
@@ -2637,11 +2649,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 5],
         _: &[f64; 5],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -2652,27 +2664,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 5],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(5, 5)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 5)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 5];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             l: lanes(|p| p.l),
             m: lanes(|p| p.m),
@@ -2730,13 +2742,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -2744,23 +2756,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -2778,12 +2790,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -2793,13 +2805,14 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

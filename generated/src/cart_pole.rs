@@ -86,7 +86,7 @@ impl<S> CartPole<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> CartPole<S> {
+impl<S: ::lagrangian::emitted::Scalar> CartPole<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k7 = self.pole + self.cart;
@@ -129,12 +129,12 @@ impl<S: ::lagrangian::Scalar> CartPole<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let theta = S::from_ratio(1, 20);
         let q = [zero, theta];
         let v = [S::ZERO; 2];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -241,7 +241,7 @@ pub struct Prepared<S = f64> {
     /// `1/(cart + pole)`
     k11: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -251,7 +251,7 @@ pub struct Prepared<S = f64> {
 /// M[theta, x] = pole*l*cos(theta)
 /// M[theta, theta] = pole*l^2 + J
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let theta = q[1];
     let cos_theta = theta.cos();
     let m21 = p.k5 * cos_theta;
@@ -263,7 +263,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
 /// ```text
 /// h[x] = -pole*l*sin(theta)*der(theta)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let theta = q[1];
     let theta_dot = v[1];
     let sin_theta = theta.sin();
@@ -278,7 +278,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 /// Q[x] = push - rail*der(x)
 /// Q[theta] = pole*l*g*sin(theta) - hinge*der(theta)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -294,7 +294,7 @@ pub fn applied<S: ::lagrangian::Scalar>(
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -312,12 +312,12 @@ pub fn forces<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
     u: &Inputs<S>,
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v, u })
 }
 
@@ -333,11 +333,11 @@ pub struct Accelerations<'a, S> {
     pub u: &'a Inputs<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v, u } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -372,7 +372,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// T = 1/2*(cart + pole)*der(x)^2 + pole*l*cos(theta)*der(x)*der(theta)
 ///     + 1/2*(pole*l^2 + J)*der(theta)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
     let theta = q[1];
     let x_dot = v[0];
     let theta_dot = v[1];
@@ -388,7 +392,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 /// ```text
 /// V = pole*l*g*cos(theta)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
     p.k2 * cos_theta
@@ -399,7 +403,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
 /// ```text
 /// D = 1/2*rail*der(x)^2 + 1/2*hinge*der(theta)^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let x_dot = v[0];
     let theta_dot = v[1];
     x_dot * (x_dot * p.k4) + theta_dot * (theta_dot * p.k3)
@@ -410,7 +414,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
 /// ```text
 /// P = der(x)*push
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
     let x_dot = v[0];
     u.push * x_dot
 }
@@ -420,7 +424,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
 /// ```text
 /// R = rail*der(x)^2 + hinge*der(theta)^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let x_dot = v[0];
     let theta_dot = v[1];
     x_dot * (x_dot * p.rail) + theta_dot * (theta_dot * p.hinge)
@@ -431,7 +435,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) ->
 /// ```text
 /// tip = 2*l*cos(theta)
 /// ```
-pub fn output_tip<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn output_tip<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
     p.k0 * cos_theta
@@ -442,7 +446,7 @@ pub fn output_tip<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
 /// ```text
 /// hinge_force = -pole*(der(der(x)) + (l*cos(theta)*der(der(theta)) - l*sin(theta)*der(theta)^2))
 /// ```
-pub fn output_hinge_force<S: ::lagrangian::Scalar>(
+pub fn output_hinge_force<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -458,7 +462,7 @@ pub fn output_hinge_force<S: ::lagrangian::Scalar>(
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -490,14 +494,16 @@ const INPUTS: [(&str, &str); 1] = [("push", "N")];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 2] = [("tip", "m"), ("hinge_force", "N")];
 
-impl ::lagrangian::Machine for CartPole {
+impl ::lagrangian::emitted::Machine for CartPole {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "CartPole"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.cart, self.pole, self.l, self.J, self.rail, self.hinge, self.g,
         ];
@@ -521,19 +527,19 @@ impl ::lagrangian::Machine for CartPole {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 2];
     type Matrix = [f64; 4];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -552,8 +558,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         u: &Inputs,
         result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -602,7 +611,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [inputs.push];
         quantities(&INPUTS, values)
     }
@@ -610,7 +619,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.tip, outputs.hinge_force];
         quantities(&OUTPUTS, values)
     }
@@ -625,21 +634,21 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 2];
-    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
+    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             pole: lanes(|p| p.pole),
             l: lanes(|p| p.l),
@@ -663,7 +672,7 @@ where
     }
 
     fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
         Inputs {
             push: lanes(|u| u.push),
         }
@@ -681,41 +690,89 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v, u },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for CartPole<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 2];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs<S>;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs<S> {
+        <Inputs>::default().map(S::from_f64)
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 2],
+        v: &[S; 2],
+        u: &Inputs<S>,
+        result: &mut [S; 2],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -725,17 +782,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

@@ -69,7 +69,7 @@ impl<S> ChaplyginSleigh<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> ChaplyginSleigh<S> {
+impl<S: ::lagrangian::emitted::Scalar> ChaplyginSleigh<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.m * self.a;
@@ -100,12 +100,12 @@ impl<S: ::lagrangian::Scalar> ChaplyginSleigh<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let x_rate = S::from_ratio(2, 5);
         let q = [zero, zero, zero];
         let v = [x_rate, zero, S::from_f64(3.0)];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -180,7 +180,7 @@ pub struct Prepared<S = f64> {
     /// `1/J`
     k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -192,7 +192,7 @@ pub struct Prepared<S = f64> {
 /// M[phi, y] = m*a*cos(phi)
 /// M[phi, phi] = m*a^2 + J
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let phi = q[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
     let zero = S::ZERO;
@@ -207,7 +207,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// h[x] = -m*a*cos(phi)*der(phi)^2
 /// h[y] = -m*a*sin(phi)*der(phi)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let phi = q[2];
     let phi_dot = v[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
@@ -219,7 +219,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let phi = q[2];
     let phi_dot = v[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
@@ -235,7 +235,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 /// ```text
 /// phi[blade] = cos(phi)*der(y) - sin(phi)*der(x)
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
     let phi = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -250,7 +250,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 
 /// G[blade, x] = -sin(phi)
 /// G[blade, y] = cos(phi)
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(q: &[S; 3]) -> [S; 3] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> [S; 3] {
     let phi = q[2];
     let (sin_phi, cos_phi) = phi.sin_cos();
     let g1_1 = -sin_phi;
@@ -263,7 +263,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(q: &[S; 3]) -> [S; 3] {
 /// ```text
 /// gamma[blade] = cos(phi)*der(x)*der(phi) + sin(phi)*der(y)*der(phi)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 1] {
     let phi = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -277,11 +277,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> [S; 
 /// machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -295,11 +295,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -335,11 +335,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 1], ::lagrangian::Singular> {
+) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -353,11 +353,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -388,7 +388,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// T = 1/2*J*der(phi)^2
 ///     + 1/2*m*((der(x) - a*sin(phi)*der(phi))^2 + (der(y) + a*cos(phi)*der(phi))^2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let phi = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -406,7 +410,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// along = cos(phi)*der(x) + sin(phi)*der(y)
 /// ```
-pub fn output_along<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> S {
+pub fn output_along<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> S {
     let phi = q[2];
     let x_dot = v[0];
     let y_dot = v[1];
@@ -415,7 +419,7 @@ pub fn output_along<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> S {
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
     Outputs {
         along: output_along(q, v),
     }
@@ -436,14 +440,16 @@ const OUTPUTS: [(&str, &str); 1] = [("along", "m/s")];
 /// Names, units, units of multipliers, whether positions are constrained.
 const CONSTRAINTS: [(&str, &str, &str, bool); 1] = [("blade", "m/s", "N", false)];
 
-impl ::lagrangian::Machine for ChaplyginSleigh {
+impl ::lagrangian::emitted::Machine for ChaplyginSleigh {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "ChaplyginSleigh"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.J, self.a];
         quantities(&PARAMETERS, values)
     }
@@ -461,19 +467,19 @@ impl ::lagrangian::Machine for ChaplyginSleigh {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -492,8 +498,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -558,7 +567,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -566,7 +575,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.along];
         quantities(&OUTPUTS, values)
     }
@@ -581,11 +590,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -596,27 +605,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(3, 1)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 1)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             J: lanes(|p| p.J),
@@ -644,13 +653,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -658,23 +667,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -692,12 +701,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -707,20 +716,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

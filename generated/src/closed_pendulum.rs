@@ -79,7 +79,7 @@ impl<S> ClosedPendulum<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
+impl<S: ::lagrangian::emitted::Scalar> ClosedPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k3 = self.l * self.m;
@@ -176,7 +176,7 @@ impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let q_5 = S::pi() * S::from_f64(0.5);
         let q_4 = S::pi() * S::from_ratio(1, 3);
         let q_1 = -q_5;
@@ -184,7 +184,7 @@ impl<S: ::lagrangian::Scalar> ClosedPendulum<S> {
         let q_3 = -q_4;
         let q = [q_1, zero, q_3, q_4, q_5];
         let v = [S::ZERO; 5];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -314,7 +314,7 @@ pub struct Prepared<S = f64> {
     /// `1/(J + 4.25*l^2*m)`
     k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -336,7 +336,7 @@ pub struct Prepared<S = f64> {
 /// M[q[5], q[4]] = 1/2*l^2*m*cos(q[5] - q[4])
 /// M[q[5], q[5]] = 1/4*l^2*m + J
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S; 5]; 5] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -377,7 +377,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [[S;
 /// h[q[5]] = 1/2*l^2*m*sin(q[5] - q[1])*der(q[1])^2 + 1/2*l^2*m*sin(q[5] - q[2])*der(q[2])^2
 ///     + 1/2*l^2*m*sin(q[5] - q[3])*der(q[3])^2 + 1/2*l^2*m*sin(q[5] - q[4])*der(q[4])^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -432,7 +432,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) ->
 /// Q[q[4]] = -3/2*l*m*g*cos(q[4])
 /// Q[q[5]] = -1/2*l*m*g*cos(q[5])
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -452,7 +452,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 5] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> [S; 5] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -506,7 +506,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) 
 /// g[along] = l*cos(q[1]) + l*cos(q[2]) + l*cos(q[3]) + l*cos(q[4]) + l*cos(q[5]) - d
 /// g[across] = l*sin(q[1]) + l*sin(q[2]) + l*sin(q[3]) + l*sin(q[4]) + l*sin(q[5])
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 2] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+) -> [S; 2] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -530,7 +533,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]
 /// phi[across] = l*cos(q[1])*der(q[1]) + l*cos(q[2])*der(q[2]) + l*cos(q[3])*der(q[3])
 ///     + l*cos(q[4])*der(q[4]) + l*cos(q[5])*der(q[5])
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -571,7 +574,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[across, q[4]] = l*cos(q[4])
 /// G[across, q[5]] = l*cos(q[5])
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 10] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> [S; 10] {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -603,7 +606,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -
 /// gamma[across] = l*sin(q[1])*der(q[1])^2 + l*sin(q[2])*der(q[2])^2 + l*sin(q[3])*der(q[3])^2
 ///     + l*sin(q[4])*der(q[4])^2 + l*sin(q[5])*der(q[5])^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
@@ -639,11 +642,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
-) -> Result<[S; 5], ::lagrangian::Singular> {
+) -> Result<[S; 5], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -657,11 +660,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 5],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 5], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 5], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -891,11 +894,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 5],
     v: &[S; 5],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -909,11 +912,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 5],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -1095,7 +1098,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = …
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &[S; 5]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 5],
+    v: &[S; 5],
+) -> S {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -1146,7 +1153,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5], v: &
 /// V = 9/2*l*m*g*sin(q[1]) + 7/2*l*m*g*sin(q[2]) + 5/2*l*m*g*sin(q[3]) + 3/2*l*m*g*sin(q[4])
 ///     + 1/2*l*m*g*sin(q[5])
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 5]) -> S {
     let q_1 = q[0];
     let q_2 = q[1];
     let q_3 = q[2];
@@ -1192,14 +1199,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
     [("along", "m", "N", true), ("across", "m", "N", true)];
 
-impl ::lagrangian::Machine for ClosedPendulum {
+impl ::lagrangian::emitted::Machine for ClosedPendulum {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "ClosedPendulum"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.l, self.m, self.J, self.d, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -1219,19 +1228,19 @@ impl ::lagrangian::Machine for ClosedPendulum {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 5];
     type Matrix = [f64; 25];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1250,8 +1259,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 5],
         _: &Inputs,
         result: &mut [f64; 5],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 5], matrix: &mut [f64; 25]) {
@@ -1316,7 +1328,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1324,7 +1336,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -1339,11 +1351,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 5],
         _: &[f64; 5],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -1354,27 +1366,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 5],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(5, 2)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(5, 2)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 5];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 5];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             l: lanes(|p| p.l),
             m: lanes(|p| p.m),
@@ -1436,13 +1448,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -1450,23 +1462,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -1484,12 +1496,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1499,20 +1511,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(5) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

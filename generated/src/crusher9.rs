@@ -157,7 +157,7 @@ impl<S> Crusher9<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> Crusher9<S> {
+impl<S: ::lagrangian::emitted::Scalar> Crusher9<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let pivot_1 = self.m + self.m0;
@@ -311,7 +311,7 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let theta = S::from_ratio(1, 100);
         let s1 = S::from_ratio(4, 25);
@@ -320,7 +320,7 @@ impl<S: ::lagrangian::Scalar> Crusher9<S> {
         let phi2 = S::from_ratio(13, 10);
         let q = [zero, zero, theta, s1, phi1, zero, s2, phi2, zero];
         let v = [S::ZERO; 9];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -520,7 +520,7 @@ pub struct Prepared<S = f64> {
     /// What the Taylor series takes from the parameters.
     series: [S; 34],
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -550,7 +550,7 @@ pub struct Prepared<S = f64> {
 /// M[phi2, phi2] = m2*s2^2
 /// M[theta2, theta2] = J2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -614,7 +614,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
 /// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
 ///     + 2*m2*s2*der(s2)*der(phi2)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -672,7 +677,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
 /// Q[s1] = -d1*der(s1) - k1*(s1 - r1)
 /// Q[s2] = -d2*der(s2) - k2*(s2 - r2)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -697,7 +706,12 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9])
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -759,12 +773,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
-) -> Result<[S; 9], ::lagrangian::Singular> {
+) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, t, q, v })
 }
 
@@ -780,11 +794,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 9],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -907,7 +921,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
 ///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -949,7 +968,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
 /// ```text
 /// V = 1/2*cx*(x - yc*theta)^2 + 1/2*cy*(y + xc*theta)^2 + 1/2*k1*(s1 - r1)^2 + 1/2*k2*(s2 - r2)^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -969,7 +988,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
 /// D = 1/2*d1*der(s1)^2 + 1/2*d2*der(s2)^2 + 1/2*bx*(der(x) - yb*der(theta))^2
 ///     + 1/2*by*(der(y) + xb*der(theta))^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -988,7 +1007,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
 ///     + m0*e*y0*w*sin(w*t - theta)*der(der(theta)) + m0*e*x0*w*cos(w*t - theta)*der(der(theta))
 ///     + m0*e*x0*w*sin(w*t - theta)*der(theta)^2 - m0*e*y0*w*cos(w*t - theta)*der(theta)^2
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
@@ -1018,7 +1037,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
 /// ```text
 /// R = d1*der(s1)^2 + d2*der(s2)^2 + bx*(der(x) - yb*der(theta))^2 + by*(der(y) + xb*der(theta))^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -1031,13 +1050,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
 }
 
 /// By how much `s1 > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s1 = q[3];
     s1
 }
 
 /// By how much `s2 > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s2 = q[6];
     s2
 }
@@ -1052,11 +1071,11 @@ pub struct Series<'a, S> {
     coefficients: &'a mut [[S; 9]],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
-    type Output = Result<(), ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
+    type Output = Result<(), ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self {
             p,
             t,
@@ -1404,9 +1423,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
             x287.store(),
         ];
         let members288 = [0, 1, 2, 3, 4, 6, 7];
-        let factored = ::lagrangian::series::factor::<N>(7, 7, &mut x288);
+        let factored = ::lagrangian::emitted::series::factor::<N>(7, 7, &mut x288);
         if let Err(vanished) = factored {
-            let singular = ::lagrangian::series::singular(vanished, &members288, 9);
+            let singular = ::lagrangian::emitted::series::singular(vanished, &members288, 9);
             return Err(singular);
         }
         let x291 = -x124;
@@ -1427,7 +1446,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         ];
         let mut room298 = x298;
         let (x, room) = (&mut x298, &mut room298);
-        ::lagrangian::series::solve::<N>(7, &x288, x, room);
+        ::lagrangian::emitted::series::solve::<N>(7, &x288, x, room);
         let x299 = n(x298[0]);
         let x300 = n(x298[1]);
         let x301 = n(x298[2]);
@@ -1516,7 +1535,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let mut a0 = [[N::ZERO.store(); 16]; ::lagrangian::series::ROWS];
+        let mut a0 = [[N::ZERO.store(); 16]; ::lagrangian::emitted::series::ROWS];
         a0[2] = [
             x301.store(),
             x301.store(),
@@ -1535,7 +1554,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
             x336.store(),
             x325.store(),
         ];
-        let mut b0 = [[N::ZERO.store(); 16]; ::lagrangian::series::ROWS];
+        let mut b0 = [[N::ZERO.store(); 16]; ::lagrangian::emitted::series::ROWS];
         b0[2] = [
             x350.store(),
             x348.store(),
@@ -1554,9 +1573,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
             x357.store(),
             x369.store(),
         ];
-        let mut a1 = [[N::ZERO.store(); 4]; ::lagrangian::series::ROWS];
+        let mut a1 = [[N::ZERO.store(); 4]; ::lagrangian::emitted::series::ROWS];
         a1[2] = [x330.store(), x319.store(), x330.store(), x319.store()];
-        let mut b1 = [[N::ZERO.store(); 4]; ::lagrangian::series::ROWS];
+        let mut b1 = [[N::ZERO.store(); 4]; ::lagrangian::emitted::series::ROWS];
         b1[2] = [x359.store(), x361.store(), x364.store(), x372.store()];
         let mut y18 = x346;
         let mut y24 = x71;
@@ -1590,10 +1609,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         let mut r2 = x301;
         let mut r3 = x302;
         let mut r6 = x304;
-        let rows = coefficients.iter_mut().take(::lagrangian::series::ROWS);
+        let known = ::lagrangian::emitted::series::ROWS;
+        let rows = coefficients.iter_mut().take(known);
         for (order, row) in rows.enumerate().skip(3) {
-            let w0 = ::lagrangian::series::sweep::<N, 16>(&a0, &b0, order - 2);
-            let w1 = ::lagrangian::series::sweep::<N, 4>(&a1, &b1, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 16>(&a0, &b0, order - 2);
+            let w1 = ::lagrangian::emitted::series::sweep::<N, 4>(&a1, &b1, order - 2);
             let x375 = y25;
             let x376 = x6 * x375;
             let x377 = N::from_ratio(1, order as i64);
@@ -1777,7 +1797,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
             ];
             let mut room547 = x547;
             let (x, room) = (&mut x547, &mut room547);
-            ::lagrangian::series::solve::<N>(7, &x288, x, room);
+            ::lagrangian::emitted::series::solve::<N>(7, &x288, x, room);
             let x548 = n(x547[0]);
             let x549 = n(x547[1]);
             let x550 = n(x547[2]);
@@ -2007,14 +2027,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 0] = [];
 
-impl ::lagrangian::Machine for Crusher9 {
+impl ::lagrangian::emitted::Machine for Crusher9 {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "Crusher9"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m, self.J, self.m0, self.e, self.x0, self.y0, self.w, self.m1, self.J1, self.m2,
             self.J2, self.cx, self.cy, self.xc, self.yc, self.bx, self.by, self.xb, self.yb,
@@ -2058,19 +2080,19 @@ impl ::lagrangian::Machine for Crusher9 {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 9];
     type Matrix = [f64; 81];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -2089,8 +2111,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
     }
 
     fn check_series(&self) -> Result<(), &str> {
@@ -2104,8 +2129,9 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         coefficients: &mut [[f64; 9]],
-    ) -> Result<(), ::lagrangian::Singular> {
-        for row in coefficients.iter_mut().skip(::lagrangian::series::ROWS) {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        let known = ::lagrangian::emitted::series::ROWS;
+        for row in coefficients.iter_mut().skip(known) {
             *row = [f64::NAN; 9];
         }
         let series = Series {
@@ -2115,7 +2141,7 @@ impl ::lagrangian::System for Prepared {
             v,
             coefficients,
         };
-        <f64 as ::lagrangian::Number>::run(series)
+        <f64 as ::lagrangian::emitted::Number>::run(series)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -2164,7 +2190,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -2172,7 +2198,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -2187,7 +2213,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 9],
         _: &[f64; 9],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("s1 > 0", true, assumption_0(q)),
             assumption("s2 > 0", true, assumption_1(q)),
@@ -2196,16 +2222,17 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
+        let member = |i: usize| ::lagrangian::emitted::Lanes(systems.map(|p| p.series[i]));
         Prepared {
             m: lanes(|p| p.m),
             J: lanes(|p| p.J),
@@ -2262,7 +2289,7 @@ where
             k28: lanes(|p| p.k28),
             k29: lanes(|p| p.k29),
             singular: None,
-            series: ::core::array::from_fn(|i| ::lagrangian::Lanes(systems.map(|p| p.series[i]))),
+            series: ::core::array::from_fn(member),
         }
     }
 
@@ -2280,35 +2307,83 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        t: ::lagrangian::Lanes<N>,
+        t: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, t, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for Crusher9<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 9];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 9]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 9] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        t: S,
+        q: &[S; 9],
+        v: &[S; 9],
+        _: &Inputs,
+        result: &mut [S; 9],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -2318,12 +2393,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -2333,17 +2408,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

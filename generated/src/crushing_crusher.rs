@@ -162,7 +162,7 @@ impl<S> CrushingCrusher<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
+impl<S: ::lagrangian::emitted::Scalar> CrushingCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.rho - self.delta;
@@ -313,7 +313,7 @@ impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let s1 = self.R - self.r1;
         let t0 = self.rho - self.delta;
         let s2 = t0 - self.r2;
@@ -344,7 +344,7 @@ impl<S: ::lagrangian::Scalar> CrushingCrusher<S> {
             self.whirl2,
             theta2_rate,
         ];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -568,7 +568,7 @@ pub struct Prepared<S = f64> {
     /// `1/(m + m0 + m1 + m2)`
     k47: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -598,7 +598,7 @@ pub struct Prepared<S = f64> {
 /// M[phi2, phi2] = m2*s2^2
 /// M[theta2, theta2] = J2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -662,7 +662,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
 /// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
 ///     + 2*m2*s2*der(s2)*der(phi2)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -717,7 +722,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
 /// Q[y] = -2*by*der(y) - 2*cy*y
 /// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -740,7 +749,12 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9])
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -807,7 +821,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 /// g[mortar_in_cylinder.gap] = R - s1 - r1
 /// g[pestle_in_mortar.gap] = rho - s2 - r2 - delta
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 4] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+) -> [S; 4] {
     let s1 = q[3];
     let s2 = q[6];
     let g1 = p.k12 - s1;
@@ -824,7 +841,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]
 /// phi[pestle_in_mortar.gap] = -der(s2)
 /// phi[pestle_in_mortar.slip] = s2*der(phi2) - (rho - delta)*der(theta1) + r2*der(theta2)
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 9],
     v: &[S; 9],
@@ -857,7 +874,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[pestle_in_mortar.slip, phi2] = s2
 /// G[pestle_in_mortar.slip, theta2] = r2
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 36] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [S; 36] {
     let s1 = q[3];
     let s2 = q[6];
     let zero = S::ZERO;
@@ -907,7 +924,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -
 /// gamma[mortar_in_cylinder.slip] = -der(s1)*der(phi1)
 /// gamma[pestle_in_mortar.slip] = -der(s2)*der(phi2)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 9]) -> [S; 4] {
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(v: &[S; 9]) -> [S; 4] {
     let s1_dot = v[3];
     let phi1_dot = v[4];
     let s2_dot = v[6];
@@ -922,12 +939,12 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 9]) -> [S; 4] {
 /// without the coordinates that constraints settle, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
-) -> Result<[S; 9], ::lagrangian::Singular> {
+) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, t, q, v })
 }
 
@@ -943,11 +960,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 9],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -1072,12 +1089,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
-) -> Result<[S; 4], ::lagrangian::Singular> {
+) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, t, q, v })
 }
 
@@ -1093,11 +1110,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 9],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -1302,7 +1319,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 ///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
 ///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2) + 1/2*J0*omega^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -1345,7 +1367,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
 /// ```text
 /// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -1363,7 +1385,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
 /// ```text
 /// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -1385,7 +1407,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
 ///     + m0*e*x0*omega*sin(omega*t - theta)*der(theta)^2
 ///     - m0*e*y0*omega*cos(omega*t - theta)*der(theta)^2
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
@@ -1415,7 +1437,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -1429,13 +1451,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
 }
 
 /// By how much `s1 > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s1 = q[3];
     s1
 }
 
 /// By how much `s2 > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s2 = q[6];
     s2
 }
@@ -1496,14 +1518,16 @@ const CONSTRAINTS: [(&str, &str, &str, bool); 4] = [
     ("pestle_in_mortar.slip", "m/s", "N", false),
 ];
 
-impl ::lagrangian::Machine for CrushingCrusher {
+impl ::lagrangian::emitted::Machine for CrushingCrusher {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "CrushingCrusher"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m,
             self.m0,
@@ -1569,19 +1593,19 @@ impl ::lagrangian::Machine for CrushingCrusher {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 9];
     type Matrix = [f64; 81];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1600,8 +1624,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1666,7 +1693,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1674,7 +1701,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -1689,7 +1716,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 9],
         _: &[f64; 9],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("s1 > 0", true, assumption_0(q)),
             assumption("s2 > 0", true, assumption_1(q)),
@@ -1697,7 +1724,7 @@ impl ::lagrangian::System for Prepared {
         facts.into_iter()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -1708,27 +1735,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, t, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(9, 4)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(9, 4)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             m0: lanes(|p| p.m0),
@@ -1815,13 +1842,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        t: ::lagrangian::Lanes<N>,
+        t: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, t, q, v },
             result,
         )
@@ -1829,21 +1856,21 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -1853,8 +1880,8 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -1872,12 +1899,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1887,20 +1914,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(9) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

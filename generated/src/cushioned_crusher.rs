@@ -184,7 +184,7 @@ impl<S> CushionedCrusher<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
+impl<S: ::lagrangian::emitted::Scalar> CushionedCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.omega * self.e;
@@ -315,13 +315,13 @@ impl<S: ::lagrangian::Scalar> CushionedCrusher<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let s1 = S::from_ratio(1, 50);
         let s2 = S::from_ratio(3, 100);
         let q = [zero, zero, zero, s1, zero, zero, s2, S::from_f64(0.5), zero];
         let v = [S::ZERO; 9];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -548,7 +548,7 @@ pub struct Prepared<S = f64> {
     /// `-drag2*r2/J2`
     k36: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -578,7 +578,7 @@ pub struct Prepared<S = f64> {
 /// M[phi2, phi2] = m2*s2^2
 /// M[theta2, theta2] = J2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -642,7 +642,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
 /// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
 ///     + 2*m2*s2*der(s2)*der(phi2)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -705,7 +710,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
 /// Q[phi2] = -drag2*s2*(s2*der(phi2) - rho*der(theta1) + r2*der(theta2))
 /// Q[theta2] = -drag2*r2*(s2*der(phi2) - rho*der(theta1) + r2*der(theta2))
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -745,7 +754,12 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9])
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -817,12 +831,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
-) -> Result<[S; 9], ::lagrangian::Singular> {
+) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, t, q, v })
 }
 
@@ -838,11 +852,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 9],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -983,7 +997,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
 ///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2) + 1/2*J0*omega^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -1027,7 +1046,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
 /// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2 + 1/2*k1*s1^2 - gap1*k1*s1 + 1/2*k2*s2^2
 ///     - gap2*k2*s2 + 1/2*gap1^2*k1 + 1/2*gap2^2*k2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -1054,7 +1073,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
 ///     + 1/2*bx*(der(x) - yc*der(theta))^2 + 1/2*bx*(der(x) + yc*der(theta))^2
 ///     + 1/2*by*(der(y) - xc*der(theta))^2 + 1/2*by*(der(y) + xc*der(theta))^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> S {
     let s1 = q[3];
     let s2 = q[6];
     let x_dot = v[0];
@@ -1088,7 +1107,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S;
 ///     + m0*e*x0*omega*sin(omega*t - theta)*der(theta)^2
 ///     - m0*e*y0*omega*cos(omega*t - theta)*der(theta)^2
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
@@ -1121,7 +1140,11 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
 ///     + bx*(der(x) + yc*der(theta))^2 + by*(der(y) - xc*der(theta))^2
 ///     + by*(der(y) + xc*der(theta))^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let s1 = q[3];
     let s2 = q[6];
     let x_dot = v[0];
@@ -1151,7 +1174,11 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v:
 /// ```text
 /// mortar_force = d1*der(s1) + k1*(s1 - gap1)
 /// ```
-pub fn output_mortar_force<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn output_mortar_force<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let s1 = q[3];
     let s1_dot = v[3];
     (s1 - p.gap1) * p.k1 + p.d1 * s1_dot
@@ -1162,7 +1189,7 @@ pub fn output_mortar_force<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9],
 /// ```text
 /// crushing_force = d2*der(s2) + k2*(s2 - gap2)
 /// ```
-pub fn output_crushing_force<S: ::lagrangian::Scalar>(
+pub fn output_crushing_force<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 9],
     v: &[S; 9],
@@ -1177,26 +1204,30 @@ pub fn output_crushing_force<S: ::lagrangian::Scalar>(
 /// ```text
 /// amplitude = sqrt(x^2 + y^2)
 /// ```
-pub fn output_amplitude<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn output_amplitude<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let x = q[0];
     let y = q[1];
     (y * y + x * x).sqrt()
 }
 
 /// By how much `s1 > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s1 = q[3];
     s1
 }
 
 /// By how much `s2 > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s2 = q[6];
     s2
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> Outputs<S> {
     Outputs {
         mortar_force: output_mortar_force(p, q, v),
         crushing_force: output_crushing_force(p, q, v),
@@ -1261,14 +1292,16 @@ const OUTPUTS: [(&str, &str); 3] = [
     ("amplitude", "m"),
 ];
 
-impl ::lagrangian::Machine for CushionedCrusher {
+impl ::lagrangian::emitted::Machine for CushionedCrusher {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "CushionedCrusher"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
             self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.gap1,
@@ -1318,19 +1351,19 @@ impl ::lagrangian::Machine for CushionedCrusher {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 9];
     type Matrix = [f64; 81];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1349,8 +1382,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1399,7 +1435,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1407,7 +1443,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             outputs.mortar_force,
             outputs.crushing_force,
@@ -1426,7 +1462,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 9],
         _: &[f64; 9],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("s1 > 0", true, assumption_0(q)),
             assumption("s2 > 0", true, assumption_1(q)),
@@ -1435,16 +1471,16 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             m0: lanes(|p| p.m0),
@@ -1529,35 +1565,83 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        t: ::lagrangian::Lanes<N>,
+        t: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, t, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for CushionedCrusher<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 9];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 9]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 9] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        t: S,
+        q: &[S; 9],
+        v: &[S; 9],
+        _: &Inputs,
+        result: &mut [S; 9],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -1567,12 +1651,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1582,17 +1666,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

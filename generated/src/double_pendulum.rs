@@ -73,7 +73,7 @@ impl<S> DoublePendulum<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
+impl<S: ::lagrangian::emitted::Scalar> DoublePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l1 * self.l1;
@@ -132,12 +132,12 @@ impl<S: ::lagrangian::Scalar> DoublePendulum<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let theta1 = S::pi() * S::from_ratio(2, 3);
         let theta2 = S::pi() * S::from_f64(0.5);
         let q = [theta1, theta2];
         let v = [S::ZERO; 2];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -221,7 +221,7 @@ pub struct Prepared<S = f64> {
     /// What the Taylor series takes from the parameters.
     series: [S; 10],
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -231,7 +231,7 @@ pub struct Prepared<S = f64> {
 /// M[theta2, theta1] = m2*l1*l2*cos(theta2 - theta1)
 /// M[theta2, theta2] = m2*l2^2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let theta1 = q[0];
     let theta2 = q[1];
     let (sin_theta2, cos_theta2) = theta2.sin_cos();
@@ -246,7 +246,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
 /// h[theta1] = -m2*l1*l2*sin(theta2 - theta1)*der(theta2)^2
 /// h[theta2] = m2*l1*l2*sin(theta2 - theta1)*der(theta1)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let theta1 = q[0];
     let theta2 = q[1];
     let theta1_dot = v[0];
@@ -265,7 +265,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 /// Q[theta1] = -(m1 + m2)*l1*g*sin(theta1)
 /// Q[theta2] = -m2*l2*g*sin(theta2)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let theta1 = q[0];
     let theta2 = q[1];
     let sin_theta1 = theta1.sin();
@@ -276,7 +276,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let theta1 = q[0];
     let theta2 = q[1];
     let theta1_dot = v[0];
@@ -295,11 +295,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -313,11 +313,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 2],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -360,7 +360,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// T = 1/2*(m1 + m2)*l1^2*der(theta1)^2 + m2*l1*l2*cos(theta2 - theta1)*der(theta1)*der(theta2)
 ///     + 1/2*m2*l2^2*der(theta2)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
     let theta1 = q[0];
     let theta2 = q[1];
     let theta1_dot = v[0];
@@ -379,7 +383,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 /// ```text
 /// V = -(m1 + m2)*l1*g*cos(theta1) - m2*l2*g*cos(theta2)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let theta1 = q[0];
     let theta2 = q[1];
     let cos_theta1 = theta1.cos();
@@ -396,11 +400,11 @@ pub struct Series<'a, S> {
     coefficients: &'a mut [[S; 2]],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
-    type Output = Result<(), ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
+    type Output = Result<(), ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self {
             p,
             q,
@@ -493,9 +497,9 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         let x82 = x52.mul_add(x76, x80);
         let mut x83 = [x73.store(), x74.store(), x81.store(), x82.store()];
         let members83 = [0, 1];
-        let factored = ::lagrangian::series::factor::<N>(2, 2, &mut x83);
+        let factored = ::lagrangian::emitted::series::factor::<N>(2, 2, &mut x83);
         if let Err(vanished) = factored {
-            let singular = ::lagrangian::series::singular(vanished, &members83, 2);
+            let singular = ::lagrangian::emitted::series::singular(vanished, &members83, 2);
             return Err(singular);
         }
         let x84 = -x49;
@@ -534,7 +538,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let mut a0 = [[N::ZERO.store(); 8]; ::lagrangian::series::ROWS];
+        let mut a0 = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
         a0[2] = [
             x89.store(),
             x89.store(),
@@ -545,7 +549,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
             x101.store(),
             x98.store(),
         ];
-        let mut b0 = [[N::ZERO.store(); 8]; ::lagrangian::series::ROWS];
+        let mut b0 = [[N::ZERO.store(); 8]; ::lagrangian::emitted::series::ROWS];
         b0[2] = [
             x111.store(),
             x109.store(),
@@ -566,9 +570,10 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Series<'_, S> {
         let mut y26 = x107;
         let mut z5 = x89;
         let mut z14 = x93;
-        let rows = coefficients.iter_mut().take(::lagrangian::series::ROWS);
+        let known = ::lagrangian::emitted::series::ROWS;
+        let rows = coefficients.iter_mut().take(known);
         for (order, row) in rows.enumerate().skip(3) {
-            let w0 = ::lagrangian::series::sweep::<N, 8>(&a0, &b0, order - 2);
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 8>(&a0, &b0, order - 2);
             let x116 = w0[0];
             let x117 = z5;
             let x118 = x117.mul_add(x10, x116);
@@ -717,14 +722,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 0] = [];
 
-impl ::lagrangian::Machine for DoublePendulum {
+impl ::lagrangian::emitted::Machine for DoublePendulum {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "DoublePendulum"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m1, self.m2, self.l1, self.l2, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -744,19 +751,19 @@ impl ::lagrangian::Machine for DoublePendulum {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 2];
     type Matrix = [f64; 4];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -775,8 +782,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         _: &Inputs,
         result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn check_series(&self) -> Result<(), &str> {
@@ -790,8 +800,9 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         _: &Inputs,
         coefficients: &mut [[f64; 2]],
-    ) -> Result<(), ::lagrangian::Singular> {
-        for row in coefficients.iter_mut().skip(::lagrangian::series::ROWS) {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        let known = ::lagrangian::emitted::series::ROWS;
+        for row in coefficients.iter_mut().skip(known) {
             *row = [f64::NAN; 2];
         }
         let series = Series {
@@ -800,7 +811,7 @@ impl ::lagrangian::System for Prepared {
             v,
             coefficients,
         };
-        <f64 as ::lagrangian::Number>::run(series)
+        <f64 as ::lagrangian::emitted::Number>::run(series)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -849,7 +860,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -857,7 +868,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -872,21 +883,22 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 2];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
+        let member = |i: usize| ::lagrangian::emitted::Lanes(systems.map(|p| p.series[i]));
         Prepared {
             l1: lanes(|p| p.l1),
             l2: lanes(|p| p.l2),
@@ -904,7 +916,7 @@ where
             k11: lanes(|p| p.k11),
             k12: lanes(|p| p.k12),
             singular: None,
-            series: ::core::array::from_fn(|i| ::lagrangian::Lanes(systems.map(|p| p.series[i]))),
+            series: ::core::array::from_fn(member),
         }
     }
 
@@ -922,41 +934,86 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for DoublePendulum<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 2];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 2],
+        v: &[S; 2],
+        _: &Inputs,
+        result: &mut [S; 2],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -966,17 +1023,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

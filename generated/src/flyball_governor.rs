@@ -89,7 +89,7 @@ impl<S> FlyballGovernor<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
+impl<S: ::lagrangian::emitted::Scalar> FlyballGovernor<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::ONE / self.l;
@@ -156,7 +156,7 @@ impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let alpha = S::from_ratio(3, 5);
         let (sin_alpha, cos_alpha) = alpha.sin_cos();
         let t0 = sin_alpha * self.l;
@@ -165,7 +165,7 @@ impl<S: ::lagrangian::Scalar> FlyballGovernor<S> {
         let phi_rate = ((self.m + self.M) * self.g / (cos_alpha * (self.l * self.m))).sqrt();
         let q = [zero, alpha, s];
         let v = [phi_rate, zero, zero];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -293,7 +293,7 @@ pub struct Prepared<S = f64> {
     /// `g/b`
     k22: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -303,7 +303,7 @@ pub struct Prepared<S = f64> {
 /// M[alpha, alpha] = 2*l^2*m
 /// M[s, s] = M
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let alpha = q[1];
     let sin_alpha = alpha.sin();
     let m11 = sin_alpha * (sin_alpha * p.k9) + p.J;
@@ -317,7 +317,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// h[phi] = 4*l^2*m*sin(alpha)*cos(alpha)*der(phi)*der(alpha)
 /// h[alpha] = -2*l^2*m*sin(alpha)*cos(alpha)*der(phi)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let alpha = q[1];
     let phi_dot = v[0];
     let alpha_dot = v[1];
@@ -336,7 +336,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 /// Q[alpha] = -2*l*m*g*sin(alpha)
 /// Q[s] = M*g
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], u: &Inputs<S>) -> [S; 3] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    u: &Inputs<S>,
+) -> [S; 3] {
     let alpha = q[1];
     let sin_alpha = alpha.sin();
     let q_alpha = p.k16 * sin_alpha;
@@ -344,7 +348,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], u: &Inputs<
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -365,7 +369,10 @@ pub fn forces<S: ::lagrangian::Scalar>(
 /// ```text
 /// g[links] = 1/2*s^2/b - l*s*cos(alpha)/b + 1/2*l^2/b - 1/2*b
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 1] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+) -> [S; 1] {
     let alpha = q[1];
     let s = q[2];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
@@ -379,7 +386,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]
 /// ```text
 /// phi[links] = l*s*sin(alpha)*der(alpha)/b + s*der(s)/b - l*cos(alpha)*der(s)/b
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -401,7 +408,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[links, alpha] = l*s*sin(alpha)/b
 /// G[links, s] = (s - l*cos(alpha))/b
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let alpha = q[1];
     let s = q[2];
     let (sin_alpha, cos_alpha) = alpha.sin_cos();
@@ -417,7 +424,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -
 /// ```text
 /// gamma[links] = -l*s*cos(alpha)*der(alpha)^2/b - 2*l*sin(alpha)*der(alpha)*der(s)/b - der(s)^2/b
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -439,12 +446,12 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// multiplied out.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
     u: &Inputs<S>,
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v, u })
 }
 
@@ -460,11 +467,11 @@ pub struct Accelerations<'a, S> {
     pub u: &'a Inputs<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v, u } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -513,11 +520,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 1], ::lagrangian::Singular> {
+) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -531,11 +538,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -581,7 +588,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = l^2*m*sin(alpha)^2*der(phi)^2 + 1/2*J*der(phi)^2 + l^2*m*der(alpha)^2 + 1/2*M*der(s)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let alpha = q[1];
     let phi_dot = v[0];
     let alpha_dot = v[1];
@@ -597,7 +608,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// V = -M*g*s - 2*l*m*g*cos(alpha)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let alpha = q[1];
     let s = q[2];
     let cos_alpha = alpha.cos();
@@ -609,7 +620,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
 /// ```text
 /// P = der(phi)*drive
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 3], u: &Inputs<S>) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 3], u: &Inputs<S>) -> S {
     let phi_dot = v[0];
     u.drive * phi_dot
 }
@@ -636,14 +647,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 /// Names, units, units of multipliers, whether positions are constrained.
 const CONSTRAINTS: [(&str, &str, &str, bool); 1] = [("links", "m", "N", true)];
 
-impl ::lagrangian::Machine for FlyballGovernor {
+impl ::lagrangian::emitted::Machine for FlyballGovernor {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "FlyballGovernor"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.l, self.b, self.m, self.M, self.J, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -664,19 +677,19 @@ impl ::lagrangian::Machine for FlyballGovernor {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -695,8 +708,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         u: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -761,7 +777,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [inputs.drive];
         quantities(&INPUTS, values)
     }
@@ -769,7 +785,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -784,11 +800,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -799,27 +815,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(3, 1)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 1)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
-    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
+    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             l: lanes(|p| p.l),
             M: lanes(|p| p.M),
@@ -853,7 +869,7 @@ where
     }
 
     fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
         Inputs {
             drive: lanes(|u| u.drive),
         }
@@ -871,13 +887,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v, u },
             result,
         )
@@ -885,23 +901,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -919,12 +935,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -934,20 +950,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

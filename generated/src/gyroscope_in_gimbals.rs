@@ -134,7 +134,7 @@ impl<S> GyroscopeInGimbals<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
+impl<S: ::lagrangian::emitted::Scalar> GyroscopeInGimbals<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.d * self.w;
@@ -190,12 +190,12 @@ impl<S: ::lagrangian::Scalar> GyroscopeInGimbals<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let beta = S::from_ratio(1, 5);
         let q = [zero, beta, zero];
         let v = [zero, zero, S::from_f64(300.0)];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -301,7 +301,7 @@ pub struct Prepared<S = f64> {
     /// `-1/(A3 + A2 + w*d^2)`
     k14: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -312,7 +312,7 @@ pub struct Prepared<S = f64> {
 /// M[gamma, alpha] = C3*sin(beta)
 /// M[gamma, gamma] = C3
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let beta = q[1];
     let sin_beta = beta.sin();
     let m11 = sin_beta * (sin_beta * p.k5) + p.k3;
@@ -330,7 +330,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 ///     - C3*cos(beta)*der(alpha)*der(gamma)
 /// h[gamma] = C3*cos(beta)*der(alpha)*der(beta)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let beta = q[1];
     let alpha_dot = v[0];
     let beta_dot = v[1];
@@ -350,7 +350,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 /// ```text
 /// Q[beta] = -w*d*g*cos(beta)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let beta = q[1];
     let cos_beta = beta.cos();
     let zero = S::ZERO;
@@ -359,7 +359,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let beta = q[1];
     let alpha_dot = v[0];
     let beta_dot = v[1];
@@ -378,11 +378,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine, pivots ahead.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -396,11 +396,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -439,7 +439,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     + 1/2*A1*der(alpha)^2 + 1/2*(A2 + A3 + w*d^2)*der(beta)^2
 ///     + 1/2*C3*(sin(beta)*der(alpha) + der(gamma))^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let beta = q[1];
     let alpha_dot = v[0];
     let beta_dot = v[1];
@@ -460,7 +464,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// V = w*d*g*sin(beta)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let beta = q[1];
     let sin_beta = beta.sin();
     p.k4 * sin_beta
@@ -471,7 +475,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
 /// ```text
 /// rotor_momentum = C3*(sin(beta)*der(alpha) + der(gamma))
 /// ```
-pub fn output_rotor_momentum<S: ::lagrangian::Scalar>(
+pub fn output_rotor_momentum<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -489,7 +493,7 @@ pub fn output_rotor_momentum<S: ::lagrangian::Scalar>(
 /// vertical_momentum = (B2 + C3)*sin(beta)^2*der(alpha) + (C2 + A3 + w*d^2)*cos(beta)^2*der(alpha)
 ///     + A1*der(alpha) + C3*sin(beta)*der(gamma)
 /// ```
-pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
+pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -503,7 +507,11 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Outputs<S> {
     Outputs {
         rotor_momentum: output_rotor_momentum(p, q, v),
         vertical_momentum: output_vertical_momentum(p, q, v),
@@ -535,14 +543,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 2] = [("rotor_momentum", "J*s"), ("vertical_momentum", "J*s")];
 
-impl ::lagrangian::Machine for GyroscopeInGimbals {
+impl ::lagrangian::emitted::Machine for GyroscopeInGimbals {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "GyroscopeInGimbals"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.A1, self.A2, self.B2, self.C2, self.A3, self.C3, self.m1, self.m2, self.m3,
             self.w, self.d, self.g,
@@ -572,19 +582,19 @@ impl ::lagrangian::Machine for GyroscopeInGimbals {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -603,8 +613,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -653,7 +666,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -661,7 +674,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.rotor_momentum, outputs.vertical_momentum];
         quantities(&OUTPUTS, values)
     }
@@ -676,21 +689,21 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             A1: lanes(|p| p.A1),
             A2: lanes(|p| p.A2),
@@ -731,41 +744,86 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for GyroscopeInGimbals<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 3];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 3]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 3] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 3],
+        v: &[S; 3],
+        _: &Inputs,
+        result: &mut [S; 3],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -775,17 +833,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

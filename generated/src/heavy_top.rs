@@ -83,7 +83,7 @@ impl<S> HeavyTop<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> HeavyTop<S> {
+impl<S: ::lagrangian::emitted::Scalar> HeavyTop<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.l * self.m;
@@ -120,13 +120,13 @@ impl<S: ::lagrangian::Scalar> HeavyTop<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let psi = S::pi();
         let theta = S::pi() * S::from_f64(0.5);
         let zero = S::ZERO;
         let q = [psi, theta, zero];
         let v = [zero, zero, S::from_f64(150.0)];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -210,7 +210,7 @@ pub struct Prepared<S = f64> {
     /// `-1/(A + m*l^2)`
     k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -221,7 +221,7 @@ pub struct Prepared<S = f64> {
 /// M[phi, psi] = C*cos(theta)
 /// M[phi, phi] = C
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let theta = q[1];
     let cos_theta = theta.cos();
     let m11 = p.k1 - cos_theta * (cos_theta * p.k4);
@@ -238,7 +238,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// h[theta] = C*sin(theta)*der(psi)*der(phi) - (m*l^2 + A - C)*cos(theta)*sin(theta)*der(psi)^2
 /// h[phi] = -C*sin(theta)*der(psi)*der(theta)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let theta = q[1];
     let psi_dot = v[0];
     let theta_dot = v[1];
@@ -258,7 +258,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 /// ```text
 /// Q[theta] = m*l*g*sin(theta)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let theta = q[1];
     let sin_theta = theta.sin();
     let zero = S::ZERO;
@@ -267,7 +267,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let theta = q[1];
     let psi_dot = v[0];
     let theta_dot = v[1];
@@ -285,11 +285,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -303,11 +303,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -354,7 +354,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// T = 1/2*(m*l^2 + A)*sin(theta)^2*der(psi)^2 + 1/2*(m*l^2 + A)*der(theta)^2
 ///     + 1/2*C*(cos(theta)*der(psi) + der(phi))^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let theta = q[1];
     let psi_dot = v[0];
     let theta_dot = v[1];
@@ -371,7 +375,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// V = m*l*g*cos(theta)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let theta = q[1];
     let cos_theta = theta.cos();
     p.k2 * cos_theta
@@ -383,7 +387,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
 /// vertical_momentum = C*cos(theta)^2*der(psi) + (m*l^2 + A)*sin(theta)^2*der(psi)
 ///     + C*cos(theta)*der(phi)
 /// ```
-pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
+pub fn output_vertical_momentum<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -402,7 +406,7 @@ pub fn output_vertical_momentum<S: ::lagrangian::Scalar>(
 /// ```text
 /// axial_momentum = C*(cos(theta)*der(psi) + der(phi))
 /// ```
-pub fn output_axial_momentum<S: ::lagrangian::Scalar>(
+pub fn output_axial_momentum<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -415,14 +419,18 @@ pub fn output_axial_momentum<S: ::lagrangian::Scalar>(
 }
 
 /// By how much `sin(theta) > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     let theta = q[1];
     let sin_theta = theta.sin();
     sin_theta
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> Outputs<S> {
     Outputs {
         vertical_momentum: output_vertical_momentum(p, q, v),
         axial_momentum: output_axial_momentum(p, q, v),
@@ -447,14 +455,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 2] = [("vertical_momentum", "J*s"), ("axial_momentum", "J*s")];
 
-impl ::lagrangian::Machine for HeavyTop {
+impl ::lagrangian::emitted::Machine for HeavyTop {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "HeavyTop"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.l, self.A, self.C, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -474,19 +484,19 @@ impl ::lagrangian::Machine for HeavyTop {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -505,8 +515,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -555,7 +568,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -563,7 +576,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.vertical_momentum, outputs.axial_momentum];
         quantities(&OUTPUTS, values)
     }
@@ -578,22 +591,22 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [assumption("sin(theta) > 0", true, assumption_0(q))];
         facts.into_iter()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             A: lanes(|p| p.A),
             C: lanes(|p| p.C),
@@ -624,35 +637,80 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for HeavyTop<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 3];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 3]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 3] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 3],
+        v: &[S; 3],
+        _: &Inputs,
+        result: &mut [S; 3],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -662,12 +720,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -677,17 +735,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

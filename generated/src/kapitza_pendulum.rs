@@ -90,7 +90,7 @@ impl<S> KapitzaPendulum<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
+impl<S: ::lagrangian::emitted::Scalar> KapitzaPendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m * self.l;
@@ -132,11 +132,11 @@ impl<S: ::lagrangian::Scalar> KapitzaPendulum<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let theta = S::from_ratio(3, 10);
         let q = [theta];
         let v = [S::ZERO; 1];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -217,7 +217,7 @@ pub struct Prepared<S = f64> {
     /// `1/m/l^2`
     k10: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -225,7 +225,7 @@ pub struct Prepared<S = f64> {
 /// ```text
 /// M[theta, theta] = m*l^2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
     [[p.k5]]
 }
 
@@ -234,7 +234,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 /// ```text
 /// h[theta] = m*l*a*omega^2*cos(omega*t)*sin(theta)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let t0 = p.omega * t;
     let sin_theta = theta.sin();
@@ -248,7 +248,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1
 /// ```text
 /// Q[theta] = m*l*g*sin(theta)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let sin_theta = theta.sin();
     let q_theta = p.k6 * sin_theta;
@@ -256,7 +256,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S; 1] {
     let theta = q[0];
     let t0 = p.omega * t;
     let sin_theta = theta.sin();
@@ -269,11 +269,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> [S;
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
-) -> Result<[S; 1], ::lagrangian::Singular> {
+) -> Result<[S; 1], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, t, q })
 }
 
@@ -287,11 +287,11 @@ pub struct Accelerations<'a, S> {
     pub q: &'a [S; 1],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 1], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 1], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -315,7 +315,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// ```text
 /// T = 1/2*m*(l^2*cos(theta)^2*der(theta)^2 + (-l*sin(theta)*der(theta) - a*omega*sin(omega*t))^2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1], v: &[S; 1]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 1],
+    v: &[S; 1],
+) -> S {
     let theta = q[0];
     let theta_dot = v[0];
     let t0 = p.omega * t;
@@ -332,7 +337,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]
 /// ```text
 /// V = m*g*(l*cos(theta) + a*cos(omega*t))
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, t: S, q: &[S; 1]) -> S {
     let theta = q[0];
     let t0 = p.omega * t;
     let cos_theta = theta.cos();
@@ -347,7 +352,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 
 /// P = -m*a*omega*sin(omega*t)*(l*(-sin(theta)*der(der(theta)) - cos(theta)*der(theta)^2) -
 ///     a*omega^2*cos(omega*t)) - m*a*omega*g*sin(omega*t)
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
@@ -372,7 +377,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
 /// force = m*((-(l*sin(theta)*der(der(theta)) + l*cos(theta)*der(theta)^2) -
 ///     a*omega^2*cos(omega*t)) + g)
 /// ```
-pub fn output_force<S: ::lagrangian::Scalar>(
+pub fn output_force<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
@@ -390,7 +395,7 @@ pub fn output_force<S: ::lagrangian::Scalar>(
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 1],
@@ -420,14 +425,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 1] = [("force", "N")];
 
-impl ::lagrangian::Machine for KapitzaPendulum {
+impl ::lagrangian::emitted::Machine for KapitzaPendulum {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "KapitzaPendulum"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.l, self.a, self.omega, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -447,19 +454,19 @@ impl ::lagrangian::Machine for KapitzaPendulum {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 1];
     type Matrix = [f64; 1];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -478,8 +485,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 1],
         _: &Inputs,
         result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
@@ -528,7 +538,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -536,7 +546,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.force];
         quantities(&OUTPUTS, values)
     }
@@ -551,21 +561,21 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 1],
         _: &[f64; 1],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 1];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 1];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             l: lanes(|p| p.l),
@@ -601,45 +611,91 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        t: ::lagrangian::Lanes<N>,
+        t: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         _: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, t, q },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for KapitzaPendulum<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 1];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 1]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 1] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        t: S,
+        q: &[S; 1],
+        _: &[S; 1],
+        _: &Inputs,
+        result: &mut [S; 1],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, t, q }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

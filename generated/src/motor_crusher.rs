@@ -191,7 +191,7 @@ impl<S> MotorCrusher<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
+impl<S: ::lagrangian::emitted::Scalar> MotorCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k8 = self.m0 * self.e;
@@ -280,7 +280,7 @@ impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let s1 = S::from_ratio(1, 50);
         let s2 = S::from_ratio(3, 100);
@@ -297,7 +297,7 @@ impl<S: ::lagrangian::Scalar> MotorCrusher<S> {
             zero,
         ];
         let v = [S::ZERO; 10];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -485,7 +485,7 @@ pub struct Prepared<S = f64> {
     /// `1/(J0 + m0*e^2)`
     k23: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -519,7 +519,10 @@ pub struct Prepared<S = f64> {
 /// M[psi, theta] = m0*e*x0*cos(psi - theta) + m0*e*y0*sin(psi - theta)
 /// M[psi, psi] = m0*e^2 + J0
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S; 10]; 10] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+) -> [[S; 10]; 10] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -593,7 +596,11 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> [[S
 ///     + 2*m2*s2*der(s2)*der(phi2)
 /// h[psi] = m0*e*x0*sin(psi - theta)*der(theta)^2 - m0*e*y0*cos(psi - theta)*der(theta)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> [S; 10] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -653,7 +660,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) 
 /// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
 /// Q[psi] = 2*Mk*sk*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> [S; 10] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -679,7 +690,11 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> [S; 10] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> [S; 10] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -743,11 +758,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 10],
     v: &[S; 10],
-) -> Result<[S; 10], ::lagrangian::Singular> {
+) -> Result<[S; 10], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -761,11 +776,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 10],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 10], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 10], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -904,7 +919,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) + (sin(phi2)*der(s2) +
 ///     s2*cos(phi2)*der(phi2)))^2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> S {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -948,7 +967,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: 
 /// ```text
 /// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 10]) -> S {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -966,7 +985,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10]) -
 /// ```text
 /// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -984,7 +1003,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
 /// ```text
 /// P = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
     t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
@@ -995,7 +1014,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -1013,7 +1032,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -
 /// ```text
 /// speed = der(psi)
 /// ```
-pub fn output_speed<S: ::lagrangian::Scalar>(v: &[S; 10]) -> S {
+pub fn output_speed<S: ::lagrangian::emitted::Scalar>(v: &[S; 10]) -> S {
     let psi_dot = v[9];
     psi_dot
 }
@@ -1023,7 +1042,7 @@ pub fn output_speed<S: ::lagrangian::Scalar>(v: &[S; 10]) -> S {
 /// ```text
 /// motor_torque = 2*Mk*sk*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
 /// ```
-pub fn output_motor_torque<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+pub fn output_motor_torque<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
     t0 * p.k2 / (t0 * (t0 * p.k0) + p.k1)
@@ -1034,7 +1053,7 @@ pub fn output_motor_torque<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]
 /// ```text
 /// motor_power = 2*Mk*sk*der(psi)*(omega - der(psi))/(omega*((omega - der(psi))^2/omega^2 + sk^2))
 /// ```
-pub fn output_motor_power<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
+pub fn output_motor_power<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 10]) -> S {
     let psi_dot = v[9];
     let t0 = p.omega - psi_dot;
     t0 * (psi_dot * p.k2) / (t0 * (t0 * p.k0) + p.k1)
@@ -1045,26 +1064,30 @@ pub fn output_motor_power<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 10])
 /// ```text
 /// amplitude = sqrt(x^2 + y^2)
 /// ```
-pub fn output_amplitude<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+pub fn output_amplitude<S: ::lagrangian::emitted::Scalar>(q: &[S; 10]) -> S {
     let x = q[0];
     let y = q[1];
     (y * y + x * x).sqrt()
 }
 
 /// By how much `s1 > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 10]) -> S {
     let s1 = q[3];
     s1
 }
 
 /// By how much `s2 > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 10]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 10]) -> S {
     let s2 = q[6];
     s2
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 10], v: &[S; 10]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 10],
+    v: &[S; 10],
+) -> Outputs<S> {
     Outputs {
         speed: output_speed(v),
         motor_torque: output_motor_torque(p, v),
@@ -1126,14 +1149,16 @@ const OUTPUTS: [(&str, &str); 4] = [
     ("amplitude", "m"),
 ];
 
-impl ::lagrangian::Machine for MotorCrusher {
+impl ::lagrangian::emitted::Machine for MotorCrusher {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "MotorCrusher"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
             self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc, self.Mk,
@@ -1176,19 +1201,19 @@ impl ::lagrangian::Machine for MotorCrusher {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 10];
     type Matrix = [f64; 100];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1207,8 +1232,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 10],
         _: &Inputs,
         result: &mut [f64; 10],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 10], matrix: &mut [f64; 100]) {
@@ -1257,7 +1285,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1265,7 +1293,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             outputs.speed,
             outputs.motor_torque,
@@ -1285,7 +1313,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 10],
         _: &[f64; 10],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("s1 > 0", true, assumption_0(q)),
             assumption("s2 > 0", true, assumption_1(q)),
@@ -1294,16 +1322,16 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 10];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 10];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             m0: lanes(|p| p.m0),
@@ -1365,35 +1393,80 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for MotorCrusher<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 10];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 10]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 10] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 10],
+        v: &[S; 10],
+        _: &Inputs,
+        result: &mut [S; 10],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -1403,12 +1476,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1418,17 +1491,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

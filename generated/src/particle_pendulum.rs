@@ -76,7 +76,7 @@ impl<S> ParticlePendulum<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
+impl<S: ::lagrangian::emitted::Scalar> ParticlePendulum<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k1 = S::ONE / self.l1;
@@ -133,7 +133,7 @@ impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let y1 = self.l1 * S::from_f64(0.5);
         let t0 = S::from_ratio(2, 3) * S::pi();
         let sin_t0 = t0.sin();
@@ -141,7 +141,7 @@ impl<S: ::lagrangian::Scalar> ParticlePendulum<S> {
         let x2 = x1 + self.l2;
         let q = [x1, y1, x2, y1];
         let v = [S::ZERO; 4];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -241,7 +241,7 @@ pub struct Prepared<S = f64> {
     /// `g/l1`
     k16: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -252,7 +252,7 @@ pub struct Prepared<S = f64> {
 /// M[x2, x2] = m2
 /// M[y2, y2] = m2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 4]; 4] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 4]; 4] {
     let zero = S::ZERO;
     [
         [p.m1, zero, zero, zero],
@@ -268,13 +268,13 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 4]; 4] {
 /// Q[y1] = -m1*g
 /// Q[y2] = -m2*g
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let zero = S::ZERO;
     [zero, p.k10, zero, p.k11]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let zero = S::ZERO;
     [zero, p.k10, zero, p.k11]
 }
@@ -285,7 +285,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
 /// g[upper_rod] = 1/2*x1^2/l1 + 1/2*y1^2/l1 - 1/2*l1
 /// g[lower_rod] = 1/2*((x2 - x1)^2 + (y2 - y1)^2 - l2^2)/l2
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> [S; 2] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 4],
+) -> [S; 2] {
     let x1 = q[0];
     let y1 = q[1];
     let x2 = q[2];
@@ -303,7 +306,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]
 /// phi[upper_rod] = x1*der(x1)/l1 + y1*der(y1)/l1
 /// phi[lower_rod] = 1/2*(2*(x2 - x1)*(der(x2) - der(x1)) + 2*(y2 - y1)*(der(y2) - der(y1)))/l2
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 4],
     v: &[S; 4],
@@ -331,7 +334,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[lower_rod, x2] = (x2 - x1)/l2
 /// G[lower_rod, y2] = (y2 - y1)/l2
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> [S; 8] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> [S; 8] {
     let x1 = q[0];
     let y1 = q[1];
     let x2 = q[2];
@@ -354,7 +357,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]) -
 /// gamma[upper_rod] = -der(x1)^2/l1 - der(y1)^2/l1
 /// gamma[lower_rod] = -1/2*(2*(der(x2) - der(x1))^2 + 2*(der(y2) - der(y1))^2)/l2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> [S; 2] {
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> [S; 2] {
     let x1_dot = v[0];
     let y1_dot = v[1];
     let x2_dot = v[2];
@@ -370,11 +373,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) ->
 /// machine, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 4],
     v: &[S; 4],
-) -> Result<[S; 4], ::lagrangian::Singular> {
+) -> Result<[S; 4], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -388,11 +391,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 4],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 4], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 4], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -452,11 +455,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 4],
     v: &[S; 4],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -470,11 +473,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 4],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -528,7 +531,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = 1/2*m1*der(x1)^2 + 1/2*m1*der(y1)^2 + 1/2*m2*der(x2)^2 + 1/2*m2*der(y2)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S {
     let x1_dot = v[0];
     let y1_dot = v[1];
     let x2_dot = v[2];
@@ -542,7 +545,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 4]) -> S
 /// ```text
 /// V = m1*g*y1 + m2*g*y2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 4]) -> S {
     let y1 = q[1];
     let y2 = q[3];
     p.k7 * y2 + p.k6 * y1
@@ -570,14 +573,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
     [("upper_rod", "m", "N", true), ("lower_rod", "m", "N", true)];
 
-impl ::lagrangian::Machine for ParticlePendulum {
+impl ::lagrangian::emitted::Machine for ParticlePendulum {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "ParticlePendulum"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m1, self.m2, self.l1, self.l2, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -597,19 +602,19 @@ impl ::lagrangian::Machine for ParticlePendulum {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 4];
     type Matrix = [f64; 16];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -628,8 +633,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 4],
         _: &Inputs,
         result: &mut [f64; 4],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 4], matrix: &mut [f64; 16]) {
@@ -694,7 +702,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -702,7 +710,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -717,11 +725,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 4],
         _: &[f64; 4],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -732,27 +740,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 4],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(4, 2)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(4, 2)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 4];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 4];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m1: lanes(|p| p.m1),
             m2: lanes(|p| p.m2),
@@ -792,13 +800,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -806,23 +814,23 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -840,12 +848,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -855,20 +863,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(4) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

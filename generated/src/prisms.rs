@@ -80,7 +80,7 @@ impl<S> Prisms<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> Prisms<S> {
+impl<S: ::lagrangian::emitted::Scalar> Prisms<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let (sin_self_alpha, cos_self_alpha) = self.alpha.sin_cos();
@@ -151,11 +151,11 @@ impl<S: ::lagrangian::Scalar> Prisms<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let q = [zero, zero];
         let v = [S::ZERO; 2];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -252,7 +252,7 @@ pub struct Prepared<S = f64> {
     /// `-m*sin(alpha)/cos(alpha)^2/(m/cos(alpha)^2 - m^2/(m + M))`
     k21: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -262,7 +262,7 @@ pub struct Prepared<S = f64> {
 /// M[q2, q1] = -m
 /// M[q2, q2] = m/cos(alpha)^2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
     [[p.k1, p.k7], [p.k7, p.k5]]
 }
 
@@ -271,13 +271,13 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 2]; 2] {
 /// ```text
 /// Q[q2] = m*g*sin(alpha)/cos(alpha)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
     [zero, p.k0]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 2] {
     let zero = S::ZERO;
     [zero, p.k0]
 }
@@ -288,7 +288,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 2] {
 /// w[floor] = der(q1)
 /// w[incline] = der(q2)/cos(alpha)
 /// ```
-pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
+pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
     let q1_dot = v[0];
     let q2_dot = v[1];
     let w2 = p.k6 * q2_dot;
@@ -301,7 +301,7 @@ pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> [S; 2] {
 /// tau[floor, q1] = 1
 /// tau[incline, q2] = 1/cos(alpha)
 /// ```
-pub fn slip_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
+pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [S; 4] {
     let one = S::ONE;
     let zero = S::ZERO;
     [one, zero, zero, p.k6]
@@ -313,9 +313,9 @@ pub fn slip_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [S; 4] {
 /// multipliers.
 ///
 /// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::Number>(
+pub fn friction<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
-) -> Result<[S; 22], ::lagrangian::Singular> {
+) -> Result<[S; 22], ::lagrangian::emitted::Singular> {
     S::run(Friction { p })
 }
 
@@ -325,11 +325,11 @@ pub struct Friction<'a, S> {
     pub p: &'a Prepared<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 22], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 22], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -368,7 +368,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
 /// ```text
 /// T = 1/2*(m + M)*der(q1)^2 - m*der(q1)*der(q2) + 1/2*m*der(q2)^2/cos(alpha)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S {
     let q1_dot = v[0];
     let q2_dot = v[1];
     let t0 = q1_dot - q2_dot;
@@ -380,7 +380,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 2]) -> S
 /// ```text
 /// V = -m*g*sin(alpha)*q2/cos(alpha)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q2 = q[1];
     p.k8 * q2
 }
@@ -407,14 +407,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 /// The names of the contacts that stick and slide.
 const CONTACTS: [&str; 2] = ["floor", "incline"];
 
-impl ::lagrangian::Machine for Prisms {
+impl ::lagrangian::emitted::Machine for Prisms {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "Prisms"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.M, self.alpha, self.mu1, self.mu2, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -435,19 +437,19 @@ impl ::lagrangian::Machine for Prisms {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 2];
     type Matrix = [f64; 4];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -466,8 +468,8 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         u: &Inputs,
         result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::Singular> {
-        ::lagrangian::accelerations_with_friction(self, t, q, v, u, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -528,7 +530,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -536,7 +538,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -551,7 +553,7 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
@@ -560,7 +562,8 @@ impl ::lagrangian::System for Prepared {
     }
 
     fn slip_ranges(&self, _: f64, _: &[f64; 2], v: &[f64; 2], ranges: &mut [[f64; 2]]) {
-        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let between = ::lagrangian::emitted::scalar::Interval::new;
+        let near = |x: f64| between(x.next_down(), x.next_up());
         let p = Prepared {
             k0: near(self.k0),
             k1: near(self.k1),
@@ -588,7 +591,7 @@ impl ::lagrangian::System for Prepared {
             k21: near(self.k21),
             singular: self.singular,
         };
-        let slips: [::lagrangian::scalar::Interval; _] = slips(&p, &v.map(near));
+        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&p, &v.map(near));
         for (range, w) in ranges.iter_mut().zip(slips) {
             *range = [w.lo(), w.hi()];
         }
@@ -601,27 +604,27 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &friction(self)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::contact_workspace(2, 0, 2)];
+        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(2, 0, 2)];
         work(room.get_mut(..length))
     }
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
@@ -634,17 +637,18 @@ fn fill(to: &mut [f64], from: &[f64]) {
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

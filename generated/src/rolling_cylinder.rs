@@ -79,7 +79,7 @@ impl<S> RollingCylinder<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> RollingCylinder<S> {
+impl<S: ::lagrangian::emitted::Scalar> RollingCylinder<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::ONE / self.r;
@@ -128,13 +128,13 @@ impl<S: ::lagrangian::Scalar> RollingCylinder<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let s = self.R - self.r;
         let one = S::ONE;
         let zero = S::ZERO;
         let q = [s, one, zero];
         let v = [S::ZERO; 3];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -216,7 +216,7 @@ pub struct Prepared<S = f64> {
     /// `-m*g/(R - r)/(m + J/r^2)`
     k8: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -226,7 +226,7 @@ pub struct Prepared<S = f64> {
 /// M[phi, phi] = m*s^2
 /// M[theta, theta] = J
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let s = q[0];
     let zero = S::ZERO;
     let m22 = s * (p.m * s);
@@ -239,7 +239,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// h[s] = -m*s*der(phi)^2
 /// h[phi] = 2*m*s*der(s)*der(phi)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let s = q[0];
     let s_dot = v[0];
     let phi_dot = v[1];
@@ -256,7 +256,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 /// Q[s] = m*g*cos(phi)
 /// Q[phi] = -m*g*s*sin(phi)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let s = q[0];
     let phi = q[1];
     let (sin_phi, cos_phi) = phi.sin_cos();
@@ -267,7 +267,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let s = q[0];
     let phi = q[1];
     let s_dot = v[0];
@@ -285,7 +285,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 /// ```text
 /// g[contact.gap] = R - s - r
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 2] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+) -> [S; 2] {
     let s = q[0];
     let g1 = p.k1 - s;
     let zero = S::ZERO;
@@ -298,7 +301,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]
 /// phi[contact.gap] = -der(s)
 /// phi[contact.slip] = s*der(phi) + r*der(theta)
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -319,7 +322,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[contact.slip, phi] = s
 /// G[contact.slip, theta] = r
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 6] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 6] {
     let s = q[0];
     let zero = S::ZERO;
     [S::from_f64(-1.0), zero, zero, zero, s, p.r]
@@ -330,7 +333,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -
 /// ```text
 /// gamma[contact.slip] = -der(s)*der(phi)
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 3]) -> [S; 2] {
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(v: &[S; 3]) -> [S; 2] {
     let s_dot = v[0];
     let phi_dot = v[1];
     let zero = S::ZERO;
@@ -342,10 +345,10 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(v: &[S; 3]) -> [S; 2] {
 /// machine, without the coordinates that constraints settle.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q })
 }
 
@@ -357,11 +360,11 @@ pub struct Accelerations<'a, S> {
     pub q: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -380,11 +383,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -398,11 +401,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -446,7 +449,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 /// ```text
 /// T = 1/2*m*der(s)^2 + 1/2*m*s^2*der(phi)^2 + 1/2*J*der(theta)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let s = q[0];
     let phi = q[1];
     let s_dot = v[0];
@@ -465,7 +472,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// V = -m*g*s*cos(phi)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let s = q[0];
     let phi = q[1];
     let cos_phi = phi.cos();
@@ -473,7 +480,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
 }
 
 /// By how much `s > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     let s = q[0];
     s
 }
@@ -502,14 +509,16 @@ const CONSTRAINTS: [(&str, &str, &str, bool); 2] = [
     ("contact.slip", "m/s", "N", false),
 ];
 
-impl ::lagrangian::Machine for RollingCylinder {
+impl ::lagrangian::emitted::Machine for RollingCylinder {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "RollingCylinder"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.J, self.R, self.r, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -529,19 +538,19 @@ impl ::lagrangian::Machine for RollingCylinder {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -560,8 +569,8 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 3],
         _: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q }, result)
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -626,7 +635,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -634,7 +643,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -649,12 +658,12 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [assumption("s > 0", true, assumption_0(q))];
         facts.into_iter()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -665,27 +674,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(3, 2)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 2)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             J: lanes(|p| p.J),
@@ -718,13 +727,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         _: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q },
             result,
         )
@@ -732,21 +741,21 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -756,8 +765,8 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -775,12 +784,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -790,20 +799,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

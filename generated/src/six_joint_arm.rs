@@ -107,7 +107,7 @@ impl<S> SixJointArm<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> SixJointArm<S> {
+impl<S: ::lagrangian::emitted::Scalar> SixJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = S::from_ratio(9, 10000);
@@ -266,11 +266,11 @@ impl<S: ::lagrangian::Scalar> SixJointArm<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let q_1 = S::from_ratio(1, 5);
         let q = [q_1, q_1, q_1, q_1, q_1, q_1];
         let v = [S::ZERO; 6];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -504,7 +504,7 @@ pub struct Prepared<S = f64> {
 ///     + 0.0073*m6 + 0.024
 /// …
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [[S; 6]; 6] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [[S; 6]; 6] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -609,7 +609,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> [[S;
 /// h[q[5]] = …
 /// h[q[6]] = …
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> [S; 6] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> [S; 6] {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -746,7 +746,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) ->
 ///     - 0.03*m6*g*sin(q[4])*cos(q[6])*sin(q[2] + q[3])
 ///     - 0.03*m6*g*sin(q[5])*sin(q[6])*cos(q[2] + q[3])
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
@@ -792,7 +792,7 @@ pub fn applied<S: ::lagrangian::Scalar>(
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
@@ -923,12 +923,12 @@ pub fn forces<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 6],
     v: &[S; 6],
     u: &Inputs<S>,
-) -> Result<[S; 6], ::lagrangian::Singular> {
+) -> Result<[S; 6], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v, u })
 }
 
@@ -944,11 +944,11 @@ pub struct Accelerations<'a, S> {
     pub u: &'a Inputs<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 6], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 6], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v, u } = self;
         let n = N::load;
         let q_2 = n(q[1]);
@@ -1271,7 +1271,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// ```text
 /// T = …
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &[S; 6]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 6],
+    v: &[S; 6],
+) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -1354,7 +1358,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6], v: &
 /// ```text
 /// V = …
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -1384,7 +1388,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) ->
 /// D = 1/2*friction*der(q[1])^2 + 1/2*friction*der(q[2])^2 + 1/2*friction*der(q[3])^2
 ///     + 1/2*friction*der(q[4])^2 + 1/2*friction*der(q[5])^2 + 1/2*friction*der(q[6])^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
     let q_1_dot = v[0];
     let q_2_dot = v[1];
     let q_3_dot = v[2];
@@ -1402,7 +1406,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
 /// P = der(q[1])*tau[1] + der(q[2])*tau[2] + der(q[3])*tau[3] + der(q[4])*tau[4] + der(q[5])*tau[5]
 ///     + der(q[6])*tau[6]
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 6], u: &Inputs<S>) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 6], u: &Inputs<S>) -> S {
     let q_1_dot = v[0];
     let q_2_dot = v[1];
     let q_3_dot = v[2];
@@ -1420,7 +1424,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 6], u: &Inputs<S>) -> S {
 /// R = friction*der(q[1])^2 + friction*der(q[2])^2 + friction*der(q[3])^2 + friction*der(q[4])^2
 ///     + friction*der(q[5])^2 + friction*der(q[6])^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 6]) -> S {
     let q_1_dot = v[0];
     let q_2_dot = v[1];
     let q_3_dot = v[2];
@@ -1438,7 +1442,7 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 6]) ->
 /// height = a*cos(q[2]) - c*cos(q[4])*sin(q[5])*sin(q[2] + q[3]) + c*cos(q[5])*cos(q[2] + q[3])
 ///     + b*cos(q[2] + q[3]) + h
 /// ```
-pub fn output_height<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
+pub fn output_height<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S {
     let q_2 = q[1];
     let q_3 = q[2];
     let q_4 = q[3];
@@ -1453,7 +1457,7 @@ pub fn output_height<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> S 
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 6]) -> Outputs<S> {
     Outputs {
         height: output_height(p, q),
     }
@@ -1498,14 +1502,16 @@ const INPUTS: [(&str, &str); 6] = [
 /// Names and units.
 const OUTPUTS: [(&str, &str); 1] = [("height", "m")];
 
-impl ::lagrangian::Machine for SixJointArm {
+impl ::lagrangian::emitted::Machine for SixJointArm {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "SixJointArm"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.h,
             self.a,
@@ -1545,19 +1551,19 @@ impl ::lagrangian::Machine for SixJointArm {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 6];
     type Matrix = [f64; 36];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -1576,8 +1582,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 6],
         u: &Inputs,
         result: &mut [f64; 6],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 6], matrix: &mut [f64; 36]) {
@@ -1626,7 +1635,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             inputs.tau[0],
             inputs.tau[1],
@@ -1641,7 +1650,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.height];
         quantities(&OUTPUTS, values)
     }
@@ -1656,21 +1665,21 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 6],
         _: &[f64; 6],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 6];
-    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 6];
+    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             h: lanes(|p| p.h),
             a: lanes(|p| p.a),
@@ -1744,7 +1753,7 @@ where
     }
 
     fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
         Inputs {
             tau: [
                 lanes(|u| u.tau[0]),
@@ -1776,41 +1785,89 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v, u },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for SixJointArm<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 6];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs<S>;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 6]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 6] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs<S> {
+        <Inputs>::default().map(S::from_f64)
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 6],
+        v: &[S; 6],
+        u: &Inputs<S>,
+        result: &mut [S; 6],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1820,10 +1877,11 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

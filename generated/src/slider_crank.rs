@@ -101,7 +101,7 @@ impl<S> SliderCrank<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> SliderCrank<S> {
+impl<S: ::lagrangian::emitted::Scalar> SliderCrank<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.a * self.a;
@@ -163,7 +163,7 @@ impl<S: ::lagrangian::Scalar> SliderCrank<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let theta = S::pi() * S::from_f64(0.5);
         let phi = -(self.a / self.b).asin();
         let s = (self.b * self.b - self.a * self.a).sqrt();
@@ -171,7 +171,7 @@ impl<S: ::lagrangian::Scalar> SliderCrank<S> {
         let s_rate = -(self.a * self.omega);
         let q = [theta, phi, s];
         let v = [self.omega, zero, s_rate];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -271,7 +271,7 @@ pub struct Prepared<S = f64> {
     /// `1/(J1 + a^2*m2 + 0.25*a^2*m1)`
     k16: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -282,7 +282,7 @@ pub struct Prepared<S = f64> {
 /// M[phi, phi] = 1/4*b^2*m2 + J2
 /// M[s, s] = m3
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S; 3]; 3] {
     let theta = q[0];
     let phi = q[1];
     let (sin_phi, cos_phi) = phi.sin_cos();
@@ -298,7 +298,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [[S;
 /// h[theta] = -1/2*a*b*m2*sin(phi - theta)*der(phi)^2
 /// h[phi] = 1/2*a*b*m2*sin(phi - theta)*der(theta)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let theta = q[0];
     let phi = q[1];
     let theta_dot = v[0];
@@ -318,7 +318,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) ->
 /// Q[theta] = -1/2*(m1 + 2*m2)*a*g*cos(theta)
 /// Q[phi] = -1/2*b*m2*g*cos(phi)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
     let theta = q[0];
     let phi = q[1];
     let cos_theta = theta.cos();
@@ -330,7 +330,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 3] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> [S; 3] {
     let theta = q[0];
     let phi = q[1];
     let theta_dot = v[0];
@@ -353,7 +353,10 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) 
 /// g[along] = a*cos(theta) - s + b*cos(phi)
 /// g[across] = a*sin(theta) + b*sin(phi)
 /// ```
-pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 2] {
+pub fn constraint_positions<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+) -> [S; 2] {
     let theta = q[0];
     let phi = q[1];
     let s = q[2];
@@ -370,7 +373,7 @@ pub fn constraint_positions<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]
 /// phi[along] = -a*sin(theta)*der(theta) - b*sin(phi)*der(phi) - der(s)
 /// phi[across] = a*cos(theta)*der(theta) + b*cos(phi)*der(phi)
 /// ```
-pub fn constraint_rates<S: ::lagrangian::Scalar>(
+pub fn constraint_rates<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -398,7 +401,7 @@ pub fn constraint_rates<S: ::lagrangian::Scalar>(
 /// G[across, theta] = a*cos(theta)
 /// G[across, phi] = b*cos(phi)
 /// ```
-pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 6] {
+pub fn constraint_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> [S; 6] {
     let theta = q[0];
     let phi = q[1];
     let (sin_theta, cos_theta) = theta.sin_cos();
@@ -417,7 +420,7 @@ pub fn constraint_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -
 /// gamma[along] = a*cos(theta)*der(theta)^2 + b*cos(phi)*der(phi)^2
 /// gamma[across] = a*sin(theta)*der(theta)^2 + b*sin(phi)*der(phi)^2
 /// ```
-pub fn constraint_drift<S: ::lagrangian::Scalar>(
+pub fn constraint_drift<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
@@ -439,11 +442,11 @@ pub fn constraint_drift<S: ::lagrangian::Scalar>(
 /// multiplied out, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 3], ::lagrangian::Singular> {
+) -> Result<[S; 3], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -457,11 +460,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 3], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 3], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -529,11 +532,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// Lagrange's multipliers `lambda` of `M a = f + G^T lambda`.
 ///
 /// A pivot that vanishes is an error.
-pub fn multipliers<S: ::lagrangian::Number>(
+pub fn multipliers<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 3],
     v: &[S; 3],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Multipliers { p, q, v })
 }
 
@@ -547,11 +550,11 @@ pub struct Multipliers<'a, S> {
     pub v: &'a [S; 3],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Multipliers<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -618,7 +621,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Multipliers<'_, S> {
 ///     + 1/2*a*b*m2*cos(phi - theta)*der(theta)*der(phi) + 1/8*(b^2*m2 + 4*J2)*der(phi)^2
 ///     + 1/2*m3*der(s)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &[S; 3]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 3],
+    v: &[S; 3],
+) -> S {
     let theta = q[0];
     let phi = q[1];
     let theta_dot = v[0];
@@ -640,7 +647,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3], v: &
 /// ```text
 /// V = 1/2*(m1 + 2*m2)*a*g*sin(theta) + 1/2*b*m2*g*sin(phi)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 3]) -> S {
     let theta = q[0];
     let phi = q[1];
     let sin_theta = theta.sin();
@@ -649,7 +656,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 3]) ->
 }
 
 /// By how much `cos(phi) > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 3]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 3]) -> S {
     let phi = q[1];
     let cos_phi = phi.cos();
     cos_phi
@@ -681,14 +688,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 const CONSTRAINTS: [(&str, &str, &str, bool); 2] =
     [("along", "m", "N", true), ("across", "m", "N", true)];
 
-impl ::lagrangian::Machine for SliderCrank {
+impl ::lagrangian::emitted::Machine for SliderCrank {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "SliderCrank"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.a, self.b, self.m1, self.m2, self.m3, self.J1, self.J2, self.g, self.omega,
         ];
@@ -714,19 +723,19 @@ impl ::lagrangian::Machine for SliderCrank {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 3];
     type Matrix = [f64; 9];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -745,8 +754,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         result: &mut [f64; 3],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 3], matrix: &mut [f64; 9]) {
@@ -811,7 +823,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -819,7 +831,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -834,12 +846,12 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 3],
         _: &[f64; 3],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [assumption("cos(phi) > 0", true, assumption_0(q))];
         facts.into_iter()
     }
 
-    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Constraint<'_>> {
+    fn constraints(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Constraint<'_>> {
         CONSTRAINTS.iter().map(constraint)
     }
 
@@ -850,27 +862,27 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 3],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &multipliers(self, q, v)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::constraint_workspace(3, 2)];
+        let mut room = [0.0; ::lagrangian::emitted::constraint_workspace(3, 2)];
         work(room.get_mut(..length))
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 3];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 3];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             a: lanes(|p| p.a),
             b: lanes(|p| p.b),
@@ -912,13 +924,13 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
@@ -926,21 +938,21 @@ where
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -950,8 +962,8 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// A constraint, as it is called.
 fn constraint<'a>(
     &(name, unit, multiplier_unit, holonomic): &'a (&'a str, &'a str, &'a str, bool),
-) -> ::lagrangian::Constraint<'a> {
-    ::lagrangian::Constraint {
+) -> ::lagrangian::emitted::Constraint<'a> {
+    ::lagrangian::emitted::Constraint {
         name,
         unit,
         multiplier_unit,
@@ -969,12 +981,12 @@ fn fill(to: &mut [f64], from: &[f64]) {
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -984,20 +996,21 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
     if let Some(constraint) = coordinate.checked_sub(3) {
-        return ::lagrangian::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());
+        return ::lagrangian::emitted::Singular::constraint(constraint, pivot, diagonal);
     }
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

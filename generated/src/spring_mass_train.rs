@@ -85,7 +85,7 @@ impl<S> SpringMassTrain<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
+impl<S: ::lagrangian::emitted::Scalar> SpringMassTrain<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k3 = S::ONE / self.m;
@@ -128,11 +128,11 @@ impl<S: ::lagrangian::Scalar> SpringMassTrain<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let q = [zero, zero, zero, zero, zero, zero, zero, zero];
         let v = [S::ZERO; 8];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -217,7 +217,7 @@ pub struct Prepared<S = f64> {
     /// `-k/m`
     k5: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -232,7 +232,7 @@ pub struct Prepared<S = f64> {
 /// M[u[7], u[7]] = m
 /// M[u[8], u[8]] = m
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 8]; 8] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 8]; 8] {
     let zero = S::ZERO;
     [
         [p.m, zero, zero, zero, zero, zero, zero, zero],
@@ -258,7 +258,11 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 8]; 8] {
 /// Q[u[7]] = k*u[6] - 2*k*u[7] + k*u[8]
 /// Q[u[8]] = pull - k*(u[8] - u[7])
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S>) -> [S; 8] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 8],
+    u: &Inputs<S>,
+) -> [S; 8] {
     let u_1 = q[0];
     let u_2 = q[1];
     let u_3 = q[2];
@@ -286,7 +290,11 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S>) -> [S; 8] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 8],
+    u: &Inputs<S>,
+) -> [S; 8] {
     let u_1 = q[0];
     let u_2 = q[1];
     let u_3 = q[2];
@@ -316,11 +324,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8], u: &Inputs<S
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 8],
     u: &Inputs<S>,
-) -> Result<[S; 8], ::lagrangian::Singular> {
+) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, u })
 }
 
@@ -334,11 +342,11 @@ pub struct Accelerations<'a, S> {
     pub u: &'a Inputs<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, u } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -387,7 +395,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// T = 1/2*m*der(u[1])^2 + 1/2*m*der(u[2])^2 + 1/2*m*der(u[3])^2 + 1/2*m*der(u[4])^2
 ///     + 1/2*m*der(u[5])^2 + 1/2*m*der(u[6])^2 + 1/2*m*der(u[7])^2 + 1/2*m*der(u[8])^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 8]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 8]) -> S {
     let u_1_dot = v[0];
     let u_2_dot = v[1];
     let u_3_dot = v[2];
@@ -409,7 +417,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 8]) -> S
 ///     + 1/2*k*(u[5] - u[4])^2 + 1/2*k*(u[6] - u[5])^2 + 1/2*k*(u[7] - u[6])^2
 ///     + 1/2*k*(u[8] - u[7])^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_1 = q[0];
     let u_2 = q[1];
     let u_3 = q[2];
@@ -434,7 +442,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) ->
 /// ```text
 /// P = der(u[8])*pull
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
     let u_8_dot = v[7];
     u.pull * u_8_dot
 }
@@ -444,63 +452,63 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 8], u: &Inputs<S>) -> S {
 /// ```text
 /// drawbar = k*(u[8] - u[7])
 /// ```
-pub fn output_drawbar<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn output_drawbar<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_7 = q[6];
     let u_8 = q[7];
     p.k2 * (u_7 - u_8)
 }
 
 /// By how much `d + u[2] - u[1] > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_1 = q[0];
     let u_2 = q[1];
     u_2 + p.d - u_1
 }
 
 /// By how much `d + u[3] - u[2] > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_2 = q[1];
     let u_3 = q[2];
     u_3 + p.d - u_2
 }
 
 /// By how much `d + u[4] - u[3] > 0` holds.
-pub fn assumption_2<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_2<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_3 = q[2];
     let u_4 = q[3];
     u_4 + p.d - u_3
 }
 
 /// By how much `d + u[5] - u[4] > 0` holds.
-pub fn assumption_3<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_3<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_4 = q[3];
     let u_5 = q[4];
     u_5 + p.d - u_4
 }
 
 /// By how much `d + u[6] - u[5] > 0` holds.
-pub fn assumption_4<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_4<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_5 = q[4];
     let u_6 = q[5];
     u_6 + p.d - u_5
 }
 
 /// By how much `d + u[7] - u[6] > 0` holds.
-pub fn assumption_5<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_5<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_6 = q[5];
     let u_7 = q[6];
     u_7 + p.d - u_6
 }
 
 /// By how much `d + u[8] - u[7] > 0` holds.
-pub fn assumption_6<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
+pub fn assumption_6<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> S {
     let u_7 = q[6];
     let u_8 = q[7];
     u_8 + p.d - u_7
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 8]) -> Outputs<S> {
     Outputs {
         drawbar: output_drawbar(p, q),
     }
@@ -527,14 +535,16 @@ const INPUTS: [(&str, &str); 1] = [("pull", "N")];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 1] = [("drawbar", "N")];
 
-impl ::lagrangian::Machine for SpringMassTrain {
+impl ::lagrangian::emitted::Machine for SpringMassTrain {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "SpringMassTrain"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.k, self.d];
         quantities(&PARAMETERS, values)
     }
@@ -552,19 +562,19 @@ impl ::lagrangian::Machine for SpringMassTrain {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 8];
     type Matrix = [f64; 64];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -583,8 +593,11 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 8],
         u: &Inputs,
         result: &mut [f64; 8],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, u }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, u },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 8], matrix: &mut [f64; 64]) {
@@ -633,7 +646,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [inputs.pull];
         quantities(&INPUTS, values)
     }
@@ -641,7 +654,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.drawbar];
         quantities(&OUTPUTS, values)
     }
@@ -656,7 +669,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 8],
         _: &[f64; 8],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("d + u[2] - u[1] > 0", true, assumption_0(self, q)),
             assumption("d + u[3] - u[2] > 0", true, assumption_1(self, q)),
@@ -670,16 +683,16 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 8];
-    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 8];
+    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             k: lanes(|p| p.k),
@@ -695,7 +708,7 @@ where
     }
 
     fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
         Inputs {
             pull: lanes(|u| u.pull),
         }
@@ -713,35 +726,80 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         _: &Self::Vectors,
         u: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, u },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for SpringMassTrain<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 8];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs<S>;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 8]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 8] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs<S> {
+        <Inputs>::default().map(S::from_f64)
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 8],
+        _: &[S; 8],
+        u: &Inputs<S>,
+        result: &mut [S; 8],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, u }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -750,17 +808,18 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

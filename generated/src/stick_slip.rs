@@ -75,7 +75,7 @@ impl<S> StickSlip<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> StickSlip<S> {
+impl<S: ::lagrangian::emitted::Scalar> StickSlip<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let k0 = self.m * S::from_f64(0.5);
@@ -104,11 +104,11 @@ impl<S: ::lagrangian::Scalar> StickSlip<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let q = [zero];
         let v = [S::ZERO; 1];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -172,7 +172,7 @@ pub struct Prepared<S = f64> {
     /// `1/m`
     k4: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -180,7 +180,7 @@ pub struct Prepared<S = f64> {
 /// ```text
 /// M[x, x] = m
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
     [[p.m]]
 }
 
@@ -189,14 +189,14 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>) -> [[S; 1]; 1] {
 /// ```text
 /// Q[x] = -k*x
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let x = q[0];
     let q_x = p.k2 * x;
     [q_x]
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
     let x = q[0];
     let f_x = p.k2 * x;
     [f_x]
@@ -207,7 +207,7 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> [S; 1] {
 /// ```text
 /// w[belt] = der(x) - v_b
 /// ```
-pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
+pub fn slips<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
     let x_dot = v[0];
     let w1 = x_dot - p.v_b;
     [w1]
@@ -218,7 +218,7 @@ pub fn slips<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> [S; 1] {
 /// ```text
 /// tau[belt, x] = 1
 /// ```
-pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
+pub fn slip_matrix<S: ::lagrangian::emitted::Scalar>() -> [S; 1] {
     let one = S::ONE;
     [one]
 }
@@ -229,10 +229,10 @@ pub fn slip_matrix<S: ::lagrangian::Scalar>() -> [S; 1] {
 /// multipliers.
 ///
 /// A pivot that vanishes is an error.
-pub fn friction<S: ::lagrangian::Number>(
+pub fn friction<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 1],
-) -> Result<[S; 8], ::lagrangian::Singular> {
+) -> Result<[S; 8], ::lagrangian::emitted::Singular> {
     S::run(Friction { p, q })
 }
 
@@ -244,11 +244,11 @@ pub struct Friction<'a, S> {
     pub q: &'a [S; 1],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
-    type Output = Result<[S; 8], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Friction<'_, S> {
+    type Output = Result<[S; 8], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -276,7 +276,7 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Friction<'_, S> {
 /// ```text
 /// T = 1/2*m*der(x)^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S {
     let x_dot = v[0];
     x_dot * (x_dot * p.k0)
 }
@@ -286,7 +286,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 1]) -> S
 /// ```text
 /// V = 1/2*k*x^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 1]) -> S {
     let x = q[0];
     x * (x * p.k1)
 }
@@ -313,14 +313,16 @@ const OUTPUTS: [(&str, &str); 0] = [];
 /// The names of the contacts that stick and slide.
 const CONTACTS: [&str; 1] = ["belt"];
 
-impl ::lagrangian::Machine for StickSlip {
+impl ::lagrangian::emitted::Machine for StickSlip {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "StickSlip"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m, self.k, self.v_b, self.mu, self.mu0, self.g];
         quantities(&PARAMETERS, values)
     }
@@ -341,19 +343,19 @@ impl ::lagrangian::Machine for StickSlip {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 1];
     type Matrix = [f64; 1];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -372,8 +374,8 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 1],
         u: &Inputs,
         result: &mut [f64; 1],
-    ) -> Result<(), ::lagrangian::Singular> {
-        ::lagrangian::accelerations_with_friction(self, t, q, v, u, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        ::lagrangian::emitted::accelerations_with_friction(self, t, q, v, u, result)
     }
 
     fn mass_matrix(&self, _: f64, _: &[f64; 1], matrix: &mut [f64; 1]) {
@@ -434,7 +436,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -442,7 +444,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -457,7 +459,7 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 1],
         _: &[f64; 1],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 
@@ -466,7 +468,8 @@ impl ::lagrangian::System for Prepared {
     }
 
     fn slip_ranges(&self, _: f64, _: &[f64; 1], v: &[f64; 1], ranges: &mut [[f64; 2]]) {
-        let near = |x: f64| ::lagrangian::scalar::Interval::new(x.next_down(), x.next_up());
+        let between = ::lagrangian::emitted::scalar::Interval::new;
+        let near = |x: f64| between(x.next_down(), x.next_up());
         let p = Prepared {
             m: near(self.m),
             k: near(self.k),
@@ -480,7 +483,7 @@ impl ::lagrangian::System for Prepared {
             k4: near(self.k4),
             singular: self.singular,
         };
-        let slips: [::lagrangian::scalar::Interval; _] = slips(&p, &v.map(near));
+        let slips: [::lagrangian::emitted::scalar::Interval; _] = slips(&p, &v.map(near));
         for (range, w) in ranges.iter_mut().zip(slips) {
             *range = [w.lo(), w.hi()];
         }
@@ -493,27 +496,27 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 1],
         _: &Inputs,
         to: &mut [f64],
-    ) -> Result<(), ::lagrangian::Singular> {
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
         fill(to, &friction(self, q)?);
         Ok(())
     }
 
     fn with_workspace<R>(&self, length: usize, work: impl FnOnce(Option<&mut [f64]>) -> R) -> R {
-        let mut room = [0.0; ::lagrangian::contact_workspace(1, 0, 1)];
+        let mut room = [0.0; ::lagrangian::emitted::contact_workspace(1, 0, 1)];
         work(room.get_mut(..length))
     }
 }
 
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
@@ -526,17 +529,18 @@ fn fill(to: &mut [f64], from: &[f64]) {
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

@@ -86,7 +86,7 @@ impl<S> TwoBodyOrbit<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
+impl<S: ::lagrangian::emitted::Scalar> TwoBodyOrbit<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m2 + self.m1;
@@ -127,12 +127,12 @@ impl<S: ::lagrangian::Scalar> TwoBodyOrbit<S> {
     }
 
     /// The start values of the description, at `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let r = S::from_ratio(2, 5);
         let zero = S::ZERO;
         let q = [r, zero];
         let v = [zero, S::from_f64(10.0)];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -213,7 +213,7 @@ pub struct Prepared<S = f64> {
     /// `-(m1 + m2)`
     k10: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -222,7 +222,7 @@ pub struct Prepared<S = f64> {
 /// M[r, r] = m1^2*m2/(m1 + m2)^2 + m1*m2^2/(m1 + m2)^2
 /// M[phi, phi] = m1*m2*r^2/(m1 + m2)
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let r = q[0];
     let zero = S::ZERO;
     let m22 = r * (r * p.k2);
@@ -235,7 +235,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
 /// h[r] = -m1*m2*r*der(phi)^2/(m1 + m2)
 /// h[phi] = 2*m1*m2*r*der(r)*der(phi)/(m1 + m2)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let r = q[0];
     let r_dot = v[0];
     let phi_dot = v[1];
@@ -250,7 +250,7 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 /// ```text
 /// Q[r] = -m1*m2*G/r^2
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
     let r = q[0];
     let q_r = p.k7 / (r * r);
     let zero = S::ZERO;
@@ -258,7 +258,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [S; 2] {
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let r = q[0];
     let r_dot = v[0];
     let phi_dot = v[1];
@@ -271,11 +271,11 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) 
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v })
 }
 
@@ -289,11 +289,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 2],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -321,7 +321,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 /// ```text
 /// T = 1/2*m1*m2*der(r)^2/(m1 + m2) + 1/2*m1*m2*r^2*der(phi)^2/(m1 + m2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
     let r = q[0];
     let r_dot = v[0];
     let phi_dot = v[1];
@@ -334,7 +338,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 /// ```text
 /// V = -m1*m2*G/r
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let r = q[0];
     p.k7 / r
 }
@@ -344,7 +348,11 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
 /// ```text
 /// momentum = m1*m2*r^2*der(phi)/(m1 + m2)
 /// ```
-pub fn output_momentum<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+pub fn output_momentum<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
     let r = q[0];
     let phi_dot = v[1];
     r * p.k2 * (r * phi_dot)
@@ -356,7 +364,7 @@ pub fn output_momentum<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: 
 /// eccentricity_x = r^2*sin(phi)*der(r)*der(phi)/((m1 + m2)*G)
 ///     + r^3*cos(phi)*der(phi)^2/((m1 + m2)*G) - cos(phi)
 /// ```
-pub fn output_eccentricity_x<S: ::lagrangian::Scalar>(
+pub fn output_eccentricity_x<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -377,7 +385,7 @@ pub fn output_eccentricity_x<S: ::lagrangian::Scalar>(
 /// eccentricity_y = r^3*sin(phi)*der(phi)^2/((m1 + m2)*G)
 ///     - r^2*cos(phi)*der(r)*der(phi)/((m1 + m2)*G) - sin(phi)
 /// ```
-pub fn output_eccentricity_y<S: ::lagrangian::Scalar>(
+pub fn output_eccentricity_y<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -393,13 +401,17 @@ pub fn output_eccentricity_y<S: ::lagrangian::Scalar>(
 }
 
 /// By how much `r > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 2]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 2]) -> S {
     let r = q[0];
     r
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> Outputs<S> {
     Outputs {
         momentum: output_momentum(p, q, v),
         eccentricity_x: output_eccentricity_x(p, q, v),
@@ -423,14 +435,16 @@ const OUTPUTS: [(&str, &str); 3] = [
     ("eccentricity_y", "1"),
 ];
 
-impl ::lagrangian::Machine for TwoBodyOrbit {
+impl ::lagrangian::emitted::Machine for TwoBodyOrbit {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "TwoBodyOrbit"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [self.m1, self.m2, self.G];
         quantities(&PARAMETERS, values)
     }
@@ -448,19 +462,19 @@ impl ::lagrangian::Machine for TwoBodyOrbit {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 2];
     type Matrix = [f64; 4];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -479,8 +493,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         _: &Inputs,
         result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -529,7 +546,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -537,7 +554,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             outputs.momentum,
             outputs.eccentricity_x,
@@ -556,22 +573,22 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [assumption("r > 0", true, assumption_0(q))];
         facts.into_iter()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 2];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             G: lanes(|p| p.G),
             k0: lanes(|p| p.k0),
@@ -603,35 +620,80 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for TwoBodyOrbit<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 2];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 2],
+        v: &[S; 2],
+        _: &Inputs,
+        result: &mut [S; 2],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(Accelerations { p: self, q, v }, result)
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -641,12 +703,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -656,17 +718,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

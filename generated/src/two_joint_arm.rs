@@ -107,7 +107,7 @@ impl<S> TwoJointArm<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
+impl<S: ::lagrangian::emitted::Scalar> TwoJointArm<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let t0 = self.m1 * self.c1;
@@ -144,12 +144,12 @@ impl<S: ::lagrangian::Scalar> TwoJointArm<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let q1 = S::pi() * S::from_ratio(1, 6);
         let q2 = S::pi() * S::from_ratio(1, 3);
         let q = [q1, q2];
         let v = [S::ZERO; 2];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -268,7 +268,7 @@ pub struct Prepared<S = f64> {
 /// M[q2, q1] = l1*c2*m2*cos(q2) + c2^2*m2 + J2
 /// M[q2, q2] = c2^2*m2 + J2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S; 2]; 2] {
     let q2 = q[1];
     let cos_q2 = q2.cos();
     let m11 = cos_q2 * p.k8 + p.k9;
@@ -282,7 +282,7 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> [[S;
 /// h[q1] = -2*l1*c2*m2*sin(q2)*der(q1)*der(q2) - l1*c2*m2*sin(q2)*der(q2)^2
 /// h[q2] = l1*c2*m2*sin(q2)*der(q1)^2
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> [S; 2] {
     let q2 = q[1];
     let q1_dot = v[0];
     let q2_dot = v[1];
@@ -298,7 +298,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) ->
 /// Q[q1] = tau1 - (l1*m2 + c1*m1)*g*cos(q1) - c2*m2*g*cos(q1 + q2)
 /// Q[q2] = tau2 - c2*m2*g*cos(q1 + q2)
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], u: &Inputs<S>) -> [S; 2] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    u: &Inputs<S>,
+) -> [S; 2] {
     let q1 = q[0];
     let q2 = q[1];
     let cos_q1 = q1.cos();
@@ -311,7 +315,7 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], u: &Inputs<
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
@@ -335,12 +339,12 @@ pub fn forces<S: ::lagrangian::Scalar>(
 /// Accelerations `a`, the solution of `M a = f` from the mass matrix multiplied out, factored.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     q: &[S; 2],
     v: &[S; 2],
     u: &Inputs<S>,
-) -> Result<[S; 2], ::lagrangian::Singular> {
+) -> Result<[S; 2], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, q, v, u })
 }
 
@@ -356,11 +360,11 @@ pub struct Accelerations<'a, S> {
     pub u: &'a Inputs<S>,
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 2], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 2], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, q, v, u } = self;
         let n = N::load;
         let q1 = n(q[0]);
@@ -405,7 +409,11 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     c2*sin(q1 + q2)*(der(q1) + der(q2)))^2 + (l1*cos(q1)*der(q1) + c2*cos(q1 + q2)*(der(q1) +
 ///     der(q2)))^2)
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &[S; 2]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 2],
+    v: &[S; 2],
+) -> S {
     let q1 = q[0];
     let q2 = q[1];
     let q1_dot = v[0];
@@ -427,7 +435,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2], v: &
 /// ```text
 /// V = (l1*m2 + c1*m1)*g*sin(q1) + c2*m2*g*sin(q1 + q2)
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
     let sin_q1 = q1.sin();
@@ -441,7 +449,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) ->
 /// ```text
 /// P = der(q1)*tau1 + der(q2)*tau2
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
     let q1_dot = v[0];
     let q2_dot = v[1];
     u.tau2 * q2_dot + u.tau1 * q1_dot
@@ -452,7 +460,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(v: &[S; 2], u: &Inputs<S>) -> S {
 /// ```text
 /// x = l1*cos(q1) + l2*cos(q1 + q2)
 /// ```
-pub fn output_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn output_x<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
     let cos_q1 = q1.cos();
@@ -466,7 +474,7 @@ pub fn output_x<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
 /// ```text
 /// y = l1*sin(q1) + l2*sin(q1 + q2)
 /// ```
-pub fn output_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn output_y<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q1 = q[0];
     let q2 = q[1];
     let sin_q1 = q1.sin();
@@ -481,14 +489,14 @@ pub fn output_y<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
 /// ```text
 /// manipulability = l1*l2*abs(sin(q2))
 /// ```
-pub fn output_manipulability<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
+pub fn output_manipulability<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> S {
     let q2 = q[1];
     let sin_q2 = q2.sin();
     p.k0 * sin_q2.abs()
 }
 
 /// Everything that the description asks to observe.
-pub fn outputs<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> Outputs<S> {
+pub fn outputs<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 2]) -> Outputs<S> {
     Outputs {
         x: output_x(p, q),
         y: output_y(p, q),
@@ -518,14 +526,16 @@ const INPUTS: [(&str, &str); 2] = [("tau1", "N*m"), ("tau2", "N*m")];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 3] = [("x", "m"), ("y", "m"), ("manipulability", "m^2")];
 
-impl ::lagrangian::Machine for TwoJointArm {
+impl ::lagrangian::emitted::Machine for TwoJointArm {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "TwoJointArm"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.l1, self.l2, self.c1, self.c2, self.m1, self.m2, self.J1, self.J2, self.g,
         ];
@@ -551,19 +561,19 @@ impl ::lagrangian::Machine for TwoJointArm {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 2];
     type Matrix = [f64; 4];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -582,8 +592,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 2],
         u: &Inputs,
         result: &mut [f64; 2],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, q, v, u }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 2], matrix: &mut [f64; 4]) {
@@ -632,7 +645,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         inputs: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [inputs.tau1, inputs.tau2];
         quantities(&INPUTS, values)
     }
@@ -640,7 +653,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         outputs: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [outputs.x, outputs.y, outputs.manipulability];
         quantities(&OUTPUTS, values)
     }
@@ -655,21 +668,21 @@ impl ::lagrangian::System for Prepared {
         _: &[f64; 2],
         _: &[f64; 2],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         ::core::iter::empty()
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 2];
-    type BatchInputs = Inputs<::lagrangian::Lanes<N>>;
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 2];
+    type BatchInputs = Inputs<::lagrangian::emitted::Lanes<N>>;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             l1: lanes(|p| p.l1),
             l2: lanes(|p| p.l2),
@@ -690,7 +703,7 @@ where
     }
 
     fn batch_inputs(inputs: [&Inputs; N]) -> Self::BatchInputs {
-        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::Lanes(inputs.map(number));
+        let lanes = |number: fn(&Inputs) -> f64| ::lagrangian::emitted::Lanes(inputs.map(number));
         Inputs {
             tau1: lanes(|u| u.tau1),
             tau2: lanes(|u| u.tau2),
@@ -710,41 +723,89 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        _: ::lagrangian::Lanes<N>,
+        _: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         u: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, q, v, u },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for TwoJointArm<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 2];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs<S>;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 2]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 2] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs<S> {
+        <Inputs>::default().map(S::from_f64)
+    }
+
+    fn accelerations(
+        &self,
+        _: S,
+        q: &[S; 2],
+        v: &[S; 2],
+        u: &Inputs<S>,
+        result: &mut [S; 2],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, q, v, u },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -754,10 +815,11 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

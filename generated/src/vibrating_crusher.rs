@@ -127,7 +127,7 @@ impl<S> VibratingCrusher<S> {
     }
 }
 
-impl<S: ::lagrangian::Scalar> VibratingCrusher<S> {
+impl<S: ::lagrangian::emitted::Scalar> VibratingCrusher<S> {
     /// Computes what depends on the parameters alone, once.
     pub fn prepare(&self) -> Prepared<S> {
         let pivot_1 = self.m + self.m0;
@@ -212,13 +212,13 @@ impl<S: ::lagrangian::Scalar> VibratingCrusher<S> {
     }
 
     /// The start values of the description, at rest and `t = 0`.
-    pub fn start(&self) -> ::lagrangian::State<Coordinates<S>> {
+    pub fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
         let zero = S::ZERO;
         let s1 = S::from_ratio(1, 50);
         let s2 = S::from_ratio(3, 100);
         let q = [zero, zero, zero, s1, zero, zero, s2, S::from_f64(0.5), zero];
         let v = [S::ZERO; 9];
-        ::lagrangian::State {
+        ::lagrangian::emitted::State {
             t: 0.0,
             q: Coordinates::from_array(q),
             v: Coordinates::from_array(v),
@@ -380,7 +380,7 @@ pub struct Prepared<S = f64> {
     /// `-1/(J + m0*x0^2 + m0*y0^2 - m0^2*y0^2/(m + m0) - m0^2*x0^2/(m + m0))`
     k19: S,
     /// Why these parameters leave the machine without accelerations, if they do.
-    singular: Option<::lagrangian::Singular>,
+    singular: Option<::lagrangian::emitted::Singular>,
 }
 
 /// Mass matrix `M`.
@@ -410,7 +410,7 @@ pub struct Prepared<S = f64> {
 /// M[phi2, phi2] = m2*s2^2
 /// M[theta2, theta2] = J2
 /// ```
-pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
+pub fn mass_matrix<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S; 9]; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -474,7 +474,12 @@ pub fn mass_matrix<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> [[S;
 /// h[phi2] = 2*m2*s2*cos(phi2 - phi1)*der(s1)*der(phi1) + m2*s1*s2*sin(phi2 - phi1)*der(phi1)^2
 ///     + 2*m2*s2*der(s2)*der(phi2)
 /// ```
-pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn bias<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -529,7 +534,11 @@ pub fn bias<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 
 /// Q[y] = -2*by*der(y) - 2*cy*y
 /// Q[theta] = -2*(bx*yc^2 + by*xc^2)*der(theta) - 2*(cx*yc^2 + cy*xc^2)*theta
 /// ```
-pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn applied<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -552,7 +561,12 @@ pub fn applied<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9], v: &[S; 9])
 }
 
 /// Right-hand side `f = Q - h` of `M a = f`.
-pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> [S; 9] {
+pub fn forces<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> [S; 9] {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -616,12 +630,12 @@ pub fn forces<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S
 /// Accelerations `a`, the solution of `M a = f` eliminated along the machine.
 ///
 /// A pivot that vanishes is an error.
-pub fn accelerations<S: ::lagrangian::Number>(
+pub fn accelerations<S: ::lagrangian::emitted::Number>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
     v: &[S; 9],
-) -> Result<[S; 9], ::lagrangian::Singular> {
+) -> Result<[S; 9], ::lagrangian::emitted::Singular> {
     S::run(Accelerations { p, t, q, v })
 }
 
@@ -637,11 +651,11 @@ pub struct Accelerations<'a, S> {
     pub v: &'a [S; 9],
 }
 
-impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
-    type Output = Result<[S; 9], ::lagrangian::Singular>;
+impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Accelerations<'_, S> {
+    type Output = Result<[S; 9], ::lagrangian::emitted::Singular>;
 
     #[inline(always)]
-    fn run<N: ::lagrangian::Scalar<Stored = S>>(self) -> Self::Output {
+    fn run<N: ::lagrangian::emitted::Scalar<Stored = S>>(self) -> Self::Output {
         let Self { p, t, q, v } = self;
         let n = N::load;
         if let Some(singular) = p.singular {
@@ -745,7 +759,12 @@ impl<S: Copy> ::lagrangian::scalar::Kernel<S> for Accelerations<'_, S> {
 ///     s2*sin(phi2)*der(phi2)))^2 + ((der(y) + (sin(phi1)*der(s1) + s1*cos(phi1)*der(phi1))) +
 ///     (sin(phi2)*der(s2) + s2*cos(phi2)*der(phi2)))^2) + 1/2*J0*omega^2
 /// ```
-pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9], v: &[S; 9]) -> S {
+pub fn kinetic_energy<S: ::lagrangian::emitted::Scalar>(
+    p: &Prepared<S>,
+    t: S,
+    q: &[S; 9],
+    v: &[S; 9],
+) -> S {
     let theta = q[2];
     let s1 = q[3];
     let phi1 = q[4];
@@ -788,7 +807,7 @@ pub fn kinetic_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, t: S, q: &[S; 9]
 /// ```text
 /// V = cx*x^2 + cy*y^2 + (cx*yc^2 + cy*xc^2)*theta^2
 /// ```
-pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
+pub fn potential_energy<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, q: &[S; 9]) -> S {
     let x = q[0];
     let y = q[1];
     let theta = q[2];
@@ -806,7 +825,7 @@ pub fn potential_energy<S: ::lagrangian::Scalar>(p: &Prepared<S>, q: &[S; 9]) ->
 /// ```text
 /// D = bx*der(x)^2 + by*der(y)^2 + (bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -828,7 +847,7 @@ pub fn dissipation<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
 ///     + m0*e*x0*omega*sin(omega*t - theta)*der(theta)^2
 ///     - m0*e*y0*omega*cos(omega*t - theta)*der(theta)^2
 /// ```
-pub fn work_rate<S: ::lagrangian::Scalar>(
+pub fn work_rate<S: ::lagrangian::emitted::Scalar>(
     p: &Prepared<S>,
     t: S,
     q: &[S; 9],
@@ -858,7 +877,7 @@ pub fn work_rate<S: ::lagrangian::Scalar>(
 /// ```text
 /// R = 2*bx*der(x)^2 + 2*by*der(y)^2 + 2*(bx*yc^2 + by*xc^2)*der(theta)^2
 /// ```
-pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
+pub fn dissipation_rate<S: ::lagrangian::emitted::Scalar>(p: &Prepared<S>, v: &[S; 9]) -> S {
     let x_dot = v[0];
     let y_dot = v[1];
     let theta_dot = v[2];
@@ -872,13 +891,13 @@ pub fn dissipation_rate<S: ::lagrangian::Scalar>(p: &Prepared<S>, v: &[S; 9]) ->
 }
 
 /// By how much `s1 > 0` holds.
-pub fn assumption_0<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_0<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s1 = q[3];
     s1
 }
 
 /// By how much `s2 > 0` holds.
-pub fn assumption_1<S: ::lagrangian::Scalar>(q: &[S; 9]) -> S {
+pub fn assumption_1<S: ::lagrangian::emitted::Scalar>(q: &[S; 9]) -> S {
     let s2 = q[6];
     s2
 }
@@ -924,14 +943,16 @@ const INPUTS: [(&str, &str); 0] = [];
 /// Names and units.
 const OUTPUTS: [(&str, &str); 0] = [];
 
-impl ::lagrangian::Machine for VibratingCrusher {
+impl ::lagrangian::emitted::Machine for VibratingCrusher {
     type System = Prepared;
 
     fn name(&self) -> &str {
         "VibratingCrusher"
     }
 
-    fn parameters(&self) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    fn parameters(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [
             self.m, self.m0, self.m1, self.m2, self.J, self.J0, self.J1, self.J2, self.e, self.x0,
             self.y0, self.omega, self.cx, self.cy, self.bx, self.by, self.xc, self.yc,
@@ -967,19 +988,19 @@ impl ::lagrangian::Machine for VibratingCrusher {
         Self::prepare(self)
     }
 
-    fn start(&self) -> ::lagrangian::State<Coordinates> {
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates> {
         Self::start(self)
     }
 }
 
-impl ::lagrangian::System for Prepared {
+impl ::lagrangian::emitted::System for Prepared {
     type Vector = [f64; 9];
     type Matrix = [f64; 81];
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::Quantity<'_>> {
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)
     }
 
@@ -998,8 +1019,11 @@ impl ::lagrangian::System for Prepared {
         v: &[f64; 9],
         _: &Inputs,
         result: &mut [f64; 9],
-    ) -> Result<(), ::lagrangian::Singular> {
-        <f64 as ::lagrangian::Number>::run_in_place(Accelerations { p: self, t, q, v }, result)
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <f64 as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
     }
 
     fn mass_matrix(&self, _: f64, q: &[f64; 9], matrix: &mut [f64; 81]) {
@@ -1048,7 +1072,7 @@ impl ::lagrangian::System for Prepared {
     fn input_values(
         &self,
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&INPUTS, values)
     }
@@ -1056,7 +1080,7 @@ impl ::lagrangian::System for Prepared {
     fn output_values(
         &self,
         _: &Outputs,
-    ) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'_>, f64)> {
+    ) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'_>, f64)> {
         let values = [];
         quantities(&OUTPUTS, values)
     }
@@ -1071,7 +1095,7 @@ impl ::lagrangian::System for Prepared {
         q: &[f64; 9],
         _: &[f64; 9],
         _: &Inputs,
-    ) -> impl ExactSizeIterator<Item = ::lagrangian::Assumption<'_>> {
+    ) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Assumption<'_>> {
         let facts = [
             assumption("s1 > 0", true, assumption_0(q)),
             assumption("s2 > 0", true, assumption_1(q)),
@@ -1080,16 +1104,16 @@ impl ::lagrangian::System for Prepared {
     }
 }
 
-impl<const N: usize> ::lagrangian::Batched<N> for Prepared
+impl<const N: usize> ::lagrangian::emitted::Batched<N> for Prepared
 where
-    ::lagrangian::Lanes<N>: ::lagrangian::Number,
+    ::lagrangian::emitted::Lanes<N>: ::lagrangian::emitted::Number,
 {
-    type Batch = Prepared<::lagrangian::Lanes<N>>;
-    type Vectors = [::lagrangian::Lanes<N>; 9];
+    type Batch = Prepared<::lagrangian::emitted::Lanes<N>>;
+    type Vectors = [::lagrangian::emitted::Lanes<N>; 9];
     type BatchInputs = Inputs;
 
     fn batch(systems: [&Self; N]) -> Self::Batch {
-        let lanes = |number: fn(&Self) -> f64| ::lagrangian::Lanes(systems.map(number));
+        let lanes = |number: fn(&Self) -> f64| ::lagrangian::emitted::Lanes(systems.map(number));
         Prepared {
             m: lanes(|p| p.m),
             m0: lanes(|p| p.m0),
@@ -1145,35 +1169,83 @@ where
 
     fn batch_accelerations(
         p: &Self::Batch,
-        t: ::lagrangian::Lanes<N>,
+        t: ::lagrangian::emitted::Lanes<N>,
         q: &Self::Vectors,
         v: &Self::Vectors,
         _: &Self::BatchInputs,
         result: &mut Self::Vectors,
-    ) -> Result<(), ::lagrangian::Singular> {
-        <::lagrangian::Lanes<N> as ::lagrangian::Number>::run_in_place(
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <::lagrangian::emitted::Lanes<N> as ::lagrangian::emitted::Number>::run_in_place(
             Accelerations { p, t, q, v },
             result,
         )
     }
 }
 
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::MachineIn<S> for VibratingCrusher<S> {
+    type System = Prepared<S>;
+
+    fn prepare(&self) -> Prepared<S> {
+        Self::prepare(self)
+    }
+
+    fn start(&self) -> ::lagrangian::emitted::State<Coordinates<S>> {
+        Self::start(self)
+    }
+}
+
+impl<S: ::lagrangian::emitted::Real> ::lagrangian::emitted::SystemIn<S> for Prepared<S> {
+    type Vector = [S; 9];
+    type Coordinates = Coordinates<S>;
+    type Inputs = Inputs;
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
+        COORDINATES.iter().map(quantity)
+    }
+
+    fn to_coordinates(&self, vector: &[S; 9]) -> Coordinates<S> {
+        Coordinates::from_array(*vector)
+    }
+
+    fn to_vector(&self, coordinates: &Coordinates<S>) -> [S; 9] {
+        coordinates.to_array()
+    }
+
+    fn default_inputs(&self) -> Inputs {
+        Inputs {}
+    }
+
+    fn accelerations(
+        &self,
+        t: S,
+        q: &[S; 9],
+        v: &[S; 9],
+        _: &Inputs,
+        result: &mut [S; 9],
+    ) -> Result<(), ::lagrangian::emitted::Singular> {
+        <S as ::lagrangian::emitted::Number>::run_in_place(
+            Accelerations { p: self, t, q, v },
+            result,
+        )
+    }
+}
+
 /// A name with its unit.
-fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::Quantity<'a> {
-    ::lagrangian::Quantity { name, unit }
+fn quantity<'a>(&(name, unit): &'a (&'a str, &'a str)) -> ::lagrangian::emitted::Quantity<'a> {
+    ::lagrangian::emitted::Quantity { name, unit }
 }
 
 /// Names and units beside values.
 fn quantities<'a, const N: usize>(
     names: &'a [(&'a str, &'a str); N],
     values: [f64; N],
-) -> impl ExactSizeIterator<Item = (::lagrangian::Quantity<'a>, f64)> {
+) -> impl ExactSizeIterator<Item = (::lagrangian::emitted::Quantity<'a>, f64)> {
     names.iter().map(quantity).zip(values)
 }
 
 /// A fact and by how much it holds.
-fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption<'_> {
-    ::lagrangian::Assumption {
+fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::emitted::Assumption<'_> {
+    ::lagrangian::emitted::Assumption {
         text,
         margin,
         strict,
@@ -1183,12 +1255,12 @@ fn assumption(text: &str, strict: bool, margin: f64) -> ::lagrangian::Assumption
 /// Refuses a pivot of which elimination has left nothing but rounding errors of a diagonal element,
 /// in any of several lanes.
 #[inline(always)]
-fn check<N: ::lagrangian::Scalar>(
+fn check<N: ::lagrangian::emitted::Scalar>(
     pivot: N,
     diagonal: N,
     share: f64,
     coordinate: usize,
-) -> Result<(), ::lagrangian::Singular> {
+) -> Result<(), ::lagrangian::emitted::Singular> {
     let bound = N::from_f64(share) * diagonal;
     match pivot.exceeds(bound) {
         true => Ok(()),
@@ -1198,17 +1270,18 @@ fn check<N: ::lagrangian::Scalar>(
 
 /// Whether elimination has left nothing but rounding errors of a diagonal element; so too if it is
 /// no number.
-fn vanishes<S: ::lagrangian::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
+fn vanishes<S: ::lagrangian::emitted::Scalar>(pivot: S, diagonal: S, share: f64) -> bool {
     let bound = S::from_f64(share) * diagonal;
     !pivot.exceeds(bound)
 }
 
 /// The share of a pivot that is no rounding, for the message.
 #[cold]
-fn singular<S: ::lagrangian::Scalar>(
+fn singular<S: ::lagrangian::emitted::Scalar>(
     coordinate: usize,
     pivot: S,
     diagonal: S,
-) -> ::lagrangian::Singular {
-    ::lagrangian::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())
+) -> ::lagrangian::emitted::Singular {
+    let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());
+    ::lagrangian::emitted::Singular::new(coordinate, pivot, diagonal)
 }

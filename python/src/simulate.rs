@@ -1,6 +1,5 @@
 //! A run, made.
 
-use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -320,16 +319,16 @@ impl Task {
             }
         };
         let value = &value;
-        let samples = RefCell::new(self.samples.clone());
-        samples.borrow_mut().begin(&self.start);
-        let last = Cell::new(Instant::now());
+        let mut samples = self.samples.clone();
+        samples.begin(&self.start);
+        let mut last = Instant::now();
         let mut simulation = simulation
             .method(self.method)
             .law(self.law.clone())
-            .each_step(|step| samples.borrow_mut().take(step))
+            .each_step(|step| samples.take(step))
             .progress(|now| {
-                if last.get().elapsed() >= BETWEEN {
-                    last.set(Instant::now());
+                if last.elapsed() >= BETWEEN {
+                    last = Instant::now();
                     self.tell(now);
                 }
             })
@@ -359,7 +358,6 @@ impl Task {
             };
         }
         let (solution, error) = simulation.run_as_far_as_possible(self.start.clone())?;
-        let mut samples = samples.into_inner();
         samples.end(solution.start(), solution.end());
         Ok((solution, samples.states, error))
     }

@@ -1,6 +1,19 @@
 //! Bogacki–Shampine 3(2): cheap steps for coarse tolerances and motions that are not smooth.
 
 use super::Tableau;
+use super::digits::coefficients;
+
+coefficients! {
+    c: [0.0, 1.0 / 2.0, 3.0 / 4.0, 1.0],
+    a: [
+        [],
+        [1.0 / 2.0],
+        [0.0, 3.0 / 4.0],
+        [2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0],
+    ],
+    error: [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0],
+    coarse_error: [],
+}
 
 /// Bogacki–Shampine 3(2), first same as last.
 ///
@@ -13,15 +26,10 @@ pub(super) const TABLEAU: Tableau = Tableau {
     error_power: 3,
     dense_order: 3,
     stages: 3,
-    c: &[0.0, 1.0 / 2.0, 3.0 / 4.0, 1.0],
-    a: &[
-        &[],
-        &[1.0 / 2.0],
-        &[0.0, 3.0 / 4.0],
-        &[2.0 / 9.0, 1.0 / 3.0, 4.0 / 9.0],
-    ],
+    c: C,
+    a: A,
     // b − b̂ with b̂ = (7/24, 1/4, 1/3, 1/8)
-    error: &[-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0],
+    error: ERROR,
     coarse_error: None,
     dense: &[],
     step_change: (0.2, 10.0),

@@ -3,21 +3,10 @@
 #![expect(clippy::excessive_precision, reason = "the digits that are published")]
 
 use super::Tableau;
+use super::digits::coefficients;
 
-/// Dormand–Prince 8(5,3) with dense output of order 7.
-///
-/// The method DOP853 of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
-/// Equations I*, 2nd ed., 1993, section II.10 (with section II.6 for dense output); coefficients as
-/// in the authors' program of that name. P. J. Prince and J. R. Dormand, *High order embedded
-/// Runge–Kutta formulae*, J. Comput. Appl. Math. 7 (1981) 67–75.
-pub(super) const TABLEAU: Tableau = Tableau {
-    name: "dop853",
-    title: "Dormand–Prince 8(5,3)",
-    order: 8,
-    error_power: 8,
-    dense_order: 7,
-    stages: 12,
-    c: &[
+coefficients! {
+    c: [
         0.0,
         0.0526001519587677318785587544488,
         0.0789002279381515978178381316732,
@@ -35,32 +24,32 @@ pub(super) const TABLEAU: Tableau = Tableau {
         0.2,
         0.777777777777777777777777777778,
     ],
-    a: &[
-        &[],
-        &[0.0526001519587677318785587544488],
-        &[
+    a: [
+        [],
+        [0.0526001519587677318785587544488],
+        [
             0.0197250569845378994544595329183,
             0.0591751709536136983633785987549,
         ],
-        &[
+        [
             0.0295875854768068491816892993775,
             0.0,
             0.0887627564304205475450678981324,
         ],
-        &[
+        [
             0.241365134159266685502369798665,
             0.0,
             -0.884549479328286085344864962717,
             0.924834003261792003115737966543,
         ],
-        &[
+        [
             0.037037037037037037037037037037,
             0.0,
             0.0,
             0.170828608729473871279604482173,
             0.125467687566822425016691814123,
         ],
-        &[
+        [
             0.037109375,
             0.0,
             0.0,
@@ -68,7 +57,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             0.0602165389804559606850219397283,
             -0.017578125,
         ],
-        &[
+        [
             0.0370920001185047927108779319836,
             0.0,
             0.0,
@@ -77,7 +66,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             -0.0153194377486244017527936158236,
             0.00827378916381402288758473766002,
         ],
-        &[
+        [
             0.624110958716075717114429577812,
             0.0,
             0.0,
@@ -87,7 +76,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             20.1540675504778934086186788979,
             -43.4898841810699588477366255144,
         ],
-        &[
+        [
             0.477662536438264365890433908527,
             0.0,
             0.0,
@@ -98,7 +87,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             -33.2882109689848629194453265587,
             -0.0203312017085086261358222928593,
         ],
-        &[
+        [
             -0.93714243008598732571704021658,
             0.0,
             0.0,
@@ -110,7 +99,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             2.49360555267965238987089396762,
             -3.0467644718982195003823669022,
         ],
-        &[
+        [
             2.27331014751653820792359768449,
             0.0,
             0.0,
@@ -124,7 +113,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             0.643392746015763530355970484046,
         ],
         // The new point: the weights b.
-        &[
+        [
             0.0542937341165687622380535766363,
             0.0,
             0.0,
@@ -139,7 +128,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             0.0447106157277725905176885569043,
         ],
         // Three more stages, for points between.
-        &[
+        [
             0.0561675022830479523392909219681,
             0.0,
             0.0,
@@ -154,7 +143,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             0.00756789766054569976138603589584,
             -0.008298,
         ],
-        &[
+        [
             0.0318346481635021405060768473261,
             0.0,
             0.0,
@@ -170,7 +159,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             -0.000340465008687404560802977114492,
             0.141312443674632500278074618366,
         ],
-        &[
+        [
             -0.428896301583791923408573538692,
             0.0,
             0.0,
@@ -188,8 +177,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
             -9.15095847217987001081870187138,
         ],
     ],
-    // Of order 5.
-    error: &[
+    error: [
         0.01312004499419488073250102996,
         0.0,
         0.0,
@@ -203,8 +191,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
         0.08192320648511571246570742613,
         -0.02235530786388629525884427845,
     ],
-    // b − b̂ with b̂ of order 3, nonzero in stages 1, 9 and 12.
-    coarse_error: Some(&[
+    coarse_error: [
         -0.1898007540724076157147023288757,
         0.0,
         0.0,
@@ -217,7 +204,28 @@ pub(super) const TABLEAU: Tableau = Tableau {
         -0.152160949662516078556178806805,
         0.201365400804030348374776537501,
         0.0226517921983608258118062039631,
-    ]),
+    ],
+}
+
+/// Dormand–Prince 8(5,3) with dense output of order 7.
+///
+/// The method DOP853 of E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
+/// Equations I*, 2nd ed., 1993, section II.10 (with section II.6 for dense output); coefficients as
+/// in the authors' program of that name. P. J. Prince and J. R. Dormand, *High order embedded
+/// Runge–Kutta formulae*, J. Comput. Appl. Math. 7 (1981) 67–75.
+pub(super) const TABLEAU: Tableau = Tableau {
+    name: "dop853",
+    title: "Dormand–Prince 8(5,3)",
+    order: 8,
+    error_power: 8,
+    dense_order: 7,
+    stages: 12,
+    c: C,
+    a: A,
+    // Of order 5.
+    error: ERROR,
+    // b − b̂ with b̂ of order 3, nonzero in stages 1, 9 and 12.
+    coarse_error: Some(COARSE),
     dense: &[
         &[
             -8.4289382761090128651353491142,

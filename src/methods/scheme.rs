@@ -12,6 +12,7 @@
 //! E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., 1993,
 //! section II.14.
 
+use super::digits::{Beyond, Pair};
 use super::{MAX_STAGES, Tableau};
 
 /// The most rows that dense output may have beyond its cubic.
@@ -22,6 +23,18 @@ pub(super) const MAX_DENSE: usize = 4;
 pub(crate) struct Row {
     terms: [Term; MAX_STAGES],
     length: usize,
+    /// What the weights of each term leave out of the published ones, as far as that is known. `f64` have no use for it, so it
+    /// stands apart.
+    beyond: [Beyonds; MAX_STAGES],
+}
+
+/// What the `f64` of a [`Term`] leave out of its weights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beyonds {
+    /// Of the weight in the velocity.
+    pub velocity: f64,
+    /// Of the weight in the position.
+    pub position: f64,
 }
 
 /// What one stage contributes.
@@ -52,6 +65,11 @@ pub(crate) struct Scheme {
     pub dense: [Row; MAX_DENSE],
     /// How many of them.
     pub dense_length: usize,
+    /// What the nodes leave out of the published ones.
+    pub c_beyond: [f64; MAX_STAGES],
+    /// Whether what `f64` leave out of nodes and weights is known, so that a step is of its order in more digits than these
+    /// have.
+    pub is_wide: bool,
 }
 
 impl Row {
@@ -62,12 +80,59 @@ impl Row {
             position: 0.0,
         }; MAX_STAGES],
         length: 0,
+        beyond: [Beyonds {
+            velocity: 0.0,
+            position: 0.0,
+        }; MAX_STAGES],
     };
 
     /// The terms that are not zero.
     #[inline(always)]
     pub fn terms(&self) -> &[Term] {
         &self.terms[..self.length]
+    }
+
+    /// The same, each with what its weights leave out.
+    #[inline(always)]
+    pub fn wide_terms(&self) -> impl Iterator<Item = (&Term, &Beyonds)> {
+        self.terms().iter().zip(&self.beyond)
+    }
+
+    /// [`new`](Self::new) with what the `f64` leave out.
+    const fn wide(
+        [weights, more]: [&[f64]; 2],
+        [a, a_more]: [&'static [&'static [f64]]; 2],
+    ) -> Self {
+        let mut row = Self::new(weights, a);
+        let mut term = 0;
+        while term < row.length {
+            let Term {
+                stage, position, ..
+            } = row.terms[term];
+            let mut sum = Pair(0.0, 0.0);
+            let mut i = 0;
+            while i < weights.len() {
+                if stage < a[i].len() {
+                    let factors = [
+                        Pair(weights[i], more[i]),
+                        Pair(a[i][stage], a_more[i][stage]),
+                    ];
+                    sum = sum.plus(factors[0].times(factors[1]));
+                }
+                i += 1;
+            }
+            row.beyond[term] = Beyonds {
+                velocity: if stage < more.len() { more[stage] } else { 0.0 },
+                // What stands for 0 is 0 in all digits.
+                position: if position == 0.0 {
+                    0.0
+                } else {
+                    sum.beyond(position)
+                },
+            };
+            term += 1;
+        }
+        row
     }
 
     /// `weights` for velocities, `weights · A` for positions.
@@ -120,21 +185,35 @@ impl Row {
 }
 
 impl Scheme {
-    pub const fn new(tableau: &Tableau) -> Self {
+    /// `beyond` is what the tableau leaves out, where that is known.
+    pub const fn new(tableau: &Tableau, beyond: Option<Beyond>) -> Self {
         let (a, stages) = (tableau.a, tableau.stages);
         assert!(a.len() <= MAX_STAGES && tableau.c.len() == a.len() && stages < a.len());
         assert!(tableau.dense.len() <= MAX_DENSE);
 
         let mut rows = [Row::EMPTY; MAX_STAGES];
+        let mut c_beyond = [0.0; MAX_STAGES];
         let mut i = 0;
         while i < a.len() {
-            rows[i] = Row::new(a[i], a);
+            rows[i] = match beyond {
+                Some(beyond) => {
+                    c_beyond[i] = beyond.c[i];
+                    Row::wide([a[i], beyond.a[i]], [a, beyond.a])
+                }
+                None => Row::new(a[i], a),
+            };
             i += 1;
         }
-        let error = Row::new(tableau.error, a);
-        let coarse_error = match tableau.coarse_error {
-            Some(weights) => Row::new(weights, a),
-            None => Row::EMPTY,
+        let error = match beyond {
+            Some(beyond) => Row::wide([tableau.error, beyond.error], [a, beyond.a]),
+            None => Row::new(tableau.error, a),
+        };
+        let coarse_error = match (tableau.coarse_error, beyond) {
+            (Some(weights), Some(beyond)) => {
+                Row::wide([weights, beyond.coarse_error], [a, beyond.a])
+            }
+            (Some(weights), None) => Row::new(weights, a),
+            (None, _) => Row::EMPTY,
         };
         let mut dense = [Row::EMPTY; MAX_DENSE];
         let mut i = 0;
@@ -151,6 +230,8 @@ impl Scheme {
             coarse_error,
             dense,
             dense_length: tableau.dense.len(),
+            c_beyond,
+            is_wide: beyond.is_some(),
         }
     }
 }

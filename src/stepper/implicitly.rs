@@ -75,7 +75,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             for i in 1..stages {
                 let c = method.tableau.c[i];
                 let t = before.t + (before.t_low + c * h);
-                stage_state((&rows[i], c, h), [&before.q, &before.v], k, [q, v]);
+                stage_state((&rows[i], c * h, h), [&before.q, &before.v], k, [q, v]);
                 model.set_inputs(t, q, v);
                 model.take_rates(quadratures, i, (t, q, v, &k[i]));
             }

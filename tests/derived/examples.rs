@@ -9,12 +9,16 @@ mod balance;
 mod bounce;
 #[path = "../../examples/computed_torque.rs"]
 mod computed_torque;
+#[path = "../../examples/digits.rs"]
+mod digits;
 #[path = "../../examples/drag.rs"]
 mod drag;
 #[path = "../../examples/edited_spec.rs"]
 mod edited_spec;
 #[path = "../../examples/energy.rs"]
 mod energy;
+#[path = "../../examples/ensemble.rs"]
+mod ensemble;
 #[path = "../../examples/fit.rs"]
 mod fit;
 #[path = "../../examples/generic.rs"]
@@ -138,6 +142,38 @@ fn each_number_is_as_exact_as_it_is() {
     // a is proportional to 1/l.
     let slope = numbers::by_length().unwrap().derivative;
     assert!((slope + near / 0.5).abs() <= 8.0 * f64::EPSILON * slope.abs());
+}
+
+#[test]
+fn a_motion_is_as_exact_as_its_numbers() {
+    use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
+    digits::main().unwrap();
+    let machine = digits::Oscillator::default();
+    let exact = DoubleDouble::from_f64(20.0).cos();
+    let (x, _) = digits::at(&machine, 10.0).unwrap();
+    assert!((x - exact.hi()).abs() < limit(1e-9));
+    let (x, _) = digits::at(&machine.map(|x| x as f32), 10.0).unwrap();
+    assert!((f64::from(x) - exact.hi()).abs() < limit(1e-5));
+    let ten = DoubleDouble::from_f64(10.0);
+    let (x, steps) = digits::at(&machine.map(DoubleDouble::from_f64), ten).unwrap();
+    assert!((x - exact).to_f64().abs() < steps as f64 * 2e-24);
+    // ∂x/∂k = −t sin ωt /(2 m ω)
+    let mut varied = machine.map(Dual::constant);
+    varied.k = Dual::variable(machine.k);
+    let (x, _) = digits::at(&varied, Dual::constant(10.0)).unwrap();
+    assert!((x.derivative + 10.0 * 20.0_f64.sin() / 8.0).abs() < 10.0 * limit(1e-9));
+}
+
+#[test]
+fn an_ensemble_finds_what_goes_over_the_top() {
+    ensemble::main();
+    // From ½ l² ω² = 2 g l: at the top nothing is left.
+    let exact = 2.0 * (9.81_f64 / 0.5).sqrt();
+    let found = ensemble::least_rates(&[0.5], 0.05)[0];
+    assert!(
+        found > exact && found - exact <= 0.05 + 1e-9,
+        "{found} after {exact}"
+    );
 }
 
 #[test]

@@ -5,9 +5,11 @@ mod by_hand;
 mod constraints;
 mod contacts;
 mod derivatives;
+mod ensembles;
 mod examples;
 mod sensitivities;
 mod stages;
+mod steps_in_numbers;
 mod stiff_friction;
 #[path = "../support/mod.rs"]
 mod support;

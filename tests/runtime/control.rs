@@ -1,6 +1,8 @@
 //! Controllers: sampled ones in one run, and loops around a stepper; against recursions worked out by hand.
 #![cfg(feature = "interpreter")]
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::toy::{Toy, ball, oscillator};
 use lagrangian::interpreted::InterpretedMachine;
@@ -83,18 +85,18 @@ fn a_sampled_controller_is_its_recursion() {
 fn one_sampled_run_is_as_many_runs() {
     let machine = CartPole::default();
     let law = |theta: f64, rate: f64, x: f64, v: f64| 40.0 * theta + 8.0 * rate + 1.5 * x + 3.0 * v;
-    let mut looks = 0;
+    let looks = AtomicU32::new(0);
     let run = Simulation::new(&machine)
         .tolerance(1e-11)
         .until(1.0)
         .energy_balance(true)
         .sampled(0.02, |state, u| {
-            looks += 1;
+            looks.fetch_add(1, Ordering::Relaxed);
             u.push = law(state.q.theta, state.v.theta, state.q.x, state.v.x);
         })
         .run(machine.start())
         .unwrap();
-    assert_eq!(looks, 50);
+    assert_eq!(looks.into_inner(), 50);
     let mut state = machine.start();
     for tick in 1..=50 {
         let push = law(state.q.theta, state.v.theta, state.q.x, state.v.x);

@@ -143,3 +143,72 @@ fn what_happened_is_data() {
     );
     assert!(matches!(error, Error::Spec { .. }));
 }
+
+fn can_be_copied_and_sent<T: Clone + Send>(_: &T) {}
+
+/// A copy of a simulation has events and a controller of its own, whatever these keep; observers are those of the first.
+#[test]
+fn copies_of_a_simulation_run_on_other_threads() {
+    let pair = Pair::default();
+    let seen = std::sync::Mutex::new(0);
+    let mut looks = 0;
+    let simulation = Simulation::new(&pair)
+        .until(2.0)
+        .event("middle", Crossing::Any, |state| state.q.x)
+        .until_event_on("far", Crossing::Rising, |seen| seen.q.x - 100.0)
+        .stop_if(|state| state.q.y > 100.0)
+        .observe(0.5, |_| *seen.lock().unwrap() += 1)
+        // What it sets depends on how often it was asked: a copy that shared this count would have another motion.
+        .sampled(0.25, move |_, inputs| {
+            looks += 1;
+            inputs.push = f64::from(looks);
+        });
+    can_be_copied_and_sent(&simulation);
+    let start = pair.start();
+    let end = |simulation: Simulation<'_, Pair>| {
+        let run = simulation.run(start).unwrap();
+        (*run.end(), run.events().len())
+    };
+    let together = thread::scope(|scope| {
+        let copies: Vec<_> = (0..3).map(|_| simulation.clone()).collect();
+        let threads: Vec<_> = copies
+            .into_iter()
+            .map(|copy| scope.spawn(move || end(copy)))
+            .collect();
+        let ends = threads.into_iter().map(|thread| thread.join().unwrap());
+        ends.collect::<Vec<_>>()
+    });
+    let alone = end(simulation);
+    assert_eq!(together, [alone; 3]);
+    // At the start, three times on the way and at the end, in each of four runs.
+    assert_eq!(*seen.lock().unwrap(), 4 * 5);
+}
+
+/// How inputs are set may be decided while the program runs, and the simulation has one type.
+#[test]
+fn inputs_may_be_chosen_at_run_time() {
+    let pair = Pair::default();
+    let runs = [false, true].map(|is_pushed| {
+        let mut simulation = Simulation::new(&pair).until(1.0).any_inputs();
+        if is_pushed {
+            let pushed = Simulation::new(&pair).until(1.0);
+            simulation = pushed.inputs(|t, _, _, u| u.push = t).any_inputs();
+        }
+        can_be_copied_and_sent(&simulation);
+        *simulation.run(pair.start()).unwrap().end()
+    });
+    let [plain, pushed] = [
+        Simulation::new(&pair)
+            .until(1.0)
+            .run(pair.start())
+            .map(|run| *run.end()),
+        Simulation::new(&pair)
+            .until(1.0)
+            .inputs(|t, _, _, u| u.push = t)
+            .run(pair.start())
+            .map(|run| *run.end()),
+    ]
+    .map(Result::unwrap);
+    assert_eq!(runs, [plain, pushed]);
+    assert_ne!(plain, pushed);
+}

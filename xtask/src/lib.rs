@@ -1,5 +1,6 @@
 //! What `machines/` compiles to, file by file; a test compares it with what is committed.
 
+pub mod api;
 pub mod modules;
 
 use std::fs;

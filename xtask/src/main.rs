@@ -1,7 +1,7 @@
 //! Chores of those who work on the project.
 //!
 //! `cargo xtask generate` compiles the machine library into `generated/`; `cargo xtask generate --check` fails where what
-//! is committed differs from that.
+//! is committed differs from that. `cargo xtask api` writes the public interface of the library into `docs/api/`.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -17,8 +17,9 @@ fn main() -> ExitCode {
     let done = match arguments.as_slice() {
         ["generate"] => generate(root).and_then(|files| write(root, &files)),
         ["generate", "--check"] => generate(root).and_then(|files| check(root, &files)),
+        ["api"] => xtask::api::write(root),
         _ => {
-            eprintln!("usage: cargo xtask generate [--check]");
+            eprintln!("usage: cargo xtask generate [--check] | api");
             return ExitCode::from(2);
         }
     };

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 /// What a file holds.
-type Source<'a> = dyn Fn(&Path) -> std::io::Result<String> + 'a;
+pub(crate) type Source<'a> = dyn Fn(&Path) -> std::io::Result<String> + 'a;
 
 /// The path of a module within its crate, or of an item; that of the crate's root is empty.
 pub type Names = Vec<String>;
@@ -317,7 +317,7 @@ fn reached<'a>(name: &String, imports: &'a Imports) -> BTreeSet<&'a String> {
 }
 
 /// The file of a child, and the folder of its own children.
-fn place(
+pub(crate) fn place(
     source: &Source<'_>,
     folder: &Path,
     name: &str,
@@ -337,7 +337,7 @@ fn place(
 }
 
 /// A path in the text of a module, from the root of the crate.
-fn absolute(path: Names, module: &Names) -> Names {
+pub(crate) fn absolute(path: Names, module: &Names) -> Names {
     let mut base = module.clone();
     let mut words = path.into_iter().peekable();
     match words.peek().map(String::as_str) {
@@ -358,7 +358,7 @@ fn absolute(path: Names, module: &Names) -> Names {
     base
 }
 
-fn plain(word: &proc_macro2::Ident) -> String {
+pub(crate) fn plain(word: &proc_macro2::Ident) -> String {
     word.to_string().trim_start_matches("r#").to_owned()
 }
 
@@ -390,7 +390,7 @@ fn path_at(tokens: &[TokenTree], mut at: usize) -> (Names, usize) {
 }
 
 /// The paths of a tree of `use`, each with the name it is given where that is another.
-fn leaves_of_use(
+pub(crate) fn leaves_of_use(
     tokens: &[TokenTree],
     prefix: &[String],
     leaves: &mut Vec<(Names, Option<String>)>,

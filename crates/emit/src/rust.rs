@@ -12,6 +12,7 @@ mod kernel;
 mod lanes;
 mod language;
 mod library;
+mod numbers;
 mod prepared;
 mod series;
 mod stages;
@@ -36,7 +37,7 @@ pub use stub::stub;
 /// What the text depends on besides the program.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// The path of the runtime.
+    /// The path of what emitted code needs of the runtime.
     pub runtime: String,
     /// Lines for the head of the file: where it came from.
     pub origin: Vec<String>,
@@ -66,7 +67,7 @@ pub const SHORTEST_ROLLED: usize = 300;
 impl Default for Options {
     fn default() -> Options {
         Options {
-            runtime: "::lagrangian".into(),
+            runtime: "::lagrangian::emitted".into(),
             origin: Vec::new(),
             formulas: BTreeMap::new(),
             series: None,
@@ -240,6 +241,7 @@ impl<'a> Emitter<'a> {
         if self.program.contacts.is_empty() && self.program.unilateral.is_empty() {
             self.impl_batched();
         }
+        self.impl_in_numbers();
         self.helpers();
         self.writer.finish()
     }

@@ -1,19 +1,20 @@
 //! Batch numbers side by side, as they are kept in memory.
 
-use core::ops::{Index, IndexMut};
+use core::ops::{Add, Div, Index, IndexMut, Mul, Neg, Sub};
 
 /// `N` numbers side by side: the same quantity of `N` states, or of `N` sets of parameters. `N` is
 /// 2, 4 or 8.
 ///
 /// This is what is kept in memory: `N` `f64`, one after another, at an address that `malloc` may
-/// return. Arithmetic on them goes through [`Number::run`](crate::Number::run), in whatever
-/// registers the processor has.
+/// return. The arithmetic of a machine goes through [`Number::run`](crate::Number::run), in whatever
+/// registers the processor has; sums and products of a few are those of each lane, with the bits of `f64`.
 ///
 /// ```
 /// use lagrangian_native::Lanes;
 /// let angles = Lanes([0.1, 0.2, 0.3, 0.4]);
 /// assert_eq!(angles[2], 0.3);
 /// assert_eq!(Lanes::<4>::splat(9.81), Lanes([9.81; 4]));
+/// assert_eq!(angles * Lanes::splat(2.0) - angles, angles);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(16))]
@@ -55,5 +56,34 @@ impl<const N: usize> IndexMut<usize> for Lanes<N> {
     #[inline(always)]
     fn index_mut(&mut self, lane: usize) -> &mut f64 {
         &mut self.0[lane]
+    }
+}
+
+macro_rules! lane_by_lane {
+    ($($trait:ident, $method:ident, $sign:tt;)*) => {$(
+        impl<const N: usize> $trait for Lanes<N> {
+            type Output = Self;
+
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Lanes(core::array::from_fn(|lane| self.0[lane] $sign other.0[lane]))
+            }
+        }
+    )*};
+}
+
+lane_by_lane! {
+    Add, add, +;
+    Sub, sub, -;
+    Mul, mul, *;
+    Div, div, /;
+}
+
+impl<const N: usize> Neg for Lanes<N> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Lanes(self.0.map(|x| -x))
     }
 }

@@ -1,6 +1,5 @@
 //! A plan made ready to run, and its runs.
 
-use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -470,7 +469,7 @@ impl Sweep {
             lagrangian::InputLaw::set(&self.laws, &system, *t, &q.values, &v.values, &mut u);
             system.output(output, *t, &q.values, &v.values, &[], &u.values)
         };
-        let started = RefCell::new(&mut watched);
+        let started = &mut watched;
         let mut simulation = Simulation::new(&machine)
             .tolerance(plan.tolerance)
             .method(self.method)
@@ -500,8 +499,7 @@ impl Sweep {
             || !plan.at.is_empty()
             || plan.every.is_some();
         if looks {
-            simulation =
-                simulation.each_step(|step| started.borrow_mut().take(plan, run, &system, step));
+            simulation = simulation.each_step(|step| started.take(plan, run, &system, step));
         }
         let simulation = simulation.stop_if(|_| stop.load(Ordering::Relaxed));
         let (solution, error) = match simulation.run_as_far_as_possible(start) {

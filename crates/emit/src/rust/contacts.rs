@@ -168,8 +168,9 @@ impl Emitter<'_> {
         let interval = format!("{runtime}::scalar::Interval");
         self.method("slip_ranges", &["t", "q", "v", "ranges"], None, |body| {
             if !names.is_empty() {
+                body.line(format!("let between = {interval}::new;"));
                 body.line(format!(
-                    "let near = |x: {f64}| {interval}::new(x.next_down(), x.next_up());"
+                    "let near = |x: {f64}| between(x.next_down(), x.next_up());"
                 ));
             }
             if let Some(value) = prepared {

@@ -64,9 +64,13 @@ impl Emitter<'_> {
         if let (Layout::Struct(_, fields), true) = (&mut value, has_guards) {
             fields.push(("singular".into(), Layout::Atom("None".into())));
         }
+        if has_series {
+            self.writer.line(format!(
+                "let member = |i: {usize}| {runtime}::Lanes(systems.map(|p| p.series[i]));"
+            ));
+        }
         let series = self.number_of_constants_of_series().map(|_| {
-            let value = "::core::array::from_fn(|i| Lanes(systems.map(|p| p.series[i])))";
-            let value = value.replace("Lanes", &format!("{runtime}::Lanes"));
+            let value = "::core::array::from_fn(member)".to_owned();
             ("series".to_owned(), Layout::Atom(value))
         });
         let value = with_field(value, series);

@@ -223,9 +223,8 @@ impl Emitter<'_> {
             &["t", "q", "v", "u", "coefficients"],
             Some(&format!("{result}<(), {runtime}::Singular>")),
             |body| {
-                body.open(format!(
-                    "for row in coefficients.iter_mut().skip({runtime}::series::ROWS) {{"
-                ));
+                body.line(format!("let known = {runtime}::series::ROWS;"));
+                body.open("for row in coefficients.iter_mut().skip(known) {");
                 body.line(format!("*row = [{f64}::NAN; {n}];"));
                 body.close("}");
                 body.expression("let series = ", &call, ";");
@@ -278,9 +277,10 @@ impl Emitter<'_> {
             let (name, first) = (carried.name(), code.text(*first));
             self.writer.line(format!("let mut {name} = {first};"));
         }
-        self.writer.line(format!(
-            "let rows = coefficients.iter_mut().take({runtime}::series::ROWS);"
-        ));
+        self.writer
+            .line(format!("let known = {runtime}::series::ROWS;"));
+        self.writer
+            .line("let rows = coefficients.iter_mut().take(known);");
         self.writer
             .open("for (order, row) in rows.enumerate().skip(3) {");
         for (kind, [a, b], range, width) in &packs {

@@ -552,17 +552,19 @@ impl Emitter<'_> {
             Some(&format!("{runtime}::Singular")),
         );
         let coordinates = self.program.dimension();
+        self.writer
+            .line("let [pivot, diagonal] = [pivot, diagonal].map(|x| x.to_f64());");
         if !self.program.constraints.is_empty() {
             self.writer.open(format!(
                 "if let Some(constraint) = coordinate.checked_sub({coordinates}) {{"
             ));
             self.writer.line(format!(
-                "return {runtime}::Singular::constraint(constraint, pivot.to_f64(), diagonal.to_f64());"
+                "return {runtime}::Singular::constraint(constraint, pivot, diagonal);"
             ));
             self.writer.close("}");
         }
         self.writer.line(format!(
-            "{runtime}::Singular::new(coordinate, pivot.to_f64(), diagonal.to_f64())"
+            "{runtime}::Singular::new(coordinate, pivot, diagonal)"
         ));
         self.writer.close("}");
     }

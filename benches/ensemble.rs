@@ -1,0 +1,85 @@
+//! How many trajectories a second: one after another by a stepper, and 4 or 8 at a time by an ensemble.
+//!
+//! ```sh
+//! cargo bench --bench ensemble
+//! ```
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use lagrangian::{Batched, Ensemble, Machine, Method, Stepper, System, Trajectory};
+use lagrangian_machines::{CartPole, DoublePendulum, VibratingCrusher};
+
+/// Trajectories of one kind, of several lengths and starts.
+fn trajectories<M: Machine>(machine: &M, end: f64) -> Vec<Trajectory<M::System>>
+where
+    M::System: Clone,
+{
+    (0..400)
+        .map(|i| {
+            let part = f64::from(i) / 400.0;
+            let mut trajectory = Trajectory::of(machine, end * (0.5 + part));
+            let mut q = trajectory.system.to_vector(&trajectory.start.q);
+            for q in lagrangian::Vector::as_mut_slice(&mut q) {
+                *q += 0.01 * part;
+            }
+            trajectory.start.q = trajectory.system.to_coordinates(&q);
+            trajectory
+        })
+        .collect()
+}
+
+/// Trajectories a second, the best of five times.
+fn rate(count: usize, mut run: impl FnMut()) -> f64 {
+    let seconds = (0..5).map(|_| {
+        let start = Instant::now();
+        run();
+        start.elapsed().as_secs_f64()
+    });
+    count as f64 / seconds.fold(f64::INFINITY, f64::min)
+}
+
+fn compare<M: Machine>(machine: &M, end: f64, method: &'static Method, tolerance: f64)
+where
+    M::System: Batched<4> + Batched<8> + 'static,
+{
+    let trajectories = trajectories(machine, end);
+    let alone = rate(trajectories.len(), || {
+        for trajectory in &trajectories {
+            let stepper = Stepper::builder(trajectory.system).method(method);
+            let mut stepper = stepper
+                .tolerance(tolerance)
+                .start(trajectory.start.clone())
+                .expect("accelerations");
+            stepper.advance_to(trajectory.end).expect("a run");
+            black_box(stepper.q());
+        }
+    });
+    let arrived = |_, arrived: Result<_, _>| {
+        black_box(arrived.is_ok());
+    };
+    let four = rate(trajectories.len(), || {
+        let ensemble = Ensemble::<4>::new().method(method).tolerance(tolerance);
+        ensemble.run(trajectories.iter().cloned(), arrived);
+    });
+    let eight = rate(trajectories.len(), || {
+        let ensemble = Ensemble::<8>::new().method(method).tolerance(tolerance);
+        ensemble.run(trajectories.iter().cloned(), arrived);
+    });
+    println!(
+        "| {} | {} | {tolerance:e} | {alone:.0} | {four:.0} | {eight:.0} | {:.2} |",
+        machine.name(),
+        method.tableau.name,
+        four.max(eight) / alone
+    );
+}
+
+fn main() {
+    println!("| machine | method | tolerance | one by one | 4 at a time | 8 at a time | gain |");
+    println!("| --- | --- | --: | --: | --: | --: | --: |");
+    for (method, tolerance) in [(Method::DOP853, 1e-9), (Method::DOPRI5, 1e-5)] {
+        compare(&DoublePendulum::default(), 2.0, method, tolerance);
+        compare(&CartPole::default(), 2.0, method, tolerance);
+        compare(&VibratingCrusher::default(), 0.2, method, tolerance);
+    }
+}

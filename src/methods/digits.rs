@@ -1,0 +1,149 @@
+//! Coefficients to more digits than `f64` has, read from their decimals while the crate compiles.
+//!
+//! A coefficient is published as a decimal or as a fraction. What stands in a tableau is the `f64` next to it; here is what that
+//! leaves out, so that the two together have some 31 digits.
+
+/// A number as the sum of two `f64`, of which the second is at most half a unit in the last place of the first. These are the
+/// operations of double-doubles, which constants can be computed by.
+#[derive(Clone, Copy)]
+pub(super) struct Pair(pub f64, pub f64);
+
+/// `a + b` exactly.
+const fn two_sum(a: f64, b: f64) -> Pair {
+    let sum = a + b;
+    let b_seen = sum - a;
+    let a_seen = sum - b_seen;
+    Pair(sum, (a - a_seen) + (b - b_seen))
+}
+
+/// A number as two halves of 26 bits, whose products are exact. T. J. Dekker, *A floating-point technique for extending the
+/// available precision*, Numer. Math. 18 (1971) 224–242.
+const fn halves(x: f64) -> [f64; 2] {
+    let far = 134_217_729.0 * x; // 2²⁷ + 1
+    let high = far - (far - x);
+    [high, x - high]
+}
+
+/// `a b` exactly.
+const fn two_product(a: f64, b: f64) -> Pair {
+    let product = a * b;
+    let ([a1, a2], [b1, b2]) = (halves(a), halves(b));
+    Pair(product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
+}
+
+impl Pair {
+    /// The sum.
+    pub const fn plus(self, other: Self) -> Self {
+        let (high, low) = (two_sum(self.0, other.0), two_sum(self.1, other.1));
+        let high = two_sum(high.0, high.1 + low.0);
+        two_sum(high.0, high.1 + low.1)
+    }
+
+    /// The product.
+    pub const fn times(self, other: Self) -> Self {
+        let product = two_product(self.0, other.0);
+        two_sum(product.0, product.1 + (self.0 * other.1 + self.1 * other.0))
+    }
+
+    /// The quotient, by long division with three digits of 53 bits.
+    const fn over(self, other: Self) -> Self {
+        let mut rest = self;
+        let mut quotient = Pair(0.0, 0.0);
+        let mut digits = 0;
+        while digits < 3 {
+            let digit = rest.0 / other.0;
+            rest = rest.plus(other.times(Pair(-digit, 0.0)));
+            quotient = quotient.plus(Pair(digit, 0.0));
+            digits += 1;
+        }
+        quotient
+    }
+
+    /// What `high` leaves out of this number.
+    pub const fn beyond(self, high: f64) -> f64 {
+        (self.0 - high) + self.1
+    }
+
+    /// An integer below 2¹⁰⁶, or of 106 bits with zeros behind, exactly.
+    const fn integer(n: u128) -> Self {
+        let high = n as f64;
+        Pair(high, (n as i128 - high as i128) as f64)
+    }
+}
+
+/// What the `f64` leaves out of a coefficient that is written as `-0.25`, or as `44.0 / 45.0`.
+pub(super) const fn beyond(text: &str, high: f64) -> f64 {
+    let text = text.as_bytes();
+    let (mut number, mut divided, mut is_negative) = (None, None, false);
+    let (mut digits, mut places, mut behind_point) = (0_u128, 0, false);
+    let mut i = 0;
+    while i <= text.len() {
+        let letter = if i < text.len() { text[i] } else { b'/' };
+        match letter {
+            b'-' => is_negative = !is_negative,
+            b'.' => behind_point = true,
+            b'0'..=b'9' => {
+                digits = 10 * digits + (letter - b'0') as u128;
+                places += behind_point as u32;
+            }
+            b'/' => {
+                let scale = 10_u128.pow(places);
+                // A power of ten has few bits that are not 0, so that a pair holds it.
+                assert!(digits >> 106 == 0 && scale >> 126 == 0);
+                let read = Pair::integer(digits).over(Pair::integer(scale));
+                match number {
+                    None => number = Some(read),
+                    Some(_) => divided = Some(read),
+                }
+                (digits, places, behind_point) = (0, 0, false);
+            }
+            b' ' => {}
+            _ => panic!("a coefficient is a decimal or a fraction"),
+        }
+        i += 1;
+    }
+    let exact = match (number, divided) {
+        (Some(number), Some(divided)) => number.over(divided),
+        (Some(number), None) => number,
+        (None, _) => panic!("a coefficient has digits"),
+    };
+    let sign = if is_negative { -1.0 } else { 1.0 };
+    Pair(sign * exact.0, sign * exact.1).beyond(high)
+}
+
+/// What the `f64` of a tableau leave out, where that is known.
+#[derive(Clone, Copy)]
+pub(crate) struct Beyond {
+    /// For each of the nodes.
+    pub c: &'static [f64],
+    /// For each of the rows.
+    pub a: &'static [&'static [f64]],
+    /// For the estimate of the error: weights whose sum is 0 in all digits.
+    pub error: &'static [f64],
+    /// For the coarser estimate.
+    pub coarse_error: &'static [f64],
+}
+
+/// Nodes, rows and estimates of the error as the constants `C`, `A`, `ERROR` and `COARSE`, and as `BEYOND` what these leave out of what is
+/// written.
+macro_rules! coefficients {
+    (
+        c: [$($c:expr),* $(,)?],
+        a: [$([$($a:expr),* $(,)?]),* $(,)?],
+        error: [$($error:expr),* $(,)?],
+        coarse_error: [$($coarse:expr),* $(,)?] $(,)?
+    ) => {
+        const C: &[f64] = &[$($c),*];
+        const A: &[&[f64]] = &[$(&[$($a),*]),*];
+        const ERROR: &[f64] = &[$($error),*];
+        #[allow(dead_code, reason = "only some methods have a coarser estimate")]
+        const COARSE: &[f64] = &[$($coarse),*];
+        pub(super) const BEYOND: super::digits::Beyond = super::digits::Beyond {
+            c: &[$(super::digits::beyond(stringify!($c), $c)),*],
+            a: &[$(&[$(super::digits::beyond(stringify!($a), $a)),*]),*],
+            error: &[$(super::digits::beyond(stringify!($error), $error)),*],
+            coarse_error: &[$(super::digits::beyond(stringify!($coarse), $coarse)),*],
+        };
+    };
+}
+pub(super) use coefficients;

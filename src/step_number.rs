@@ -1,0 +1,252 @@
+//! The numbers that explicit methods take steps in.
+
+use core::fmt::Debug;
+use core::ops::{Add, Mul, Neg, Sub};
+
+use lagrangian_native::{Lanes, Number};
+use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+
+/// The numbers in which a machine can be run by an [`ExplicitStepper`](crate::ExplicitStepper): `f32`, `f64`,
+/// [`DoubleDouble`], and [`Dual`] numbers of these.
+pub trait Real: Number + Scalar + StepNumber {}
+
+impl<N: Number + Scalar + StepNumber> Real for N {}
+
+/// What the arithmetic of a step asks of a number: `f32`, `f64`, [`DoubleDouble`], [`Dual`] numbers of these, and [`Lanes`], in
+/// which several trajectories lie side by side.
+///
+/// How long a step is, and whether it was good, is decided in `f64`, for each trajectory by itself.
+pub trait StepNumber:
+    sealed::Sealed
+    + Copy
+    + Debug
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Neg<Output = Self>
+{
+    /// A `T` for each trajectory.
+    type Each<T: Copy + Debug>: Copy + Debug + AsRef<[T]> + AsMut<[T]>;
+
+    /// 0.
+    const NOTHING: Self;
+    /// How many numbers one is made of whose errors count: 2 in a dual number.
+    const PARTS: usize;
+    /// Whether it has more digits than `f64`, so that coefficients of methods need more as well.
+    const IS_WIDE: bool;
+    /// Half of the distance of 1 from the next number, doubled.
+    const EPSILON: f64;
+    /// The length below which a step is none, in s.
+    const LEAST_STEP: f64;
+    /// The tolerance where nobody gives one.
+    const TOLERANCE: f64;
+
+    /// Something for each trajectory.
+    fn each<T: Copy + Debug>(of: impl FnMut(usize) -> T) -> Self::Each<T>;
+    /// A number from `f64`, one for each trajectory.
+    fn gather(numbers: Self::Each<f64>) -> Self;
+    /// The nearest `f64`, for each trajectory.
+    fn rounded(self) -> Self::Each<f64>;
+    /// `self` times a coefficient of a method, which is the sum of an `f64` and of what that leaves out.
+    fn weighted(self, coefficient: f64, beyond: f64) -> Self;
+    /// For each trajectory, whether it is a number.
+    fn are_finite(self) -> Self::Each<bool>;
+    /// For each trajectory, whether two numbers are the same.
+    fn are_same(self, other: Self) -> Self::Each<bool>;
+    /// `self` where `condition` holds, else `other`.
+    fn where_true(self, condition: &Self::Each<bool>, other: Self) -> Self;
+    /// For each trajectory the square of this error, relative to what is tolerable in a number that is `sizes` at the two ends
+    /// of a step: `absolute + relative |y|`. Of a dual number, the sum of that of the value and of the derivative.
+    fn squared_error(self, sizes: [Self; 2], absolute: Self, relative: f64) -> Self::Each<f64>;
+}
+
+mod sealed {
+    use super::{DoubleDouble, Dual, Lanes};
+
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+    impl Sealed for DoubleDouble {}
+    impl<N: Sealed> Sealed for Dual<N> {}
+    impl<const W: usize> Sealed for Lanes<W> {}
+}
+
+/// The square of an error in `f64`.
+#[inline(always)]
+fn squared(error: f64, [before, now]: [f64; 2], absolute: f64, relative: f64) -> f64 {
+    let (before, now) = (before.abs(), now.abs());
+    // Not `max`, which costs more because it passes over what is not a number.
+    let size = if before > now { before } else { now };
+    let error = error / (absolute + relative * size);
+    error * error
+}
+
+/// What all numbers of one trajectory have in common.
+macro_rules! one_trajectory {
+    () => {
+        type Each<T: Copy + Debug> = [T; 1];
+
+        const NOTHING: Self = <Self as Scalar>::ZERO;
+
+        #[inline(always)]
+        fn each<T: Copy + Debug>(mut of: impl FnMut(usize) -> T) -> [T; 1] {
+            [of(0)]
+        }
+
+        #[inline(always)]
+        fn gather([number]: [f64; 1]) -> Self {
+            Self::from_f64(number)
+        }
+
+        #[inline(always)]
+        fn rounded(self) -> [f64; 1] {
+            [self.to_f64()]
+        }
+
+        #[inline(always)]
+        fn are_finite(self) -> [bool; 1] {
+            [Scalar::is_finite(self)]
+        }
+
+        #[inline(always)]
+        fn are_same(self, other: Self) -> [bool; 1] {
+            [self == other]
+        }
+
+        #[inline(always)]
+        fn where_true(self, &[condition]: &[bool; 1], other: Self) -> Self {
+            if condition { self } else { other }
+        }
+    };
+}
+
+/// Numbers whose errors are measured in `f64`.
+macro_rules! simple {
+    ($($number:ty: $is_wide:literal, $epsilon:expr, $least:literal, $tolerance:literal, |$of:ident, $coefficient:ident, $beyond:ident| $weighted:expr;)*) => {$(
+        impl StepNumber for $number {
+            one_trajectory!();
+            const PARTS: usize = 1;
+            const IS_WIDE: bool = $is_wide;
+            const EPSILON: f64 = $epsilon;
+            const LEAST_STEP: f64 = $least;
+            const TOLERANCE: f64 = $tolerance;
+
+            #[inline(always)]
+            fn weighted(self, $coefficient: f64, $beyond: f64) -> Self {
+                let $of = self;
+                $weighted
+            }
+
+            #[inline(always)]
+            fn squared_error(self, sizes: [Self; 2], absolute: Self, relative: f64) -> [f64; 1] {
+                [squared(
+                    self.to_f64(),
+                    sizes.map(Self::to_f64),
+                    absolute.to_f64(),
+                    relative,
+                )]
+            }
+        }
+    )*};
+}
+
+simple! {
+    f32: false, f32::EPSILON as f64, 1e-36, 1e-5, |x, coefficient, _beyond| coefficient as f32 * x;
+    f64: false, f64::EPSILON, 1e-290, 1e-9, |x, coefficient, _beyond| coefficient * x;
+    // The sum of two has an error of 2⁻¹⁰⁴ at the most.
+    DoubleDouble: true, f64::EPSILON * f64::EPSILON, 1e-260, 1e-24,
+        |x, coefficient, beyond| (Self::from_f64(coefficient) + Self::from_f64(beyond)) * x;
+}
+
+/// The derivative of a run is that of its steps, whose lengths are held: so it is exact to the rounding of the derivative of what
+/// is computed, and its error is kept like that of the run.
+impl<N: Scalar + StepNumber<Each<f64> = [f64; 1]>> StepNumber for Dual<N> {
+    one_trajectory!();
+    const PARTS: usize = 2 * N::PARTS;
+    const IS_WIDE: bool = N::IS_WIDE;
+    const EPSILON: f64 = N::EPSILON;
+    const LEAST_STEP: f64 = N::LEAST_STEP;
+    const TOLERANCE: f64 = N::TOLERANCE;
+
+    #[inline(always)]
+    fn weighted(self, coefficient: f64, beyond: f64) -> Self {
+        Self {
+            value: self.value.weighted(coefficient, beyond),
+            derivative: self.derivative.weighted(coefficient, beyond),
+        }
+    }
+
+    #[inline(always)]
+    fn squared_error(self, sizes: [Self; 2], absolute: Self, relative: f64) -> [f64; 1] {
+        let values = sizes.map(|size| size.value);
+        let derivatives = sizes.map(|size| size.derivative);
+        let [value] = self.value.squared_error(values, absolute.value, relative);
+        // A tolerance is no function of what is varied: the derivative has that of the value.
+        let [derivative] = self
+            .derivative
+            .squared_error(derivatives, absolute.value, relative);
+        [value + derivative]
+    }
+}
+
+impl<const W: usize> StepNumber for Lanes<W> {
+    type Each<T: Copy + Debug> = [T; W];
+
+    const NOTHING: Self = Lanes::splat(0.0);
+    const PARTS: usize = 1;
+    const IS_WIDE: bool = false;
+    const EPSILON: f64 = f64::EPSILON;
+    const LEAST_STEP: f64 = 1e-290;
+    const TOLERANCE: f64 = 1e-9;
+
+    #[inline(always)]
+    fn each<T: Copy + Debug>(of: impl FnMut(usize) -> T) -> [T; W] {
+        core::array::from_fn(of)
+    }
+
+    #[inline(always)]
+    fn gather(numbers: [f64; W]) -> Self {
+        Lanes(numbers)
+    }
+
+    #[inline(always)]
+    fn rounded(self) -> [f64; W] {
+        self.0
+    }
+
+    #[inline(always)]
+    fn weighted(self, coefficient: f64, _beyond: f64) -> Self {
+        Lanes(self.0.map(|x| coefficient * x))
+    }
+
+    #[inline(always)]
+    fn are_finite(self) -> [bool; W] {
+        self.0.map(f64::is_finite)
+    }
+
+    #[inline(always)]
+    fn are_same(self, other: Self) -> [bool; W] {
+        core::array::from_fn(|lane| self[lane] == other[lane])
+    }
+
+    #[inline(always)]
+    fn where_true(self, condition: &[bool; W], other: Self) -> Self {
+        Lanes(core::array::from_fn(|lane| match condition[lane] {
+            true => self[lane],
+            false => other[lane],
+        }))
+    }
+
+    #[inline(always)]
+    fn squared_error(self, [before, now]: [Self; 2], absolute: Self, relative: f64) -> [f64; W] {
+        core::array::from_fn(|lane| {
+            squared(
+                self[lane],
+                [before[lane], now[lane]],
+                absolute[lane],
+                relative,
+            )
+        })
+    }
+}

@@ -1,0 +1,196 @@
+//! Many trajectories side by side: each is what it is alone, bit for bit.
+
+use crate::support::random::SplitMix;
+use lagrangian::{
+    Arrival, Batched, Ensemble, Machine, Method, State, StepError, Stepper, System, Trajectory,
+    Work,
+};
+use lagrangian_machines::{CartPole, DoublePendulum, FourBar, VibratingCrusher, cart_pole};
+
+type Alone<S> = Result<(State<<S as System>::Coordinates>, Work), StepError>;
+
+/// A trajectory by the stepper.
+fn alone<S: System + Clone + 'static>(
+    trajectory: &Trajectory<S>,
+    method: &'static Method,
+    tolerance: f64,
+) -> Alone<S> {
+    let mut stepper = Stepper::builder(trajectory.system.clone())
+        .method(method)
+        .tolerance(tolerance)
+        .inputs(trajectory.inputs.clone())
+        .start(trajectory.start.clone())?;
+    stepper.advance_to(trajectory.end)?;
+    Ok((stepper.state(), stepper.work()))
+}
+
+/// Whether all of them, `W` at a time, are what they are alone.
+fn assert_same<S: Batched<W> + 'static, const W: usize>(
+    trajectories: &[Trajectory<S>],
+    method: &'static Method,
+    tolerance: f64,
+) where
+    S::Coordinates: PartialEq,
+{
+    let mut arrived: Vec<Option<Result<Arrival<S::Coordinates>, StepError>>> =
+        trajectories.iter().map(|_| None).collect();
+    Ensemble::<W>::new()
+        .method(method)
+        .tolerance(tolerance)
+        .run(trajectories.iter().cloned(), |index, arrival| {
+            assert!(arrived[index].is_none(), "{index} arrived twice");
+            arrived[index] = Some(arrival);
+        });
+    for (index, (trajectory, arrival)) in trajectories.iter().zip(arrived).enumerate() {
+        let arrival = arrival.expect("all of them arrive");
+        let name = method.tableau.name;
+        match (alone(trajectory, method, tolerance), arrival) {
+            (Ok((state, work)), Ok(arrival)) => {
+                assert_eq!(state, arrival.end, "{index} by {name}");
+                assert_eq!(work, arrival.work, "{index} by {name}");
+            }
+            // Where exactly it gave up is no matter of bits.
+            (Err(one), Err(other)) => assert_eq!(
+                std::mem::discriminant(&one),
+                std::mem::discriminant(&other),
+                "{index} by {name}: {one}, {other}"
+            ),
+            (one, other) => panic!("{index} by {name}: {one:?}, {other:?}"),
+        }
+    }
+}
+
+/// The seed of this run: another one each time.
+fn seed() -> u64 {
+    let seed = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(0, |since| since.as_nanos() as u64);
+    println!("seed {seed}");
+    seed
+}
+
+#[test]
+fn each_trajectory_is_what_it_is_alone() {
+    let mut random = SplitMix::new(seed());
+    let pendulums: Vec<_> = (0..23)
+        .map(|_| {
+            let machine = DoublePendulum {
+                l1: random.uniform(0.2, 3.0),
+                m2: random.uniform(0.1, 2.0),
+                ..Default::default()
+            };
+            let mut start = Machine::start(&machine);
+            start.q.theta1 = random.uniform(-3.0, 3.0);
+            start.v.theta2 = random.uniform(-5.0, 5.0);
+            start.t = random.uniform(-1.0, 1.0);
+            // Some are over at once, and some run backward.
+            let end = start.t + [0.0, 0.02, 3.0, -1.0][(random.next() % 4) as usize];
+            Trajectory::new(Machine::prepare(&machine), start, end)
+        })
+        .collect();
+    for method in [Method::DOP853, Method::DOPRI5, Method::BS32] {
+        assert_same::<_, 4>(&pendulums, method, 1e-7);
+    }
+    assert_same::<_, 2>(&pendulums, Method::DOP853, 1e-10);
+    assert_same::<_, 8>(&pendulums, Method::DOP853, 1e-10);
+    // Fewer than there are lanes, and none.
+    assert_same::<_, 8>(&pendulums[..3], Method::DOP853, 1e-10);
+    assert_same::<_, 8>(&pendulums[..0], Method::DOP853, 1e-10);
+}
+
+#[test]
+fn each_has_its_own_inputs_and_its_own_drive() {
+    let mut random = SplitMix::new(seed());
+    let pushed: Vec<_> = (0..13)
+        .map(|_| {
+            let machine = CartPole::default();
+            let inputs = cart_pole::Inputs {
+                push: random.uniform(-20.0, 20.0),
+            };
+            Trajectory::of(&machine, random.uniform(0.1, 2.0)).inputs(inputs)
+        })
+        .collect();
+    assert_same::<_, 4>(&pushed, Method::DOP853, 1e-9);
+    let driven: Vec<_> = (0..6)
+        .map(|_| {
+            let machine = VibratingCrusher {
+                omega: random.uniform(50.0, 200.0),
+                ..Default::default()
+            };
+            Trajectory::of(&machine, random.uniform(0.05, 0.2))
+        })
+        .collect();
+    assert_same::<_, 4>(&driven, Method::DOP853, 1e-8);
+}
+
+/// One that has no accelerations and one that starts at what is no number leave the others as they are.
+#[test]
+fn the_failure_of_one_is_none_of_another() {
+    let good = CartPole::default();
+    let mut trajectories: Vec<_> = (1..9)
+        .map(|i| Trajectory::of(&good, 0.25 * f64::from(i)))
+        .collect();
+    let massless = CartPole {
+        cart: 0.0,
+        pole: 0.0,
+        ..good
+    };
+    trajectories.insert(1, Trajectory::of(&massless, 1.0));
+    let mut nowhere = Trajectory::of(&good, 1.0);
+    nowhere.start.v = cart_pole::Coordinates::from_array([f64::NAN; 2]);
+    trajectories.insert(3, nowhere);
+    assert_same::<_, 4>(&trajectories, Method::DOP853, 1e-9);
+    assert_same::<_, 4>(&trajectories, Method::DOPRI5, 1e-9);
+    let mut failed = 0;
+    Ensemble::<4>::new().run(trajectories, |_, arrived| {
+        failed += usize::from(arrived.is_err())
+    });
+    assert_eq!(failed, 2);
+}
+
+#[test]
+fn what_an_ensemble_does_not_do_is_said() {
+    let mut said = Vec::new();
+    Ensemble::<2>::new().run([Trajectory::of(&FourBar::default(), 1.0)], |_, arrived| {
+        said.push(arrived.expect_err("it has constraints"))
+    });
+    let pendulum = DoublePendulum::default();
+    let endless = Trajectory::of(&pendulum, f64::INFINITY);
+    let long = Trajectory::of(&pendulum, 10.0);
+    Ensemble::<2>::new()
+        .max_steps(5)
+        .run([endless, long.clone()], |_, arrived| {
+            said.push(arrived.expect_err("neither gets there"))
+        });
+    Ensemble::<2>::new()
+        .method(Method::RADAU5)
+        .run([long], |_, arrived| {
+            said.push(arrived.expect_err("it is implicit"))
+        });
+    assert!(
+        matches!(
+            said[..],
+            [
+                StepError::NotFree { .. },
+                StepError::NoTime { .. },
+                StepError::TooManySteps { steps: 5, .. },
+                StepError::NotExplicit { .. },
+            ]
+        ),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn an_ensemble_allocates_nothing() {
+    let machine = DoublePendulum::default();
+    let mut sum = 0.0;
+    let count = allocation_counter::measure(|| {
+        let trajectories = (1..20).map(|i| Trajectory::of(&machine, 0.1 * f64::from(i)));
+        Ensemble::<4>::new().run(trajectories, |_, arrived| {
+            sum += arrived.map_or(f64::NAN, |arrival| arrival.end.q.theta1);
+        });
+    });
+    assert!(sum.is_finite());
+    assert_eq!(count.count_total, 0);
+}

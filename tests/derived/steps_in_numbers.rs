@@ -1,0 +1,390 @@
+//! Steps in `f32`, in `f64`, in double-doubles and in dual numbers.
+
+use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
+use lagrangian::{
+    DefaultInputs, ExplicitStepper, HeldInputs, Machine, MachineIn, Method, NoBalance, Real,
+    Sensitive, Simulation, State, StepError, Stepper, System, SystemIn, Tolerance,
+};
+use lagrangian_machines::{CartPole, DoublePendulum, TwoBodyOrbit, cart_pole, two_body_orbit};
+
+/// Explicit methods of the list.
+const EXPLICIT: [&Method; 3] = [Method::DOP853, Method::DOPRI5, Method::BS32];
+
+/// Kepler's orbit of semi-major axis 1 and eccentricity e about a unit of gravitation: distance and direction at the eccentric
+/// anomaly `u`, and the time since the pericentre, `u − e sin u`.
+fn kepler<N: Scalar>(e: N, u: N) -> (N, [N; 2]) {
+    let half = (u * N::from_f64(0.5)).tan();
+    let direction = ((N::ONE + e) / (N::ONE - e)).sqrt() * half;
+    let two = N::from_f64(2.0);
+    (
+        u - e * u.sin(),
+        [N::ONE - e * u.cos(), two * direction.atan()],
+    )
+}
+
+/// Two bodies whose masses make 1 together, at the pericentre of such an orbit, where φ′ = √((1 + e)/(1 − e)³).
+fn orbit<N: Scalar>(e: f64) -> (TwoBodyOrbit<N>, State<two_body_orbit::Coordinates<N>>) {
+    let machine = TwoBodyOrbit {
+        m1: 0.75,
+        m2: 0.25,
+        ..Default::default()
+    };
+    let e = N::from_f64(e);
+    let near = N::ONE - e;
+    let rate = ((N::ONE + e) / (near * near * near)).sqrt();
+    let start = State {
+        t: 0.0,
+        q: two_body_orbit::Coordinates::from_array([near, N::ZERO]),
+        v: two_body_orbit::Coordinates::from_array([N::ZERO, rate]),
+    };
+    (machine.map(N::from_f64), start)
+}
+
+/// How far the orbit of e = 1/8 is off at u = 1, in steps of length `h` if one is given.
+fn off<N: Real + PartialOrd>(method: &'static Method, tolerance: f64, h: Option<f64>) -> f64 {
+    let e = 0.125;
+    let (machine, start) = orbit::<N>(e);
+    let (t, place) = kepler(N::from_f64(e), N::ONE);
+    let mut builder = ExplicitStepper::builder(MachineIn::prepare(&machine))
+        .method(method)
+        .tolerance(tolerance);
+    if let Some(h) = h {
+        builder = builder.first_step(h).longest_step(h);
+    }
+    let mut stepper = builder.start(start).expect("accelerations");
+    stepper.advance_to(t).expect("a run");
+    let differences = [0, 1].map(|i| (stepper.q()[i] - place[i]).abs().to_f64());
+    differences[0].max(differences[1])
+}
+
+/// In 32 digits a method of order p gains p powers of 2 where its steps are halved, far below what `f64` can tell, until
+/// rounding stops it.
+#[test]
+fn order_eight_goes_on_to_28_digits_in_double_doubles() {
+    let mut last = f64::INFINITY;
+    let mut seen = 0;
+    for halvings in 4..12 {
+        let h = 2.0_f64.powi(-halvings);
+        let error = off::<DoubleDouble>(Method::DOP853, 1e30, Some(h));
+        // Below, rounding and the thirty published digits of the coefficients have a part.
+        if last < 1e-8 && error > 1e-27 {
+            let order = (last / error).log2();
+            assert!(
+                (order - 8.0).abs() < 0.5,
+                "{error:e} after {last:e}: {order}"
+            );
+            seen += 1;
+        }
+        last = error;
+        if error < 1e-28 {
+            assert!(seen >= 3, "{seen}");
+            return;
+        }
+    }
+    panic!("{last:e} is the least error");
+}
+
+#[test]
+fn lower_orders_are_theirs_beyond_the_digits_of_f64() {
+    for (method, order, [from, to]) in
+        [(Method::DOPRI5, 5.0, [8, 11]), (Method::BS32, 3.0, [9, 12])]
+    {
+        let error =
+            |halvings: i32| off::<DoubleDouble>(method, 1e30, Some(2.0_f64.powi(-halvings)));
+        let found = (error(from) / error(to)).log2() / f64::from(to - from);
+        assert!(
+            (found - order).abs() < 0.2,
+            "{}: {found}",
+            method.tableau.name
+        );
+    }
+    assert!(off::<DoubleDouble>(Method::DOPRI5, 1e30, Some(2.0_f64.powi(-11))) < 1e-17);
+}
+
+/// A motion that multiplies no errors is off by no more than its steps together, of which there are fewer than a thousand.
+#[test]
+fn tolerances_are_kept_in_every_number() {
+    for (error, tolerance) in [
+        (off::<f32>(Method::DOP853, 1e-5, None), 1e-5),
+        (off::<f32>(Method::BS32, 1e-4, None), 1e-4),
+        (off::<f64>(Method::DOP853, 1e-10, None), 1e-10),
+        (off::<DoubleDouble>(Method::DOP853, 1e-20, None), 1e-20),
+        (off::<DoubleDouble>(Method::DOP853, 1e-29, None), 1e-29),
+    ] {
+        assert!(error < 1000.0 * tolerance, "{error:e} at {tolerance:e}");
+    }
+}
+
+/// The state and the work of a stepper in `f64`, against those of the stepper in any numbers.
+fn assert_same_bits<M>(machine: &M, inputs: <M::System as System>::Inputs, ends: [f64; 3])
+where
+    M: Machine,
+    M::System: 'static
+        + SystemIn<
+            f64,
+            Vector = <M::System as System>::Vector,
+            Coordinates = <M::System as System>::Coordinates,
+            Inputs = <M::System as System>::Inputs,
+        >,
+{
+    for method in EXPLICIT {
+        let mut one = Stepper::builder(machine.prepare())
+            .method(method)
+            .tolerance(1e-8)
+            .inputs(inputs.clone())
+            .start(machine.start())
+            .expect("accelerations");
+        let mut other = ExplicitStepper::builder(machine.prepare())
+            .method(method)
+            .tolerance(1e-8)
+            .inputs(inputs.clone())
+            .start(machine.start())
+            .expect("accelerations");
+        for end in ends {
+            one.advance_to(end).expect("a run");
+            other.advance_to(end).expect("a run");
+            let name = method.tableau.name;
+            assert_eq!(
+                (one.q(), one.v(), one.a()),
+                (other.q(), other.v(), other.a()),
+                "{name}"
+            );
+            assert_eq!((one.t(), one.work()), (other.t(), other.work()), "{name}");
+            one.set_inputs(inputs.clone());
+            other.set_inputs(inputs.clone());
+        }
+    }
+}
+
+#[test]
+fn f64_has_the_bits_of_the_stepper() {
+    let ends = [3.0, 3.5, -1.0];
+    let of_pendulum = lagrangian_machines::double_pendulum::Inputs::default();
+    assert_same_bits(&DoublePendulum::default(), of_pendulum, ends);
+    let pushed = cart_pole::Inputs { push: 3.0 };
+    assert_same_bits(&CartPole::default(), pushed, ends);
+}
+
+lagrangian::machine! {
+    machine Swing in plane {
+        parameters { l: m = 0.5, b: N*m*s = 0.1, g: m/s^2 = 9.81 }
+        coordinates { theta: rad = 1.5 }
+        bodies { bob { mass: 1, at: l*(sin(theta), -cos(theta)) } }
+        dissipations { pivot: 1/2*b*der(theta)^2 }
+        gravity (0, -g);
+        derivatives { coordinates, rates, l, b }
+    }
+}
+
+/// The derivative of a run by parameters and by its start, against the variational equations, which are integrated elsewhere.
+#[test]
+fn a_dual_run_is_the_derivative_of_the_motion() {
+    let (tolerance, end) = (1e-11, 2.0);
+    let swing = Swing::default();
+    let sensitive = Sensitive::new(&swing)
+        .by("l")
+        .and_then(|s| s.by("b"))
+        .and_then(|s| s.by_start("theta"));
+    let sensitive = sensitive.expect("variables");
+    let run = Simulation::new(&sensitive)
+        .tolerance(tolerance)
+        .until(end)
+        .run(sensitive.start())
+        .expect("a run");
+    let by = &run.end().q.by;
+    for (k, exact) in by.iter().enumerate() {
+        let mut machine = swing.map(Dual::constant);
+        let mut start = MachineIn::start(&machine);
+        match k {
+            0 => machine.l = Dual::variable(swing.l),
+            1 => machine.b = Dual::variable(swing.b),
+            _ => start.q.theta = Dual::variable(start.q.theta.value),
+        }
+        let mut stepper = ExplicitStepper::builder(MachineIn::prepare(&machine))
+            .tolerance(tolerance)
+            .start(start)
+            .expect("accelerations");
+        stepper.advance_to(Dual::constant(end)).expect("a run");
+        let found = stepper.state().q.theta.derivative;
+        let steps = stepper.work().steps as f64;
+        // Each of both runs is off by its steps, whose errors a damped swing does not multiply.
+        let limit = 2.0 * steps * tolerance * (1.0 + exact.theta.abs());
+        assert!(
+            (found - exact.theta).abs() < limit,
+            "{k}: {found}, not {}",
+            exact.theta
+        );
+    }
+    // The derivative by the time at which the run ends is the rate there.
+    let machine = swing.map(Dual::constant);
+    let mut stepper = ExplicitStepper::builder(MachineIn::prepare(&machine))
+        .tolerance(tolerance)
+        .start(MachineIn::start(&machine))
+        .expect("accelerations");
+    stepper.advance_to(Dual::variable(end)).expect("a run");
+    let (q, v) = (stepper.q()[0], stepper.v()[0]);
+    assert!((q.derivative - v.value).abs() < 1e-8, "{q:?} {v:?}");
+}
+
+/// x″ = 1/(1 − t), which has no value beyond t = 1.
+struct Bounded;
+
+impl<N: Real> SystemIn<N> for Bounded {
+    type Vector = [N; 1];
+    type Coordinates = N;
+    type Inputs = ();
+
+    fn coordinates(&self) -> impl ExactSizeIterator<Item = lagrangian::Quantity<'_>> {
+        [lagrangian::Quantity::new("x", "m")].into_iter()
+    }
+
+    fn to_coordinates(&self, vector: &[N; 1]) -> N {
+        vector[0]
+    }
+
+    fn to_vector(&self, x: &N) -> [N; 1] {
+        [*x]
+    }
+
+    fn accelerations(
+        &self,
+        t: N,
+        _q: &[N; 1],
+        _v: &[N; 1],
+        _u: &(),
+        a: &mut [N; 1],
+    ) -> Result<(), lagrangian::Singular> {
+        a[0] = (N::ONE - t).sqrt();
+        Ok(())
+    }
+
+    fn default_inputs(&self) {}
+}
+
+#[test]
+fn what_cannot_be_done_is_said() {
+    let start = State {
+        t: 0.0,
+        q: DoubleDouble::ZERO,
+        v: DoubleDouble::ZERO,
+    };
+    let with = |method| {
+        ExplicitStepper::builder(Bounded)
+            .method(method)
+            .start(start.clone())
+            .err()
+    };
+    for method in [Method::RADAU5, Method::TAYLOR] {
+        assert_eq!(with(method), Some(StepError::NotExplicit { t: 0.0 }));
+    }
+    let own: &'static Method = Box::leak(Box::new(
+        Method::try_new(lagrangian::methods::Tableau {
+            name: "kutta38",
+            title: "Kutta's 3/8 rule",
+            order: 4,
+            error_power: 4,
+            dense_order: 3,
+            stages: 4,
+            c: &[0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0, 1.0],
+            a: &[
+                &[],
+                &[1.0 / 3.0],
+                &[-1.0 / 3.0, 1.0],
+                &[1.0, -1.0, 1.0],
+                &[1.0 / 8.0, 3.0 / 8.0, 3.0 / 8.0, 1.0 / 8.0],
+            ],
+            error: &[1.0 / 24.0, -1.0 / 8.0, 1.0 / 8.0, 1.0 / 8.0, -1.0 / 6.0],
+            coarse_error: None,
+            dense: &[],
+            step_change: (0.2, 5.0),
+            smoothing: 0.0,
+            stability: None,
+            spectrum: None,
+        })
+        .expect("a method"),
+    ));
+    assert_eq!(with(own), Some(StepError::FewDigits { t: 0.0 }));
+    let mut narrow = ExplicitStepper::builder(Bounded)
+        .method(own)
+        .start(State {
+            t: 0.0,
+            q: 0.0,
+            v: 0.0,
+        })
+        .expect("its digits are enough");
+    let none = narrow.advance_to(f64::NAN);
+    assert!(matches!(none, Err(StepError::NoTime { .. })), "{none:?}");
+    // It goes as far as there are accelerations, and says where they end.
+    let beyond = narrow
+        .advance_to(2.0)
+        .expect_err("there are none beyond 1 s");
+    assert!(
+        matches!(
+            beyond,
+            StepError::NotFinite { .. } | StepError::StepTooSmall { .. }
+        ),
+        "{beyond:?}"
+    );
+    assert!(
+        (narrow.t() - 1.0).abs() < 1e-9 && narrow.t() <= 1.0,
+        "{}",
+        narrow.t()
+    );
+    // x = t²/2 − …: ∫∫ √(1 − s) = (2/3) t − (4/15) (1 − (1 − t)^(5/2)) at t = 1.
+    assert!((narrow.q()[0] - (2.0 / 3.0 - 4.0 / 15.0)).abs() < 1e-6);
+}
+
+#[test]
+fn steps_in_numbers_allocate_nothing() {
+    let machine = DoublePendulum::default().map(DoubleDouble::from_f64);
+    let count = allocation_counter::measure(|| {
+        let mut stepper = ExplicitStepper::builder(MachineIn::prepare(&machine))
+            .start(MachineIn::start(&machine))
+            .expect("accelerations");
+        stepper
+            .advance_to(DoubleDouble::from_f64(0.1))
+            .expect("a run");
+    });
+    assert_eq!(count.count_total, 0);
+}
+
+/// The core's own stepper, whose law is a type, takes the same steps as one that is told its inputs.
+#[test]
+fn held_and_default_inputs_are_one() {
+    let machine = CartPole::default();
+    let system = Machine::prepare(&machine);
+    let start = Machine::start(&machine);
+    let at = || (0.0, start.q.to_array(), start.v.to_array());
+    let tolerance = || Tolerance {
+        relative: 1e-9,
+        absolute: [1e-9; 2],
+    };
+    let held = HeldInputs(cart_pole::Inputs::default());
+    let mut one = Stepper::new(
+        &system,
+        held,
+        NoBalance,
+        Method::DOP853,
+        tolerance(),
+        at(),
+        1.0,
+    )
+    .expect("a start");
+    let mut other = Stepper::new(
+        &system,
+        DefaultInputs,
+        NoBalance,
+        Method::DOP853,
+        tolerance(),
+        at(),
+        1.0,
+    )
+    .expect("a start");
+    one.advance_to(1.0)
+        .and(other.advance_to(1.0))
+        .expect("a run");
+    assert_eq!(
+        (one.q(), one.v(), one.work()),
+        (other.q(), other.v(), other.work())
+    );
+}
