@@ -311,6 +311,9 @@ pub struct Body<'d> {
     pub local: Option<Local<'d>>,
     /// How it is turned.
     pub rotation: Rotation<'d>,
+    /// The corners of a polygon that is drawn for it, in their order, along the axes of its frame, or from its mass centre
+    /// along its own axes; none where nothing is said of its shape.
+    pub outline: Vec<Vec<Expr<'d>>>,
     /// Its name in the spec.
     pub span: Span,
     /// What the spec says of where it is: `at`, or `frame` where that is all.

@@ -15,6 +15,7 @@
 //! | [`frames`] | frames and points |
 //! | [`fields`] | the fields of records |
 //! | [`items`] | parameters, coordinates, bodies, circles, … |
+//! | [`outlines`] | the shapes of bodies |
 //! | [`element`] | what elements mean, by the list that it is given |
 //! | [`rates`] | rates at the start |
 //! | [`bounds`] | numbers that no machine has |
@@ -43,6 +44,7 @@ mod keep;
 mod layers;
 mod methods;
 mod names;
+mod outlines;
 mod outside;
 mod published;
 mod rates;
@@ -72,6 +74,7 @@ use element::Row;
 use frames::PoseKey;
 use layers::Layers;
 use names::{Declaration, Group, Member, Namespace};
+use outlines::Outline;
 use relaxation::Guide;
 use value::MemberId;
 use work::Need;
@@ -163,6 +166,8 @@ pub(crate) struct Resolver<'a, 'd, 'r> {
     tangent: Option<Tangent<'d>>,
     /// What is assumed not to be negative, with the symbols in it.
     facts: Vec<(Expr<'d>, BTreeSet<Symbol>)>,
+    /// The outlines of bodies that have one.
+    outlines: Vec<Outline<'d>>,
     poses: Vec<Pose<'d>>,
     pose_of: FxHashMap<PoseKey, PoseId>,
     /// The guides that are relaxed.
@@ -210,6 +215,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
             time: dag.symbol("t", stage::TIME),
             tangent: None,
             facts: Vec::new(),
+            outlines: Vec::new(),
             poses: Vec::new(),
             pose_of: FxHashMap::default(),
             guides: Vec::new(),
@@ -245,6 +251,7 @@ impl<'a, 'd, 'r> Resolver<'a, 'd, 'r> {
         });
         let frames = self.each(Frames, Self::named_frame);
         let bodies = self.each(Bodies, Self::body);
+        self.outlines = bodies.iter().enumerate().filter_map(Outline::of).collect();
         let assumptions = self.assumptions(layers);
         let facts = assumptions.iter().map(|fact| fact.excess);
         self.facts = facts.map(|fact| (fact, fact.symbols())).collect();

@@ -107,6 +107,7 @@ class Drawing {
       const { solid } = body;
       const size = solid?.half?.length ? Math.hypot(...solid.half) : Math.hypot(solid?.radius ?? 0, solid?.half ?? 0);
       add(this.vector(x, body.at), size);
+      solid?.corners?.forEach((corner) => add(this.vector(x, corner)));
       if (body.rod !== null) add(this.vector(x, body.rod));
     }
     for (const link of picture.links) link.ends.forEach((end) => add(this.vector(x, end)));
@@ -412,8 +413,23 @@ class Drawing {
   drawSolids(x, parts) {
     this.picture.bodies.forEach((body, index) => {
       if (body.solid === null) return;
-      const draw = { disc: 'drawDisc', bar: 'drawBar', cylinder: 'drawCylinder', box: 'drawBox' };
+      const draw = {
+        outline: 'drawOutline', disc: 'drawDisc', bar: 'drawBar', cylinder: 'drawCylinder', box: 'drawBox',
+      };
       this[draw[body.solid.form]](x, body, this.colours[index], parts);
+    });
+  }
+
+  drawOutline(x, body, colour, parts) {
+    const corners = body.solid.corners.map((corner) => this.view.project(this.vector(x, corner)));
+    parts.push({
+      depth: this.view.project(this.vector(x, body.at))[2],
+      draw: () => {
+        this.polyline(corners);
+        this.context.closePath();
+        this.fill(colour, 0.16);
+        this.stroke(colour, 1.4);
+      },
     });
   }
 

@@ -5,6 +5,7 @@
 //! * A body is joined by a rod to the nearest point before it (the ground, origins of frames, earlier bodies) from which
 //!   it keeps its distance. If there is none, to a point that its own position is built on: the pivot of a driven
 //!   pendulum, the axle of a debalance.
+//! * A body with an `outline` is drawn as that polygon.
 //! * A body with an inertia is drawn as the uniform solid that has it: a disc, or a bar where it hangs at the end of one,
 //!   in the plane; a cylinder or a box in space.
 //! * A spring or damper given by its stretch is drawn between the two points whose distance differs from the stretch by
@@ -13,7 +14,7 @@
 //! Everything found is true for all parameters, coordinates and times, see [`places`](super::places). Points and
 //! vectors are places in the list of values that the page computes.
 
-use lagrangian_spec::model::circles::{body_axes, placed};
+use lagrangian_spec::model::circles::{body_axes, outline, placed};
 use lagrangian_spec::model::element::{Drawing, Element, Shape, Site};
 use lagrangian_spec::model::{Body, Inertia, Model, Place, PoseId, Rotation, Step, stage};
 use lagrangian_symbolic::{Expr, Node, Symbol, Tangent, evaluate};
@@ -69,10 +70,12 @@ pub struct BodyDrawn {
     pub solid: Option<Solid>,
 }
 
-/// A uniform solid with the mass and inertia of a body.
+/// The outline of a body, or a uniform solid with its mass and inertia.
 #[derive(Debug, Serialize, PartialEq)]
 #[serde(rename_all = "lowercase", tag = "form")]
 pub enum Solid {
+    /// In the plane, a polygon with these points for corners.
+    Outline { corners: Vec<usize> },
     /// In the plane.
     Disc { radius: f64 },
     /// In the plane, from `end`, at `half` from the mass centre, to as far beyond it.
@@ -203,6 +206,8 @@ struct Points {
     /// Of each body.
     bodies: Vec<usize>,
     body_axes: Vec<Option<usize>>,
+    /// The corners of each body's outline.
+    outlines: Vec<Vec<usize>>,
     /// Centre, radius, axes of each circle.
     circles: Vec<[usize; 3]>,
     /// What each constraint of positions says is 0.
@@ -232,6 +237,11 @@ impl Points {
             Some(places.of(&axes.concat()))
         });
         let turned = turned.collect();
+        let outlines = (0..model.bodies.len()).map(|body| {
+            let corners = outline(model, body);
+            corners.iter().map(|corner| places.of(corner)).collect()
+        });
+        let outlines = outlines.collect();
         let circles = model.circles.iter().map(|circle| {
             let (center, axes) = placed(model, circle);
             [
@@ -259,6 +269,7 @@ impl Points {
             axes,
             bodies,
             body_axes: turned,
+            outlines,
             circles,
             constraints,
             sites,
@@ -437,7 +448,11 @@ impl<'d> Finder<'_, 'd> {
             .any(|end| self.experiment.coincide(end, at, self.dimension()));
         let outlined = |circle: &CircleDrawn| circle.body == Some(index);
         let outlined = self.points.circles(self.model).iter().any(outlined);
+        let corners = &self.points.outlines[index];
         let solid = match body.inertia {
+            _ if !corners.is_empty() => Some(Solid::Outline {
+                corners: corners.clone(),
+            }),
             Inertia::Particle => None,
             _ if outlined => None,
             Inertia::Planar(inertia) => {

@@ -186,15 +186,24 @@ fn corners_are_points() {
     let points = simulate("machines/contacts/rocking_block.machine", 1.2, &[]);
     let text =
         std::fs::read_to_string("../machines/contacts/rocking_block.machine").expect("the machine");
-    let from = text.find("left  {").expect("a contact");
-    let corners = "feet { corners: ((-b, -h), (b, -h)), on: block, along: ground, restitution: 0, friction: mu } } }";
-    let spec = Scratch::new("corners.machine", &format!("{}{corners}", &text[..from]));
-    let run = simulate(spec.path(), 1.2, &[]);
-    is_good(&run);
-    assert_eq!((&run["q"], &run["v"]), (&points["q"], &points["v"]));
-    let [found, expected] = [&run, &points].map(|run| events(run, "impact").len());
-    assert!(found == expected && found > 0);
-    assert_eq!(events(&run, "impact")[0]["contact"], "feet[2]");
+    let said = |outline: &str, corners: &str| {
+        let feet = format!(
+            "feet {{ corners: {corners}, on: block, along: ground, restitution: 0, friction: mu }} }} }}"
+        );
+        let text = text.replace("((-b, -h), (b, -h), (b, h), (-b, h))", outline);
+        let from = text.find("left  {").expect("a contact");
+        format!("{}{feet}", &text[..from])
+    };
+    let feet = "((-b, -h), (b, -h))";
+    for spec in [said(feet, feet), said(feet, "outline")] {
+        let spec = Scratch::new("corners.machine", &spec);
+        let run = simulate(spec.path(), 1.2, &[]);
+        is_good(&run);
+        assert_eq!((&run["q"], &run["v"]), (&points["q"], &points["v"]));
+        let [found, expected] = [&run, &points].map(|run| events(run, "impact").len());
+        assert!(found == expected && found > 0);
+        assert_eq!(events(&run, "impact")[0]["contact"], "feet[2]");
+    }
 }
 
 /// Discs fall into a bowl. Nothing is pulled, nothing is penetrated, and the balance closes. (Of the twenty of the machine eight

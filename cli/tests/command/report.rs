@@ -377,6 +377,45 @@ fn a_crusher_has_its_axle_its_cushions_and_its_stands() {
     assert_eq!(picture["omitted"], serde_json::json!([]));
 }
 
+/// Polygons, where the spec gives their corners: in the axes of the frame, or from the mass centre along the body's own.
+#[test]
+fn outlines_are_drawn_where_their_corners_are() {
+    let text = "machine Plates in plane {
+        parameters { b: m = 3 }
+        coordinates { s: m }
+        frames { fixed = ground.shift(1, 2), cart = ground.shift(s, 0) }
+        bodies {
+            framed { mass: 1, frame: fixed, at: fixed.point(1, 1), outline: ((0, 0), (b, 0), (0, 4)) },
+            free { mass: 1, at: (7, 8), angle: 0, outline: ((0, 0), (-b, 0), (0, 1)) },
+            moving { mass: 1, frame: cart, outline: ((0, 0), (b, 0), (b, 1)) },
+        }
+    }";
+    let page = spec(text, &[]);
+    let picture = page.picture();
+    let corners = |body: usize| -> Vec<u64> {
+        let solid = &picture["bodies"][body]["solid"];
+        assert_eq!(solid["form"], "outline");
+        let corners = solid["corners"].as_array().expect("corners");
+        corners.iter().map(place).collect()
+    };
+    assert_eq!(corners(0).len(), 3);
+    let known = [
+        (corners(0)[0], [1.0, 2.0]),
+        (corners(0)[2], [1.0, 6.0]),
+        (corners(1)[0], [7.0, 8.0]),
+        (corners(1)[2], [7.0, 9.0]),
+    ];
+    for (corner, at) in known {
+        for (k, value) in (0..).zip(at) {
+            let set = format!("x[{}] = {value:?};", corner + k);
+            assert!(page.html.contains(&set), "{set}");
+        }
+    }
+    // The corner of a body that moves, at the origin of its frame, is that point.
+    assert_eq!(corners(2)[0], place(&picture["frames"][1]["origin"]));
+    assert_eq!(corners(1)[0], place(&picture["bodies"][1]["at"]));
+}
+
 /// A uniform disc has m R²/2 = J.
 #[test]
 fn bodies_without_outlines_are_discs_of_their_inertia() {

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
-use lagrangian_program::Role;
+use lagrangian_program::{FrictionLayout, Role};
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use nalgebra::{Complex, DMatrix};
 use serde_json::{Value, json};
@@ -171,7 +171,12 @@ fn places(result: &Value, machine: &Machine) -> Vec<f64> {
 
 /// `modes` and `evaluate` of a machine and of the same machine said otherwise.
 pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
-    let kind = [Kind::Formulas, Kind::Tree, Kind::Closed][number % 3];
+    let kinds = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Guided];
+    let kind = kinds[number % kinds.len()];
+    if kind == Kind::Guided {
+        guided(&mut random, number, tally);
+        return;
+    }
     let Some(case) = still(&mut random, kind) else {
         return;
     };
@@ -271,6 +276,48 @@ pub fn modes(mut random: Random, number: usize, tally: &mut Tally) {
     evaluate(&folder, &expected, tally, &names, &written.text);
 }
 
+/// A machine with guides, said otherwise: `evaluate` gives its accelerations and what its contacts do, and `modes` and `library`,
+/// which know no state that sticks, say so and make nothing.
+fn guided(random: &mut Random, number: usize, tally: &mut Tally) {
+    let Some(case) = Case::random(random, Kind::Guided) else {
+        return;
+    };
+    let (rewritten, single) = rewrite(&case, random);
+    let Ok(Some(expected)) = Expected::of_rewritten(&case, &rewritten, &single) else {
+        return;
+    };
+    let written = write(&rewritten.machine, "Rewritten", random);
+    // What a guide carries may not follow from what is said; that is the business of another test.
+    if compile(&written.text, &written.files).is_err() {
+        return;
+    }
+    let folder = Folder::new(&format!("guided-{number}"));
+    folder.write("second.machine", &written.text);
+    for (name, text) in &written.files {
+        folder.write(name, text);
+    }
+    let names = format!("{:?}", rewritten.names);
+    evaluate(&folder, &expected, tally, &names, &written.text);
+    for (arguments, why) in [
+        (&["modes", "second.machine", "--json"][..], "slid"),
+        (
+            &["library", "second.machine", "--out", "made.so", "--json"],
+            "a library of a machine with `sliding` cannot be made",
+        ),
+    ] {
+        let said = folder.lagrangian(arguments);
+        let made = folder.0.join("made.so").exists();
+        if !said.as_ref().is_err_and(|error| error.contains(why)) || made {
+            let text = &written.text;
+            tally
+                .failures
+                .push(format!("{names}: {arguments:?} says {said:?}\n{text}"));
+            return;
+        }
+    }
+    tally.count("guided");
+}
+
 /// `evaluate` at the state.
 fn evaluate(folder: &Folder, expected: &Expected, tally: &mut Tally, names: &str, text: &str) {
     let State { t, q, v } = &expected.state;
@@ -299,12 +346,27 @@ fn evaluate(folder: &Folder, expected: &Expected, tally: &mut Tally, names: &str
             return;
         }
     }
+    for (name, values) in &expected.contacts {
+        let contact = &result
+            .as_ref()
+            .map_or(&Value::Null, |result| &result[0]["contacts"])[name];
+        let parts = ["slip", "normal", "friction"];
+        for (part, value) in parts.into_iter().zip(values) {
+            let error = (contact[part].as_f64().unwrap_or(f64::NAN) - value.hi()).abs();
+            if error.is_nan() || error > bound {
+                let (found, value) = (&contact[part], value.hi());
+                tally.failures.push(format!(
+                    "{names}: evaluate prints the {part} {found} of {name}, not {value} ({error:e}, {bound:e} may be)\n{text}"
+                ));
+                return;
+            }
+        }
+    }
     tally.count("evaluate");
 }
 
-/// A machine without guides, and the same said otherwise, with what is to be found of each.
-fn pair(random: &mut Random, number: usize) -> Option<[(Machine, Expected); 2]> {
-    let kind = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Rolling][number % 4];
+/// A machine of one of these kinds, and the same said otherwise, with what is to be found of each.
+fn pair(random: &mut Random, kind: Kind) -> Option<[(Machine, Expected); 2]> {
     let case = Case::random(random, kind)?;
     let (rewritten, single) = rewrite(&case, random);
     if rewritten.names.is_empty() || rewritten.constraints.len() > single.constraints.len() {
@@ -316,16 +378,20 @@ fn pair(random: &mut Random, number: usize) -> Option<[(Machine, Expected); 2]> 
     Some([(case.machine, first), (machine, expected)])
 }
 
-/// Machines and their programs, until there are enough.
-fn several(count: usize, tag: u64) -> Vec<(Machine, Proved, Expected)> {
+/// All kinds but machines with guides.
+const WITHOUT_GUIDES: [Kind; 4] = [Kind::Formulas, Kind::Tree, Kind::Closed, Kind::Rolling];
+
+/// Machines of these kinds in turn and their programs, until there are enough; each has this name and a number.
+fn several(name: &str, count: usize, tag: u64, kinds: &[Kind]) -> Vec<(Machine, Proved, Expected)> {
     let mut list = Vec::new();
     let mut random = Random(seed() ^ tag);
     for number in 0..40 * count {
         if list.len() >= count {
             break;
         }
-        for (machine, expected) in pair(&mut random, number).into_iter().flatten() {
-            let name = format!("Machine{}", list.len());
+        let kind = kinds[number % kinds.len()];
+        for (machine, expected) in pair(&mut random, kind).into_iter().flatten() {
+            let name = format!("{name}{}", list.len());
             if let Ok(program) = compile(&text::spec(&machine, &name), &[]) {
                 list.push((machine, program, expected));
             }
@@ -339,12 +405,20 @@ fn numbers(values: &[DoubleDouble]) -> String {
     values.join(", ")
 }
 
-/// Holds accelerations that were printed, machine after machine, one number a line.
+/// Holds what was printed, machine after machine, one number a line: the accelerations, or of machines with guides what depends on
+/// friction.
 fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str) {
     let mut lines = printed
         .lines()
         .map(|line| line.parse::<f64>().unwrap_or(f64::NAN));
     for (machine, program, expected) in list {
+        if let Some(layout) = friction_layout(program) {
+            let parts: Vec<f64> = lines.by_ref().take(layout.len()).collect();
+            let failures = friction_failures(program, layout, &parts, expected);
+            let text = text::spec(machine, &program.name);
+            assert!(failures.is_empty(), "{what}: {failures:?}\n{text}");
+            continue;
+        }
         let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
         for (i, a) in expected.accelerations.iter().enumerate() {
             let found = lines.next().unwrap_or(f64::NAN);
@@ -359,6 +433,92 @@ fn hold_printed(printed: &str, list: &[(Machine, Proved, Expected)], what: &str)
     }
 }
 
+/// How what depends on friction is arranged, where there is any.
+fn friction_layout(program: &Proved) -> Option<FrictionLayout> {
+    let layout = FrictionLayout {
+        coordinates: program.dimension(),
+        constraints: program.constraints.len(),
+        contacts: program.contacts.len(),
+    };
+    (layout.contacts > 0).then_some(layout)
+}
+
+/// What is wrong with numbers that depend on friction: with the true friction forces they give the true accelerations,
+/// multipliers and normal reactions, and the friction of what slides is μ times the normal reaction.
+fn friction_failures(
+    program: &Proved,
+    layout: FrictionLayout,
+    parts: &[f64],
+    expected: &Expected,
+) -> Vec<String> {
+    if parts.len() != layout.len() {
+        return vec![format!("{} numbers, not {}", parts.len(), layout.len())];
+    }
+    let known = |name: &String| expected.contacts.iter().find(|(known, _)| known == name);
+    let contacts = program.contacts.iter();
+    let contacts: Option<Vec<[f64; 3]>> = contacts
+        .map(|name| known(name).map(|(_, values)| values.map(|x| x.hi())))
+        .collect();
+    let Some(contacts) = contacts else {
+        return vec!["a contact has another name".to_owned()];
+    };
+    let (n, m, part) = (layout.coordinates, layout.constraints, layout.part());
+    let mut wanted: Vec<(String, usize, f64)> = Vec::new();
+    for (i, a) in expected.accelerations.iter().enumerate() {
+        wanted.push((format!("acceleration {i}"), i, a.hi()));
+    }
+    for (name, value) in &expected.multipliers {
+        match program.constraints.iter().position(|one| one.name == *name) {
+            Some(k) => wanted.push((format!("multiplier of {name}"), n + k, value.hi())),
+            None => return vec![format!("there is no constraint {name}")],
+        }
+    }
+    for (k, [_, normal, _]) in contacts.iter().enumerate() {
+        let name = &program.contacts[k];
+        wanted.push((
+            format!("normal reaction of {name}"),
+            n + m + layout.contacts + k,
+            *normal,
+        ));
+    }
+    let mut failures = Vec::new();
+    for (what, place, value) in wanted {
+        let terms = contacts.iter().enumerate();
+        let terms = terms.map(|(k, [.., friction])| friction * parts[(1 + k) * part + place]);
+        let terms: Vec<f64> = [parts[place]].into_iter().chain(terms).collect();
+        // What is added may be larger than what comes of it.
+        let size = terms
+            .iter()
+            .fold(expected.size, |size, term| size.max(term.abs()));
+        let bound = f64::EPSILON * 4096.0 * size * size / expected.pivot;
+        let found: f64 = terms.iter().sum();
+        let error = (found - value).abs();
+        if error.is_nan() || error > bound {
+            failures.push(format!(
+                "{what} is {found}, not {value} (off by {error:e}, may be {bound:e})"
+            ));
+        }
+    }
+    let coefficients = &parts[(1 + layout.contacts) * part..];
+    for (k, [slip, normal, friction]) in contacts.iter().enumerate() {
+        // What rests within rounding rests, and its friction is what holds it, by μ₀ at most.
+        let slides = slip.abs() >= 1e-12;
+        let most = normal.abs() * coefficients[if slides { k } else { layout.contacts + k }];
+        let bound = f64::EPSILON * 4096.0 * expected.size * expected.size / expected.pivot;
+        let error = match slides {
+            true => (friction + slip.signum() * most).abs(),
+            false => (friction.abs() - most).max(0.0),
+        };
+        if error.is_nan() || error > bound {
+            let name = &program.contacts[k];
+            failures.push(format!(
+                "{name} rubs with {friction}, and μ N is {most} (off by {error:e}, may be {bound:e})"
+            ));
+        }
+    }
+    failures
+}
+
 /// C for many machines at once, by one call of the compiler.
 pub fn as_c() {
     let compiler = std::env::var("CC").unwrap_or_else(|_| "cc".to_owned());
@@ -367,8 +527,11 @@ pub fn as_c() {
         eprintln!("there is no C compiler; nothing is tested");
         return;
     }
-    let list = several(24, 0xC);
+    let mut list = several("Free", 24, 0xC, &WITHOUT_GUIDES);
     assert!(list.len() >= 24);
+    let guided = several("Guided", 8, 0x6C, &[Kind::Guided]);
+    assert!(guided.len() >= 8);
+    list.extend(guided);
     let (mut calls, mut prototypes) = (String::new(), String::new());
     let mut files = vec!["main.c".to_owned()];
     for (k, (_, program, expected)) in list.iter().enumerate() {
@@ -407,7 +570,13 @@ fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
             .collect();
         values.join(", ")
     };
-    let function = program.function(Role::Accelerations).expect("no guides");
+    let layout = friction_layout(program);
+    let (role, count) = match layout {
+        Some(layout) => (Role::Friction, layout.len()),
+        None => (Role::Accelerations, program.dimension()),
+    };
+    let function = program.function(role).expect("how it moves");
+    let name = role.name();
     let reads = function.reads();
     let all = [
         (reads.prepared || !program.prepare.guards.is_empty(), "&p"),
@@ -435,10 +604,10 @@ fn c_call(k: usize, program: &Proved, expected: &Expected) -> String {
     format!(
         "#include <math.h>\n#include <stdio.h>\n#include \"machine{k}.c\"\n\nint call{k}(void) {{\n    \
          const {prefix}_parameters parameters = {{{}}};\n    {prefix}_prepared p;\n    \
-         const double t = {:?}, q[{n}] = {{{}}}, v[{n}] = {{{}}};\n    double a[{n}];\n{inputs}    \
+         const double t = {:?}, q[{n}] = {{{}}}, v[{n}] = {{{}}};\n    double a[{count}];\n{inputs}    \
          (void)t, (void)q, (void)v;\n    {prefix}_prepare(&parameters, &p);\n    \
-         if ({prefix}_accelerations({arguments})) for (int i = 0; i < {n}; i++) a[i] = NAN;\n    \
-         for (int i = 0; i < {n}; i++) printf(\"%.17g\\n\", a[i]);\n    return 0;\n}}\n",
+         if ({prefix}_{name}({arguments})) for (int i = 0; i < {count}; i++) a[i] = NAN;\n    \
+         for (int i = 0; i < {count}; i++) printf(\"%.17g\\n\", a[i]);\n    return 0;\n}}\n",
         defaults(&program.parameters),
         t.hi(),
         numbers(q),
@@ -454,7 +623,7 @@ pub fn as_libraries() {
         eprintln!("there is no C compiler; nothing is tested");
         return;
     }
-    let list = several(4, 0x50);
+    let list = several("Machine", 4, 0x50, &WITHOUT_GUIDES);
     let mut calls = String::new();
     for (k, (machine, _, expected)) in list.iter().enumerate() {
         folder.write(

@@ -118,6 +118,16 @@ fn the_longest_definitions_end_within_bounds() {
     is_derived(what, &chained(first, rule, 10_000));
 }
 
+/// The longest that `docs/limits.md` names, and longer ones, which are refused.
+#[test]
+#[ignore = "15 s of work, for the figures in docs/limits.md"]
+fn the_longest_chains_that_are_derived() {
+    for ((what, first, rule), n, more) in [(RULES[2], 20_000, 25_000), (RULES[3], 6_000, 7_000)] {
+        assert!(is_derived(what, &chained(first, rule, n)), "{what}");
+        assert!(!is_derived(what, &chained(first, rule, more)), "{what}");
+    }
+}
+
 /// What is nested four times as deep takes four times the memory and work, and no sixteen times.
 #[test]
 fn nested_definitions_take_memory_in_proportion() {

@@ -18,8 +18,29 @@ pub struct Contact<'d> {
 
 /// The centre of a circle and the axes of what it is fixed to, in ground axes.
 pub fn placed<'d>(model: &Model<'d>, circle: &Circle<'d>) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
+    fixed(model, circle.on, &circle.center)
+}
+
+/// The corners of a body's outline, in ground axes.
+pub fn outline<'d>(model: &Model<'d>, body: usize) -> Vec<Vec<Expr<'d>>> {
+    let place = match model.bodies[body].rotation {
+        Rotation::Frame(pose) => Place::Frame(pose),
+        _ => Place::Body(body),
+    };
+    let corners = model.bodies[body].outline.iter();
+    corners
+        .map(|corner| fixed(model, place, corner).0)
+        .collect()
+}
+
+/// A point that is fixed to a frame or a body, given along its axes, and these axes; both in ground axes.
+fn fixed<'d>(
+    model: &Model<'d>,
+    on: Place,
+    point: &[Expr<'d>],
+) -> (Vec<Expr<'d>>, Vec<Vec<Expr<'d>>>) {
     let pose_of = |pose: PoseId| &model.poses[pose.index()];
-    let (origin, axes) = match circle.on {
+    let (origin, axes) = match on {
         Place::Frame(pose) => (&pose_of(pose).origin, pose_of(pose).axes.clone()),
         Place::Body(body) => {
             let body = &model.bodies[body];
@@ -28,7 +49,7 @@ pub fn placed<'d>(model: &Model<'d>, circle: &Circle<'d>) -> (Vec<Expr<'d>>, Vec
         }
     };
     let along = |k: usize| {
-        let along = circle.center.iter().zip(&axes);
+        let along = point.iter().zip(&axes);
         let along = along.map(|(&c, axis)| c * axis[k]);
         model.dag.sum([origin[k]].into_iter().chain(along))
     };

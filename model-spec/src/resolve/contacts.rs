@@ -7,7 +7,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::model::bounds::BoundKind;
 use crate::model::{
     Circle, Compliance, Contact, ContactGeometry, ImpactLaw, ImpactOrder, MOST_UNILATERAL, Name,
-    Painleve, Response, Space, Surface, Touching,
+    Painleve, Place, Response, Space, Surface, Touching,
 };
 use crate::syntax::{Expression, ExpressionKind, Record};
 use crate::unit::Unit;
@@ -195,24 +195,29 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         Some(pairs)
     }
 
-    /// `corners` of a convex polygon, each a point.
+    /// `corners` of a convex polygon, each a point; or `outline`, those of the body that `on` names.
     fn corners(
         &mut self,
         member: MemberId,
         record: &'a Record,
     ) -> Option<Vec<(Name, ContactGeometry<'d>)>> {
         let said = self.field(member, record, "corners")?;
-        let corners = match &said.kind {
-            ExpressionKind::Tuple(corners) => &corners[..],
+        if !self.is_planar(member) {
+            return None;
+        }
+        let base = self.name(member).to_string();
+        let points = match &said.kind {
+            ExpressionKind::Tuple(corners) => self.points_on(member, record, corners)?,
+            ExpressionKind::Name(name) if name.index.is_none() && name.base.text == "outline" => {
+                self.outline_on(member, record, said.span)?
+            }
             ExpressionKind::Error => return None,
             _ => {
-                let message = "corners are a list of points, `((-b, -h), (b, -h))`";
+                let message = "corners are a list of points, `((-b, -h), (b, -h))`, or `outline`, those of the body";
                 self.error(Code::WrongKind, said.span, message);
                 return None;
             }
         };
-        let base = self.name(member).to_string();
-        let points = self.points_on(member, record, corners)?;
         let named = points.into_iter().zip(1..).map(|(geometry, k)| {
             let name = Name {
                 base: base.clone(),
@@ -234,6 +239,35 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         points?.pop()
     }
 
+    /// Whether points may touch here, which is said where they may not.
+    fn is_planar(&mut self, member: MemberId) -> bool {
+        if self.space == Space::Space {
+            let message = "points touch lines and circles only in the plane";
+            self.error(Code::WrongSpace, self.span(member), message);
+        }
+        self.space == Space::Plane
+    }
+
+    /// A point that is fixed to this place.
+    pub fn point_on(
+        &self,
+        member: MemberId,
+        on: Place,
+        center: Vec<Expr<'d>>,
+        surface: Surface,
+    ) -> ContactGeometry<'d> {
+        ContactGeometry::Point {
+            point: Circle {
+                name: self.name(member),
+                on,
+                center,
+                radius: self.dag.zero(),
+                span: self.span(member),
+            },
+            surface,
+        }
+    }
+
     /// Points that are fixed to what is named by `on`, with `inside`, `outside` or `along`.
     fn points_on(
         &mut self,
@@ -241,9 +275,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         record: &'a Record,
         points: &'a [Expression],
     ) -> Option<Vec<ContactGeometry<'d>>> {
-        if self.space == Space::Space {
-            let message = "points touch lines and circles only in the plane";
-            self.error(Code::WrongSpace, self.span(member), message);
+        if !self.is_planar(member) {
             return None;
         }
         let on = self.field(member, record, "on");
@@ -255,16 +287,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
         let surface = self.surface(member, record, None)?;
         let on = on?;
         let geometry = |center: Option<Vector<'d>>| {
-            Some(ContactGeometry::Point {
-                point: Circle {
-                    name: self.name(member),
-                    on,
-                    center: center?.components,
-                    radius: self.dag.zero(),
-                    span: self.span(member),
-                },
-                surface,
-            })
+            Some(self.point_on(member, on, center?.components, surface))
         };
         centers.into_iter().map(geometry).collect()
     }

@@ -319,6 +319,12 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
                 Space::Space => "give it a `frame`; without inertia it is a particle",
             }));
         }
+        let outline = self.outline(member, record);
+        if let (Some(outline), Some(Rotation::Unspecified)) = (record.field("outline"), &rotation) {
+            let message = "this body has an outline, and nothing says how it turns";
+            let diagnostic = Diagnostic::new(Code::MissingRotation, outline.name.span, message);
+            self.push(diagnostic.help("give it an `angle` or a `frame`"));
+        }
         let Value::Vector(at) = at else {
             return None;
         };
@@ -330,6 +336,7 @@ impl<'a, 'd> Resolver<'a, 'd, '_> {
             at: at.components,
             local: at.local.map(|(pose, point)| Local { pose, point }),
             rotation: rotation?,
+            outline: outline?,
             span,
             place: record
                 .get("at")

@@ -208,6 +208,11 @@ pub(crate) mod limits {
         "a circle",
         "it has the same shape on its body throughout",
     );
+    pub static OUTLINE: Limit = limit(
+        stage::PARAMETER,
+        "an outline",
+        "it has the same shape on its body throughout",
+    );
     pub static GAP: Limit = limit(stage::POSITION, "a gap", POSITIONS);
     pub static SLIP: Limit = limit(
         stage::VELOCITY,

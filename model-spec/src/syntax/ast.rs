@@ -222,7 +222,7 @@ impl SectionKind {
     /// they are used.
     pub fn fields(self) -> &'static [&'static str] {
         match self {
-            SectionKind::Bodies => &["mass", "inertia", "at", "angle", "frame"],
+            SectionKind::Bodies => &["mass", "inertia", "at", "angle", "frame", "outline"],
             SectionKind::Element(section) => section.fields(),
             SectionKind::Circles => &["on", "center", "radius"],
             SectionKind::Contacts => &[

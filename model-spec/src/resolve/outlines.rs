@@ -1,0 +1,105 @@
+//! The outlines of bodies: polygons that are drawn, and whose corners may touch.
+
+use super::Resolver;
+use super::value::{MemberId, limits};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::{Body, ContactGeometry, Place, Rotation, Space};
+use crate::source::Span;
+use crate::syntax::{ExpressionKind, Record};
+use crate::unit::Unit;
+use lagrangian_symbolic::Expr;
+
+/// The corners of a body, along the axes of its frame, or from its mass centre along its own.
+pub struct Outline<'d> {
+    body: usize,
+    rotation: Rotation<'d>,
+    corners: Vec<Vec<Expr<'d>>>,
+}
+
+impl<'d> Outline<'d> {
+    /// Of the body with this index; `None` where nothing is said of its shape.
+    pub fn of((index, body): (usize, &Body<'d>)) -> Option<Outline<'d>> {
+        (!body.outline.is_empty()).then(|| Outline {
+            body: index,
+            rotation: body.rotation.clone(),
+            corners: body.outline.clone(),
+        })
+    }
+
+    /// Whether it is that of the body which stands at this place.
+    fn is_of(&self, place: Place) -> bool {
+        match (place, &self.rotation) {
+            (Place::Frame(pose), Rotation::Frame(own)) => pose == *own,
+            (Place::Body(body), _) => body == self.body,
+            _ => false,
+        }
+    }
+}
+
+impl<'a, 'd> Resolver<'a, 'd, '_> {
+    /// The corners of the polygon that is drawn for a body.
+    pub fn outline(&mut self, member: MemberId, record: &'a Record) -> Option<Vec<Vec<Expr<'d>>>> {
+        let Some(field) = record.field("outline") else {
+            return Some(Vec::new());
+        };
+        if self.space == Space::Space {
+            let message = "outlines exist only in the plane";
+            self.error(Code::WrongSpace, field.name.span, message);
+            return None;
+        }
+        let said = &field.value;
+        let corners = match &said.kind {
+            ExpressionKind::Tuple(corners) => corners,
+            ExpressionKind::Error => return None,
+            _ => {
+                let message = "an outline is a list of points, `((0, 0), (b, 0), (0, h))`";
+                self.error(Code::WrongKind, said.span, message);
+                return None;
+            }
+        };
+        let scope = self.scope(member, &limits::OUTLINE);
+        let points: Vec<_> = (corners.iter())
+            .map(|corner| self.vector_in(corner, "a point", Unit::METRE, "a point is in m", scope))
+            .collect();
+        points
+            .into_iter()
+            .map(|point| Some(point?.components))
+            .collect()
+    }
+
+    /// The corners of the outline of the body that is named by `on`, with `inside`, `outside` or `along`.
+    pub fn outline_on(
+        &mut self,
+        member: MemberId,
+        record: &'a Record,
+        span: Span,
+    ) -> Option<Vec<ContactGeometry<'d>>> {
+        let on = self.field(member, record, "on");
+        let on = on.and_then(|on| self.place(member, on));
+        let surface = self.surface(member, record, None)?;
+        let on = on?;
+        let outlines = self.outlines.iter();
+        let mut own = outlines.filter(|outline| outline.is_of(on));
+        let (corners, message, help) = match [own.next(), own.next()] {
+            [Some(outline), None] => (Some(outline.corners.clone()), "", ""),
+            [None, _] => (
+                None,
+                "what `on` names is no body with an `outline`",
+                "give the body `outline: ((0, 0), (b, 0), (0, h))`, or write the corners here",
+            ),
+            _ => (
+                None,
+                "several bodies on this frame have an `outline`",
+                "write the corners here, or give each body a frame of its own",
+            ),
+        };
+        let Some(corners) = corners else {
+            let diagnostic = Diagnostic::new(Code::WrongKind, span, message);
+            self.push(diagnostic.help(help));
+            return None;
+        };
+        let corners = corners.into_iter();
+        let points = corners.map(|corner| self.point_on(member, on, corner, surface));
+        Some(points.collect())
+    }
+}
