@@ -9,6 +9,7 @@ use lagrangian_symbolic::Dag;
 
 use super::found::{Arrival, Found};
 use crate::call;
+use crate::failure::Failure;
 use crate::reading::{self, Reading};
 
 /// Error of a step of the simulation.
@@ -27,16 +28,15 @@ pub fn arrival(
     found: &Found<'_, '_>,
 ) -> Result<Arrival, String> {
     let dag = Dag::new();
-    let said = "the machine with inputs for the control forces cannot be derived";
-    let reading = Reading::controlled(&call.spec, coordinates).map_err(|_| said.to_owned())?;
-    let compiled = reading.compile(&dag).map_err(|_| said.to_owned())?;
+    let reading = Reading::controlled(&call.spec, coordinates).map_err(|why| underived(&why))?;
+    let compiled = reading.compile(&dag).map_err(|why| underived(&why))?;
     let start = call::Start {
         parameters: call.parameters.clone(),
         coordinates: Vec::new(),
         rates: Vec::new(),
         running: call.running,
     };
-    let machine = reading::machine(&compiled, &start).map_err(|_| said.to_owned())?;
+    let machine = reading::machine(&compiled, &start).map_err(|why| underived(&why))?;
     let motion = &found.motion;
     let forces = Chebyshev::new(motion.time(), |t| motion.at(t).control);
     let [from, to] = [0, found.moments.len() - 1].map(|k| &found.moments[k].q);
@@ -60,6 +60,19 @@ pub fn arrival(
             "the machine ends beside the end by {off:.1e} of the way"
         )),
     }
+}
+
+/// That there is no machine with inputs for the control forces, and why, as the end of a sentence.
+fn underived(failure: &Failure) -> String {
+    let said = "the machine with inputs for the control forces cannot be derived";
+    let why = match failure {
+        Failure::Spec(wrong) => {
+            let errors = wrong.0.diagnostics();
+            errors.first().map(|first| first.message.clone())
+        }
+        _ => None,
+    };
+    why.map_or_else(|| said.to_owned(), |why| format!("{said}: {why}"))
 }
 
 /// The polynomial through values at Chebyshev's points of the second kind. J.-P. Berrut and L. N. Trefethen, *Barycentric

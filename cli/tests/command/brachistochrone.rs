@@ -44,7 +44,7 @@ fn what_is_no_motion_of_the_machine_is_not_called_the_fastest() {
     let unsaid = prisms.replace(built_on, "ground.shift(q1 - q2, -q2*tan(alpha))");
     for (spec, options, why) in [
         (&prisms, &["--to", "q1=-8"][..], "slides backwards"),
-        (&unsaid, &[][..], "cannot be derived"),
+        (&unsaid, &[][..], "guide `floor` is not determined"),
     ] {
         let spec = Scratch::new("prisms.machine", spec);
         let arguments = [&["brachistochrone", spec.path()], options].concat();

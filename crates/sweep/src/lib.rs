@@ -8,6 +8,7 @@ pub mod design;
 mod folder;
 mod laws;
 mod normal;
+mod numbers;
 mod philox;
 pub mod plan;
 mod reduce;
@@ -19,6 +20,7 @@ mod threads;
 pub mod verdict;
 
 pub use folder::{Folder, Summary, Trouble, samples_beside};
+pub use numbers::shortest;
 pub use plan::Plan;
 pub use sobol::MOST_VARIABLES;
 pub use sweep::{Chunk, Sweep, Wrong, unit_of};

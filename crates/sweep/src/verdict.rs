@@ -3,6 +3,8 @@
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::{Energies, Error, InputLaw, Machine, Solution, Warning};
 
+use crate::shortest;
+
 /// More than this of the energy turned over may not be missing for a run to count as good.
 const MOST_MISSING: f64 = 1e-3;
 
@@ -10,9 +12,7 @@ const MOST_MISSING: f64 = 1e-3;
 pub fn said(error: &Error) -> String {
     match error {
         // The library names its method.
-        Error::TooManySteps { steps, t, until } => format!(
-            "{steps} steps reach t = {t} s only, of {until} s: allow more by --max-steps, or raise the tolerance"
-        ),
+        Error::TooManySteps { .. } => error.to_string().replace("`max_steps`", "--max-steps"),
         error => error.to_string(),
     }
 }
@@ -55,6 +55,7 @@ fn overflow(energies: &[Energies]) -> Option<String> {
         ("energy dissipated", dissipated),
     ];
     let (name, value) = named.into_iter().find(|(_, value)| !value.is_finite())?;
+    let t = shortest(*t);
     Some(format!(
         "the {name} is not finite at t = {t} s ({value} J), so there is no balance of energy that could vouch for the run"
     ))

@@ -39,6 +39,17 @@ fn a_run_of_too_many_steps_names_the_option() {
     assert_eq!(status(&output), 1);
     assert!(err(&output).contains("--max-steps"), "{}", err(&output));
     assert!(out(&output).contains("20 steps"), "{}", out(&output));
+    // However long the run is to be, no number is printed in a hundred digits.
+    let call = [
+        "simulate",
+        PENDULUM,
+        "--until",
+        "1e300",
+        "--max-steps",
+        "20",
+    ];
+    let output = lagrangian(&call);
+    assert!(err(&output).contains("of 1e300 s"), "{}", err(&output));
 }
 
 #[test]

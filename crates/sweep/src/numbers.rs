@@ -1,0 +1,9 @@
+//! Numbers as they are printed and written down.
+
+/// The shortest text that reads back to the same number.
+pub fn shortest(x: f64) -> String {
+    match x.abs() {
+        size if size == 0.0 || (1e-4..1e9).contains(&size) => x.to_string(),
+        _ => format!("{x:e}"),
+    }
+}
