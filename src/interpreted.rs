@@ -84,6 +84,7 @@ pub struct InterpretedSystem {
     parameters: Vec<f64>,
     enclosing: SharedWorkspace<Option<Interpreter<Interval>>>,
     series: Result<Arc<Series>, String>,
+    has_linear_assumptions: bool,
     expander: SharedWorkspace<Option<Expander<f64>>>,
 }
 
@@ -254,6 +255,7 @@ impl Machine for InterpretedMachine {
             },
             enclosing: SharedWorkspace::new(None),
             series: self.series.clone(),
+            has_linear_assumptions: self.program.has_linear_assumptions(),
             expander: SharedWorkspace::new(None),
         }
     }
@@ -413,6 +415,10 @@ impl System for InterpretedSystem {
             return accelerations_with_friction(self, t, q, v, u, a);
         }
         self.call(Role::Accelerations, at(t, q, v, &u.values), a)
+    }
+
+    fn has_linear_assumptions(&self) -> bool {
+        self.has_linear_assumptions
     }
 
     fn check_series(&self) -> Result<(), &str> {

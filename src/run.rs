@@ -836,12 +836,46 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if self.system.assumptions(t, q, v, stepper.inputs()).len() == 0 {
             return true;
         }
-        // A step by series is bent more than a cubic.
-        if stepper.coefficients().is_some() {
-            return false;
+        if let Some(coefficients) = stepper.coefficients() {
+            return self.system.has_linear_assumptions()
+                && holds(t, q, v)
+                && self.hold_along(stepper, coefficients, holds);
         }
         let points = stepper.control_points();
         holds(t, q, v) && points.iter().all(|(t, q, v)| holds(*t, q, v))
+    }
+
+    /// Whether facts that are linear in time, coordinates and rates hold all along a step by series.
+    ///
+    /// The motion is `Σ cⱼ θʲ`, and `1 ≥ θ ≥ θ² ≥ …`: so it is a mean of the partial sums `Σ cⱼ` over `j ≤ k`, and a fact that holds at
+    /// each of these holds along the step.
+    fn hold_along<A: Quadratures<S>>(
+        &self,
+        stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
+        coefficients: &[S::Vector],
+        holds: impl Fn(f64, &S::Vector, &S::Vector) -> bool,
+    ) -> bool {
+        let h = stepper.last_step();
+        let t = stepper.t_before() + h;
+        let (mut q, mut v) = (stepper.q_before().clone(), stepper.v_before().clone());
+        if !holds(stepper.t_before(), &q, &v) {
+            return false;
+        }
+        let mut power = h;
+        for (k, row) in coefficients.iter().enumerate().skip(1) {
+            let next = coefficients.get(k + 1);
+            for (i, c) in row.as_slice().iter().enumerate() {
+                q.as_mut_slice()[i] += c * power;
+                if let Some(next) = next {
+                    v.as_mut_slice()[i] += (k + 1) as f64 * next.as_slice()[i] * power;
+                }
+            }
+            if !holds(t, &q, &v) {
+                return false;
+            }
+            power *= h;
+        }
+        true
     }
 
     /// Where in a step by series to look at the assumptions: between two looks none of them fails and holds again.

@@ -337,6 +337,13 @@ pub trait System {
         core::iter::empty()
     }
 
+    /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and rates, and depend on nothing
+    /// else that changes. Then a step by Taylor series tells from few of them that they hold. By default it is not known.
+    #[inline(always)]
+    fn has_linear_assumptions(&self) -> bool {
+        false
+    }
+
     /// The bilateral constraints, in the order of the rows below. None by default, and a machine
     /// without any has nothing to say in the methods that follow.
     ///

@@ -30,6 +30,8 @@ pub(crate) struct Taylor<V> {
     beginning: usize,
     /// Whether a step was taken from there.
     is_taken: bool,
+    /// The length of a step from now, once it was asked for.
+    length: Option<f64>,
 }
 
 impl<V: Vector> Taylor<V> {
@@ -44,6 +46,7 @@ impl<V: Vector> Taylor<V> {
             coefficients: [(); 2].map(|()| std::vec![zeros.clone(); order + 2]),
             beginning: 0,
             is_taken: false,
+            length: None,
         }
     }
 
@@ -73,11 +76,13 @@ impl<V: Vector> Taylor<V> {
     /// Makes the step just tried the last step.
     pub fn accept(&mut self) {
         self.is_taken = true;
+        self.length = None;
     }
 
     /// Takes the last step back.
     pub fn retreat(&mut self) {
         self.is_taken = false;
+        self.length = None;
     }
 
     /// Expands the motion through a state: the start, or, with `ahead`, the end of the step that is tried.
@@ -92,6 +97,7 @@ impl<V: Vector> Taylor<V> {
             true => 1 - self.beginning,
             false => self.of_now(),
         };
+        self.length = None;
         let t = [at.t, at.t_low];
         system.series(t, &at.q, &at.v, u, &mut self.coefficients[which])
     }
@@ -114,7 +120,16 @@ impl<V: Vector> Taylor<V> {
     /// is about `tolerable/(1 − h/R)`, with `R` the radius of convergence, near which steps of coarse tolerances
     /// come: these ask for a tenth. Tolerances at the rounding of `f64` ask for a hundredth, so that the truncation error stays
     /// below rounding, and errors of steps do not add up with the same sign.
-    pub fn length(&self, tolerance: &Tolerance<V>) -> f64 {
+    pub fn length(&mut self, tolerance: &Tolerance<V>) -> f64 {
+        let length = match self.length {
+            Some(known) => known,
+            None => self.tolerable_length(tolerance),
+        };
+        self.length = Some(length);
+        length
+    }
+
+    fn tolerable_length(&self, tolerance: &Tolerance<V>) -> f64 {
         let coefficients = &self.coefficients[self.of_now()];
         let last = coefficients.len() - 1;
         let powers = [last - 1, last];
@@ -183,25 +198,38 @@ impl<V: Vector> Taylor<V> {
 /// processor has several sums to work at.
 #[inline(always)]
 fn rises<const B: usize, V: Vector>(coefficients: &[V], start: usize, tau: f64) -> [[f64; B]; 2] {
-    let (mut q, mut v) = ([0.0; B], [0.0; B]);
+    // Terms of even and of odd powers by Horner's rule each, which do not wait for each other.
+    let (mut q, mut v) = ([[0.0; B]; 2], [[0.0; B]; 2]);
     let block = |j: usize| {
         let row = coefficients[j].as_slice().get(start..start + B);
         row.and_then(|row| row.first_chunk::<B>())
             .copied()
             .unwrap_or([f64::NAN; B])
     };
-    for j in (2..coefficients.len()).rev() {
+    let square = tau * tau;
+    let mut add = |j: usize, parity: usize| {
         let (row, power) = (block(j), j as f64);
         for (k, c) in row.into_iter().enumerate() {
-            q[k] = (q[k] + c) * tau;
-            v[k] = (v[k] + power * c) * tau;
+            q[parity][k] = q[parity][k] * square + c;
+            v[parity][k] = v[parity][k] * square + power * c;
         }
+    };
+    let mut end = coefficients.len();
+    if end % 2 == 1 {
+        end -= 1;
+        add(end, 0);
+    }
+    for j in (1..end / 2).rev() {
+        add(2 * j + 1, 1);
+        add(2 * j, 0);
     }
     let first = block(1);
+    let (mut by_q, mut by_v) = ([0.0; B], [0.0; B]);
     for k in 0..B {
-        q[k] = (q[k] + first[k]) * tau;
+        by_q[k] = (first[k] + (q[0][k] + q[1][k] * tau) * tau) * tau;
+        by_v[k] = (v[0][k] + v[1][k] * tau) * tau;
     }
-    [q, v]
+    [by_q, by_v]
 }
 
 /// Coordinates and rates at a time `tau` after the state that was expanded.

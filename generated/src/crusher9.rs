@@ -1493,21 +1493,21 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let x344 = x147 + x343;
         let x345 = x2.mul_add(x301, x299);
         let x346 = x70 * x345;
-        let x347 = x30 * x301;
-        let x348 = x70.mul_add(x347, x77);
-        let x349 = x186 * x301;
-        let x350 = x70.mul_add(x349, x80);
-        let x351 = x32 * x303;
-        let x352 = x70.mul_add(x351, x82);
-        let x353 = x189 * x303;
-        let x354 = x70.mul_add(x353, x85);
+        let x347 = x30 * x70;
+        let x348 = x347.mul_add(x301, x77);
+        let x349 = x186 * x70;
+        let x350 = x349.mul_add(x301, x80);
+        let x351 = x32 * x70;
+        let x352 = x351.mul_add(x303, x82);
+        let x353 = x189 * x70;
+        let x354 = x353.mul_add(x303, x85);
         let x355 = x32 * x302;
         let x356 = x190.mul_add(x303, x355);
         let x357 = x70.mul_add(x356, x87);
-        let x358 = x34 * x305;
-        let x359 = x70.mul_add(x358, x89);
-        let x360 = x191 * x305;
-        let x361 = x70.mul_add(x360, x92);
+        let x358 = x34 * x70;
+        let x359 = x358.mul_add(x305, x89);
+        let x360 = x191 * x70;
+        let x361 = x360.mul_add(x305, x92);
         let x362 = x34 * x304;
         let x363 = x192.mul_add(x305, x362);
         let x364 = x70.mul_add(x363, x94);
@@ -1535,7 +1535,7 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
         }
-        let mut a0 = [[N::ZERO.store(); 16]; ::lagrangian::emitted::series::ROWS];
+        let mut a0 = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
         a0[2] = [
             x301.store(),
             x301.store(),
@@ -1553,8 +1553,12 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             x325.store(),
             x336.store(),
             x325.store(),
+            x330.store(),
+            x319.store(),
+            x330.store(),
+            x319.store(),
         ];
-        let mut b0 = [[N::ZERO.store(); 16]; ::lagrangian::emitted::series::ROWS];
+        let mut b0 = [[N::ZERO.store(); 20]; ::lagrangian::emitted::series::ROWS];
         b0[2] = [
             x350.store(),
             x348.store(),
@@ -1572,11 +1576,11 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             x354.store(),
             x357.store(),
             x369.store(),
+            x359.store(),
+            x361.store(),
+            x364.store(),
+            x372.store(),
         ];
-        let mut a1 = [[N::ZERO.store(); 4]; ::lagrangian::emitted::series::ROWS];
-        a1[2] = [x330.store(), x319.store(), x330.store(), x319.store()];
-        let mut b1 = [[N::ZERO.store(); 4]; ::lagrangian::emitted::series::ROWS];
-        b1[2] = [x359.store(), x361.store(), x364.store(), x372.store()];
         let mut y18 = x346;
         let mut y24 = x71;
         let mut y25 = x74;
@@ -1609,11 +1613,9 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut r2 = x301;
         let mut r3 = x302;
         let mut r6 = x304;
-        let known = ::lagrangian::emitted::series::ROWS;
-        let rows = coefficients.iter_mut().take(known);
-        for (order, row) in rows.enumerate().skip(3) {
-            let w0 = ::lagrangian::emitted::series::sweep::<N, 16>(&a0, &b0, order - 2);
-            let w1 = ::lagrangian::emitted::series::sweep::<N, 4>(&a1, &b1, order - 2);
+        let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
+        for order in 3..count {
+            let w0 = ::lagrangian::emitted::series::sweep::<N, 20>(&a0, &b0, order - 2);
             let x375 = y25;
             let x376 = x6 * x375;
             let x377 = N::from_ratio(1, order as i64);
@@ -1686,294 +1688,293 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             let x444 = r3;
             let x445 = r6;
             let x446 = N::from_f64((order - 1) as f64);
-            let x447 = x446 * x381;
-            let x448 = x446 * x387;
-            let x449 = x446 * x394;
-            let x450 = x104 * x448;
-            let x451 = x106.mul_add(x449, x450);
-            let x452 = x108.mul_add(x447, x451);
-            let x453 = x388 * x412;
-            let x454 = x446 * x453;
-            let x455 = x388 * x429;
-            let x456 = x446 * x455;
-            let x457 = x454 + x456;
-            let x458 = x113 * x454;
-            let x459 = x115.mul_add(x457, x458);
-            let x460 = older_y18;
-            let x461 = x117 * x460;
-            let x462 = x119.mul_add(x440, x461);
-            let x463 = x122.mul_add(x452, x462);
-            let x464 = x463 + x459;
-            let x465 = x446 * x376;
-            let x466 = x106 * x448;
-            let x467 = x126.mul_add(x449, x466);
-            let x468 = x108.mul_add(x465, x467);
-            let x469 = x388 * x433;
-            let x470 = x446 * x469;
-            let x471 = x388 * x437;
-            let x472 = x446 * x471;
-            let x473 = x470 + x472;
-            let x474 = x113 * x470;
-            let x475 = x115.mul_add(x473, x474);
-            let x476 = older_y56;
-            let x477 = x134 * x476;
-            let x478 = x136.mul_add(x443, x477);
-            let x479 = x122.mul_add(x468, x478);
-            let x480 = x479 + x475;
-            let x481 = x140 * x468;
-            let x482 = x142.mul_add(x452, x481);
-            let x483 = w0[10];
-            let x484 = y77;
-            let x485 = x484.mul_add(x47, x483);
-            let x486 = x482.mul_add(x30, x485);
-            let x487 = x145 * x468;
-            let x488 = x140.mul_add(x452, x487);
-            let x489 = w0[11];
-            let x490 = y79;
-            let x491 = x490.mul_add(x45, x489);
-            let x492 = x488.mul_add(x29, x491);
-            let x493 = x149 * x460;
-            let x494 = x151.mul_add(x476, x493);
-            let x495 = x153.mul_add(x440, x494);
-            let x496 = x155.mul_add(x443, x495);
-            let x497 = x496 + x486;
-            let x498 = x497 - x492;
-            let x499 = w0[12];
-            let x500 = y66;
-            let x501 = x500.mul_add(x50, x499);
-            let x502 = x475.mul_add(x31, x501);
-            let x503 = w0[13];
-            let x504 = y47;
-            let x505 = x504.mul_add(x52, x503);
-            let x506 = x459.mul_add(x32, x505);
-            let x507 = older_y88;
-            let x508 = x162 * x507;
-            let x509 = x164.mul_add(x444, x508);
-            let x510 = x509 + x502;
-            let x511 = x510 + x506;
-            let x512 = w0[14];
-            let x513 = x500.mul_add(x54, x512);
-            let x514 = x475.mul_add(x35, x513);
-            let x515 = w0[15];
-            let x516 = x504.mul_add(x66, x515);
-            let x517 = x459.mul_add(x37, x516);
-            let x518 = x514 - x517;
-            let x519 = w1[0];
-            let x520 = y65;
-            let x521 = x520.mul_add(x57, x519);
-            let x522 = x473.mul_add(x33, x521);
-            let x523 = w1[1];
-            let x524 = y46;
-            let x525 = x524.mul_add(x59, x523);
-            let x526 = x457.mul_add(x34, x525);
-            let x527 = older_y102;
-            let x528 = x174 * x527;
-            let x529 = x176.mul_add(x445, x528);
-            let x530 = x115.mul_add(x522, x529);
-            let x531 = x115.mul_add(x526, x530);
-            let x532 = w1[2];
-            let x533 = x520.mul_add(x61, x532);
-            let x534 = x473.mul_add(x36, x533);
-            let x535 = w1[3];
-            let x536 = x524.mul_add(x68, x535);
-            let x537 = x457.mul_add(x38, x536);
-            let x538 = x115 * x534;
-            let x539 = x183.mul_add(x537, x538);
-            let x540 = -x464;
-            let x541 = -x480;
-            let x542 = -x498;
-            let x543 = -x511;
-            let x544 = -x518;
-            let x545 = -x531;
-            let x546 = -x539;
-            let mut x547 = [
-                x540.store(),
-                x541.store(),
-                x542.store(),
-                x543.store(),
-                x544.store(),
-                x545.store(),
-                x546.store(),
+            let x450 = x104 * x446;
+            let x451 = x450 * x387;
+            let x452 = x106 * x446;
+            let x453 = x452.mul_add(x394, x451);
+            let x454 = x108 * x446;
+            let x455 = x454.mul_add(x381, x453);
+            let x458 = x446 * x388;
+            let x459 = x458 * x412;
+            let x462 = x458.mul_add(x429, x459);
+            let x463 = x113 * x459;
+            let x464 = x115.mul_add(x462, x463);
+            let x465 = older_y18;
+            let x466 = x117 * x465;
+            let x467 = x119.mul_add(x440, x466);
+            let x468 = x122.mul_add(x455, x467);
+            let x469 = x468 + x464;
+            let x471 = x452 * x387;
+            let x472 = x126 * x446;
+            let x473 = x472.mul_add(x394, x471);
+            let x474 = x454.mul_add(x376, x473);
+            let x477 = x458 * x433;
+            let x480 = x458.mul_add(x437, x477);
+            let x481 = x113 * x477;
+            let x482 = x115.mul_add(x480, x481);
+            let x483 = older_y56;
+            let x484 = x134 * x483;
+            let x485 = x136.mul_add(x443, x484);
+            let x486 = x122.mul_add(x474, x485);
+            let x487 = x486 + x482;
+            let x488 = x140 * x474;
+            let x489 = x142.mul_add(x455, x488);
+            let x490 = w0[10];
+            let x491 = y77;
+            let x492 = x491.mul_add(x47, x490);
+            let x493 = x489.mul_add(x30, x492);
+            let x494 = x145 * x474;
+            let x495 = x140.mul_add(x455, x494);
+            let x496 = w0[11];
+            let x497 = y79;
+            let x498 = x497.mul_add(x45, x496);
+            let x499 = x495.mul_add(x29, x498);
+            let x500 = x149 * x465;
+            let x501 = x151.mul_add(x483, x500);
+            let x502 = x153.mul_add(x440, x501);
+            let x503 = x155.mul_add(x443, x502);
+            let x504 = x503 + x493;
+            let x505 = x504 - x499;
+            let x506 = w0[12];
+            let x507 = y66;
+            let x508 = x507.mul_add(x50, x506);
+            let x509 = x482.mul_add(x31, x508);
+            let x510 = w0[13];
+            let x511 = y47;
+            let x512 = x511.mul_add(x52, x510);
+            let x513 = x464.mul_add(x32, x512);
+            let x514 = older_y88;
+            let x515 = x162 * x514;
+            let x516 = x164.mul_add(x444, x515);
+            let x517 = x516 + x509;
+            let x518 = x517 + x513;
+            let x519 = w0[14];
+            let x520 = x507.mul_add(x54, x519);
+            let x521 = x482.mul_add(x35, x520);
+            let x522 = w0[15];
+            let x523 = x511.mul_add(x66, x522);
+            let x524 = x464.mul_add(x37, x523);
+            let x525 = x521 - x524;
+            let x526 = w0[16];
+            let x527 = y65;
+            let x528 = x527.mul_add(x57, x526);
+            let x529 = x480.mul_add(x33, x528);
+            let x530 = w0[17];
+            let x531 = y46;
+            let x532 = x531.mul_add(x59, x530);
+            let x533 = x462.mul_add(x34, x532);
+            let x534 = older_y102;
+            let x535 = x174 * x534;
+            let x536 = x176.mul_add(x445, x535);
+            let x537 = x115.mul_add(x529, x536);
+            let x538 = x115.mul_add(x533, x537);
+            let x539 = w0[18];
+            let x540 = x527.mul_add(x61, x539);
+            let x541 = x480.mul_add(x36, x540);
+            let x542 = w0[19];
+            let x543 = x531.mul_add(x68, x542);
+            let x544 = x462.mul_add(x38, x543);
+            let x545 = x115 * x541;
+            let x546 = x183.mul_add(x544, x545);
+            let x547 = -x469;
+            let x548 = -x487;
+            let x549 = -x505;
+            let x550 = -x518;
+            let x551 = -x525;
+            let x552 = -x538;
+            let x553 = -x546;
+            let mut x554 = [
+                x547.store(),
+                x548.store(),
+                x549.store(),
+                x550.store(),
+                x551.store(),
+                x552.store(),
+                x553.store(),
             ];
-            let mut room547 = x547;
-            let (x, room) = (&mut x547, &mut room547);
+            let mut room554 = x554;
+            let (x, room) = (&mut x554, &mut room554);
             ::lagrangian::emitted::series::solve::<N>(7, &x288, x, room);
-            let x548 = n(x547[0]);
-            let x549 = n(x547[1]);
-            let x550 = n(x547[2]);
-            let x551 = n(x547[3]);
-            let x552 = n(x547[4]);
-            let x553 = n(x547[5]);
-            let x554 = n(x547[6]);
-            let x555 = N::from_ratio(1, order as i64 - 1);
-            let x556 = x548 * x555;
-            let x557 = x556 * x377;
-            let x558 = x549 * x555;
-            let x559 = x558 * x377;
-            let x560 = x550 * x555;
-            let x561 = x560 * x377;
-            let x562 = x551 * x555;
-            let x563 = x562 * x377;
-            let x564 = x552 * x555;
-            let x565 = x564 * x377;
-            let x566 = x553 * x555;
-            let x567 = x566 * x377;
-            let x568 = x554 * x555;
-            let x569 = x568 * x377;
-            let x570 = x555 * x377;
-            let x571 = x32.mul_add(x551, x548);
-            let x572 = x190.mul_add(x552, x571);
-            let x573 = x34.mul_add(x553, x572);
-            let x574 = x192.mul_add(x554, x573);
-            let x575 = x457 + x574;
-            let x576 = x195 * x548;
-            let x577 = x196.mul_add(x551, x576);
-            let x578 = x197.mul_add(x552, x577);
-            let x579 = x198.mul_add(x553, x578);
-            let x580 = x199.mul_add(x554, x579);
-            let x581 = x459 + x580;
-            let x582 = x31.mul_add(x551, x549);
-            let x583 = x35.mul_add(x552, x582);
-            let x584 = x33.mul_add(x553, x583);
-            let x585 = x36.mul_add(x554, x584);
-            let x586 = x473 + x585;
-            let x587 = x195 * x549;
-            let x588 = x207.mul_add(x551, x587);
-            let x589 = x208.mul_add(x552, x588);
-            let x590 = x209.mul_add(x553, x589);
-            let x591 = x210.mul_add(x554, x590);
-            let x592 = x475 + x591;
-            let x593 = x142 * x548;
-            let x594 = x140.mul_add(x549, x593);
-            let x595 = x213.mul_add(x550, x594);
-            let x596 = x482 + x595;
-            let x597 = x140 * x548;
-            let x598 = x145.mul_add(x549, x597);
-            let x599 = x218.mul_add(x550, x598);
-            let x600 = x488 + x599;
-            let x601 = x2.mul_add(x550, x548);
-            let x602 = x570 * x601;
-            let x603 = x30 * x550;
-            let x604 = x570.mul_add(x603, x389);
-            let x605 = x186 * x550;
-            let x606 = x570.mul_add(x605, x395);
-            let x607 = x32 * x552;
-            let x608 = x570.mul_add(x607, x401);
-            let x609 = x189 * x552;
-            let x610 = x570.mul_add(x609, x407);
-            let x611 = x32 * x551;
-            let x612 = x190.mul_add(x552, x611);
-            let x613 = x570.mul_add(x612, x412);
-            let x614 = x34 * x554;
-            let x615 = x570.mul_add(x614, x418);
-            let x616 = x191 * x554;
-            let x617 = x570.mul_add(x616, x424);
-            let x618 = x34 * x553;
-            let x619 = x192.mul_add(x554, x618);
-            let x620 = x570.mul_add(x619, x429);
-            let x621 = x15.mul_add(x550, x549);
-            let x622 = x570 * x621;
-            let x623 = x31 * x551;
-            let x624 = x35.mul_add(x552, x623);
-            let x625 = x570.mul_add(x624, x433);
-            let x626 = x33 * x553;
-            let x627 = x36.mul_add(x554, x626);
-            let x628 = x570.mul_add(x627, x437);
-            let x629 = x570 * x551;
-            let x630 = x570 * x553;
-            let x631 = y18;
-            let x632 = y56;
-            let x633 = y88;
-            let x634 = y102;
-            *row = [
-                x557.store(),
-                x559.store(),
-                x561.store(),
-                x563.store(),
-                x565.store(),
-                N::ZERO.store(),
-                x567.store(),
-                x569.store(),
-                N::ZERO.store(),
-            ];
+            let x555 = n(x554[0]);
+            let x556 = n(x554[1]);
+            let x557 = n(x554[2]);
+            let x558 = n(x554[3]);
+            let x559 = n(x554[4]);
+            let x560 = n(x554[5]);
+            let x561 = n(x554[6]);
+            let x562 = N::from_ratio(1, order as i64 - 1);
+            let x563 = x555 * x562;
+            let x564 = x563 * x377;
+            let x565 = x556 * x562;
+            let x566 = x565 * x377;
+            let x567 = x557 * x562;
+            let x568 = x567 * x377;
+            let x569 = x558 * x562;
+            let x570 = x569 * x377;
+            let x571 = x559 * x562;
+            let x572 = x571 * x377;
+            let x573 = x560 * x562;
+            let x574 = x573 * x377;
+            let x575 = x561 * x562;
+            let x576 = x575 * x377;
+            let x577 = x562 * x377;
+            let x578 = x32.mul_add(x558, x555);
+            let x579 = x190.mul_add(x559, x578);
+            let x580 = x34.mul_add(x560, x579);
+            let x581 = x192.mul_add(x561, x580);
+            let x582 = x462 + x581;
+            let x583 = x195 * x555;
+            let x584 = x196.mul_add(x558, x583);
+            let x585 = x197.mul_add(x559, x584);
+            let x586 = x198.mul_add(x560, x585);
+            let x587 = x199.mul_add(x561, x586);
+            let x588 = x464 + x587;
+            let x589 = x31.mul_add(x558, x556);
+            let x590 = x35.mul_add(x559, x589);
+            let x591 = x33.mul_add(x560, x590);
+            let x592 = x36.mul_add(x561, x591);
+            let x593 = x480 + x592;
+            let x594 = x195 * x556;
+            let x595 = x207.mul_add(x558, x594);
+            let x596 = x208.mul_add(x559, x595);
+            let x597 = x209.mul_add(x560, x596);
+            let x598 = x210.mul_add(x561, x597);
+            let x599 = x482 + x598;
+            let x600 = x142 * x555;
+            let x601 = x140.mul_add(x556, x600);
+            let x602 = x213.mul_add(x557, x601);
+            let x603 = x489 + x602;
+            let x604 = x140 * x555;
+            let x605 = x145.mul_add(x556, x604);
+            let x606 = x218.mul_add(x557, x605);
+            let x607 = x495 + x606;
+            let x608 = x2.mul_add(x557, x555);
+            let x609 = x577 * x608;
+            let x610 = x30 * x577;
+            let x611 = x610.mul_add(x557, x389);
+            let x612 = x186 * x577;
+            let x613 = x612.mul_add(x557, x395);
+            let x614 = x32 * x577;
+            let x615 = x614.mul_add(x559, x401);
+            let x616 = x189 * x577;
+            let x617 = x616.mul_add(x559, x407);
+            let x618 = x32 * x558;
+            let x619 = x190.mul_add(x559, x618);
+            let x620 = x577.mul_add(x619, x412);
+            let x621 = x34 * x577;
+            let x622 = x621.mul_add(x561, x418);
+            let x623 = x191 * x577;
+            let x624 = x623.mul_add(x561, x424);
+            let x625 = x34 * x560;
+            let x626 = x192.mul_add(x561, x625);
+            let x627 = x577.mul_add(x626, x429);
+            let x628 = x15.mul_add(x557, x556);
+            let x629 = x577 * x628;
+            let x630 = x31 * x558;
+            let x631 = x35.mul_add(x559, x630);
+            let x632 = x577.mul_add(x631, x433);
+            let x633 = x33 * x560;
+            let x634 = x36.mul_add(x561, x633);
+            let x635 = x577.mul_add(x634, x437);
+            let x636 = x577 * x558;
+            let x637 = x577 * x560;
+            let x638 = y18;
+            let x639 = y56;
+            let x640 = y88;
+            let x641 = y102;
+            if let Some(row) = coefficients.get_mut(order) {
+                *row = [
+                    x564.store(),
+                    x566.store(),
+                    x568.store(),
+                    x570.store(),
+                    x572.store(),
+                    N::ZERO.store(),
+                    x574.store(),
+                    x576.store(),
+                    N::ZERO.store(),
+                ];
+            }
             if let Some(kept) = a0.get_mut(order) {
                 *kept = [
-                    x560.store(),
-                    x560.store(),
-                    x564.store(),
-                    x564.store(),
-                    x563.store(),
-                    x568.store(),
-                    x568.store(),
                     x567.store(),
-                    x563.store(),
                     x567.store(),
-                    x596.store(),
-                    x600.store(),
-                    x592.store(),
-                    x581.store(),
-                    x592.store(),
-                    x581.store(),
+                    x571.store(),
+                    x571.store(),
+                    x570.store(),
+                    x575.store(),
+                    x575.store(),
+                    x574.store(),
+                    x570.store(),
+                    x574.store(),
+                    x603.store(),
+                    x607.store(),
+                    x599.store(),
+                    x588.store(),
+                    x599.store(),
+                    x588.store(),
+                    x593.store(),
+                    x582.store(),
+                    x593.store(),
+                    x582.store(),
                 ];
             }
             if let Some(kept) = b0.get_mut(order) {
                 *kept = [
-                    x606.store(),
-                    x604.store(),
-                    x610.store(),
-                    x608.store(),
-                    x610.store(),
-                    x617.store(),
-                    x615.store(),
-                    x617.store(),
-                    x608.store(),
-                    x615.store(),
-                    x606.store(),
-                    x604.store(),
-                    x608.store(),
-                    x610.store(),
                     x613.store(),
-                    x625.store(),
+                    x611.store(),
+                    x617.store(),
+                    x615.store(),
+                    x617.store(),
+                    x624.store(),
+                    x622.store(),
+                    x624.store(),
+                    x615.store(),
+                    x622.store(),
+                    x613.store(),
+                    x611.store(),
+                    x615.store(),
+                    x617.store(),
+                    x620.store(),
+                    x632.store(),
+                    x622.store(),
+                    x624.store(),
+                    x627.store(),
+                    x635.store(),
                 ];
             }
-            if let Some(kept) = a1.get_mut(order) {
-                *kept = [x586.store(), x575.store(), x586.store(), x575.store()];
-            }
-            if let Some(kept) = b1.get_mut(order) {
-                *kept = [x615.store(), x617.store(), x620.store(), x628.store()];
-            }
-            y18 = x602;
+            y18 = x609;
             y24 = x378;
             y25 = x382;
-            y27 = x604;
-            y28 = x606;
-            y33 = x563;
-            y35 = x608;
-            y36 = x610;
-            y40 = x567;
-            y42 = x615;
-            y43 = x617;
-            y46 = x575;
-            y47 = x581;
-            y56 = x622;
-            y65 = x586;
-            y66 = x592;
-            y77 = x596;
-            y79 = x600;
-            y88 = x629;
-            y102 = x630;
-            z14 = x560;
-            z34 = x564;
-            z41 = x568;
-            older_y18 = x631;
-            older_y56 = x632;
-            older_y88 = x633;
-            older_y102 = x634;
-            r0 = x556;
-            r1 = x558;
-            r2 = x560;
-            r3 = x562;
-            r6 = x566;
+            y27 = x611;
+            y28 = x613;
+            y33 = x570;
+            y35 = x615;
+            y36 = x617;
+            y40 = x574;
+            y42 = x622;
+            y43 = x624;
+            y46 = x582;
+            y47 = x588;
+            y56 = x629;
+            y65 = x593;
+            y66 = x599;
+            y77 = x603;
+            y79 = x607;
+            y88 = x636;
+            y102 = x637;
+            z14 = x567;
+            z34 = x571;
+            z41 = x575;
+            older_y18 = x638;
+            older_y56 = x639;
+            older_y88 = x640;
+            older_y102 = x641;
+            r0 = x563;
+            r1 = x565;
+            r2 = x567;
+            r3 = x569;
+            r6 = x573;
         }
         Ok(())
     }
@@ -2120,6 +2121,10 @@ impl ::lagrangian::emitted::System for Prepared {
 
     fn check_series(&self) -> Result<(), &str> {
         Ok(())
+    }
+
+    fn has_linear_assumptions(&self) -> bool {
+        true
     }
 
     fn series(

@@ -526,14 +526,14 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let x105 = x65 * x89;
         let x106 = x66.mul_add(x93, x105);
         let x107 = x45 + x106;
-        let x108 = x4 * x89;
-        let x109 = x17.mul_add(x108, x18);
-        let x110 = x55 * x89;
-        let x111 = x17.mul_add(x110, x21);
-        let x112 = x6 * x93;
-        let x113 = x17.mul_add(x112, x23);
-        let x114 = x57 * x93;
-        let x115 = x17.mul_add(x114, x26);
+        let x108 = x4 * x17;
+        let x109 = x108.mul_add(x89, x18);
+        let x110 = x55 * x17;
+        let x111 = x110.mul_add(x89, x21);
+        let x112 = x6 * x17;
+        let x113 = x112.mul_add(x93, x23);
+        let x114 = x57 * x17;
+        let x115 = x114.mul_add(x93, x26);
         let second = [x94.store(), x95.store()];
         for (row, x) in coefficients.iter_mut().zip([*q, *v, second]) {
             *row = x;
@@ -570,9 +570,8 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
         let mut y26 = x107;
         let mut z5 = x89;
         let mut z14 = x93;
-        let known = ::lagrangian::emitted::series::ROWS;
-        let rows = coefficients.iter_mut().take(known);
-        for (order, row) in rows.enumerate().skip(3) {
+        let count = coefficients.len().min(::lagrangian::emitted::series::ROWS);
+        for order in 3..count {
             let w0 = ::lagrangian::emitted::series::sweep::<N, 8>(&a0, &b0, order - 2);
             let x116 = w0[0];
             let x117 = z5;
@@ -600,105 +599,108 @@ impl<S: Copy> ::lagrangian::emitted::scalar::Kernel<S> for Series<'_, S> {
             let x140 = -x139;
             let x141 = x122 * x140;
             let x142 = N::from_f64((order - 1) as f64);
-            let x143 = x142 * x120;
-            let x144 = x142 * x128;
-            let x145 = x28 * x144;
-            let x146 = x142 * x134;
-            let x147 = x30 * x143;
-            let x148 = x32.mul_add(x146, x147);
-            let x149 = x142 * x140;
-            let x150 = x35.mul_add(x149, x145);
-            let x151 = x38 * x145;
-            let x152 = x40.mul_add(x150, x151);
-            let x153 = x42 * x143;
-            let x154 = x44.mul_add(x148, x153);
-            let x155 = w0[4];
-            let x156 = y25;
-            let x157 = x156.mul_add(x8, x155);
-            let x158 = x152.mul_add(x3, x157);
-            let x159 = w0[5];
-            let x160 = y26;
-            let x161 = x160.mul_add(x10, x159);
-            let x162 = x154.mul_add(x4, x161);
-            let x163 = x30 * x162;
-            let x164 = x28.mul_add(x158, x163);
-            let x165 = w0[6];
-            let x166 = y22;
-            let x167 = x166.mul_add(x12, x165);
-            let x168 = x150.mul_add(x5, x167);
-            let x169 = w0[7];
-            let x170 = y18;
-            let x171 = x170.mul_add(x14, x169);
-            let x172 = x148.mul_add(x6, x171);
-            let x173 = x52 * x172;
-            let x174 = x52.mul_add(x168, x173);
-            let x175 = -x164;
-            let x176 = -x174;
-            let x177 = x86 * x175;
-            let x178 = x88.mul_add(x176, x177);
-            let x179 = x90 * x175;
-            let x180 = x92.mul_add(x176, x179);
-            let x181 = N::from_ratio(1, order as i64 - 1);
-            let x182 = x178 * x181;
-            let x183 = x182 * x122;
-            let x184 = x180 * x181;
-            let x185 = x184 * x122;
-            let x186 = x181 * x122;
-            let x187 = x58 * x178;
-            let x188 = x59.mul_add(x180, x187);
-            let x189 = x148 + x188;
-            let x190 = x56 * x178;
-            let x191 = x60.mul_add(x180, x190);
-            let x192 = x150 + x191;
-            let x193 = x62 * x178;
-            let x194 = x63.mul_add(x180, x193);
-            let x195 = x152 + x194;
-            let x196 = x65 * x178;
-            let x197 = x66.mul_add(x180, x196);
-            let x198 = x154 + x197;
-            let x199 = x4 * x178;
-            let x200 = x186.mul_add(x199, x123);
-            let x201 = x55 * x178;
-            let x202 = x186.mul_add(x201, x129);
-            let x203 = x6 * x180;
-            let x204 = x186.mul_add(x203, x135);
-            let x205 = x57 * x180;
-            let x206 = x186.mul_add(x205, x141);
-            *row = [x183.store(), x185.store()];
+            let x145 = x28 * x142;
+            let x146 = x145 * x128;
+            let x148 = x30 * x142;
+            let x149 = x148 * x120;
+            let x150 = x32 * x142;
+            let x151 = x150.mul_add(x134, x149);
+            let x153 = x35 * x142;
+            let x154 = x153.mul_add(x140, x146);
+            let x155 = x38 * x146;
+            let x156 = x40.mul_add(x154, x155);
+            let x157 = x42 * x142;
+            let x158 = x157 * x120;
+            let x159 = x44.mul_add(x151, x158);
+            let x160 = w0[4];
+            let x161 = y25;
+            let x162 = x161.mul_add(x8, x160);
+            let x163 = x156.mul_add(x3, x162);
+            let x164 = w0[5];
+            let x165 = y26;
+            let x166 = x165.mul_add(x10, x164);
+            let x167 = x159.mul_add(x4, x166);
+            let x168 = x30 * x167;
+            let x169 = x28.mul_add(x163, x168);
+            let x170 = w0[6];
+            let x171 = y22;
+            let x172 = x171.mul_add(x12, x170);
+            let x173 = x154.mul_add(x5, x172);
+            let x174 = w0[7];
+            let x175 = y18;
+            let x176 = x175.mul_add(x14, x174);
+            let x177 = x151.mul_add(x6, x176);
+            let x178 = x52 * x177;
+            let x179 = x52.mul_add(x173, x178);
+            let x180 = -x169;
+            let x181 = -x179;
+            let x182 = x86 * x180;
+            let x183 = x88.mul_add(x181, x182);
+            let x184 = x90 * x180;
+            let x185 = x92.mul_add(x181, x184);
+            let x186 = N::from_ratio(1, order as i64 - 1);
+            let x187 = x183 * x186;
+            let x188 = x187 * x122;
+            let x189 = x185 * x186;
+            let x190 = x189 * x122;
+            let x191 = x186 * x122;
+            let x192 = x58 * x183;
+            let x193 = x59.mul_add(x185, x192);
+            let x194 = x151 + x193;
+            let x195 = x56 * x183;
+            let x196 = x60.mul_add(x185, x195);
+            let x197 = x154 + x196;
+            let x198 = x62 * x183;
+            let x199 = x63.mul_add(x185, x198);
+            let x200 = x156 + x199;
+            let x201 = x65 * x183;
+            let x202 = x66.mul_add(x185, x201);
+            let x203 = x159 + x202;
+            let x204 = x4 * x191;
+            let x205 = x204.mul_add(x183, x123);
+            let x206 = x55 * x191;
+            let x207 = x206.mul_add(x183, x129);
+            let x208 = x6 * x191;
+            let x209 = x208.mul_add(x185, x135);
+            let x210 = x57 * x191;
+            let x211 = x210.mul_add(x185, x141);
+            if let Some(row) = coefficients.get_mut(order) {
+                *row = [x188.store(), x190.store()];
+            }
             if let Some(kept) = a0.get_mut(order) {
                 *kept = [
-                    x182.store(),
-                    x182.store(),
-                    x184.store(),
-                    x184.store(),
-                    x195.store(),
-                    x198.store(),
-                    x192.store(),
+                    x187.store(),
+                    x187.store(),
                     x189.store(),
+                    x189.store(),
+                    x200.store(),
+                    x203.store(),
+                    x197.store(),
+                    x194.store(),
                 ];
             }
             if let Some(kept) = b0.get_mut(order) {
                 *kept = [
-                    x202.store(),
-                    x200.store(),
-                    x206.store(),
-                    x204.store(),
-                    x200.store(),
-                    x202.store(),
-                    x204.store(),
-                    x206.store(),
+                    x207.store(),
+                    x205.store(),
+                    x211.store(),
+                    x209.store(),
+                    x205.store(),
+                    x207.store(),
+                    x209.store(),
+                    x211.store(),
                 ];
             }
-            y6 = x200;
-            y7 = x202;
-            y15 = x204;
-            y16 = x206;
-            y18 = x189;
-            y22 = x192;
-            y25 = x195;
-            y26 = x198;
-            z5 = x182;
-            z14 = x184;
+            y6 = x205;
+            y7 = x207;
+            y15 = x209;
+            y16 = x211;
+            y18 = x194;
+            y22 = x197;
+            y25 = x200;
+            y26 = x203;
+            z5 = x187;
+            z14 = x189;
         }
         Ok(())
     }

@@ -303,6 +303,34 @@ fn a_run_ends_where_an_assumption_ends() {
     assert!((run.end().t - exact).abs() < 1e-12, "{}", run.end().t);
 }
 
+/// Facts that end for a small part of a step only, at cos 3t = −cos 0.01: linear ones, which are told from partial sums, and
+/// another. And one that is nearly broken at each turn.
+#[test]
+fn an_assumption_that_ends_for_a_moment_ends_the_run() {
+    let edge = 0.01_f64.cos();
+    let facts = [
+        (format!("x/half + {} > 0", 2.0 * edge), true, true),
+        (format!("{edge} > -x/(2*half)"), true, true),
+        (format!("(x/half)^3 + {} > 0", 8.0 * edge.powi(3)), false, true),
+        ("x/half + 2.000000002 > 0".to_owned(), true, false),
+    ];
+    for (fact, is_linear, ends) in facts {
+        let machine = oscillator(&format!("assume {{ {fact} }}"));
+        let is_known = machine.prepare().has_linear_assumptions();
+        assert_eq!(is_known, is_linear, "{fact}");
+        let (run, error) = Simulation::new(&machine)
+            .method(&TAYLOR)
+            .tolerance(1e-13)
+            .until(10.0)
+            .run_as_far_as_possible(machine.start())
+            .unwrap();
+        assert_eq!(error.is_some(), ends, "{fact}: {error:?}");
+        // The slope there is 0.03 m/s: an error of 1e-13 m is one of 3e-12 s.
+        let expected = if ends { (PI - 0.01) / 3.0 } else { 10.0 };
+        assert!((run.end().t - expected).abs() < 1e-10, "{fact}: {}", run.end().t);
+    }
+}
+
 /// A mechanism that constraints close: against the end of the benchmark's run, by Taylor's method in 64-bit mantissas of
 /// others, and the constraints hold to rounding all along.
 #[test]

@@ -44,6 +44,15 @@ pub trait Sines: Vector {
         }
         (all, Self::all(are_near))
     }
+
+    /// [`Scalar::convolve_all`](lagrangian_scalar::Scalar::convolve_all).
+    #[inline(always)]
+    fn convolve_all<const P: usize>(
+        a: &[[Self::Stored; P]],
+        b: &[[Self::Stored; P]],
+    ) -> [Register<Self>; P] {
+        lagrangian_scalar::series::convolve_all(a, b)
+    }
 }
 
 /// [`Sines::sin_cos_beyond`] of one number.

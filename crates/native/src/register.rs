@@ -119,6 +119,10 @@ impl<V: Sines> Scalar for Register<V> {
     fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
         V::sin_cos_all_near(angles)
     }
+    #[inline(always)]
+    fn convolve_all<const P: usize>(a: &[[V::Stored; P]], b: &[[V::Stored; P]]) -> [Self; P] {
+        V::convolve_all(a, b)
+    }
 
     each!(
         tan(),

@@ -96,6 +96,62 @@ impl<const K: usize> Kernel<f64> for States<'_, K> {
     }
 }
 
+/// The sums of products of two times `P` lists, with more and more numbers.
+struct Sums<'a, const P: usize>([&'a [[f64; P]]; 2]);
+
+impl<const P: usize> Kernel<f64> for Sums<'_, P> {
+    type Output = Vec<[f64; P]>;
+
+    #[inline(always)]
+    fn run<N: Scalar<Stored = f64>>(self) -> Vec<[f64; P]> {
+        let [a, b] = self.0;
+        let mut all = Vec::new();
+        for count in 0..=a.len() {
+            let sums = N::convolve_all::<P>(&a[..count], &b[..count]);
+            let mut stored = [0.0; P];
+            for (to, sum) in stored.iter_mut().zip(sums) {
+                *to = sum.store();
+            }
+            all.push(stored);
+        }
+        all
+    }
+}
+
+/// Packed and one by one, for lists that fill registers and that do not; and the sums are those of the products.
+#[test]
+fn sums_of_products_have_the_same_bits_in_every_register() {
+    fn check<const P: usize>(random: &mut Random) {
+        let mut rows = || -> Vec<[f64; P]> {
+            (0..25)
+                .map(|_| core::array::from_fn(|_| random.uniform() - 0.5))
+                .collect()
+        };
+        let (a, b) = (rows(), rows());
+        let lists = [&a[..], &b[..]];
+        let packed = <f64 as Number>::run(Sums(lists));
+        assert_eq!(packed, Sums(lists).run::<Fused>(), "{P}");
+        for (count, sums) in packed.iter().enumerate() {
+            for (p, sum) in sums.iter().enumerate() {
+                let exact: f64 = (0..count).map(|j| a[j][p] * b[count - 1 - j][p]).sum();
+                assert!((sum - exact).abs() < 1e-14, "{P} {count} {p}");
+            }
+        }
+    }
+    let mut random = Random(0x5eed_0007);
+    check::<1>(&mut random);
+    check::<2>(&mut random);
+    check::<3>(&mut random);
+    check::<4>(&mut random);
+    check::<6>(&mut random);
+    check::<8>(&mut random);
+    check::<12>(&mut random);
+    check::<16>(&mut random);
+    check::<20>(&mut random);
+    check::<24>(&mut random);
+    check::<29>(&mut random);
+}
+
 fn in_lanes<const N: usize>(angles: &[f64]) -> Vec<Lanes<N>> {
     angles
         .as_chunks::<N>()

@@ -506,6 +506,170 @@ impl Sines for One {
     fn sin_cos_all_near<const K: usize>(angles: [Register<One>; K]) -> (Circular<One, K>, bool) {
         (Self::sin_cos_all(angles), true)
     }
+    /// As many numbers in a register as there are lists side by side, up to four. A compiler that is left to find them takes them apart.
+    #[inline(always)]
+    fn convolve_all<const P: usize>(a: &[[f64; P]], b: &[[f64; P]]) -> [Register<One>; P] {
+        let mut sums = [Register(One::ZERO); P];
+        match const { P } {
+            2 => convolve::<__m128d, 1, P>(a, b, 0, &mut sums),
+            4 => convolve::<__m256d, 1, P>(a, b, 0, &mut sums),
+            8 => convolve::<__m256d, 2, P>(a, b, 0, &mut sums),
+            12 => convolve::<__m256d, 3, P>(a, b, 0, &mut sums),
+            16 => convolve::<__m256d, 4, P>(a, b, 0, &mut sums),
+            20 => convolve::<__m256d, 5, P>(a, b, 0, &mut sums),
+            24 => convolve::<__m256d, 6, P>(a, b, 0, &mut sums),
+            _ => {
+                let mut start = 0;
+                while start + 4 <= P {
+                    convolve::<__m256d, 1, P>(a, b, start, &mut sums);
+                    start += 4;
+                }
+                while start < P {
+                    convolve::<f64, 1, P>(a, b, start, &mut sums);
+                    start += 1;
+                }
+            }
+        }
+        sums
+    }
+}
+
+/// Several numbers that lie side by side in memory.
+trait SideBySide: Copy {
+    /// How many.
+    const COUNT: usize;
+    /// Zeros.
+    fn zero() -> Self;
+    /// Those from here on.
+    ///
+    /// # Safety
+    /// There are as many.
+    unsafe fn read(from: *const f64) -> Self;
+    /// Puts them from here on.
+    ///
+    /// # Safety
+    /// There is room.
+    unsafe fn write(self, to: *mut f64);
+    /// `self·b + c`, rounded once.
+    fn mul_add(self, b: Self, c: Self) -> Self;
+    /// `self + b`.
+    fn add(self, b: Self) -> Self;
+}
+
+macro_rules! side_by_side {
+    ($($raw:ty: $count:literal $zero:ident $read:ident $write:ident $mul_add:ident $add:ident;)*) => {$(
+        // SAFETY, of arithmetic: the processor has been asked (see the module).
+        impl SideBySide for $raw {
+            const COUNT: usize = $count;
+            #[inline(always)]
+            fn zero() -> Self {
+                unsafe { $zero() }
+            }
+            #[inline(always)]
+            unsafe fn read(from: *const f64) -> Self {
+                unsafe { $read(from) }
+            }
+            #[inline(always)]
+            unsafe fn write(self, to: *mut f64) {
+                unsafe { $write(to, self) }
+            }
+            #[inline(always)]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                unsafe { $mul_add(self, b, c) }
+            }
+            #[inline(always)]
+            fn add(self, b: Self) -> Self {
+                unsafe { $add(self, b) }
+            }
+        }
+    )*};
+}
+
+side_by_side! {
+    __m128d: 2 _mm_setzero_pd _mm_loadu_pd _mm_storeu_pd _mm_fmadd_pd _mm_add_pd;
+    __m256d: 4 _mm256_setzero_pd _mm256_loadu_pd _mm256_storeu_pd _mm256_fmadd_pd _mm256_add_pd;
+}
+
+impl SideBySide for f64 {
+    const COUNT: usize = 1;
+    #[inline(always)]
+    fn zero() -> f64 {
+        0.0
+    }
+    #[inline(always)]
+    unsafe fn read(from: *const f64) -> f64 {
+        // SAFETY: the caller's.
+        unsafe { *from }
+    }
+    #[inline(always)]
+    unsafe fn write(self, to: *mut f64) {
+        // SAFETY: the caller's.
+        unsafe { *to = self }
+    }
+    #[inline(always)]
+    fn mul_add(self, b: f64, c: f64) -> f64 {
+        Vector::mul_add(self, b, c)
+    }
+    #[inline(always)]
+    fn add(self, b: f64) -> f64 {
+        self + b
+    }
+}
+
+/// Adds products of numbers that lie side by side from `start` on, to as many sums as `G` registers hold.
+#[inline(always)]
+fn add_products<V: SideBySide, const G: usize, const P: usize>(
+    a: &[f64; P],
+    b: &[f64; P],
+    start: usize,
+    sums: &mut [V; G],
+) {
+    assert!(start + G * V::COUNT <= P, "lists are wide enough");
+    let mut g = 0;
+    while g < G {
+        let place = start + g * V::COUNT;
+        // SAFETY: both are `P` numbers long, and the registers end within.
+        let (a, b) = unsafe { (V::read(a.as_ptr().add(place)), V::read(b.as_ptr().add(place))) };
+        sums[g] = a.mul_add(b, sums[g]);
+        g += 1;
+    }
+}
+
+/// [`Sines::convolve_all`] of the lists from `start` on, in `G` registers.
+#[inline(always)]
+fn convolve<V: SideBySide, const G: usize, const P: usize>(
+    a: &[[f64; P]],
+    b: &[[f64; P]],
+    start: usize,
+    sums: &mut [Register<One>; P],
+) {
+    assert!(start + G * V::COUNT <= P, "lists are wide enough");
+    let count = a.len().min(b.len());
+    let half = count / 2;
+    let (a, b) = (&a[..count], &b[..count]);
+    let (mut down, mut up) = ([V::zero(); G], [V::zero(); G]);
+    if count % 2 == 1 {
+        add_products(&a[half], &b[half], start, &mut down);
+    }
+    for step in 0..half {
+        let (low, high) = (half - 1 - step, count - half + step);
+        // SAFETY: `low` is below half of the rows and `high` below all of them, which both lists have.
+        let (rows_a, rows_b) = unsafe {
+            (
+                (a.get_unchecked(low), a.get_unchecked(high)),
+                (b.get_unchecked(low), b.get_unchecked(high)),
+            )
+        };
+        add_products(rows_a.0, rows_b.1, start, &mut down);
+        add_products(rows_a.1, rows_b.0, start, &mut up);
+    }
+    let to = sums.as_mut_ptr().cast::<f64>();
+    let mut g = 0;
+    while g < G {
+        // SAFETY: as above; a register of one number is laid out as that number.
+        unsafe { down[g].add(up[g]).write(to.add(start + g * V::COUNT)) };
+        g += 1;
+    }
 }
 
 /// Sine and cosine of all numbers of a register.

@@ -290,6 +290,29 @@ pub struct Function {
     pub guards: Vec<Guard>,
 }
 
+impl Function {
+    /// Whether the results are linear in time, coordinates and velocities, and depend on nothing else that changes.
+    fn is_linear(&self) -> bool {
+        // Of each operation the degree; 2 and above, or none, are 2.
+        let mut degrees: Vec<u8> = Vec::with_capacity(self.code.len());
+        for op in &self.code {
+            let most = op.operands().map(|x| degrees[x.index()]).max().unwrap_or(0);
+            degrees.push(match op {
+                Op::Constant(_) | Op::Pi => 0,
+                Op::Read(Source::Parameter(_) | Source::Prepared(_)) => 0,
+                Op::Read(Source::Time | Source::Coordinate(_) | Source::Velocity(_)) => 1,
+                Op::Read(_) => 2,
+                Op::Add(..) | Op::Sub(..) | Op::Neg(_) => most,
+                Op::Mul(a, b) => (degrees[a.index()] + degrees[b.index()]).min(2),
+                Op::Div(a, b) if degrees[b.index()] == 0 => degrees[a.index()],
+                _ if most == 0 => 0,
+                _ => 2,
+            });
+        }
+        self.results.iter().all(|x| degrees[x.index()] < 2)
+    }
+}
+
 /// The value of an operation: the index of the operation in [`Function::code`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Value(pub u32);
@@ -455,6 +478,13 @@ impl Program {
             Role::Start => Some(&self.start),
             _ => self.functions.iter().find(|function| function.role == role),
         }
+    }
+
+    /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and velocities, and depend on
+    /// nothing else that changes.
+    pub fn has_linear_assumptions(&self) -> bool {
+        let margins = (0..self.assumptions.len()).map(|index| self.function(Role::Assumption(index)));
+        margins.flatten().all(Function::is_linear)
     }
 
     /// The role of the function that solves the equations of motion: the accelerations, or what they

@@ -118,6 +118,15 @@ pub trait Scalar:
     fn sin_cos_all_near<const K: usize>(angles: [Self; K]) -> ([(Self, Self); K], bool) {
         (Self::sin_cos_all(angles), true)
     }
+    /// `Σⱼ aⱼ b₍n−1−j₎` of `P` pairs of lists side by side, of `n` numbers each, from the middle outwards
+    /// ([`series::convolve_all`]).
+    #[inline(always)]
+    fn convolve_all<const P: usize>(
+        a: &[[Self::Stored; P]],
+        b: &[[Self::Stored; P]],
+    ) -> [Self; P] {
+        series::convolve_all(a, b)
+    }
     /// Sine.
     #[inline(always)]
     fn sin(self) -> Self {

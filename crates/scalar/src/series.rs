@@ -9,39 +9,53 @@ use crate::Scalar;
 /// for less at each order.
 const MOST_INVERTED: usize = 24;
 
-/// Pairs of streams of coefficients that are multiplied together, [`WIDTH`] of them at most.
+/// Pairs of streams of coefficients that are multiplied together.
 ///
-/// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`, in two sums that do not wait for each other. What has just been computed is not among
-/// these terms but added behind them, so that the sum runs while the last order is still being solved for.
+/// `Σ aⱼ b₍k+2−j₎` over `2 ≤ j ≤ k`. What has just been computed is not among these terms but added behind them, so that the sum runs
+/// while the last order is still being solved for.
 #[inline(always)]
 pub fn sweep<N: Scalar, const P: usize>(
     a: &[[N::Stored; P]],
     b: &[[N::Stored; P]],
     k: usize,
 ) -> [N; P] {
-    let (mut even, mut odd) = ([N::ZERO; P], [N::ZERO; P]);
-    let (Some(a), Some(b)) = (a.get(2..=k), b.get(2..=k)) else {
-        return even;
-    };
-    let mut pairs = a.iter().zip(b.iter().rev());
-    while let Some((a, b)) = pairs.next() {
+    match (a.get(2..=k), b.get(2..=k)) {
+        (Some(a), Some(b)) => N::convolve_all(a, b),
+        _ => [N::ZERO; P],
+    }
+}
+
+/// `Σⱼ aⱼ b₍n−1−j₎` of `P` pairs of lists side by side, of `n` numbers each.
+///
+/// From the middle outwards, in two sums, one towards either end, that do not wait for each other: both ends of the lists are what
+/// was computed last, in one factor or the other, so the sums begin with what has been there longest.
+#[inline(always)]
+pub fn convolve_all<N: Scalar, const P: usize>(
+    a: &[[N::Stored; P]],
+    b: &[[N::Stored; P]],
+) -> [N; P] {
+    let count = a.len().min(b.len());
+    let half = count / 2;
+    let (a, b) = (&a[..count], &b[..count]);
+    let (mut down, mut up) = ([N::ZERO; P], [N::ZERO; P]);
+    if count % 2 == 1 {
         for p in 0..P {
-            even[p] = N::load(a[p]).mul_add(N::load(b[p]), even[p]);
+            down[p] = N::load(a[half][p]).mul_add(N::load(b[half][p]), N::ZERO);
         }
-        if let Some((a, b)) = pairs.next() {
-            for p in 0..P {
-                odd[p] = N::load(a[p]).mul_add(N::load(b[p]), odd[p]);
-            }
+    }
+    let below = a[..half].iter().zip(&b[..half]).rev();
+    let above = a[count - half..].iter().zip(&b[count - half..]);
+    for ((low_a, low_b), (high_a, high_b)) in below.zip(above) {
+        for p in 0..P {
+            down[p] = N::load(low_a[p]).mul_add(N::load(high_b[p]), down[p]);
+            up[p] = N::load(high_a[p]).mul_add(N::load(low_b[p]), up[p]);
         }
     }
     for p in 0..P {
-        even[p] = even[p] + odd[p];
+        down[p] = down[p] + up[p];
     }
-    even
+    down
 }
-
-/// How many streams one [`sweep`] takes: as many as two sums of each leave registers for.
-pub const WIDTH: usize = 16;
 
 /// A pivot that is zero up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]

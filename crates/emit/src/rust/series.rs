@@ -27,7 +27,7 @@ use arithmetic::Symbolic;
 use code::{Code, Part, X};
 
 /// How many streams lie in a pack.
-const WIDTH: usize = 16;
+const WIDTH: usize = 24;
 
 /// Above so many products, what accelerations change in forces is a matrix times them.
 const FEWEST_APPLIED: usize = 32;
@@ -211,6 +211,12 @@ impl Emitter<'_> {
             Some(&format!("{result}<(), &{str}>")),
             |body| body.line("Ok(())"),
         );
+        if !self.program.assumptions.is_empty() && self.program.has_linear_assumptions() {
+            let bool = self.types.known("bool");
+            self.method("has_linear_assumptions", &[], Some(&bool), |body| {
+                body.line("true");
+            });
+        }
         let fields = self.fields_of_series(&series).into_iter();
         let fields = fields.map(|(name, _)| {
             let value = if name == "p" { "self" } else { &name };
@@ -277,12 +283,10 @@ impl Emitter<'_> {
             let (name, first) = (carried.name(), code.text(*first));
             self.writer.line(format!("let mut {name} = {first};"));
         }
-        self.writer
-            .line(format!("let known = {runtime}::series::ROWS;"));
-        self.writer
-            .line("let rows = coefficients.iter_mut().take(known);");
-        self.writer
-            .open("for (order, row) in rows.enumerate().skip(3) {");
+        self.writer.line(format!(
+            "let count = coefficients.len().min({runtime}::series::ROWS);"
+        ));
+        self.writer.open("for order in 3..count {");
         for (kind, [a, b], range, width) in &packs {
             let name = format!("{}{}", ["w", "s"][*kind], range.start / WIDTH);
             let call = Layout::List(
@@ -296,7 +300,10 @@ impl Emitter<'_> {
                 .expression(&format!("let {name} = "), &call, ";");
         }
         code.write(&mut self.writer, Part::Order, &runtime, n);
+        self.writer
+            .open("if let Some(row) = coefficients.get_mut(order) {");
         self.writer.expression("*row = ", &code.kept(later, 0), ";");
+        self.writer.close("}");
         for (kind, names, range, width) in &packs {
             let at = ["order", "order - 1"][*kind];
             for (side, name) in names.iter().enumerate() {
@@ -321,8 +328,7 @@ impl Emitter<'_> {
 fn padded(lanes: usize) -> usize {
     match lanes {
         0..=2 => 2,
-        3..=4 => 4,
-        _ => lanes.next_multiple_of(8),
+        _ => lanes.next_multiple_of(4),
     }
 }
 

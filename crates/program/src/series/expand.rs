@@ -439,10 +439,16 @@ impl<T: Copy> Expander<T> {
         for at in 0..self.repaired[0].len() {
             let index = self.repaired[0][at] as usize;
             let known = N::load(self.coefficients[index * width + round + 2]);
-            self.coefficients[index * width + round + 2] = match series.rows[index] {
-                Row::Coordinate(i) => self.motion[i as usize * width + round + 2],
-                _ => share.mul_add(self.change::<N>(index), known).store(),
+            let changed = match (&series.rows[index], &series.depends[index][..]) {
+                (Row::Coordinate(i), _) => N::load(self.motion[*i as usize * width + round + 2]),
+                // One product less to wait for.
+                (_, [i]) => {
+                    let slope = N::load(self.gradients[self.places[index]]) * share;
+                    slope.mul_add(N::load(self.unknowns[*i as usize]), known)
+                }
+                _ => share.mul_add(self.change::<N>(index), known),
             };
+            self.coefficients[index * width + round + 2] = changed.store();
         }
     }
 
@@ -547,6 +553,15 @@ impl<T: Copy, N: Scalar<Stored = T>> Arithmetic for At<'_, T, N> {
         self.of.number::<N>(m) * N::load(self.of.newest[row.index()])
     }
     #[inline(always)]
+    fn second_factors(&mut self, row: RowId) -> [N; 2] {
+        let m = self.m + 1;
+        let order = self.of.number::<N>(m);
+        match self.of.series.is_integral(row) {
+            true => [order, N::load(self.of.newest[row.index()])],
+            false => [order * self.of.number::<N>(m + 1), self.read(row, m + 1)],
+        }
+    }
+    #[inline(always)]
     fn convolution(&mut self, row: RowId, number: usize) -> N {
         let Sum { factors, along } = self.of.sums[row.index()][number];
         let [a, b] = factors.map(|(place, weighted)| match weighted {
@@ -647,16 +662,20 @@ fn convolve<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T], m: usize, along: A
     }
 }
 
-/// `Σ a_j b_{n−j}` in two sums that do not wait for each other.
+/// `Σ aⱼ b₍n−1−j₎`, in the order of [`convolve_all`](steps::convolve_all).
 #[inline(always)]
 fn dot<T: Copy, N: Scalar<Stored = T>>(a: &[T], b: &[T]) -> N {
-    let (mut even, mut odd) = (N::ZERO, N::ZERO);
-    let mut pairs = a.iter().zip(b.iter().rev());
-    while let Some((&a, &b)) = pairs.next() {
-        even = N::load(a).mul_add(N::load(b), even);
-        if let Some((&a, &b)) = pairs.next() {
-            odd = N::load(a).mul_add(N::load(b), odd);
-        }
+    let count = a.len().min(b.len());
+    let half = count / 2;
+    let (mut down, mut up) = (N::ZERO, N::ZERO);
+    if count % 2 == 1 {
+        down = N::load(a[half]).mul_add(N::load(b[half]), down);
     }
-    even + odd
+    let below = a[..half].iter().zip(&b[..half]).rev();
+    let above = a[count - half..count].iter().zip(&b[count - half..count]);
+    for ((&low_a, &low_b), (&high_a, &high_b)) in below.zip(above) {
+        down = N::load(low_a).mul_add(N::load(high_b), down);
+        up = N::load(high_a).mul_add(N::load(low_b), up);
+    }
+    down + up
 }

@@ -29,7 +29,7 @@ pub struct Convolution {
 
 /// In which order the terms of a sum over orders are added: what becomes known last comes last.
 ///
-/// All are a sum of two, of terms with even and with odd j, and what follows it.
+/// All are a sum from the middle outwards ([`convolve_all`](lagrangian_scalar::series::convolve_all)), and what follows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Along {
     /// Of positions: `2 ≤ j ≤ m − 2`, then `j = m − 1`, then `j = 1`.
@@ -73,6 +73,8 @@ pub trait Arithmetic {
     fn derivative(&mut self, row: RowId) -> Self::X;
     /// Coefficient `m + 2` of a row of positions, as it was just computed, times `(m + 1)(m + 2)`.
     fn second_derivative(&mut self, row: RowId) -> Self::X;
+    /// The same as two factors: one that depends on the order alone, and one that was just computed.
+    fn second_factors(&mut self, row: RowId) -> [Self::X; 2];
     /// One of the sums of this row.
     fn convolution(&mut self, row: RowId, number: usize) -> Self::X;
     /// Sine and cosine of a row at order 0, turned by what rounding took from it.
@@ -283,6 +285,44 @@ impl Series {
         sum
     }
 
+    /// `Σ c x` of coefficients that were just computed. What depends on the order alone is multiplied first, so that nothing waits
+    /// for it.
+    #[inline(always)]
+    fn sum_of_newest<A: Arithmetic>(
+        &self,
+        terms: &[(Option<RowId>, RowId)],
+        to: &mut A,
+    ) -> A::X {
+        let mut sum = to.zero();
+        for (coefficient, row) in terms {
+            let (order, x) = match self.rows[row.index()] {
+                Row::Second(p) => {
+                    let [order, x] = to.second_factors(p);
+                    (Some(order), x)
+                }
+                _ => (None, to.newest(*row)),
+            };
+            let coefficient = coefficient.map(|c| to.first(c));
+            let coefficient = match (coefficient, order) {
+                (Some(c), Some(order)) => Some(to.multiply(c, order)),
+                (c, order) => c.or(order),
+            };
+            sum = match coefficient {
+                None => to.add(sum, x),
+                Some(c) => to.multiply_add(c, x, sum),
+            };
+        }
+        sum
+    }
+
+    /// Whether a coefficient of a row comes multiplied by its order first.
+    pub fn is_integral(&self, row: RowId) -> bool {
+        matches!(
+            self.rows[row.index()],
+            Row::Sin(..) | Row::Cos(..) | Row::Sinh(..) | Row::Cosh(..) | Row::Tanh(..) | Row::Exp(_)
+        )
+    }
+
     /// Coefficient `m ≥ 1` of a row that varies, those before it and those of its operands being known.
     #[inline(always)]
     pub fn coefficient<A: Arithmetic>(
@@ -339,7 +379,7 @@ impl Series {
             Row::Rate(i) => plain(to.motion(i, true)),
             Row::First(p) => plain(to.derivative(p)),
             Row::Second(p) => plain(to.second_derivative(p)),
-            Row::Sum(ref terms) => plain(self.sum_of(terms, to, A::newest)),
+            Row::Sum(ref terms) => plain(self.sum_of_newest(terms, to)),
             Row::Product(a, b) => plain(match [self.varies(a), self.varies(b)] {
                 [true, true] if self.is_force(row) && self.level(a) < self.level(b) => {
                     product!(b, a)

@@ -419,9 +419,18 @@ impl<'s> Symbolic<'s> {
             finals.rows[index] = Some(match series.rows[index] {
                 Row::Coordinate(i) => finals.motion[i as usize],
                 _ => {
-                    let change = self.change(row, a);
                     let known = self.newest[index].unwrap_or(X::Zero);
-                    self.multiply_add(share, change, known)
+                    match series.depends[index][..] {
+                        // One product less to wait for.
+                        [i] => {
+                            let slope = self.multiply(self.gradients[index][0], share);
+                            self.multiply_add(slope, a[i as usize], known)
+                        }
+                        _ => {
+                            let change = self.change(row, a);
+                            self.multiply_add(share, change, known)
+                        }
+                    }
                 }
             });
         }
@@ -593,6 +602,17 @@ impl Arithmetic for Symbolic<'_> {
         };
         let order = self.order(1);
         self.multiply(order, scaled)
+    }
+    fn second_factors(&mut self, row: RowId) -> [X; 2] {
+        let order = self.order(1);
+        match self.series.is_integral(row) {
+            true => [order, self.scaled[row.index()].unwrap_or(X::Zero)],
+            false => {
+                let both = self.order(2);
+                let both = self.multiply(order, both);
+                [both, self.newest[row.index()].unwrap_or(X::Zero)]
+            }
+        }
     }
     fn convolution(&mut self, row: RowId, number: usize) -> X {
         let convolution = self.series.convolutions(row)[number];
