@@ -37,7 +37,11 @@ pub(crate) fn rough_log2(x: f64) -> f64 {
 pub(crate) fn rough_exp2(x: f64) -> f64 {
     let x = x.clamp(-1100.0, 1100.0);
     let towards_0 = x as i64 as f64;
-    let whole = if towards_0 > x { towards_0 - 1.0 } else { towards_0 };
+    let whole = if towards_0 > x {
+        towards_0 - 1.0
+    } else {
+        towards_0
+    };
     let y = (x - whole - 0.5) * core::f64::consts::LN_2;
     let series = 1.0 + y * (1.0 + y * (0.5 + y * (1.0 / 6.0 + y * (1.0 / 24.0))));
     // In two factors, each of which has an exponent.

@@ -311,7 +311,11 @@ fn an_assumption_that_ends_for_a_moment_ends_the_run() {
     let facts = [
         (format!("x/half + {} > 0", 2.0 * edge), true, true),
         (format!("{edge} > -x/(2*half)"), true, true),
-        (format!("(x/half)^3 + {} > 0", 8.0 * edge.powi(3)), false, true),
+        (
+            format!("(x/half)^3 + {} > 0", 8.0 * edge.powi(3)),
+            false,
+            true,
+        ),
         ("x/half + 2.000000002 > 0".to_owned(), true, false),
     ];
     for (fact, is_linear, ends) in facts {
@@ -327,7 +331,11 @@ fn an_assumption_that_ends_for_a_moment_ends_the_run() {
         assert_eq!(error.is_some(), ends, "{fact}: {error:?}");
         // The slope there is 0.03 m/s: an error of 1e-13 m is one of 3e-12 s.
         let expected = if ends { (PI - 0.01) / 3.0 } else { 10.0 };
-        assert!((run.end().t - expected).abs() < 1e-10, "{fact}: {}", run.end().t);
+        assert!(
+            (run.end().t - expected).abs() < 1e-10,
+            "{fact}: {}",
+            run.end().t
+        );
     }
 }
 

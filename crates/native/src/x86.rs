@@ -558,27 +558,31 @@ trait SideBySide: Copy {
 
 macro_rules! side_by_side {
     ($($raw:ty: $count:literal $zero:ident $read:ident $write:ident $mul_add:ident $add:ident;)*) => {$(
-        // SAFETY, of arithmetic: the processor has been asked (see the module).
         impl SideBySide for $raw {
             const COUNT: usize = $count;
             #[inline(always)]
             fn zero() -> Self {
+                // SAFETY: the processor has been asked (see the module).
                 unsafe { $zero() }
             }
             #[inline(always)]
             unsafe fn read(from: *const f64) -> Self {
+                // SAFETY: the caller's; and the processor has been asked.
                 unsafe { $read(from) }
             }
             #[inline(always)]
             unsafe fn write(self, to: *mut f64) {
+                // SAFETY: the caller's; and the processor has been asked.
                 unsafe { $write(to, self) }
             }
             #[inline(always)]
             fn mul_add(self, b: Self, c: Self) -> Self {
+                // SAFETY: the processor has been asked (see the module).
                 unsafe { $mul_add(self, b, c) }
             }
             #[inline(always)]
             fn add(self, b: Self) -> Self {
+                // SAFETY: the processor has been asked (see the module).
                 unsafe { $add(self, b) }
             }
         }
@@ -629,7 +633,12 @@ fn add_products<V: SideBySide, const G: usize, const P: usize>(
     while g < G {
         let place = start + g * V::COUNT;
         // SAFETY: both are `P` numbers long, and the registers end within.
-        let (a, b) = unsafe { (V::read(a.as_ptr().add(place)), V::read(b.as_ptr().add(place))) };
+        let (a, b) = unsafe {
+            (
+                V::read(a.as_ptr().add(place)),
+                V::read(b.as_ptr().add(place)),
+            )
+        };
         sums[g] = a.mul_add(b, sums[g]);
         g += 1;
     }

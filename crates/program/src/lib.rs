@@ -483,7 +483,8 @@ impl Program {
     /// Whether the margins of all [`assumptions`](Self::assumptions) are linear in time, coordinates and velocities, and depend on
     /// nothing else that changes.
     pub fn has_linear_assumptions(&self) -> bool {
-        let margins = (0..self.assumptions.len()).map(|index| self.function(Role::Assumption(index)));
+        let margins =
+            (0..self.assumptions.len()).map(|index| self.function(Role::Assumption(index)));
         margins.flatten().all(Function::is_linear)
     }
 

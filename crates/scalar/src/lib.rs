@@ -121,10 +121,7 @@ pub trait Scalar:
     /// `Σⱼ aⱼ b₍n−1−j₎` of `P` pairs of lists side by side, of `n` numbers each, from the middle outwards
     /// ([`series::convolve_all`]).
     #[inline(always)]
-    fn convolve_all<const P: usize>(
-        a: &[[Self::Stored; P]],
-        b: &[[Self::Stored; P]],
-    ) -> [Self; P] {
+    fn convolve_all<const P: usize>(a: &[[Self::Stored; P]], b: &[[Self::Stored; P]]) -> [Self; P] {
         series::convolve_all(a, b)
     }
     /// Sine.

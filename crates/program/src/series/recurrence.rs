@@ -288,11 +288,7 @@ impl Series {
     /// `Σ c x` of coefficients that were just computed. What depends on the order alone is multiplied first, so that nothing waits
     /// for it.
     #[inline(always)]
-    fn sum_of_newest<A: Arithmetic>(
-        &self,
-        terms: &[(Option<RowId>, RowId)],
-        to: &mut A,
-    ) -> A::X {
+    fn sum_of_newest<A: Arithmetic>(&self, terms: &[(Option<RowId>, RowId)], to: &mut A) -> A::X {
         let mut sum = to.zero();
         for (coefficient, row) in terms {
             let (order, x) = match self.rows[row.index()] {
@@ -319,7 +315,12 @@ impl Series {
     pub fn is_integral(&self, row: RowId) -> bool {
         matches!(
             self.rows[row.index()],
-            Row::Sin(..) | Row::Cos(..) | Row::Sinh(..) | Row::Cosh(..) | Row::Tanh(..) | Row::Exp(_)
+            Row::Sin(..)
+                | Row::Cos(..)
+                | Row::Sinh(..)
+                | Row::Cosh(..)
+                | Row::Tanh(..)
+                | Row::Exp(_)
         )
     }
 
