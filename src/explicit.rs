@@ -233,15 +233,14 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             control,
             ..
         } = self;
-        let n = now.q.as_slice().len();
         let (relative, absolute) = (tolerance.relative, tolerance.absolute.as_slice());
         let norm = |of: &dyn Fn(usize) -> [N; 2]| {
             let mut sum = 0.0;
-            for i in 0..n {
+            for (i, absolute) in absolute.iter().enumerate() {
                 let sizes = [now.q.as_slice()[i], now.v.as_slice()[i]];
                 let squares = [0, 1].map(|level| {
                     let size = [sizes[level]; 2];
-                    let square = of(i)[level].squared_error(size, absolute[i], relative);
+                    let square = of(i)[level].squared_error(size, *absolute, relative);
                     square.as_ref()[0]
                 });
                 sum += squares[0] + squares[1];

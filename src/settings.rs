@@ -87,7 +87,7 @@ pub(crate) struct Stream<'a, M: Machine> {
     pub count: usize,
     /// When the last of them was.
     pub last: f64,
-    pub observer: Shared<dyn FnMut(&State<Coordinates<M>>) + Send + 'a>,
+    pub observer: StateObserver<'a, M>,
 }
 
 impl<M: Machine> Stream<'_, M> {
@@ -111,6 +111,9 @@ impl<M: Machine> Stream<'_, M> {
         }
     }
 }
+
+/// What looks at states.
+type StateObserver<'a, M> = Shared<dyn FnMut(&State<Coordinates<M>>) + Send + 'a>;
 
 /// What looks at each step.
 pub(crate) type Observer<'a, M> =
