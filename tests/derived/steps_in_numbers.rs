@@ -271,7 +271,7 @@ fn what_cannot_be_done_is_said() {
     let with = |method| {
         ExplicitStepper::builder(Bounded)
             .method(method)
-            .start(start.clone())
+            .start(start)
             .err()
     };
     for method in [Method::RADAU5, Method::TAYLOR] {
