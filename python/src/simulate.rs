@@ -218,32 +218,17 @@ pub fn simulate(
         },
         method,
         start,
-        dense: settings.dense,
-        keep: settings.keep,
+        until: settings.until,
+        tolerance: [settings.relative, settings.absolute],
         absolute_of: settings.absolute_of,
+        first_step: settings.first_step,
+        longest_step: settings.longest_step,
+        max_steps: settings.max_steps,
+        dense: settings.dense,
+        energy: settings.energy,
+        keep: settings.keep,
     };
-    let (relative, absolute) = (settings.relative, settings.absolute);
-    let (first, longest) = (settings.first_step, settings.longest_step);
-    let (max_steps, energy) = (settings.max_steps, settings.energy);
-    let until = settings.until;
-    let made = py.detach(|| {
-        let mut simulation = Simulation::new(&machine)
-            .relative(relative)
-            .absolute(absolute)
-            .until(until)
-            .max_steps(max_steps)
-            .energy_balance(energy);
-        if relative == absolute {
-            simulation = simulation.tolerance(relative);
-        }
-        if let Some(step) = first {
-            simulation = simulation.first_step(step);
-        }
-        if let Some(step) = longest {
-            simulation = simulation.longest_step(step);
-        }
-        task.run(&machine, simulation)
-    });
+    let made = py.detach(|| task.run(&machine));
     if let Some(exception) = raised.take() {
         return Err(exception);
     }
@@ -270,7 +255,7 @@ fn of_error(py: Python<'_>, error: &Error) -> PyErr {
     }
 }
 
-/// A run to be made, apart from the numbers that the simulation was told.
+/// A run to be made.
 struct Task {
     law: SharedLaw,
     raised: Raised,
@@ -280,9 +265,16 @@ struct Task {
     samples: Samples,
     method: &'static Method,
     start: State<Named>,
-    dense: bool,
-    keep: Option<Vec<String>>,
+    until: f64,
+    /// Relative and absolute.
+    tolerance: [f64; 2],
     absolute_of: Vec<(String, f64)>,
+    first_step: Option<f64>,
+    longest_step: Option<f64>,
+    max_steps: usize,
+    dense: bool,
+    energy: bool,
+    keep: Option<Vec<String>>,
 }
 
 /// A run, the states that were asked for, and what ended it early.
@@ -293,11 +285,7 @@ type Made = (
 );
 
 impl Task {
-    fn run<'a>(
-        &'a self,
-        machine: &'a InterpretedMachine,
-        simulation: Simulation<'a, InterpretedMachine>,
-    ) -> Result<Made, Error> {
+    fn run(&self, machine: &InterpretedMachine) -> Result<Made, Error> {
         // Formulas are asked for while the run has its own system.
         let system = machine.prepare();
         let value = |watched: &Watched, name: &str, state: &State<Named>| -> f64 {
@@ -322,7 +310,11 @@ impl Task {
         let mut samples = self.samples.clone();
         samples.begin(&self.start);
         let mut last = Instant::now();
-        let mut simulation = simulation
+        let [relative, absolute] = self.tolerance;
+        let mut simulation = Simulation::new(machine)
+            .until(self.until)
+            .max_steps(self.max_steps)
+            .energy_balance(self.energy)
             .method(self.method)
             .law(self.law.clone())
             .each_step(|step| samples.take(step))
@@ -337,6 +329,16 @@ impl Task {
                 let stops = stops.is_some_and(|watched| value(watched, "stop", state) > 0.0);
                 self.raised.is_kept() || stops
             });
+        simulation = match relative == absolute {
+            true => simulation.tolerance(relative),
+            false => simulation.relative(relative).absolute(absolute),
+        };
+        if let Some(step) = self.first_step {
+            simulation = simulation.first_step(step);
+        }
+        if let Some(step) = self.longest_step {
+            simulation = simulation.longest_step(step);
+        }
         if !self.dense {
             simulation = simulation.forget_steps();
         }
