@@ -312,7 +312,7 @@ fn a_missing_ability_names_the_line_to_add_to_the_spec() {
                 parameters { l: m = 1 }
                 coordinates { x: m = 1, y: m }
                 bodies { bob { mass: 1, at: (x, y) } }
-                constraints { rod: x^2 + y^2 - l^2 }
+                constraints { rod: x^2 + y^2 = l^2 }
             }
         }
         fn linearize<S: lagrangian::Linearize>(_: &S) {}

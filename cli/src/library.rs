@@ -10,7 +10,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use lagrangian::native::text::{CIRCULAR, LANES, REGISTER, SINCOS, VECTOR, X86};
-use lagrangian::scalar::text::{KERNEL, LIB, REAL};
+use lagrangian::scalar::text::{KERNEL, LIB, REAL, SERIES};
 use lagrangian_emit as emit;
 use lagrangian_mechanics::Proved;
 use lagrangian_program::{LONGEST_SCHEDULED, Program, Slot};
@@ -143,9 +143,10 @@ fn source(program: &Proved, lanes: &[u8], is_straight: bool) -> Result<String, F
     let modules = [
         (
             "scalar",
-            format!("pub use crate::kernel::{{Kernel, Piece}};\n{scalar}"),
+            format!("pub use crate::kernel::{{Kernel, Piece}};\nuse crate::series;\n{scalar}"),
         ),
         ("kernel", KERNEL.to_owned()),
+        ("series", SERIES.to_owned()),
         ("real", real),
         ("lanes", lanes_of_c),
         ("circular", CIRCULAR.to_owned()),

@@ -51,7 +51,7 @@ pub trait Sines: Vector {
         a: &[[Self::Stored; P]],
         b: &[[Self::Stored; P]],
     ) -> [Register<Self>; P] {
-        lagrangian_scalar::series::convolve_all(a, b)
+        crate::series::convolve_all(a, b)
     }
 }
 

@@ -6,3 +6,5 @@ pub const LIB: &str = include_str!("lib.rs");
 pub const KERNEL: &str = include_str!("kernel.rs");
 /// The plain numbers.
 pub const REAL: &str = include_str!("real.rs");
+/// Sums of products.
+pub const SERIES: &str = include_str!("series.rs");
