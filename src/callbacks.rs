@@ -6,8 +6,10 @@
 use std::boxed::Box;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::event::Observe;
-use crate::{Coordinates, Error, Inputs, Machine, State};
+use crate::{Coordinates, Error, Inputs, Machine, Observation, State};
+
+/// Everything about a machine in a state, if it is asked for.
+pub(crate) type Observe<'x, M> = &'x dyn Fn() -> Result<Observation<M>, Error>;
 
 /// Functions of one kind that can be copied.
 macro_rules! copied {

@@ -19,10 +19,10 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use crate::callbacks::Watched;
+use crate::callbacks::{Observe, Watched};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
-use crate::observation::{Observation, Sight};
+use crate::observation::Sight;
 use crate::roots;
 use crate::stepper::Stepper;
 use crate::{Coordinates, Error, Machine, Quadratures, State, System, Vector};
@@ -60,9 +60,6 @@ pub struct Event<C> {
     /// its step, and its time is as exact as that.
     pub state: State<C>,
 }
-
-/// Everything about a machine in a state, if it is asked for.
-pub(crate) type Observe<'x, M> = &'x dyn Fn() -> Result<Observation<M>, Error>;
 
 /// An event to watch for.
 pub(crate) struct Watch<'a, M: Machine> {

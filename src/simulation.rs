@@ -4,8 +4,8 @@ use std::boxed::Box;
 use std::vec::Vec;
 
 use crate::balance::{EnergyIntegrals, NoBalance};
-use crate::callbacks::{Shared, Watched};
-use crate::event::{Crossing, Observe, Watch};
+use crate::callbacks::{Observe, Shared, Watched};
+use crate::event::{Crossing, Watch};
 use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw};
 use crate::methods::Method;
 use crate::observation::Observation;
