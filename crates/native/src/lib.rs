@@ -66,9 +66,9 @@ pub mod text;
 
 pub use lanes::Lanes;
 
+use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar};
 #[cfg(any(feature = "std", all(target_arch = "x86_64", target_feature = "fma")))]
-use lagrangian_scalar::Piece;
-use lagrangian_scalar::{DoubleDouble, Dual, Interval, Kernel, Residue, Scalar, series};
+use lagrangian_scalar::{Piece, series};
 
 /// An `f64` with fused multiply-add and the sine and cosine of this crate, on every machine: an
 /// instruction where that is one for the compiler, correct but slow elsewhere. [`Number::run`] has
