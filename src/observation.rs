@@ -69,11 +69,7 @@ impl<S: System, L: InputLaw<S>> Sight<'_, S, L> {
         stepper: &Stepper<'_, S, Held<'_, L, S::Inputs>, A>,
         state: &State<S::Coordinates>,
     ) -> Result<Observation<M>, Error> {
-        let known = Known {
-            constraints: stepper.constraints(),
-            contacts: stepper.contacts().as_ref(),
-            touching: stepper.touching().as_ref(),
-        };
+        let known = Known::of(stepper);
         let (q, v) = (
             self.system.to_vector(&state.q),
             self.system.to_vector(&state.v),
@@ -90,7 +86,18 @@ type At<'x, S> = (
     &'x <S as System>::Inputs,
 );
 
-impl<V: Vector> Known<'_, V> {
+impl<'x, V: Vector> Known<'x, V> {
+    /// What a stepper knows of its last step.
+    pub fn of<S: System<Vector = V>, L: InputLaw<S>, A: Quadratures<S>>(
+        stepper: &'x Stepper<'_, S, L, A>,
+    ) -> Self {
+        Known {
+            constraints: stepper.constraints(),
+            contacts: stepper.contacts().as_ref(),
+            touching: stepper.touching().as_ref(),
+        }
+    }
+
     /// The accelerations at a state, as the run finds them.
     pub fn accelerations<S: System<Vector = V>>(
         &self,

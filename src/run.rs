@@ -17,7 +17,7 @@ use crate::event::{self, Crossing, Event, Terminal, Triple, made, state};
 use crate::friction::{Change, Contacts, Motion};
 use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
-use crate::observation::Sight;
+use crate::observation::{Known, Sight};
 use crate::phases::Kept;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
@@ -800,9 +800,10 @@ where
         u: &Inputs<M>,
         a: &mut VectorOf<M>,
     ) -> Result<(), Error> {
-        self.stepper
-            .accelerations_at((t, q, v, u), a)
-            .map_err(|error| Error::of_step(error, self.model.system))
+        let system = self.model.system;
+        Known::of(self.stepper)
+            .accelerations(system, (t, q, v, u), a)
+            .map_err(|error| Error::of_step(error, system))
     }
 }
 

@@ -440,34 +440,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         Ok(())
     }
 
-    /// Accelerations at a state within the last step, as they are in it.
-    #[cfg(feature = "std")]
-    pub(crate) fn accelerations_at(
-        &self,
-        at: (f64, &S::Vector, &S::Vector, &S::Inputs),
-        a: &mut S::Vector,
-    ) -> Result<(), StepError> {
-        let Model {
-            constraints,
-            contacts,
-            touching,
-            ..
-        } = &self.model;
-        let system: &S = &self.model.system;
-        if let Some(touching) = touching {
-            return touching.accelerations(system, at, a);
-        }
-        let (t, q, v, u) = at;
-        match constraints {
-            Some(known) if known.redundant => {
-                let mut known = known.clone();
-                known.choose_as_many(system, t, q)?;
-                known.accelerations(system, t, q, v, u, a)
-            }
-            _ => accelerations(system, (constraints, contacts), at, a),
-        }
-    }
-
     /// The work done so far.
     pub fn work(&self) -> Work {
         self.work

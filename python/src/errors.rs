@@ -47,37 +47,14 @@ pub fn told(report: &Report, sources: &Sources) -> Vec<Told> {
     report.messages().into_iter().map(one).collect()
 }
 
-/// The report as text, with the words underlined.
+/// The errors of a report as text, with the words underlined.
 pub fn shown(report: &Report, sources: &Sources) -> String {
-    let mut text = String::new();
-    for diagnostic in report.diagnostics() {
-        let (line, column) = sources.line_column(diagnostic.span);
-        let file = sources.name(diagnostic.span.source);
-        let said = sources.line(diagnostic.span.source, line);
-        let words = sources.words(diagnostic.span);
-        // What goes on over several lines is underlined on its first.
-        let width = words
-            .lines()
-            .next()
-            .map_or(1, |first| first.chars().count());
-        let number = line.to_string();
-        let margin = " ".repeat(number.len());
-        text.push_str(&format!(
-            "{}[{}]: {}\n{margin}--> {file}:{line}:{column}\n{margin} |\n{number} | {said}\n{margin} | {}{}\n",
-            diagnostic.code.severity().as_str(),
-            diagnostic.code.as_str(),
-            diagnostic.message,
-            " ".repeat(column.saturating_sub(1)),
-            "^".repeat(width.max(1)),
-        ));
-        if let Some(help) = &diagnostic.help {
-            text.push_str(&format!("{margin} = help: {help}\n"));
-        }
-    }
+    let errors = report.diagnostics().into_iter();
+    let mut all: Vec<String> = errors.map(|error| error.render(sources)).collect();
     if report.omitted() > 0 {
-        text.push_str(&format!("and {} more\n", report.omitted()));
+        all.push(format!("({} more errors are not shown)", report.omitted()));
     }
-    text.trim_end().to_owned()
+    all.join("\n\n")
 }
 
 /// `SpecError`.
