@@ -2,7 +2,7 @@
 //! derived ones.
 
 use lagrangian_mechanics::Compiled;
-use lagrangian_mechanics::{Freedom, Independent, freedom as freedom_of};
+use lagrangian_mechanics::{Freedom, Independent, contradictions, freedom as freedom_of};
 use lagrangian_print::compare::{self, Comparison, Quoted};
 use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::Dag;
@@ -57,6 +57,9 @@ pub fn run(call: &call::Check) -> Result<(), Failure> {
     let mut reading = Reading::open(&call.spec)?;
     let model = reading.model(&dag);
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
+    if let Some(compiled) = &compiled {
+        contradictions(&compiled.model, &compiled.equations, &mut reading.report);
+    }
     let freedom = compiled.as_ref();
     let freedom = freedom.map(|compiled| freedom_of(&compiled.model, &compiled.equations));
     let comparisons = match &compiled {

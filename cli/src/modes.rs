@@ -173,7 +173,9 @@ fn compiled<'d>(spec: &call::Spec, dag: &'d Dag, files: &Files) -> Result<Compil
         .is_some_and(|model| !model.sliding().is_empty())
     {
         return Err(Failure::run(
-            "what sticks does not oscillate, and friction has no linearization: a machine with `sliding` has no modes",
+            "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
+             machine with `sliding` has no modes; take them of a variant without friction, with a constraint in the place of \
+             each guide",
         ));
     }
     if model

@@ -237,7 +237,8 @@ fn cause(error: Error) -> Failure {
             } else {
                 setting
             };
-            Failure::Call(format!("--{option} {value:e}: must be {needed}"))
+            let value = shortest(value);
+            Failure::Call(format!("--{option} {value}: must be {needed}"))
         }
         error => Failure::run(error),
     }

@@ -200,6 +200,8 @@ codes! {
     NoGravity => "no-gravity",
     /// A spring that pushes away, or a damper that drives.
     NegativeCoefficient => "negative-coefficient",
+    /// Constraints that contradict each other where the machine starts.
+    Contradiction => "contradiction",
 }
 
 /// How much a message weighs.
@@ -225,9 +227,11 @@ impl Code {
     /// How much messages of this kind weigh.
     pub fn severity(self) -> Severity {
         match self {
-            Code::Unused | Code::LooksLikeDegrees | Code::NoGravity | Code::NegativeCoefficient => {
-                Severity::Warning
-            }
+            Code::Unused
+            | Code::LooksLikeDegrees
+            | Code::NoGravity
+            | Code::NegativeCoefficient
+            | Code::Contradiction => Severity::Warning,
             _ => Severity::Error,
         }
     }

@@ -104,8 +104,11 @@ pub struct Linearized {
     pub mass: DMatrix<f64>,
     /// ∂r/∂z.
     pub by_places: DMatrix<f64>,
-    /// The same without what T turns of the forces that are not balanced, `(∂T/∂z)ᵀ M T (Tᵀ M T)⁻¹ r`: what is 0 of r in one
-    /// choice of I is so in each, and Newton's method with this goes the same way in each.
+    /// The same as a covariant derivative in the metric M: without what T turns of the forces that are not balanced,
+    /// `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`, and without what M itself bends,
+    /// `½ (∂M(Tᵢ) Hⱼ + ∂M(Hⱼ) Tᵢ) b − ½ Tᵢ ∂M(b) Hⱼ`. What is 0 of r in one choice of I is so in each, Newton's method with this
+    /// goes the same way in each, and `rᵀ (Tᵀ M T)⁻¹ r` falls along its steps.
+    /// (P.-A. Absil, R. Mahony, R. Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 2008, sections 5.3 and 6.1.)
     pub as_balanced: DMatrix<f64>,
     /// ∂r/∂s.
     pub by_rates: DMatrix<f64>,
@@ -592,10 +595,16 @@ impl<'a> Reduced<'a> {
         }
         let slope = |x: &Number| x.derivative.hi();
         let accelerations = divided(&linearized.mass, &linearized.forces);
-        let unbalanced = match accelerations {
-            Some(a) => mass * &linearized.along * a,
-            None => DMatrix::zeros(n, 1),
-        };
+        let accelerations = accelerations.unwrap_or_else(|| DMatrix::zeros(count, 1));
+        let displaced = linearized.displaced(choice);
+        let (along_z, b) = (
+            &displaced * &accelerations,
+            &linearized.along * accelerations,
+        );
+        let unbalanced = mass * &b;
+        // ∂M(Hⱼ) b, and ∂M(b).
+        let mut bent = DMatrix::zeros(n, places);
+        let mut along_b = DMatrix::zeros(n, n);
         for (column, direction) in tangent.iter().enumerate() {
             for (q, d) in q.iter_mut().zip(direction) {
                 q.derivative = *d;
@@ -607,10 +616,17 @@ impl<'a> Reduced<'a> {
                 let turned: f64 = rows.map(|(row, x)| slope(&row[i]) * x).sum();
                 linearized.as_balanced[(i, column)] = slope(force) - turned;
             }
+            let change = DMatrix::from_fn(n, n, |i, j| slope(&there.mass[i * n + j]));
+            bent.set_column(column, &(&change * b.column(0)));
+            along_b += change * along_z[column];
             for (i, &j) in choice.followers.iter().enumerate() {
                 linearized.followers_by_places[(i, column)] = slope(&there.rates[j]);
             }
         }
+        let (along, tangent) = (linearized.along.transpose(), &linearized.tangent);
+        let bends = displaced.transpose() * bent.transpose() * tangent + &along * bent
+            - along * along_b * tangent;
+        linearized.as_balanced -= bends * 0.5;
         q = constant(&place.q);
         for column in 0..count {
             s[column].derivative = DoubleDouble::ONE;

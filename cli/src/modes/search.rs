@@ -12,6 +12,9 @@
 //! convergence of the Levenberg–Marquardt method*, Computing Suppl. 15 (2001) 239–249). A step is kept if r falls by a share of
 //! what its linearization promises, or if the next step, taken with the same matrix, is shorter: the natural monotonicity test
 //! (P. Deuflhard, *Newton Methods for Nonlinear Problems*, 2004, section 3.3).
+//!
+//! Between two branches of equilibria r may have a least length that is not 0, about which steps go to and fro. From there the
+//! machine falls along its accelerations, and Newton's method begins again.
 
 use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
@@ -43,6 +46,13 @@ const FALL: f64 = 0.25;
 
 /// The most such falls.
 const MOST_FALLS: usize = 8;
+
+/// Forces that have not fallen by a tenth in so many steps have stopped falling.
+const STALLED: usize = 15;
+
+/// How far a machine falls then, in falls one after the other, and the most times that it does.
+const FALLS_AT_ONCE: usize = 4;
+const MOST_STALLS: usize = 8;
 
 /// What is given of a steady motion.
 #[derive(Clone, Debug)]
@@ -100,7 +110,21 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
     let choice = reduced.choose(&near, &wanted.steady)?;
     let mut here = Point::new(reduced, choice, q, &rates, wanted)?;
     let mut falls = 0;
+    let (mut least, mut least_at, mut stalls) = (f64::INFINITY, 0, 0);
     for steps in 0..wanted.steps {
+        let norm = here.scaled.norm();
+        if norm < 0.9 * least {
+            (least, least_at) = (norm, steps);
+        }
+        if steps - least_at >= STALLED && stalls < MOST_STALLS {
+            for _ in 0..FALLS_AT_ONCE {
+                match here.fallen_by(reduced, &here.scaled, &mut rates, wanted) {
+                    Some(there) => here = there,
+                    None => break,
+                }
+            }
+            (least, least_at, stalls) = (f64::INFINITY, steps, stalls + 1);
+        }
         // A pendulum that is held level: nothing that is near says where to go but the force itself.
         if falls < MOST_FALLS && here.is_stuck() {
             match here.fallen(reduced, &mut rates, wanted) {
@@ -407,10 +431,24 @@ impl Point {
         wanted: &Wanted,
     ) -> Option<Point> {
         self.left_over()?;
-        let along = self
-            .lower
-            .transpose()
-            .solve_upper_triangular(&self.remaining())?;
+        let there = self.fallen_by(reduced, &self.remaining(), rates, wanted)?;
+        let is_other = there.choice != self.choice || {
+            let (now, then) = (&self.here.forces, &there.here.forces);
+            let bounds = &self.bounds.forces + &there.bounds.forces;
+            (0..now.nrows()).any(|i| (now[i] - then[i]).abs() > bounds[i])
+        };
+        is_other.then_some(there)
+    }
+
+    /// Where forces pull it.
+    fn fallen_by(
+        &self,
+        reduced: &mut Reduced<'_>,
+        forces: &DVector<f64>,
+        rates: &mut [f64],
+        wanted: &Wanted,
+    ) -> Option<Point> {
+        let along = self.lower.transpose().solve_upper_triangular(forces)?;
         let given = |c: usize| wanted.steady[self.choice.independent[c]];
         let along = DVector::from_fn(along.len(), |c, _| if given(c) { 0.0 } else { along[c] });
         let displaced = &self.here.along * &along;
@@ -422,15 +460,8 @@ impl Point {
             along: self.apart.transpose() * along,
             rates: DVector::zeros(self.scaled.len()),
         };
-        let there = self
-            .moved(reduced, &step, FALL / longest, rates, wanted)
-            .ok()?;
-        let is_other = there.choice != self.choice || {
-            let (now, then) = (&self.here.forces, &there.here.forces);
-            let bounds = &self.bounds.forces + &there.bounds.forces;
-            (0..now.nrows()).any(|i| (now[i] - then[i]).abs() > bounds[i])
-        };
-        is_other.then_some(there)
+        self.moved(reduced, &step, FALL / longest, rates, wanted)
+            .ok()
     }
 
     /// What no step would remove of the forces.

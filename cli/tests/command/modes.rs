@@ -1430,3 +1430,64 @@ fn what_is_kept_of_the_start_says_from_where_to_look() {
         "{error}"
     );
 }
+
+/// Five bars in a row between two pins, from wherever they hang: at its ends each bar has the same horizontal force H, and
+/// vertical forces that grow by a weight from bar to bar, so that moments about the middle of bar i ask for
+/// `(V + (i − 1) m g) cos qᵢ = H sin qᵢ`, with the same V and H for all; beside that the row is closed.
+#[test]
+fn a_row_of_bars_finds_an_equilibrium_from_everywhere() {
+    let (weight, count) = (9.81, 5);
+    let balanced = |found: &Value| {
+        let q = |i: usize| number(&found["equilibrium"]["q"][format!("q[{}]", i + 1)]);
+        let q: Vec<f64> = (0..count).map(q).collect();
+        let along: f64 = q.iter().map(|q| q.cos()).sum();
+        let across: f64 = q.iter().map(|q| q.sin()).sum();
+        assert!((along - 2.0).abs() < 1e-11 && across.abs() < 1e-11, "{q:?}");
+        // V and H by least squares, and what they leave.
+        let rows = q
+            .iter()
+            .enumerate()
+            .map(|(i, q)| (q.cos(), -q.sin(), -(i as f64) * weight * q.cos()));
+        let rows: Vec<_> = rows.collect();
+        let sum = |of: &dyn Fn(&(f64, f64, f64)) -> f64| rows.iter().map(of).sum::<f64>();
+        let (aa, ab, bb) = (
+            sum(&|r| r.0 * r.0),
+            sum(&|r| r.0 * r.1),
+            sum(&|r| r.1 * r.1),
+        );
+        let (ac, bc) = (sum(&|r| r.0 * r.2), sum(&|r| r.1 * r.2));
+        let det = aa * bb - ab * ab;
+        let (v, h) = ((ac * bb - bc * ab) / det, (aa * bc - ab * ac) / det);
+        for row in &rows {
+            let left = row.0 * v + row.1 * h - row.2;
+            assert!(
+                left.abs() < 1e-9 * (v.abs() + h.abs() + weight),
+                "{q:?}: {left:e}"
+            );
+        }
+        q
+    };
+    let spec = "machines/closed_pendulum.machine";
+    // From its own start it comes to hang: in the middle a level bar, and slopes that grow by as much from bar to bar.
+    let q = balanced(&modes(&[spec]));
+    assert!(q[2].abs() < 1e-12 && q[4] > q[3] && q[3] > 0.0, "{q:?}");
+    close(q[4].tan(), 2.0 * q[3].tan());
+    let seed = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(1, |now| now.as_nanos() as u64);
+    println!("seed {seed}");
+    let mut state = seed | 1;
+    for _ in 0..20 {
+        let starts: Vec<String> = (1..=count)
+            .map(|i| {
+                state ^= state << 13;
+                state ^= state >> 7;
+                state ^= state << 17;
+                let angle = ((state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0) * PI;
+                format!("q[{i}]={angle}")
+            })
+            .collect();
+        let starts = starts.iter().flat_map(|start| ["--start", start]);
+        balanced(&modes(&[&[spec], &starts.collect::<Vec<_>>()[..]].concat()));
+    }
+}

@@ -43,7 +43,7 @@ use lagrangian_symbolic::{Expr, Node, Symbol, normal};
 pub use brachistochrone::{Brachistochronic, Guided, Unmet};
 pub use carrying::Carrying;
 pub use constraints::{ConstraintEquation, constraints};
-pub use freedom::{Freedom, Independent, freedom};
+pub use freedom::{Freedom, Independent, contradictions, freedom};
 pub use kinematics::angular_velocities;
 pub use lagrange::{Oracle, OracleConstraint, OracleSliding};
 pub use reduction::{Dependent, ReducedModel, Reduction, dependents};

@@ -61,6 +61,14 @@ impl<'d> ConstraintEquation<'d> {
         equation(model, &x, self.name.clone(), statement, self.unit)
     }
 
+    /// The unit of `φ`.
+    pub fn rate_unit(&self) -> Unit {
+        match self.position {
+            Some(_) => self.unit.rate(),
+            None => self.unit,
+        }
+    }
+
     /// The unit of its multiplier: that of a force along `g`.
     pub fn multiplier_unit(&self) -> Unit {
         let power = match self.position {

@@ -8,6 +8,10 @@
 //! itself it may be less, where motions fork. The constraints of a rate, of rolling for one, count
 //! as those of a place do.
 
+mod contradiction;
+
+pub use contradiction::contradictions;
+
 use lagrangian_scalar::{DoubleDouble, Scalar};
 use lagrangian_symbolic::{Expr, Symbol, evaluate};
 use rustc_hash::FxHashMap;
@@ -139,17 +143,17 @@ impl<'m, 'd> Places<'m, 'd> {
         (self.seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn independent(&mut self) -> Option<Independent> {
+    /// Where the spec says that the machine starts; none where that has no value.
+    fn start(&self) -> Option<Row> {
         let starts: Vec<Expr<'d>> = self.model.coordinates.iter().map(|q| q.start).collect();
-        let known = &self.known;
-        let value = |symbol| {
-            known
-                .get(&symbol)
-                .copied()
-                .unwrap_or(DoubleDouble::from_f64(0.0))
-        };
+        let zero = DoubleDouble::from_f64(0.0);
+        let value = |symbol| self.known.get(&symbol).copied().unwrap_or(zero);
         let start = evaluate(self.model.dag, &starts, value);
-        let mut place = self.met_near(start)?;
+        start.iter().all(|q| q.is_finite()).then_some(start)
+    }
+
+    fn independent(&mut self) -> Option<Independent> {
+        let mut place = self.met_near(self.start()?)?;
         let at_start = self.rank(&place)?;
         let mut generic = at_start;
         for _ in 0..PLACES {
@@ -174,11 +178,17 @@ impl<'m, 'd> Places<'m, 'd> {
         Some(Independent { generic, at_start })
     }
 
-    /// What the constraints are off at a place, and the rows of `G`; none where they have no value.
-    fn at(&self, place: &[DoubleDouble]) -> Option<(Row, Vec<Row>)> {
+    /// The numbers that are known at a place.
+    fn known_at(&self, place: &[DoubleDouble]) -> FxHashMap<Symbol, DoubleDouble> {
         let coordinates = self.model.coordinates.iter().zip(place);
         let mut values = self.known.clone();
         values.extend(coordinates.filter_map(|(q, &value)| Some((q.q.as_symbol()?, value))));
+        values
+    }
+
+    /// What the constraints are off at a place, and the rows of `G`; none where they have no value.
+    fn at(&self, place: &[DoubleDouble]) -> Option<(Row, Vec<Row>)> {
+        let values = self.known_at(place);
         let zero = DoubleDouble::from_f64(0.0);
         let value = |symbol| values.get(&symbol).copied().unwrap_or(zero);
         let mut residuals = evaluate(self.model.dag, &self.formulas, value);

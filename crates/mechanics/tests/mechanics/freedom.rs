@@ -1,7 +1,8 @@
 //! How freely machines move: against what is counted by hand, and against ranks that are known
 //! because the constraints were made with them.
 
-use lagrangian_mechanics::{Freedom, Independent, equations::freedom};
+use lagrangian_mechanics::{Freedom, Independent, contradictions, equations::freedom};
+use lagrangian_spec::diagnostic::{Code, Report};
 
 use crate::harness::{derived, library, text_of};
 
@@ -51,6 +52,7 @@ fn every_mechanism_of_the_library_can_move() {
             found.degrees().is_some_and(|degrees| degrees > 0),
             "{name}: {found:?}"
         );
+        assert_eq!(told(&text), Vec::<String>::new(), "{name}");
     }
 }
 
@@ -171,5 +173,144 @@ fn the_rank_of_a_mixture_is_the_rank_of_what_was_mixed() {
         }
         let (_, _, independent) = counts(&text);
         assert_eq!(independent, Some((rank, rank)), "case {case}: {text}");
+    }
+}
+
+/// What is said of contradictions.
+fn told(text: &str) -> Vec<String> {
+    derived(text, |model, equations| {
+        let mut report = Report::new();
+        contradictions(model, equations, &mut report);
+        let messages = report.messages().into_iter();
+        messages
+            .map(|message| {
+                assert_eq!(message.code, Code::Contradiction);
+                message.message.clone()
+            })
+            .collect()
+    })
+}
+
+/// A particle with these constraints.
+fn particle(constraints: &str) -> String {
+    format!(
+        "machine P in plane {{ parameters {{ w: rad/s = 1.3, d: m = 2 }} coordinates {{ x: m = 1, y: m = 0.3 }} bodies {{ p {{ mass: 1, at: (x, y) }} }}
+         constraints {{ {constraints} }} }}"
+    )
+}
+
+#[test]
+fn contradicting_constraints_are_named_with_their_residuals() {
+    for (constraints, expected) in [
+        // At x = 3/2 both are off by the same.
+        (
+            "one: x = 1, two: x = 2",
+            "`two` contradicts `one` near the start: 5.00e-1 m",
+        ),
+        // A circle of radius 1 and the line x = 2, rows measured at (1, 0.3): their lengths are 2 √1.09 and 1. The minimum
+        // of (x² − 1)²/4.36 + (x − 2)² has 2 x³ − 2 x + 4.36 (x − 2) = 0: x = 1.394885.
+        (
+            "rod: x^2 + y^2 = 1, wall: x = 2",
+            "`wall` contradicts `rod` near the start: 6.05e-1 m",
+        ),
+        (
+            "alone: x^2 + y^2 = -1",
+            "`alone` cannot be met near the start: 1.00e0 m^2",
+        ),
+        (
+            "held: x = 1, moved: der(x) = 2",
+            "`moved` contradicts `held` near the start: 1.00e0 m/s",
+        ),
+        (
+            "a: der(x) = 1, b: 2*der(x) = 4",
+            "`b` contradicts `a` near the start: 1.00e0 m/s",
+        ),
+    ] {
+        let told = told(&particle(constraints));
+        assert!(
+            matches!(&told[..], [only] if only.contains(expected)),
+            "{constraints}: {told:?}"
+        );
+    }
+}
+
+#[test]
+fn what_can_be_met_contradicts_nothing() {
+    for constraints in [
+        "one: x = 1, two: x = 1",
+        // Circles that touch from outside, and from inside: no place beside the one.
+        "a: x^2 + y^2 = 1, b: (x - 2)^2 + y^2 = 1",
+        "a: x^2 + y^2 = 4, b: (x - 1)^2 + y^2 = 1",
+        "a: x = d*sin(w*t), b: der(x) = d*w*cos(w*t)",
+        "ring: x^2 + y^2 = 1, again: 3*sqrt(x^2 + y^2) = 3, drive: der(x) = 0.1",
+        "far: x = 1e6, level: y = x",
+    ] {
+        assert_eq!(
+            told(&particle(constraints)),
+            Vec::<String>::new(),
+            "{constraints}"
+        );
+    }
+}
+
+/// Rows at random through a point at random, the last a combination of the others, with and without something added.
+#[test]
+fn dependent_rows_contradict_where_something_is_added() {
+    let mut state = std::time::SystemTime::now()
+        .duration_since(std::time::UNIX_EPOCH)
+        .map_or(1, |now| now.as_nanos() as u64)
+        | 1;
+    println!("seed {state}");
+    let mut random = move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        // Few digits, so that sums of products are exact.
+        (state >> 56) as f64 / 16.0 - 8.0
+    };
+    const COUNT: usize = 4;
+    for _ in 0..20 {
+        let point: Vec<f64> = (0..COUNT).map(|_| random()).collect();
+        let mut rows: Vec<Vec<f64>> = (0..2)
+            .map(|_| (0..COUNT).map(|_| random()).collect())
+            .collect();
+        let weights = [random() + 9.0, random() + 9.0];
+        rows.push(
+            (0..COUNT)
+                .map(|j| weights[0] * rows[0][j] + weights[1] * rows[1][j])
+                .collect(),
+        );
+        for added in [0.0, 0.25] {
+            let rows = rows.iter().enumerate().map(|(k, row)| {
+                let terms: Vec<String> = row
+                    .iter()
+                    .enumerate()
+                    .map(|(j, a)| format!("({a})*x{j}"))
+                    .collect();
+                let right: f64 = row.iter().zip(&point).map(|(a, q)| a * q).sum();
+                let right = right + if k == 2 { added } else { 0.0 };
+                format!("c{k}: {} = {right}", terms.join(" + "))
+            });
+            let rows: Vec<String> = rows.collect();
+            let names: Vec<String> = (0..COUNT).map(|j| format!("x{j}: m = 0.5")).collect();
+            let bodies: Vec<String> = (0..COUNT)
+                .map(|j| format!("b{j} {{ mass: 1, at: (x{j}, 0) }}"))
+                .collect();
+            let text = format!(
+                "machine M in plane {{ coordinates {{ {} }} bodies {{ {} }} constraints {{ {} }} }}",
+                names.join(", "),
+                bodies.join(", "),
+                rows.join(", ")
+            );
+            let told = told(&text);
+            let expected = match added == 0.0 {
+                true => Vec::new(),
+                false => vec!["the constraint `c2` contradicts `c0`, `c1` near the start"],
+            };
+            assert_eq!(told.len(), expected.len(), "{text}: {told:?}");
+            for (told, expected) in told.iter().zip(expected) {
+                assert!(told.starts_with(expected), "{text}: {told}");
+            }
+        }
     }
 }

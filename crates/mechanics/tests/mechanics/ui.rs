@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use lagrangian_mechanics::Compiled;
+use lagrangian_mechanics::{Compiled, contradictions};
 use lagrangian_spec::diagnostic::{Code, Report};
 use lagrangian_spec::source::{InMemory, SOURCE_LIMIT, SourceId, Sources};
 use lagrangian_spec::token::lex;
@@ -58,6 +58,9 @@ fn printed(specs: &BTreeMap<String, String>, name: &str) -> (String, Vec<Code>) 
         lagrangian_spec::model(&dag, name, text, &[], &mut files, &mut sources, &mut report);
     let compiled = model.and_then(|model| Compiled::new(model, &mut report));
     assert_eq!(compiled.is_none(), report.has_errors(), "{name}");
+    if let Some(compiled) = &compiled {
+        contradictions(&compiled.model, &compiled.equations, &mut report);
+    }
     let codes = report
         .messages()
         .iter()
