@@ -104,12 +104,14 @@ pub struct Linearized {
     pub mass: DMatrix<f64>,
     /// ∂r/∂z.
     pub by_places: DMatrix<f64>,
-    /// The same as a covariant derivative in the metric M: without what T turns of the forces that are not balanced,
-    /// `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`, and without what M itself bends,
-    /// `½ (∂M(Tᵢ) Hⱼ + ∂M(Hⱼ) Tᵢ) b − ½ Tᵢ ∂M(b) Hⱼ`. What is 0 of r in one choice of I is so in each, Newton's method with this
-    /// goes the same way in each, and `rᵀ (Tᵀ M T)⁻¹ r` falls along its steps.
-    /// (P.-A. Absil, R. Mahony, R. Sepulchre, *Optimization Algorithms on Matrix Manifolds*, 2008, sections 5.3 and 6.1.)
+    /// The same without what T turns of the forces that are not balanced, `(∂T/∂z)ᵀ M b` with `b = T (Tᵀ M T)⁻¹ r`: what is 0 of
+    /// r in one choice of I is so in each.
     pub as_balanced: DMatrix<f64>,
+    /// The covariant derivative of r in the metric M: that without what M itself bends,
+    /// `½ (∂M(Tᵢ) Hⱼ + ∂M(Hⱼ) Tᵢ) b − ½ Tᵢ ∂M(b) Hⱼ`. Newton's method with this goes the same way in each choice, and
+    /// `rᵀ (Tᵀ M T)⁻¹ r` falls along its steps. (P.-A. Absil, R. Mahony, R. Sepulchre, *Optimization Algorithms on Matrix
+    /// Manifolds*, 2008, sections 5.3 and 6.1.)
+    pub covariant: DMatrix<f64>,
     /// ∂r/∂s.
     pub by_rates: DMatrix<f64>,
     /// ∂v_F/∂z.
@@ -129,6 +131,7 @@ macro_rules! matrices {
             $($borrow)+ $of.mass,
             $($borrow)+ $of.by_places,
             $($borrow)+ $of.as_balanced,
+            $($borrow)+ $of.covariant,
             $($borrow)+ $of.by_rates,
             $($borrow)+ $of.followers_by_places,
             $($borrow)+ $of.along,
@@ -138,11 +141,11 @@ macro_rules! matrices {
 }
 
 impl Linearized {
-    fn each(&self) -> [&DMatrix<f64>; 9] {
+    fn each(&self) -> [&DMatrix<f64>; 10] {
         matrices!(self, &)
     }
 
-    fn each_mut(&mut self) -> [&mut DMatrix<f64>; 9] {
+    fn each_mut(&mut self) -> [&mut DMatrix<f64>; 10] {
         matrices!(self, &mut)
     }
 
@@ -157,6 +160,11 @@ impl Linearized {
 
     /// How r changes where the machine is displaced as it may move, for Newton's method.
     pub fn stiffness(&self, choice: &Choice) -> DMatrix<f64> {
+        &self.covariant * self.displaced(choice)
+    }
+
+    /// The same in the coordinates: what does not change r there stays where it is.
+    pub fn dependence(&self, choice: &Choice) -> DMatrix<f64> {
         &self.as_balanced * self.displaced(choice)
     }
 
@@ -584,6 +592,7 @@ impl<'a> Reduced<'a> {
             mass: along.transpose() * &mass * &along,
             by_places: DMatrix::zeros(count, places),
             as_balanced: DMatrix::zeros(count, places),
+            covariant: DMatrix::zeros(count, places),
             by_rates: DMatrix::zeros(count, count),
             followers_by_places: DMatrix::zeros(choice.followers.len(), places),
             along,
@@ -626,7 +635,7 @@ impl<'a> Reduced<'a> {
         let (along, tangent) = (linearized.along.transpose(), &linearized.tangent);
         let bends = displaced.transpose() * bent.transpose() * tangent + &along * bent
             - along * along_b * tangent;
-        linearized.as_balanced -= bends * 0.5;
+        linearized.covariant = &linearized.as_balanced - bends * 0.5;
         q = constant(&place.q);
         for column in 0..count {
             s[column].derivative = DoubleDouble::ONE;

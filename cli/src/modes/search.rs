@@ -170,7 +170,10 @@ pub fn find(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Result<Fou
             None => return Err(fault.unwrap_or(Lost::NoEnd(steps))),
         }
     }
-    Err(Lost::NoEnd(wanted.steps))
+    match here.is_stuck() {
+        true => here.settled(wanted.steps),
+        false => Err(Lost::NoEnd(wanted.steps)),
+    }
 }
 
 /// How the machine is displaced: along T, and in the rates that are to be found.
@@ -217,13 +220,16 @@ impl Point {
         let lower =
             factor(&here.mass, &bounds.mass).map_err(|k| Fault::Singular(choice.independent[k]))?;
         // A coordinate that is given, or that nothing depends on, stays.
-        let (stiffness, rough) = (
-            here.stiffness(&choice),
-            bounds_of_stiffness(&here, &bounds, &choice),
-        );
+        let displaced = here.displaced(&choice);
+        let of = |here: &DMatrix<f64>, rough: &DMatrix<f64>| {
+            let (displaced, off) = (displaced.abs(), bounds.displaced(&choice));
+            rough * displaced + here.abs() * off
+        };
+        let depends = here.dependence(&choice);
+        let rough = of(&here.as_balanced, &bounds.as_balanced);
         let stays = |c: usize| {
             wanted.steady[choice.independent[c]]
-                || (0..count).all(|i| stiffness[(i, c)].abs() <= rough[(i, c)])
+                || (0..count).all(|i| depends[(i, c)].abs() <= rough[(i, c)])
         };
         let stays: Vec<bool> = (0..count).map(stays).collect();
         let mass = DMatrix::from_fn(count, count, |i, j| {
@@ -249,6 +255,8 @@ impl Point {
         let kept = |m: &DMatrix<f64>| {
             DMatrix::from_fn(count, count, |i, c| if stays[c] { 0.0 } else { m[(i, c)] })
         };
+        let stiffness = here.stiffness(&choice);
+        let rough = of(&here.covariant, &bounds.covariant);
         let (stiffness, rough) = (kept(&settled(&stiffness, &rough)), kept(&rough));
         let mut matrix = right(&left(&stiffness));
         let mut rough = &size_left * rough * &size_right;
@@ -541,10 +549,4 @@ fn factor(mass: &DMatrix<f64>, bounds: &DMatrix<f64>) -> Result<DMatrix<f64>, us
 /// What may be rounding is 0.
 pub fn settled(matrix: &DMatrix<f64>, bounds: &DMatrix<f64>) -> DMatrix<f64> {
     matrix.zip_map(bounds, |x, bound| if x.abs() <= bound { 0.0 } else { x })
-}
-
-/// What rounding may make of ∂r/∂q along T.
-fn bounds_of_stiffness(here: &Linearized, bounds: &Linearized, choice: &Choice) -> DMatrix<f64> {
-    let (displaced, rough) = (here.displaced(choice).abs(), bounds.displaced(choice));
-    &bounds.as_balanced * &displaced + here.as_balanced.abs() * rough
 }
