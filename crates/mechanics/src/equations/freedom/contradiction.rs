@@ -115,7 +115,7 @@ impl Places<'_, '_> {
             Some((residuals, rows))
         };
         let (mut residuals, mut rows) = look(&place)?;
-        let sizes: Vec<DoubleDouble> = rows.iter().map(|row| size(row)).collect();
+        let sizes: Vec<DoubleDouble> = rows.iter().map(size).collect();
         let scale = |residuals: &mut Row, rows: &mut [Row]| {
             for ((residual, row), &size) in residuals.iter_mut().zip(rows).zip(&sizes) {
                 *residual = *residual / size;
@@ -162,7 +162,7 @@ impl Places<'_, '_> {
     /// What rows that depend on each other leave of the rates `at_rest`, at a place that meets the constraints.
     fn contradicting_rates(&self, place: &Row, at_rest: Row) -> Option<Contradiction> {
         let (_, rows) = self.at(place)?;
-        let sizes: Vec<DoubleDouble> = rows.iter().map(|row| size(row)).collect();
+        let sizes: Vec<DoubleDouble> = rows.iter().map(size).collect();
         let rates: Row = at_rest.iter().zip(&sizes).map(|(&b, &s)| b / s).collect();
         let most = largest(&rates);
         // Combinations of the rows that come to nothing are across the columns of G.
