@@ -38,6 +38,8 @@ pub enum Command {
     Map(Map),
     /// Find an equilibrium, and print eigenfrequencies, damping ratios and mode shapes about it.
     Modes(Modes),
+    /// Make the linear model about an equilibrium, a steady motion or any state: A, B, C, D; poles, zeros, frequency response.
+    Linearize(Box<Linearize>),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
 }
@@ -54,6 +56,7 @@ impl Command {
             Command::Sweep(call) => &call.spec,
             Command::Map(_) => return None,
             Command::Modes(call) => &call.spec,
+            Command::Linearize(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
         })
     }
@@ -73,12 +76,13 @@ impl Command {
             Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
             Command::Map(call) => add("--only", &call.only),
             Command::Evaluate(Evaluate { start, .. })
-            | Command::Simulate(Simulate { start, .. })
-            | Command::Modes(Modes { start, .. }) => {
+            | Command::Simulate(Simulate { start, .. }) => {
                 add("--set", &start.parameters);
                 add("--start", &start.coordinates);
                 add("--rate", &start.rates);
             }
+            Command::Modes(Modes { search, .. }) => search.named(&mut named),
+            Command::Linearize(call) => call.search.named(&mut named),
             Command::Sweep(call) => {
                 add("--set", &call.start.parameters);
                 add("--start", &call.start.coordinates);
@@ -98,9 +102,6 @@ impl Command {
             add("--event", &call.events);
             add("--until-event", &call.ends);
             add("--reduce", &call.reductions);
-        }
-        if let Command::Modes(call) = self {
-            named.extend(call.steady.iter().map(|s| ("--steady", s.name.as_str())));
         }
         let constants = self.spec().into_iter().flat_map(|spec| &spec.constants);
         named.extend(constants.map(|(name, _)| ("--const", name.as_str())));
@@ -426,11 +427,9 @@ pub enum Design {
     Sobol,
 }
 
-/// Arguments of `modes`.
+/// Where an equilibrium or a steady motion is sought.
 #[derive(Debug, Args)]
-pub struct Modes {
-    #[command(flatten)]
-    pub spec: Spec,
+pub struct Search {
     #[command(flatten)]
     pub start: Start,
     #[command(flatten)]
@@ -439,6 +438,30 @@ pub struct Modes {
     /// with `phi=solve` at one that is to be found.
     #[arg(long = "steady", value_name = "NAME[=RATE]", value_parser = steady, allow_hyphen_values = true)]
     pub steady: Vec<Steady>,
+}
+
+impl Search {
+    /// Every name that it gives a value, with the option that does it.
+    fn named<'a>(&'a self, named: &mut Vec<(&'static str, &'a str)>) {
+        let lists = [
+            ("--set", &self.start.parameters),
+            ("--start", &self.start.coordinates),
+            ("--rate", &self.start.rates),
+        ];
+        for (option, list) in lists {
+            named.extend(list.iter().map(|set| (option, set.name.as_str())));
+        }
+        named.extend(self.steady.iter().map(|s| ("--steady", s.name.as_str())));
+    }
+}
+
+/// Arguments of `modes`.
+#[derive(Debug, Args)]
+pub struct Modes {
+    #[command(flatten)]
+    pub spec: Spec,
+    #[command(flatten)]
+    pub search: Search,
     /// Follow the motion along values of a parameter, an input, or the rate of a coordinate, as in `--vary roll=0..10:101`, and name
     /// those at which modes change their kind.
     #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true)]
@@ -449,6 +472,67 @@ pub struct Modes {
     /// Draw as SVG frequencies and growth along `--vary`, and the root locus.
     #[arg(long, value_name = "FILE.svg", requires = "vary")]
     pub plot: Option<PathBuf>,
+}
+
+/// Arguments of `linearize`.
+#[derive(Debug, Args)]
+pub struct Linearize {
+    #[command(flatten)]
+    pub spec: Spec,
+    #[command(flatten)]
+    pub search: Search,
+    /// Linearize about the start as it is, with the rates that it has, whether it stays there or not.
+    #[arg(long, conflicts_with_all = ["steady", "along"])]
+    pub here: bool,
+    /// Which inputs of the machine the model has; all where left out.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', value_parser = observed)]
+    pub inputs: Vec<String>,
+    /// What the model has as outputs: outputs of the spec, coordinates, `der(x)`, `der(x,2)`, `multiplier(rod)`; where left out
+    /// the outputs of the spec, or, if it has none, its coordinates.
+    #[arg(long, value_name = "NAME,…")]
+    pub outputs: Vec<String>,
+    /// Write the model: `.json`, `.npz` for NumPy, `.mat` for MATLAB, or `.csv`, a file for each matrix, NAME.A.csv and so on.
+    /// Along a range, a table `.csv` or `.parquet` with a row for each eigenvalue.
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Draw as SVG gain and phase over the frequency, from each input to each output.
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "along")]
+    pub bode: Option<PathBuf>,
+    /// Draw as SVG the frequency response in the complex plane, from each input to each output.
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "along")]
+    pub nyquist: Option<PathBuf>,
+    /// Follow the eigenvalues along values of a parameter, an input, or the rate of a coordinate, as in
+    /// `--along omega=10..300:200`.
+    #[arg(long, value_name = "NAME=FROM..TO:COUNT", value_parser = vary, allow_hyphen_values = true, requires = "out",
+        conflicts_with_all = ["inputs", "outputs"])]
+    pub along: Option<Vary>,
+}
+
+fn observed(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("expected a name".into()),
+        name => Ok(normalized(name).into_owned()),
+    }
+}
+
+/// The names in a list of outputs; the comma in `der(x,2)` stands within brackets.
+pub fn names_of(lists: &[String]) -> Result<Vec<String>, String> {
+    let mut names = Vec::new();
+    for list in lists {
+        let (mut depth, mut start) = (0_usize, 0);
+        for (place, letter) in list.char_indices().chain([(list.len(), ',')]) {
+            match letter {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth = depth.saturating_sub(1),
+                ',' if depth == 0 || place == list.len() => {
+                    names.push(observed(&list[start..place])?);
+                    start = place + 1;
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(names)
 }
 
 /// Arguments of `brachistochrone`.

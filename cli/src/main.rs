@@ -15,6 +15,7 @@ mod exit;
 mod failure;
 mod interrupt;
 mod library;
+mod linearize;
 mod map;
 mod modes;
 mod numbers;
@@ -85,6 +86,7 @@ fn answer(call: &Call) -> u8 {
         Command::Sweep(call) => sweep::run(call),
         Command::Map(call) => map::run(call),
         Command::Modes(call) => modes::run(call),
+        Command::Linearize(call) => linearize::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
     });
     match result {

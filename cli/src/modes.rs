@@ -1,23 +1,20 @@
 //! `lagrangian modes`: where a machine stays, and how it moves about that place.
 
 mod locus;
-mod motion;
-mod precise;
-mod rank;
-mod reduced;
-mod search;
-mod spectrum;
-mod vary;
+pub mod vary;
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, System};
+use lagrangian_linear::Complex;
+use lagrangian_linear::motion::Motion;
+use lagrangian_linear::search::{self, Wanted};
+use lagrangian_linear::spectrum::{Mode, Modes, damping};
+use lagrangian_linear::steady::{self, Options};
 use lagrangian_mechanics::Compiled;
-use lagrangian_program::Role;
 use lagrangian_symbolic::Dag;
-use nalgebra::Complex;
 use serde_json::{Map, Value, json};
 
 use crate::call;
@@ -26,11 +23,13 @@ use crate::failure::Failure;
 use crate::output::{self, Destination, SVG, TABLE, keep_apart};
 use crate::reading::{self, Reading};
 use crate::table;
-use motion::{Motion, State, Unsteady};
-use reduced::{Fault, Place, Reduced};
-use search::{Lost, Wanted};
-use spectrum::{Mode, Modes};
 use vary::{Critical, Trace};
+
+/// By which options a call says where to look.
+pub const OPTIONS: Options = Options {
+    start: "--start",
+    steady: "--steady",
+};
 
 /// The files that a call asks for.
 struct Files {
@@ -61,27 +60,13 @@ impl Files {
 pub fn run(call: &call::Modes) -> Result<(), Failure> {
     let files = Files::new(call)?;
     let dag = Dag::new();
-    let compiled = compiled(&call.spec, &dag, &files)?;
-    let machine = reading::machine(&compiled, &call.start)?;
-    machine.check_parameters().map_err(|missing| {
-        Failure::Run(format!(
-            "{missing}; set them with --set {}=…",
-            missing.names.join("=… --set ")
-        ))
-    })?;
-    reading::check_kept(&machine.start(), &call.keep)?;
+    let compiled = compiled(&call.spec, &dag, files.all(), "modes")?;
+    let machine = ready(&compiled, &call.search)?;
     if let Some(vary) = &call.vary {
-        let trace = vary::trace(call, vary, &compiled, &machine)?;
+        let trace = vary::trace(&call.search, ("--vary", vary), &compiled, &machine)?;
         return show(call, &machine, &trace, &files);
     }
-    let mut start = machine.start();
-    set_start(&mut start, &call.start)?;
-    let wanted = wanted(call, &mut start.v)?;
-    let q = start.q.values.clone();
-    refuse_drives(&machine, &q, &wanted)?;
-    start.v.values = rates(&wanted);
-    let from = on_constraints(&machine, &call.keep, start)?;
-    let motion = motion(&machine, &from, &wanted)?;
+    let Reached { q, wanted, motion } = reach(&machine, &call.search)?;
     let system = machine.prepare();
     let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
     if call.spec.json {
@@ -92,6 +77,43 @@ pub fn run(call: &call::Modes) -> Result<(), Failure> {
         output::text(&text(&names, &units, &q, &wanted, &motion));
     }
     Ok(())
+}
+
+/// The machine with the parameters of a call, all of which have values.
+pub fn ready(
+    compiled: &Compiled<'_>,
+    search: &call::Search,
+) -> Result<InterpretedMachine, Failure> {
+    let machine = reading::machine(compiled, &search.start)?;
+    machine.check_parameters().map_err(|missing| {
+        Failure::Run(format!(
+            "{missing}; set them with --set {}=…",
+            missing.names.join("=… --set ")
+        ))
+    })?;
+    reading::check_kept(&machine.start(), &search.keep)?;
+    Ok(machine)
+}
+
+/// A steady motion, and from where it was sought.
+pub struct Reached {
+    /// Coordinates of the start.
+    pub q: Vec<f64>,
+    pub wanted: Wanted,
+    pub motion: Motion,
+}
+
+/// The steady motion near the start of a call.
+pub fn reach(machine: &InterpretedMachine, search: &call::Search) -> Result<Reached, Failure> {
+    let mut start = machine.start();
+    set_start(&mut start, &search.start)?;
+    let wanted = wanted(search, &mut start.v)?;
+    let q = start.q.values.clone();
+    refuse_drives(machine, &q, &wanted)?;
+    start.v.values = wanted.given();
+    let from = on_constraints(machine, &search.keep, start)?;
+    let motion = motion(machine, &from, &wanted)?;
+    Ok(Reached { q, wanted, motion })
 }
 
 /// The pose from which to look: where something of the start is kept, the start of a run, which keeps it.
@@ -114,77 +136,37 @@ fn on_constraints(
 }
 
 /// The steady motion that is reached from `q`, and the motions near it.
-fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
-    let system = machine.prepare();
-    let inputs = system.default_inputs().values;
-    let rates: Vec<f64> = rates(wanted);
-    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &rates));
-    let found = search::find(&mut reduced, q, wanted);
-    let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
-        // What depends on where it is cannot be balanced for long either.
-        Some(unsteady) => failure_of(&system, &unsteady),
-        None => failure(&system, wanted, &lost),
-    })?;
-    let motion = motion::near(&mut reduced, found, &wanted.steady);
-    motion.map_err(|unsteady| failure_of(&system, &unsteady))
+pub fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
+    let motion = steady::motion(machine, q, wanted);
+    motion.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), wanted, OPTIONS)))
 }
 
-/// Rates of the coordinates that move steadily.
-fn rates(wanted: &Wanted) -> Vec<f64> {
-    let rates = wanted.rates.iter().zip(&wanted.steady);
-    rates
-        .map(|(rate, is_steady)| if *is_steady { *rate } else { 0.0 })
-        .collect()
-}
-
-/// Whether the equations depend, where the search begins, on what is to move steadily.
-fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Option<Unsteady> {
-    if !wanted.steady.contains(&true) {
-        return None;
-    }
-    let mut wide: Vec<_> = q.iter().map(|x| (*x).into()).collect();
-    reduced.bring(&mut wide, &|_| true).ok()?;
-    let choice = reduced.choose(q, &wanted.steady).ok()?;
-    let s = choice.independent.iter().map(|j| match wanted.steady[*j] {
-        true => wanted.rates[*j].into(),
-        false => 0.0.into(),
-    });
-    let place = Place {
-        s: s.collect(),
-        q: wide,
-    };
-    let (here, bounds) = reduced.linearized(&choice, &place).ok()?;
-    let state = State {
-        choice: &choice,
-        place: &place,
-        here: &here,
-        bounds: &bounds,
-    };
-    motion::records(reduced, &state).err()
-}
-
-/// The program, as far as nothing sticks in it.
-fn compiled<'d>(spec: &call::Spec, dag: &'d Dag, files: &Files) -> Result<Compiled<'d>, Failure> {
+/// The program, of a machine that has what is asked for: `modes`, or a `linear model`.
+pub fn compiled<'d, 'a>(
+    spec: &call::Spec,
+    dag: &'d Dag,
+    files: impl IntoIterator<Item = &'a Destination>,
+    what: &str,
+) -> Result<Compiled<'d>, Failure> {
     let mut reading = Reading::open(spec)?;
     let model = reading.model(dag);
-    reading.keep_from(files.all())?;
+    reading.keep_from(files)?;
     if model
         .as_ref()
         .is_some_and(|model| !model.sliding().is_empty())
     {
-        return Err(Failure::run(
+        return Err(Failure::Run(format!(
             "friction holds a machine that is at rest wherever it stands within a range, and what slides has no linearization there: a \
-             machine with `sliding` has no modes; take them of a variant without friction, with a constraint in the place of \
-             each guide",
-        ));
+             machine with `sliding` has no {what}; take a variant without friction, with a constraint in the place of each guide"
+        )));
     }
     if model
         .as_ref()
         .is_some_and(|model| !model.contacts.is_empty())
     {
-        return Err(Failure::run(
-            "what collides has no linearization: a machine with `contacts` has no modes; say it without them",
-        ));
+        return Err(Failure::Run(format!(
+            "what collides has no linearization: a machine with `contacts` has no {what}; say it without them"
+        )));
     }
     let compiled = model.and_then(|model| Compiled::new(model, &mut reading.report));
     match compiled {
@@ -203,10 +185,10 @@ fn rate_unit(coordinates: &Named, name: &str) -> String {
 }
 
 /// Which coordinates turn steadily, and with which rates.
-fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
+fn wanted(search: &call::Search, rates: &mut Named) -> Result<Wanted, Failure> {
     let mut steady = vec![false; rates.values.len()];
     let mut solved = steady.clone();
-    for call::Steady { name, rate } in &call.steady {
+    for call::Steady { name, rate } in &search.steady {
         let mut probe = rates.clone();
         probe.values.fill(0.0);
         let unknown = |unknown| reading::name_error("coordinate", &unknown);
@@ -235,64 +217,11 @@ fn wanted(call: &call::Modes, rates: &mut Named) -> Result<Wanted, Failure> {
     })
 }
 
-/// The start, and two states beside it that have nothing in common.
-fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
-    let beside = |list: &[f64], seed: usize| -> Vec<f64> {
-        let shift = |k: usize| 0.01 + ((seed + 7 * k) * 29 % 97) as f64 / 997.0;
-        list.iter()
-            .enumerate()
-            .map(|(k, x)| x + shift(k) * x.abs().max(1.0))
-            .collect()
-    };
-    [
-        (q.to_vec(), v.to_vec()),
-        (beside(q, 1), beside(v, 2)),
-        (beside(q, 3), beside(v, 4)),
-    ]
-}
-
 /// Refuses a machine whose equations change with time: it is at rest nowhere.
 fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<(), Failure> {
-    let reads_time = |role: &Role| {
-        let function = machine.program().function(*role);
-        function.is_some_and(|function| function.reads().time)
-    };
-    let roles = [
-        Role::MassMatrix,
-        Role::Forces,
-        Role::ConstraintMatrix,
-        Role::ConstraintRates,
-        Role::ConstraintDrift,
-        Role::ConstraintPositions,
-    ];
-    if !roles.iter().any(reads_time) {
+    let Err(names) = steady::drives(machine, q, wanted) else {
         return Ok(());
-    }
-    let states = states(q, &rates(wanted));
-    // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
-    let stands_still = |machine: &InterpretedMachine| {
-        let system = machine.prepare();
-        let inputs = system.default_inputs().values;
-        Reduced::new(machine, &system, &inputs, &[]).stands_still(&states)
     };
-    if stands_still(machine) {
-        return Ok(());
-    }
-    // Nor is a machine without inertia, on which the drive has no hold either.
-    let is_regular = |machine: &InterpretedMachine| {
-        let system = machine.prepare();
-        Reduced::new(machine, &system, &[], &[]).is_regular(&states)
-    };
-    let has_inertia = is_regular(machine);
-    let stops = |name: &&str| {
-        let mut still = machine.clone();
-        still.set(name, 0.0).is_ok() && (is_regular(&still) || !has_inertia) && stands_still(&still)
-    };
-    let names: Vec<String> = machine
-        .parameters()
-        .map(|(parameter, _)| parameter.name.to_owned())
-        .collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).filter(stops).collect();
     let help = match names.is_empty() {
         true => "give the drive a parameter that stops it, or a coordinate of its own".to_owned(),
         false => format!(
@@ -303,93 +232,6 @@ fn refuse_drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Re
     Err(Failure::Run(format!(
         "the machine is driven: its equations change with time, so that it is at rest nowhere; {help}"
     )))
-}
-
-fn name(system: &InterpretedSystem, index: usize) -> String {
-    let coordinate = system.coordinates().nth(index);
-    coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
-}
-
-fn failure_of(system: &InterpretedSystem, unsteady: &Unsteady) -> Failure {
-    let name = |index: &usize| name(system, *index);
-    Failure::Run(match unsteady {
-        Unsteady::Depends(index) => format!(
-            "`{}` cannot turn steadily: the equations of motion depend on where it is",
-            name(index)
-        ),
-        Unsteady::Follows(index, other) => format!(
-            "`{}` cannot turn steadily: the rate of `{}` changes with it, and the equations of motion depend on where that is",
-            name(other),
-            name(index)
-        ),
-        Unsteady::Fault(fault) => what(system, fault),
-        Unsteady::NoEigenvalues => "the eigenvalues cannot be found".to_owned(),
-    })
-}
-
-fn what(system: &InterpretedSystem, fault: &Fault) -> String {
-    let name = |index: &usize| name(system, *index);
-    match fault {
-        Fault::Singular(index) => format!(
-            "the mass matrix is singular in `{}` on the way to an equilibrium; --start sets another place to look from",
-            name(index)
-        ),
-        Fault::NotFinite(index) => format!(
-            "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; --start sets another \
-             place to look from",
-            name(index)
-        ),
-        Fault::Follows(index) => format!(
-            "--steady {0}: by the constraints the rate of `{0}` follows from the others; leave it out, or one of those",
-            name(index)
-        ),
-        Fault::Unmet(index) => {
-            let constraint = system.constraints().nth(*index);
-            let name = constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
-            format!(
-                "the constraint `{name}` cannot be met near the start; --start sets another place to look from"
-            )
-        }
-    }
-}
-
-fn failure(system: &InterpretedSystem, wanted: &Wanted, lost: &Lost) -> Failure {
-    let kind = match wanted.steady.contains(&true) {
-        true => "steady motion",
-        false => "equilibrium",
-    };
-    let place = match wanted.steady.contains(&true) {
-        true => "--start sets another place to look from, --steady other rates",
-        false => "--start sets another place to look from",
-    };
-    Failure::Run(match lost {
-        Lost::Fault(fault) => what(system, fault),
-        Lost::Accelerates(index, left) => format!(
-            "there is no {kind} near the start: nothing takes the acceleration {left:.3e} of `{}` away; {place}",
-            name(system, *index)
-        ),
-        Lost::NoEnd(steps) => {
-            let times = if *steps == 1 { "step" } else { "steps" };
-            format!("no {kind} was found in {steps} {times} from the start; {place}")
-        }
-    })
-}
-
-/// What a mode is.
-fn kind(mode: &Mode) -> &'static str {
-    let Complex { re, im } = mode.lambda;
-    match (re > 0.0, re < 0.0, im > 0.0) {
-        (false, false, false) => "free",
-        (true, _, true) => "growing oscillation",
-        (true, _, false) => "growing",
-        (_, true, false) => "decaying",
-        _ => "oscillation",
-    }
-}
-
-/// Of an oscillation `−Re λ/|λ|`; a motion without one has no ratio.
-fn damping(mode: &Mode) -> Option<f64> {
-    (mode.lambda.im > 0.0).then(|| 0.0 - mode.lambda.re / mode.lambda.norm())
 }
 
 fn as_json(names: &[&str], motion: &Motion) -> Value {
@@ -415,12 +257,12 @@ fn as_json(names: &[&str], motion: &Motion) -> Value {
                 .map(|((name, x), _)| ((*name).to_owned(), json!([x.re, x.im])))
                 .collect();
             json!({
-                "kind": kind(mode),
+                "kind": mode.kind(),
                 "re": mode.lambda.re,
                 "im": mode.lambda.im,
                 "error": mode.error,
                 "frequency": mode.lambda.im / TAU,
-                "damping": damping(mode),
+                "damping": damping(mode.lambda),
                 "shape": shape,
             })
         })
@@ -644,11 +486,18 @@ fn text_of_trace(trace: &Trace) -> String {
     text
 }
 
-fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
+/// Where a steady motion was found, a line a coordinate.
+pub fn text_of_place(
+    names: &[&str],
+    units: &[&str],
+    start: &[f64],
+    wanted: &Wanted,
+    motion: &Motion,
+) -> String {
     let mut text = String::new();
     let width = names.iter().map(|name| name.chars().count()).max();
     let width = width.unwrap_or(0);
-    let (found, modes) = (&motion.found, &motion.modes);
+    let found = &motion.found;
     let times = if found.steps == 1 { "step" } else { "steps" };
     let what = match wanted.steady.contains(&true) {
         true => "steady motion",
@@ -679,6 +528,15 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
         }
         text.push('\n');
     }
+    text
+}
+
+fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: &Motion) -> String {
+    let mut text = String::new();
+    let width = names.iter().map(|name| name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let modes = &motion.modes;
+    text.push_str(&text_of_place(names, units, start, wanted, motion));
     if modes.free > 0 {
         let ways = if modes.free == 1 { "way" } else { "ways" };
         let _ = writeln!(
@@ -698,7 +556,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
     for (index, mode) in modes.modes.iter().enumerate() {
         let Complex { re, im } = mode.lambda;
         let _ = write!(text, "\nmode {}: ", index + 1);
-        let _ = match (kind(mode), damping(mode)) {
+        let _ = match (mode.kind(), damping(mode.lambda)) {
             ("free", _) => {
                 let _ = write!(text, "free, nothing brings it back");
                 match mode.error > 0.0 {
@@ -718,7 +576,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
             _ => writeln!(text),
         };
         // Of six digits that are printed, all are right.
-        if mode.error > 0.5e-6 * mode.lambda.norm() && kind(mode) != "free" {
+        if mode.error > 0.5e-6 * mode.lambda.norm() && mode.kind() != "free" {
             let error = number(mode.error);
             let _ = writeln!(text, "  known no better than to {error} rad/s");
         }
@@ -748,7 +606,7 @@ fn text(names: &[&str], units: &[&str], start: &[f64], wanted: &Wanted, motion: 
 }
 
 /// Six digits, or fewer where they say as much.
-fn number(x: f64) -> String {
+pub fn number(x: f64) -> String {
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     match rounded.abs() {
         0.0 => "0".into(),

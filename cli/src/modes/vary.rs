@@ -1,4 +1,4 @@
-//! `--vary`: a steady motion that is followed while a parameter or a rate changes, and where its modes change their kind.
+//! `modes --vary` and `linearize --along`: a steady motion that is followed while a parameter or a rate changes, and where its modes change their kind.
 //!
 //! Each motion is sought from the one before it. Where it moves far for a small change, or is lost, the step is halved, so that
 //! what is followed is one motion and not now one, now another. Between two neighbours whose modes are of different kinds there
@@ -6,13 +6,13 @@
 
 use lagrangian::Machine as _;
 use lagrangian::interpreted::InterpretedMachine;
+use lagrangian_linear::Complex;
+use lagrangian_linear::motion::Motion;
+use lagrangian_linear::search::{self, Wanted};
+use lagrangian_linear::spectrum::Modes;
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Severity;
-use nalgebra::Complex;
 
-use super::motion::Motion;
-use super::search::Wanted;
-use super::spectrum::Modes;
 use super::{motion, refuse_drives, wanted};
 use crate::call;
 use crate::diagnostics;
@@ -117,28 +117,28 @@ struct At {
 /// What is followed.
 struct Tracer<'a> {
     machine: &'a InterpretedMachine,
-    call: &'a call::Modes,
+    search: &'a call::Search,
     name: &'a str,
     subject: Subject,
     wanted: Wanted,
 }
 
-/// Follows the steady motion of a call along the values of its `--vary`.
+/// Follows the steady motion of a call along the values of its `--vary`, or another option.
 ///
 /// # Errors
 /// If the call is at fault, or there is no motion at any value.
 pub fn trace(
-    call: &call::Modes,
-    vary: &call::Vary,
+    search: &call::Search,
+    (option, vary): (&str, &call::Vary),
     compiled: &Compiled<'_>,
     machine: &InterpretedMachine,
 ) -> Result<Trace, Failure> {
-    let (tracer, unit) = Tracer::new(call, vary, machine)?;
-    let end = |set: &call::Assignment| set.value("--vary", &unit).map_err(Failure::Call);
+    let (tracer, unit) = Tracer::new(search, (option, vary), machine)?;
+    let end = |set: &call::Assignment| set.value(option, &unit).map_err(Failure::Call);
     let (first, to) = (end(&vary.ends[0])?, end(&vary.ends[1])?);
     if first == to {
         let said = format!(
-            "--vary {}: from {first} to {to} there is nothing to vary",
+            "{option} {}: from {first} to {to} there is nothing to vary",
             vary.name
         );
         return Err(Failure::Call(said));
@@ -216,8 +216,8 @@ pub fn trace(
 
 impl<'a> Tracer<'a> {
     fn new(
-        call: &'a call::Modes,
-        vary: &'a call::Vary,
+        search: &'a call::Search,
+        (option, vary): (&str, &'a call::Vary),
         machine: &'a InterpretedMachine,
     ) -> Result<(Tracer<'a>, String), Failure> {
         let name = vary.name.as_str();
@@ -226,8 +226,8 @@ impl<'a> Tracer<'a> {
             .and_then(|name| name.strip_suffix(')'));
         let coordinate = coordinate.unwrap_or(name).trim();
         let mut start = machine.start();
-        set_start(&mut start, &call.start)?;
-        let mut wanted = wanted(call, &mut start.v)?;
+        set_start(&mut start, &search.start)?;
+        let mut wanted = wanted(search, &mut start.v)?;
         wanted.steps = MOST_STEPS;
         let mut probe = start.v.clone();
         probe.values.fill(0.0);
@@ -235,16 +235,19 @@ impl<'a> Tracer<'a> {
             let rates: Vec<usize> = (0..probe.values.len())
                 .filter(|j| probe.values[*j] != 0.0)
                 .collect();
-            let steady = call.steady.iter().find(|steady| steady.name == coordinate);
+            let steady = search
+                .steady
+                .iter()
+                .find(|steady| steady.name == coordinate);
             match steady.map(|steady| &steady.rate) {
                 Some(call::SteadyRate::Given(_)) => {
                     return Err(Failure::Call(format!(
-                        "--steady {coordinate}=… and --vary {name} both give the rate of `{coordinate}`: leave out the first"
+                        "--steady {coordinate}=… and {option} {name} both give the rate of `{coordinate}`: leave out the first"
                     )));
                 }
                 Some(call::SteadyRate::Solved) => {
                     return Err(Failure::Call(format!(
-                        "--steady {coordinate}=solve seeks the rate that --vary {name} gives: leave out one of them"
+                        "--steady {coordinate}=solve seeks the rate that {option} {name} gives: leave out one of them"
                     )));
                 }
                 _ => {}
@@ -258,7 +261,7 @@ impl<'a> Tracer<'a> {
             };
             let tracer = Tracer {
                 machine,
-                call,
+                search,
                 name: coordinate,
                 subject: Subject::Rates(rates),
                 wanted,
@@ -271,15 +274,15 @@ impl<'a> Tracer<'a> {
                 &unknown,
             ));
         }
-        if call.start.parameters.iter().any(|set| set.name == name) {
+        if search.start.parameters.iter().any(|set| set.name == name) {
             return Err(Failure::Call(format!(
-                "--set {name}=… and --vary {name} both give `{name}` a value: leave out the first"
+                "--set {name}=… and {option} {name} both give `{name}` a value: leave out the first"
             )));
         }
         let unit = machine.unit(name).unwrap_or("1").to_owned();
         let tracer = Tracer {
             machine,
-            call,
+            search,
             name,
             subject: Subject::Parameter,
             wanted,
@@ -300,11 +303,11 @@ impl<'a> Tracer<'a> {
     /// Where the search begins for itself.
     fn start(&self, machine: &InterpretedMachine) -> Result<(Vec<f64>, Wanted), Failure> {
         let mut start = machine.start();
-        set_start(&mut start, &self.call.start)?;
+        set_start(&mut start, &self.search.start)?;
         let mut wanted = self.wanted.clone();
-        wanted.rates = super::wanted(self.call, &mut start.v)?.rates;
-        start.v.values = super::rates(&wanted);
-        let from = super::on_constraints(machine, &self.call.keep, start)?;
+        wanted.rates = super::wanted(self.search, &mut start.v)?.rates;
+        start.v.values = wanted.given();
+        let from = super::on_constraints(machine, &self.search.keep, start)?;
         Ok((from, wanted))
     }
 
@@ -326,7 +329,7 @@ impl<'a> Tracer<'a> {
     fn anew(&self, value: f64) -> Result<Motion, Failure> {
         let machine = self.machine_at(value);
         let (q, mut wanted) = self.start(&machine)?;
-        wanted.steps = super::search::MOST_STEPS;
+        wanted.steps = search::MOST_STEPS;
         self.find(&machine, &q, wanted, value)
     }
 

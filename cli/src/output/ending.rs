@@ -14,6 +14,9 @@ pub const TABLE: Endings = &["csv", "parquet"];
 #[cfg(not(feature = "parquet"))]
 pub const TABLE: Endings = &["csv"];
 
+/// A linear model.
+pub const MODEL: Endings = &["json", "npz", "mat", "csv"];
+
 /// A drawing.
 pub const SVG: Endings = &["svg"];
 

@@ -9,6 +9,7 @@ mod constraints;
 mod contacts;
 mod impacts;
 mod library;
+mod linearize;
 mod map;
 mod modes;
 mod report;

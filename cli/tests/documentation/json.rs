@@ -31,7 +31,7 @@ fn keys(value: &Value) -> Vec<&String> {
 
 #[test]
 fn results_have_the_keys_that_the_page_prints() {
-    let [point, evaluated, simulated, modes, fastest] = &blocks()[..] else {
+    let [point, evaluated, simulated, modes, model, fastest] = &blocks()[..] else {
         panic!("the page has other blocks of JSON");
     };
     let spec = "machines/double_pendulum.machine";
@@ -51,6 +51,17 @@ fn results_have_the_keys_that_the_page_prints() {
     assert_eq!(keys(&found), keys(modes));
     assert_eq!(keys(&found["equilibrium"]), keys(&modes["equilibrium"]));
     assert_eq!(keys(&found["modes"][0]), keys(&modes["modes"][0]));
+
+    let found = printed(&["linearize", "machines/cart_pole.machine", "--json"]);
+    assert_eq!(keys(&found), keys(model));
+    assert_eq!(keys(&found["at"]), keys(&model["at"]));
+    for (list, entry) in [
+        ("states", "states"),
+        ("eigenvalues", "eigenvalues"),
+        ("outputs", "states"),
+    ] {
+        assert_eq!(keys(&found[list][0]), keys(&model[entry][0]));
+    }
 
     let prisms = ["brachistochrone", "machines/prisms.machine"];
     let to = ["--natural", "--to", "q1=12,q2=6", "--json"];

@@ -9,8 +9,8 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector};
 
-use super::precise::{self, Pair};
-use super::rank;
+use crate::precise::{self, Pair};
+use crate::rank;
 
 type Vector = DVector<Complex<f64>>;
 
@@ -23,6 +23,25 @@ pub struct Mode {
     pub error: f64,
     /// The amplitudes of the coordinates, the largest of them 1.
     pub shape: Vec<Complex<f64>>,
+}
+
+impl Mode {
+    /// What it is: `oscillation`, `growing oscillation`, `decaying`, `growing` or `free`.
+    pub fn kind(&self) -> &'static str {
+        let Complex { re, im } = self.lambda;
+        match (re > 0.0, re < 0.0, im > 0.0) {
+            (false, false, false) => "free",
+            (true, _, true) => "growing oscillation",
+            (true, _, false) => "growing",
+            (_, true, false) => "decaying",
+            _ => "oscillation",
+        }
+    }
+}
+
+/// The damping ratio of an oscillation, `−Re λ/|λ|`; a motion without one has no ratio.
+pub fn damping(lambda: Complex<f64>) -> Option<f64> {
+    (lambda.im != 0.0).then(|| 0.0 - lambda.re / lambda.norm())
 }
 
 /// All motions near an equilibrium.

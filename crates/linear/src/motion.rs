@@ -13,15 +13,15 @@
 
 use nalgebra::{Complex, DMatrix};
 
-use super::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
-use super::search::{Found, settled};
-use super::spectrum::{self, Linear, Mode, Modes};
+use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, divided};
+use crate::search::{Found, settled};
+use crate::spectrum::{self, Linear, Mode, Modes};
 
 /// How far what moves is moved, in rad, m or as a share of it, to see whether anything depends on where it is.
 const SHIFTS: [f64; 2] = [0.0625, -0.21875];
 
 /// Numbers in 32 digits that differ by this share of the largest beside them differ by rounding.
-const SAME: f64 = 1e-22;
+pub(crate) const SAME: f64 = 1e-22;
 
 /// A steady motion, and the motions near it.
 #[derive(Clone)]
@@ -72,6 +72,24 @@ impl Found {
     }
 }
 
+/// Places to which a coordinate has moved, and with it those that follow by constraints of positions; none where the
+/// constraints end before.
+pub(crate) fn elsewhere(
+    reduced: &mut Reduced<'_>,
+    choice: &Choice,
+    place: &Place,
+    j: usize,
+) -> Vec<Place> {
+    let moved = SHIFTS.into_iter().filter_map(|shift| {
+        let mut there = place.clone();
+        let by = shift * there.q[j].hi().abs().max(1.0);
+        there.q[j] = there.q[j] + by.into();
+        let brought = reduced.bring(&mut there.q, &|i| choice.tied.contains(&i));
+        brought.is_ok().then_some(there)
+    });
+    moved.collect()
+}
+
 /// Which coordinates only record where the machine has come.
 ///
 /// # Errors
@@ -84,24 +102,15 @@ pub fn records(reduced: &mut Reduced<'_>, state: &State<'_>) -> Result<Vec<bool>
         bounds,
     } = state;
     let places = choice.places();
-    let mut records = vec![false; reduced.len()];
+    let mut records = vec![false; reduced.dimension()];
     // Which of them moved when its rate changed.
-    let mut because = vec![0; reduced.len()];
+    let mut because = vec![0; reduced.dimension()];
     let largest = |m: &DMatrix<f64>| m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     let fastest = largest(&here.rates);
     let moves = |j: &usize| here.rates[*j].abs() > bounds.rates[*j];
     for &j in places.iter().filter(|j| moves(j)) {
-        for shift in SHIFTS {
-            let mut there = (*place).clone();
-            let by = shift * there.q[j].hi().abs().max(1.0);
-            there.q[j] = there.q[j] + by.into();
-            // Where the constraints end, or the equations, nothing can be compared.
-            if reduced
-                .bring(&mut there.q, &|i| choice.tied.contains(&i))
-                .is_err()
-            {
-                continue;
-            }
+        for there in elsewhere(reduced, choice, place, j) {
+            // Where the equations end nothing can be compared.
             let Ok(there) = reduced.linearized_only(choice, &there) else {
                 continue;
             };
@@ -230,7 +239,7 @@ pub fn near(reduced: &mut Reduced<'_>, found: Found, steady: &[bool]) -> Result<
     for mode in &mut modes.modes {
         mode.shape = in_coordinates(&tangent, &records, mode);
     }
-    let v = (0..reduced.len()).map(|j| {
+    let v = (0..reduced.dimension()).map(|j| {
         let v = here.rates[j];
         if v.abs() <= bounds.rates[j] && !steady[j] {
             0.0

@@ -21,10 +21,10 @@ use lagrangian_program::{Arguments, Interpreter, Role, Shape};
 use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
 use nalgebra::{DMatrix, DVector};
 
-use super::precise;
+use crate::precise;
 
 /// A number of 32 digits with a derivative.
-type Number = Dual<DoubleDouble>;
+pub(crate) type Number = Dual<DoubleDouble>;
 
 /// A row of G holds nothing that others do not hold if less than this is left of it beside them; a coordinate follows from no
 /// row in which it has less than this.
@@ -82,7 +82,9 @@ pub enum Fault {
 /// A state: the coordinates, and the rates of I.
 #[derive(Clone, Debug)]
 pub struct Place {
+    /// All coordinates.
     pub q: Vec<DoubleDouble>,
+    /// The rates of I.
     pub s: Vec<DoubleDouble>,
 }
 
@@ -182,7 +184,9 @@ pub struct Reduced<'a> {
     machine: &'a InterpretedMachine,
     system: &'a InterpretedSystem,
     interpreter: Interpreter<Number>,
-    inputs: Vec<f64>,
+    inputs: Vec<Number>,
+    /// The time at which everything is evaluated, in s.
+    time: f64,
     /// Which constraints hold positions.
     holonomic: Vec<bool>,
     /// Coordinates on which nothing depends.
@@ -202,7 +206,8 @@ impl<'a> Reduced<'a> {
             interpreter: Interpreter::new(machine.program(), &parameters),
             machine,
             system,
-            inputs: inputs.to_vec(),
+            inputs: constants(inputs),
+            time: 0.0,
             holonomic: system.constraints().map(|c| c.holonomic).collect(),
             idle: Vec::new(),
         };
@@ -214,8 +219,51 @@ impl<'a> Reduced<'a> {
     }
 
     /// How many coordinates there are.
-    pub fn len(&self) -> usize {
+    pub fn dimension(&self) -> usize {
         self.idle.len()
+    }
+
+    /// The inputs, each with a derivative.
+    pub(crate) fn inputs_mut(&mut self) -> &mut [Number] {
+        &mut self.inputs
+    }
+
+    /// The time at which everything is evaluated, in s.
+    pub(crate) fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Sets the time at which everything is evaluated from now on, in s.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// The rows of the constraints, one after the other.
+    pub(crate) fn constraint_rows(&mut self, q: &[Number]) -> Vec<Number> {
+        let (n, m) = (q.len(), self.holonomic.len());
+        let zero = vec![Number::ZERO; n];
+        self.call(Role::ConstraintMatrix, (q, &zero), m * n, self.time)
+    }
+
+    /// The output of this number.
+    pub(crate) fn output(
+        &mut self,
+        index: usize,
+        (q, v, a): (&[Number], &[Number], &[Number]),
+    ) -> Number {
+        let mut result = [Number::ZERO];
+        let arguments = Arguments {
+            t: Number::from_f64(self.time),
+            q,
+            v,
+            u: &self.inputs,
+            a,
+        };
+        // An output inverts nothing.
+        let _ = self
+            .interpreter
+            .call(Role::Output(index), arguments, &mut result);
+        result[0]
     }
 
     fn call(
@@ -226,12 +274,11 @@ impl<'a> Reduced<'a> {
         t: f64,
     ) -> Vec<Number> {
         let mut results = vec![Number::ZERO; count];
-        let u = constants(&self.inputs);
         let arguments = Arguments {
             t: Number::from_f64(t),
             q,
             v,
-            u: &u,
+            u: &self.inputs,
             a: &[],
         };
         // None of these functions inverts anything; what there is no function for is 0.
@@ -240,7 +287,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// Everything that the equations are made of, at a state.
-    fn ingredients(&mut self, q: &[Number], v: &[Number], t: f64) -> [Vec<Number>; 6] {
+    pub(crate) fn ingredients(&mut self, q: &[Number], v: &[Number], t: f64) -> [Vec<Number>; 6] {
         let (n, m) = (q.len(), self.holonomic.len());
         [
             (Role::MassMatrix, Shape::Symmetric(n).len()),
@@ -407,7 +454,7 @@ impl<'a> Reduced<'a> {
         let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
-            let off = self.call(Role::ConstraintPositions, (&wide, &v), m, 0.0);
+            let off = self.call(Role::ConstraintPositions, (&wide, &v), m, self.time);
             let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
             let (rows, lower) = (self.rows(&near), self.metric(&near));
             let mut matrix = DMatrix::zeros(held.len(), n);
@@ -454,7 +501,7 @@ impl<'a> Reduced<'a> {
         }
         // Whether the rows hold, each beside what rounding makes of it.
         let wide: Vec<Number> = q.iter().copied().map(Dual::constant).collect();
-        let off = self.call(Role::ConstraintPositions, (&wide, &v), m, 0.0);
+        let off = self.call(Role::ConstraintPositions, (&wide, &v), m, self.time);
         let near: Vec<f64> = q.iter().map(|x| x.hi()).collect();
         let rows = self.rows(&near);
         let unmet = held.iter().copied().find(|&k| {
@@ -468,7 +515,7 @@ impl<'a> Reduced<'a> {
     }
 
     /// Everything in the equations, over numbers with a derivative.
-    fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         choice: &Choice,
         q: &[Number],
@@ -476,8 +523,8 @@ impl<'a> Reduced<'a> {
     ) -> Result<Evaluated, Fault> {
         let (n, m) = (q.len(), self.holonomic.len());
         let zero = vec![Number::ZERO; n];
-        let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, 0.0);
-        let offset = self.call(Role::ConstraintRates, (q, &zero), m, 0.0);
+        let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, self.time);
+        let offset = self.call(Role::ConstraintRates, (q, &zero), m, self.time);
         let dependent = choice.dependent();
         let count = choice.independent.len();
         let entry = |k: usize, j: usize| rows[k * n + j];
@@ -511,16 +558,22 @@ impl<'a> Reduced<'a> {
             v[j] = row[count];
             along[j].copy_from_slice(&row[..count]);
         }
-        let drift = self.call(Role::ConstraintDrift, (q, &v), m, 0.0);
+        let drift = self.call(Role::ConstraintDrift, (q, &v), m, self.time);
         let right = choice.rows.iter().map(|&k| vec![drift[k]]).collect();
         let solved = solve(square, right).ok_or_else(singular)?;
-        let lower = self.call(Role::MassMatrix, (q, &v), Shape::Symmetric(n).len(), 0.0);
+        let lower = self.call(
+            Role::MassMatrix,
+            (q, &v),
+            Shape::Symmetric(n).len(),
+            self.time,
+        );
         let mut mass = vec![Number::ZERO; n * n];
         for (index, entry) in lower.into_iter().enumerate() {
             let (i, j) = Shape::place(index);
             (mass[i * n + j], mass[j * n + i]) = (entry, entry);
         }
-        let mut forces = self.call(Role::Forces, (q, &v), n, 0.0);
+        let applied = self.call(Role::Forces, (q, &v), n, self.time);
+        let mut forces = applied.clone();
         for (a, &j) in solved.iter().zip(&dependent) {
             for (i, force) in forces.iter_mut().enumerate() {
                 *force = *force - mass[i * n + j] * a[0];
@@ -538,16 +591,26 @@ impl<'a> Reduced<'a> {
         if let Some(j) = v.iter().position(|x| !finite(x)) {
             return Err(Fault::NotFinite(j));
         }
+        let mut held = vec![Number::ZERO; n];
+        for (a, &j) in solved.iter().zip(&dependent) {
+            held[j] = a[0];
+        }
         Ok(Evaluated {
             rates: v,
             forces: reduced,
             along,
             mass,
+            applied,
+            held,
         })
     }
 
     /// How coordinates are displaced with z, in 32 digits.
-    fn tangent(&mut self, choice: &Choice, q: &[Number]) -> Result<Vec<Vec<DoubleDouble>>, Fault> {
+    pub(crate) fn tangent(
+        &mut self,
+        choice: &Choice,
+        q: &[Number],
+    ) -> Result<Vec<Vec<DoubleDouble>>, Fault> {
         let (n, m) = (q.len(), self.holonomic.len());
         let places = choice.places();
         let mut tangent = vec![vec![DoubleDouble::ZERO; n]; places.len()];
@@ -557,7 +620,7 @@ impl<'a> Reduced<'a> {
         let held = choice.tied.len();
         if held > 0 {
             let zero = vec![Number::ZERO; n];
-            let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, 0.0);
+            let rows = self.call(Role::ConstraintMatrix, (q, &zero), m * n, self.time);
             let pick = |list: &[usize], sign: Number| -> Vec<Vec<Number>> {
                 let row = |k: &usize| list.iter().map(|j| sign * rows[k * n + j]).collect();
                 choice.rows[..held].iter().map(row).collect()
@@ -663,6 +726,16 @@ impl<'a> Reduced<'a> {
             .each_mut()
             .into_iter()
             .for_each(|matrix| matrix.fill(0.0));
+        self.rounded(place, |reduced, other| {
+            if let Ok(found) = reduced.linearize(choice, other) {
+                bounds.widen(&found, &here);
+            }
+        });
+        Ok((here, bounds))
+    }
+
+    /// Does something at a state whose numbers are rounded in some other ways, with parameters and inputs that are so too.
+    pub(crate) fn rounded(&mut self, place: &Place, mut work: impl FnMut(&mut Self, &Place)) {
         let mut next = noise();
         let values = self.machine.parameter_values().to_vec();
         let inputs = self.inputs.clone();
@@ -676,16 +749,13 @@ impl<'a> Reduced<'a> {
                 *x + unit
             });
             let other = Place { q: q.collect(), s };
-            self.inputs = inputs.iter().map(|x| x * (1.0 + next())).collect();
+            let rounded = |x: &Number| Number::from_f64(x.value.hi() * (1.0 + next()));
+            self.inputs = inputs.iter().map(rounded).collect();
             self.interpreter.prepare(&parameters);
-            let found = self.linearize(choice, &other);
-            if let Ok(found) = found {
-                bounds.widen(&found, &here);
-            }
+            work(self, &other);
         }
         self.interpreter.prepare(&constants(&values));
         self.inputs = inputs;
-        Ok((here, bounds))
     }
 
     /// The equations at a state, without bounds.
@@ -697,16 +767,24 @@ impl<'a> Reduced<'a> {
     }
 }
 
-struct Evaluated {
-    rates: Vec<Number>,
-    forces: Vec<Number>,
+/// What the equations are made of, over numbers with a derivative.
+pub(crate) struct Evaluated {
+    /// v, of all coordinates.
+    pub rates: Vec<Number>,
+    /// r.
+    pub forces: Vec<Number>,
     /// T, row after row.
-    along: Vec<Vec<Number>>,
-    mass: Vec<Number>,
+    pub along: Vec<Vec<Number>>,
+    /// M, row after row.
+    pub mass: Vec<Number>,
+    /// f.
+    pub applied: Vec<Number>,
+    /// a°.
+    pub held: Vec<Number>,
 }
 
 /// `Aᵢⱼ⁻¹ B` by elimination with pivots; nothing where A is singular.
-fn solve(mut a: Vec<Vec<Number>>, mut b: Vec<Vec<Number>>) -> Option<Vec<Vec<Number>>> {
+pub(crate) fn solve(mut a: Vec<Vec<Number>>, mut b: Vec<Vec<Number>>) -> Option<Vec<Vec<Number>>> {
     let n = a.len();
     for k in 0..n {
         let size = |i: &usize| a[*i][k].value.hi().abs();

@@ -19,8 +19,8 @@
 use lagrangian_scalar::DoubleDouble;
 use nalgebra::{DMatrix, DVector};
 
-use super::rank::{self, Direction};
-use super::reduced::{Choice, Fault, Linearized, Place, Reduced, share};
+use crate::rank::{self, Direction};
+use crate::reduced::{Choice, Fault, Linearized, Place, Reduced, share};
 
 /// The most steps; Newton's method takes five, and a few more for each radian on the way.
 pub const MOST_STEPS: usize = 200;
@@ -65,6 +65,16 @@ pub struct Wanted {
     pub rates: Vec<f64>,
     /// The most steps.
     pub steps: usize,
+}
+
+impl Wanted {
+    /// Rates of the coordinates that move steadily, as far as they are given, and 0 of the others.
+    pub fn given(&self) -> Vec<f64> {
+        let rates = self.rates.iter().zip(&self.steady);
+        rates
+            .map(|(rate, is_steady)| if *is_steady { *rate } else { 0.0 })
+            .collect()
+    }
 }
 
 /// A state in which nothing accelerates.

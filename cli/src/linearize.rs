@@ -1,0 +1,409 @@
+//! `lagrangian linearize`: the linear model of a machine, and what engineers ask of it.
+
+mod along;
+mod files;
+mod frequencies;
+mod mat;
+mod npz;
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::{Machine, Simulation, System};
+use lagrangian_linear::model::{self, Model, Observed, Request};
+use lagrangian_linear::poles::{Pole, poles};
+use lagrangian_linear::spectrum::damping;
+use lagrangian_linear::zeros::zeros;
+use lagrangian_linear::{Complex, DMatrix};
+use lagrangian_spec::diagnostic::nearest;
+use lagrangian_symbolic::Dag;
+use serde_json::{Value, json};
+
+use crate::call;
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::modes::{self, OPTIONS, number};
+use crate::output;
+use crate::reading;
+use files::Files;
+
+/// Matrices of more columns are not printed.
+const MOST_COLUMNS: usize = 8;
+
+/// A model, and what is asked of it.
+struct Linearization {
+    model: Model,
+    poles: Vec<Pole>,
+    zeros: Vec<Complex<f64>>,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec or the call is at fault, or the machine has no linear model there.
+pub fn run(call: &call::Linearize) -> Result<(), Failure> {
+    let files = Files::new(call)?;
+    let dag = Dag::new();
+    let compiled = modes::compiled(&call.spec, &dag, files.all(), "linear model")?;
+    let machine = modes::ready(&compiled, &call.search)?;
+    if let Some(range) = &call.along {
+        let trace = modes::vary::trace(&call.search, ("--along", range), &compiled, &machine)?;
+        return along::show(call, &machine, &trace, &files);
+    }
+    let request = request(call, &machine)?;
+    let (model, place) = match call.here {
+        true => about_start(call, &machine, &request)?,
+        false => about_motion(call, &machine, &request)?,
+    };
+    let none = || Failure::run("the eigenvalues cannot be found");
+    let result = Linearization {
+        poles: poles(&model.a, &model.a_bounds).ok_or_else(none)?,
+        zeros: zeros(&model).ok_or_else(none)?,
+        model,
+    };
+    files.write(machine.name(), &names(&machine), &result)?;
+    match call.spec.json {
+        true => output::line(format_args!("{:#}", as_json(&names(&machine), &result))),
+        false => output::text(&format!("{place}{}", text(&result))),
+    }
+    Ok(())
+}
+
+/// The names of coordinates and of inputs.
+fn names(machine: &InterpretedMachine) -> [Vec<String>; 2] {
+    let inputs = machine.program().inputs.iter();
+    [
+        machine
+            .prepare()
+            .coordinates()
+            .map(|q| q.name.to_owned())
+            .collect(),
+        inputs.map(|slot| slot.name.to_string()).collect(),
+    ]
+}
+
+/// The model about the start as it is, and in words where that is.
+fn about_start(
+    call: &call::Linearize,
+    machine: &InterpretedMachine,
+    request: &Request,
+) -> Result<(Model, String), Failure> {
+    let search = &call.search;
+    let mut start = machine.start();
+    set_start(&mut start, &search.start)?;
+    if machine.prepare().constraints().len() > 0 {
+        // A run without length does no more than to bring its start onto the constraints.
+        let simulation = Simulation::new(machine).until(start.t);
+        let run = reading::keep(simulation, &search.keep).run(start);
+        start = run.map_err(Failure::run)?.start().clone();
+    }
+    let model = model::about(
+        machine,
+        (start.t, &start.q.values, &start.v.values),
+        request,
+    );
+    let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
+    let mut text = "about the start:\n".to_owned();
+    let width = start.q.iter().map(|(name, _)| name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    for (((name, _), q), v) in start.q.iter().zip(&model.q).zip(&model.v) {
+        let unit = match start.q.unit(name) {
+            None | Some("1") => String::new(),
+            Some(unit) => format!(" {unit}"),
+        };
+        let _ = write!(text, "  {name:width$}  {}{unit}", number(*q));
+        if *v != 0.0 {
+            let verb = if unit == " rad" { "turning" } else { "moving" };
+            let _ = write!(text, ", {verb} at {}{unit}/s", number(*v));
+        }
+        text.push('\n');
+    }
+    Ok((model, text))
+}
+
+/// The model about the equilibrium, or along the steady motion, and in words where that is.
+fn about_motion(
+    call: &call::Linearize,
+    machine: &InterpretedMachine,
+    request: &Request,
+) -> Result<(Model, String), Failure> {
+    let reached = modes::reach(machine, &call.search)?;
+    let model = model::along(machine, &reached.motion, request);
+    let model = model.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
+    let system = machine.prepare();
+    let names: Vec<&str> = system.coordinates().map(|q| q.name).collect();
+    let units: Vec<&str> = system.coordinates().map(|q| q.unit).collect();
+    let modes::Reached { q, wanted, motion } = &reached;
+    let text = modes::text_of_place(&names, &units, q, wanted, motion);
+    Ok((model, text))
+}
+
+/// Which of some numbers a name means: one, or a family.
+fn places(numbers: &Named, name: &str) -> Vec<usize> {
+    let mut probe = numbers.clone();
+    probe.values.fill(0.0);
+    match probe.set(name, 1.0) {
+        Ok(()) => (0..probe.values.len())
+            .filter(|k| probe.values[*k] != 0.0)
+            .collect(),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// What the model of a call is to have.
+fn request(call: &call::Linearize, machine: &InterpretedMachine) -> Result<Request, Failure> {
+    let system = machine.prepare();
+    let all = system.default_inputs();
+    let mut inputs = Vec::new();
+    for name in &call.inputs {
+        let found = places(&all, name);
+        if found.is_empty() {
+            let known: Vec<String> = all.iter().map(|(name, _)| name.to_owned()).collect();
+            return Err(unknown("--inputs", "input", name, &known));
+        }
+        inputs.extend(found);
+    }
+    if call.inputs.is_empty() {
+        inputs = (0..all.values.len()).collect();
+    }
+    let start = machine.start();
+    let zero = vec![0.0; start.q.values.len()];
+    let observed = system.outputs(0.0, &start.q.values, &start.v.values, &zero, &all);
+    let constraints: Vec<String> = system.constraints().map(|c| c.name.to_owned()).collect();
+    let mut outputs: Vec<Observed> = Vec::new();
+    let wanted = call::names_of(&call.outputs).map_err(Failure::Call)?;
+    for name in &wanted {
+        let found = resolve(name, &start.q, &observed, &constraints);
+        if found.is_empty() {
+            let own = observed.iter().map(|(name, _)| name.to_owned());
+            let coordinates = start.q.iter().flat_map(|(name, _)| {
+                [
+                    name.to_owned(),
+                    format!("der({name})"),
+                    format!("der({name},2)"),
+                ]
+            });
+            let constraints = constraints.iter().map(|name| format!("multiplier({name})"));
+            let known: Vec<String> = own.chain(coordinates).chain(constraints).collect();
+            return Err(unknown("--outputs", "output", name, &known));
+        }
+        outputs.extend(found);
+    }
+    if wanted.is_empty() {
+        outputs = match observed.values.len() {
+            0 => (0..zero.len()).map(Observed::Coordinate).collect(),
+            count => (0..count).map(Observed::Output).collect(),
+        };
+    }
+    let mut seen = inputs.iter().enumerate();
+    if let Some((_, k)) = seen.find(|(i, k)| inputs[..*i].contains(k)) {
+        let name = all.iter().nth(*k).map_or("", |(name, _)| name);
+        return Err(Failure::Call(format!(
+            "--inputs names `{name}` more than once"
+        )));
+    }
+    let mut seen = outputs.iter().enumerate();
+    if seen.any(|(i, output)| outputs[..i].contains(output)) {
+        return Err(Failure::Call(
+            "--outputs names something more than once".to_owned(),
+        ));
+    }
+    Ok(Request { inputs, outputs })
+}
+
+/// What a name of an output means; nothing where there is none.
+fn resolve(name: &str, q: &Named, outputs: &Named, constraints: &[String]) -> Vec<Observed> {
+    let own = places(outputs, name);
+    if !own.is_empty() {
+        return own.into_iter().map(Observed::Output).collect();
+    }
+    let inside = |start: &str| name.strip_prefix(start)?.strip_suffix(')').map(str::trim);
+    if let Some(constraint) = inside("multiplier(") {
+        let all = constraints.iter().enumerate();
+        let is_member = |name: &String| {
+            name == constraint
+                || name
+                    .strip_prefix(constraint)
+                    .is_some_and(|rest| rest.starts_with('['))
+        };
+        let found = all.filter(|(_, name)| is_member(name));
+        return found.map(|(k, _)| Observed::Multiplier(k)).collect();
+    }
+    let Some(inside) = inside("der(") else {
+        let coordinates = places(q, name).into_iter();
+        return coordinates.map(Observed::Coordinate).collect();
+    };
+    match inside.rsplit_once(',') {
+        None => places(q, inside).into_iter().map(Observed::Rate).collect(),
+        Some((coordinate, order)) => {
+            let coordinates = places(q, coordinate.trim()).into_iter();
+            match order.trim() {
+                "1" => coordinates.map(Observed::Rate).collect(),
+                "2" => coordinates.map(Observed::Acceleration).collect(),
+                _ => Vec::new(),
+            }
+        }
+    }
+}
+
+fn unknown(option: &str, what: &str, name: &str, known: &[String]) -> Failure {
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if known.is_empty() => "there are none".to_owned(),
+        None => format!("there are: {}", known.join(", ")),
+    };
+    Failure::Call(format!("{option} {name}: no {what} named `{name}`; {help}"))
+}
+
+/// A matrix as its rows.
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    let rows = matrix.row_iter();
+    rows.map(|row| row.iter().copied().collect()).collect()
+}
+
+fn as_json(names: &[Vec<String>; 2], result: &Linearization) -> Value {
+    let Linearization {
+        model,
+        poles,
+        zeros,
+    } = result;
+    let by_name = |names: &[String], values: &[f64]| -> Value {
+        let pairs = names.iter().zip(values);
+        Value::Object(pairs.map(|(name, x)| (name.clone(), json!(x))).collect())
+    };
+    let labels = |labels: &[model::Label]| -> Vec<Value> {
+        let labels = labels.iter();
+        labels
+            .map(|label| json!({"name": label.name, "unit": label.unit}))
+            .collect()
+    };
+    let complex = |x: &Complex<f64>| json!({"re": x.re, "im": x.im});
+    let outputs: Vec<String> = model.outputs.iter().map(|y| y.name.clone()).collect();
+    json!({
+        "at": {
+            "q": by_name(&names[0], &model.q),
+            "v": by_name(&names[0], &model.v),
+            "u": by_name(&names[1], &model.u),
+            "y": by_name(&outputs, &model.y),
+        },
+        "states": labels(&model.states),
+        "inputs": labels(&model.inputs),
+        "outputs": labels(&model.outputs),
+        "A": rows(&model.a),
+        "B": rows(&model.b),
+        "C": rows(&model.c),
+        "D": rows(&model.d),
+        "drift": model.drift,
+        "basis": model.is_reduced.then(|| rows(&model.basis)),
+        "left_out": model.records,
+        "eigenvalues": poles.iter().map(|pole| complex(&pole.lambda)).collect::<Vec<_>>(),
+        "zeros": zeros.iter().map(complex).collect::<Vec<_>>(),
+    })
+}
+
+/// A list of names with their units.
+fn list(labels: &[model::Label], what: [&str; 2]) -> String {
+    let count = labels.len();
+    let what = what[usize::from(count != 1)];
+    let names = labels.iter().map(|label| match label.unit.as_str() {
+        "" | "1" => label.name.clone(),
+        unit => format!("{} [{unit}]", label.name),
+    });
+    match count {
+        0 => format!("no {what}\n"),
+        _ => format!("{count} {what}: {}\n", names.collect::<Vec<_>>().join(", ")),
+    }
+}
+
+fn text(result: &Linearization) -> String {
+    let Linearization {
+        model,
+        poles,
+        zeros,
+    } = result;
+    let mut text = String::new();
+    text.push_str(&list(&model.states, ["state", "states"]));
+    text.push_str(&list(&model.inputs, ["input", "inputs"]));
+    text.push_str(&list(&model.outputs, ["output", "outputs"]));
+    if !model.records.is_empty() {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "left out, since nothing depends on where they are: {}",
+            model.records.join(", ")
+        );
+    }
+    for (name, matrix) in [
+        ("A", &model.a),
+        ("B", &model.b),
+        ("C", &model.c),
+        ("D", &model.d),
+    ] {
+        text.push_str(&text_of_matrix(name, matrix));
+    }
+    if model.drift.iter().any(|x| *x != 0.0) {
+        let drift = DMatrix::from_column_slice(model.drift.len(), 1, &model.drift);
+        text.push_str(&text_of_matrix("drift", &drift));
+    }
+    let all: Vec<Complex<f64>> = poles.iter().map(|pole| pole.lambda).collect();
+    text.push_str("\npoles:\n");
+    text.push_str(&text_of_values(&all));
+    if !zeros.is_empty() {
+        text.push_str("\nzeros:\n");
+        text.push_str(&text_of_values(zeros));
+    } else if !model.inputs.is_empty() && !model.outputs.is_empty() {
+        text.push_str("\nno zeros\n");
+    }
+    text
+}
+
+/// Rows of numbers in columns; of a large matrix its size.
+fn text_of_matrix(name: &str, matrix: &DMatrix<f64>) -> String {
+    let (rows, columns) = matrix.shape();
+    if rows == 0 || columns == 0 {
+        return String::new();
+    }
+    if columns > MOST_COLUMNS || rows > 2 * MOST_COLUMNS {
+        return format!("\n{name}: {rows} × {columns}, in full with --json or --out\n");
+    }
+    let cells: Vec<Vec<String>> = matrix
+        .row_iter()
+        .map(|row| row.iter().map(|x| number(*x)).collect())
+        .collect();
+    let width = |j: usize| cells.iter().map(|row| row[j].len()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut text = format!("\n{name} =\n");
+    for row in &cells {
+        let cells = row.iter().zip(&widths);
+        let cells: Vec<String> = cells.map(|(x, width)| format!("{x:>width$}")).collect();
+        let _ = writeln!(text, "  {}", cells.join("  "));
+    }
+    text
+}
+
+/// Values of λ, a line for each pair.
+fn text_of_values(values: &[Complex<f64>]) -> String {
+    let mut text = String::new();
+    for value in values.iter().filter(|value| value.im >= 0.0) {
+        let Complex { re, im } = *value;
+        let _ = match (damping(*value), re) {
+            (Some(ratio), _) => {
+                let re = if re == 0.0 {
+                    String::new()
+                } else {
+                    format!("{} ", number(re))
+                };
+                writeln!(
+                    text,
+                    "  {re}± {}i 1/s: {} Hz, damping ratio {}",
+                    number(im),
+                    number(im / TAU),
+                    number(ratio)
+                )
+            }
+            (None, _) => writeln!(text, "  {} 1/s", number(re)),
+        };
+    }
+    text
+}

@@ -1,0 +1,187 @@
+//! The files that a call of `linearize` asks for.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use lagrangian_linear::DMatrix;
+use lagrangian_linear::model::Label;
+
+use super::{Linearization, as_json, frequencies, mat, npz};
+use crate::call;
+use crate::failure::Failure;
+use crate::output::{self, Destination, MODEL, SVG, TABLE, keep_apart};
+
+/// An array with a name.
+pub struct Array {
+    pub name: &'static str,
+    pub content: Content,
+}
+
+/// What is in an array.
+pub enum Content {
+    Matrix(DMatrix<f64>),
+    Vector(Vec<f64>),
+    Text(Vec<String>),
+}
+
+/// The files that a call asks for.
+#[derive(Default)]
+pub struct Files {
+    /// The model in one file.
+    model: Option<Destination>,
+    /// A file for each matrix.
+    matrices: Vec<(&'static str, Destination)>,
+    /// A table along a range.
+    pub table: Option<Destination>,
+    bode: Option<Destination>,
+    nyquist: Option<Destination>,
+}
+
+/// The matrices that have files of their own where the ending is `.csv`.
+const MATRICES: [&str; 6] = ["A", "B", "C", "D", "drift", "basis"];
+
+impl Files {
+    /// Looks at all of them, before anything is derived.
+    ///
+    /// # Errors
+    /// If something cannot be written.
+    pub fn new(call: &call::Linearize) -> Result<Files, Failure> {
+        let mut files = Files {
+            bode: Destination::of("--bode", call.bode.as_ref(), SVG)?,
+            nyquist: Destination::of("--nyquist", call.nyquist.as_ref(), SVG)?,
+            ..Files::default()
+        };
+        match (&call.out, &call.along) {
+            (Some(path), Some(_)) => files.table = Some(Destination::new("--out", path, TABLE)?),
+            (Some(path), None) => {
+                let out = Destination::new("--out", path, MODEL)?;
+                match out.ending() {
+                    "csv" => {
+                        for name in MATRICES {
+                            let path: PathBuf = path.with_extension(format!("{name}.csv"));
+                            let file = Destination::new("--out", &path, &["csv"])?;
+                            files.matrices.push((name, file));
+                        }
+                    }
+                    _ => files.model = Some(out),
+                }
+            }
+            (None, _) => {}
+        }
+        output::keep_document_apart(files.all(), call.spec.json)?;
+        keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
+        Ok(files)
+    }
+
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &Destination> {
+        let matrices = self.matrices.iter().map(|(_, file)| file);
+        let others = [&self.model, &self.table, &self.bode, &self.nyquist];
+        others.into_iter().flatten().chain(matrices)
+    }
+
+    /// Writes a model.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn write(
+        &self,
+        title: &str,
+        names: &[Vec<String>; 2],
+        result: &Linearization,
+    ) -> Result<(), Failure> {
+        let model = &result.model;
+        if let Some(file) = &self.model {
+            match file.ending() {
+                "npz" => file.write(|to| to.write_all(&npz::bytes(&arrays(result))?))?,
+                "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(result))))?,
+                _ => file.write_text(&format!("{:#}\n", as_json(names, result)))?,
+            }
+        }
+        let coordinates = names[0].iter().cloned();
+        let rates = names[0].iter().map(|name| format!("der({name})"));
+        let all: Vec<String> = coordinates.chain(rates).collect();
+        let [states, inputs, outputs] =
+            [&model.states, &model.inputs, &model.outputs].map(|labels| plain(labels));
+        for (name, file) in &self.matrices {
+            let drift = DMatrix::from_column_slice(model.drift.len(), 1, &model.drift);
+            let (rows, columns, matrix) = match *name {
+                "A" => (&states, &states, &model.a),
+                "B" => (&states, &inputs, &model.b),
+                "C" => (&outputs, &states, &model.c),
+                "D" => (&outputs, &inputs, &model.d),
+                "basis" => (&all, &states, &model.basis),
+                _ => (&states, &vec!["drift".to_owned()], &drift),
+            };
+            file.write(|to| csv(rows, columns, matrix, to))?;
+        }
+        if let Some(file) = &self.bode {
+            file.write_text(&frequencies::bode(title, result).map_err(Failure::Run)?)?;
+        }
+        if let Some(file) = &self.nyquist {
+            file.write_text(&frequencies::nyquist(title, result).map_err(Failure::Run)?)?;
+        }
+        Ok(())
+    }
+}
+
+/// Names without units.
+fn plain(labels: &[Label]) -> Vec<String> {
+    labels.iter().map(|label| label.name.clone()).collect()
+}
+
+/// What `.npz` and `.mat` hold.
+fn arrays(result: &Linearization) -> Vec<Array> {
+    let model = &result.model;
+    let matrix = |name, matrix: &DMatrix<f64>| Array {
+        name,
+        content: Content::Matrix(matrix.clone()),
+    };
+    let text = |name, labels: &[Label]| Array {
+        name,
+        content: Content::Text(plain(labels)),
+    };
+    vec![
+        matrix("A", &model.a),
+        matrix("B", &model.b),
+        matrix("C", &model.c),
+        matrix("D", &model.d),
+        Array {
+            name: "drift",
+            content: Content::Vector(model.drift.clone()),
+        },
+        matrix("basis", &model.basis),
+        text("states", &model.states),
+        text("inputs", &model.inputs),
+        text("outputs", &model.outputs),
+    ]
+}
+
+/// A cell of comma-separated text; `der(x,2)` has a comma of its own.
+fn cell(text: &str) -> String {
+    match text.contains(',') {
+        true => format!("\"{text}\""),
+        false => text.to_owned(),
+    }
+}
+
+/// A matrix with the names of its columns above and those of its rows before it.
+fn csv(
+    rows: &[String],
+    columns: &[String],
+    matrix: &DMatrix<f64>,
+    to: &mut (dyn Write + Send),
+) -> io::Result<()> {
+    for column in columns {
+        write!(to, ",{}", cell(column))?;
+    }
+    writeln!(to)?;
+    for (i, row) in rows.iter().enumerate() {
+        write!(to, "{}", cell(row))?;
+        for x in matrix.row(i).iter() {
+            write!(to, ",{x:?}")?;
+        }
+        writeln!(to)?;
+    }
+    Ok(())
+}

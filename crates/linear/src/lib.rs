@@ -1,0 +1,22 @@
+//! Where a machine stays or moves steadily, how it moves about that place, and its linear model there.
+//!
+//! [`steady::motion`] finds an equilibrium or a steady motion and the modes about it; [`model`] makes matrices A, B, C, D of it, or of
+//! any other state; [`poles`], [`zeros`] and [`response`] are what is asked of these. Derivatives are exact: everything is
+//! evaluated over dual numbers of 32 digits, never over differences of finite steps.
+
+pub mod model;
+pub mod motion;
+pub mod poles;
+mod precise;
+mod rank;
+pub mod reduced;
+pub mod response;
+pub mod search;
+pub mod spectrum;
+pub mod steady;
+pub mod zeros;
+
+#[cfg(test)]
+mod tests;
+
+pub use nalgebra::{Complex, DMatrix, DVector};

@@ -1,0 +1,804 @@
+//! The linear model of a machine, `ẋ = A x + B u`, `y = C x + D u`, about a steady motion or about any state.
+//!
+//! In the form of (E39) a machine has as coordinates z, which may be displaced at will, and the rates s of those of them that are
+//! independent. Together they are a chart of the states that the constraints leave, and x is the change of them: without
+//! constraints all coordinates, then all rates. With `ż = v_z(q, s)`, `ṡ = (Tᵀ M T)⁻¹ r`, accelerations `a = a° + T ṡ`, and
+//! multipliers from the rows of D of `M a = f + Gᵀ λ`,
+//!
+//! ```text
+//! A = ∂(ż, ṡ)/∂(z, s),  B = ∂(ż, ṡ)/∂u,  C = ∂y/∂(z, s),  D = ∂y/∂u,                (E54)
+//! ```
+//!
+//! each column by dual numbers of 32 digits. A number that is 0 but for the rounding of parameters, state and inputs is 0.
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
+use lagrangian::{Machine, System};
+use lagrangian_scalar::{DoubleDouble, Dual, Scalar};
+use nalgebra::DMatrix;
+
+use crate::motion::{self, Motion};
+use crate::reduced::{Choice, Fault, Number, Place, Reduced, solve};
+use crate::steady::{Options, states};
+
+/// Something that a model has as an output, by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Observed {
+    /// An output of the spec.
+    Output(usize),
+    /// A coordinate.
+    Coordinate(usize),
+    /// Its rate.
+    Rate(usize),
+    /// Its acceleration.
+    Acceleration(usize),
+    /// The multiplier of a constraint.
+    Multiplier(usize),
+}
+
+/// What a model is to have.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Numbers of inputs, in the order of the columns of B and D.
+    pub inputs: Vec<usize>,
+    /// Outputs, in the order of the rows of C and D.
+    pub outputs: Vec<Observed>,
+}
+
+/// What a number is, and its unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// Its name: `phi`, `der(phi)`, `der(phi,2)`, `multiplier(rod)`, or that of an output or an input.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+}
+
+/// A linear model of r states, m inputs and p outputs.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The coordinates there.
+    pub q: Vec<f64>,
+    /// Their rates.
+    pub v: Vec<f64>,
+    /// All inputs of the machine.
+    pub u: Vec<f64>,
+    /// The outputs.
+    pub y: Vec<f64>,
+    /// What the states are: coordinates, then rates.
+    pub states: Vec<Label>,
+    /// The inputs.
+    pub inputs: Vec<Label>,
+    /// The outputs.
+    pub outputs: Vec<Label>,
+    /// A, r × r.
+    pub a: DMatrix<f64>,
+    /// B, r × m.
+    pub b: DMatrix<f64>,
+    /// C, p × r.
+    pub c: DMatrix<f64>,
+    /// D, p × m.
+    pub d: DMatrix<f64>,
+    /// ẋ where x and the changes of inputs are 0: nothing about an equilibrium or along a steady motion.
+    pub drift: Vec<f64>,
+    /// How all coordinates, then all rates, change with x, 2n × r.
+    pub basis: DMatrix<f64>,
+    /// Whether the states are fewer than coordinates and rates.
+    pub is_reduced: bool,
+    /// Coordinates that only record where the machine has come, and are no states.
+    pub records: Vec<String>,
+    /// What rounding may make of each number of A.
+    pub a_bounds: DMatrix<f64>,
+}
+
+/// Why there is no model.
+#[derive(Clone, Debug)]
+pub enum NoModel {
+    /// There are no numbers.
+    Fault(Fault),
+    /// Multipliers of constraints that follow from others have no value of their own; which was asked for.
+    Multiplier(usize),
+    /// The equations have a corner or a jump at the state, in a coordinate or a rate by its name where it is one alone.
+    Kink(Option<String>),
+    /// So has this output.
+    OutputKink(String),
+    /// Its part in the model changes as the machine moves steadily: an input by its name, and which coordinate moves.
+    InputTurns(String, Moving),
+    /// The same of an output.
+    OutputTurns(String, Moving),
+}
+
+/// What goes on in a steady motion.
+#[derive(Clone, Debug)]
+pub enum Moving {
+    /// A coordinate.
+    Coordinate(String),
+    /// The time, which the equations hold.
+    Time,
+}
+
+impl NoModel {
+    /// Why, in one sentence.
+    pub fn in_words(&self, system: &InterpretedSystem, options: Options) -> String {
+        let turns = |what: &str, name: &str, moving: &Moving| {
+            let when = match moving {
+                Moving::Coordinate(coordinate) => format!("as `{coordinate}` moves"),
+                Moving::Time => "with time".to_owned(),
+            };
+            format!(
+                "the {what} `{name}` has another part in the model {when}, so that this would not have constant coefficients; leave \
+                 it out, or linearize about the start alone"
+            )
+        };
+        let coordinate = |j: usize| {
+            let coordinate = system.coordinates().nth(j);
+            coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
+        };
+        let start = options.start;
+        match self {
+            NoModel::Fault(Fault::Singular(j)) => format!(
+                "the mass matrix is singular in `{}` there; {start} sets another state",
+                coordinate(*j)
+            ),
+            NoModel::Fault(Fault::NotFinite(j)) => format!(
+                "the acceleration of `{}`, or a derivative of it, is not finite there; {start} sets another state",
+                coordinate(*j)
+            ),
+            NoModel::Fault(fault) => fault.in_words(system, options),
+            NoModel::Multiplier(k) => {
+                let name = system.constraints().nth(*k);
+                let name = name.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
+                format!(
+                    "`multiplier({name})` has no value of its own: some constraints follow from others here"
+                )
+            }
+            NoModel::Kink(name) => {
+                let place = name
+                    .as_ref()
+                    .map_or_else(String::new, |name| format!(" in `{name}`"));
+                format!(
+                    "the equations of motion have a corner or a jump{place} there, as friction has where it changes sides (`abs`, \
+                     `sign`, `min` or `max`), and so no linearization; make it smooth, or choose another state with {start}"
+                )
+            }
+            NoModel::OutputKink(name) => format!(
+                "the output `{name}` has a corner or a jump there (`abs`, `sign`, `min` or `max`), and so no linearization; leave it out"
+            ),
+            NoModel::InputTurns(name, moving) => turns("input", name, moving),
+            NoModel::OutputTurns(name, moving) => turns("output", name, moving),
+        }
+    }
+}
+
+impl From<Fault> for NoModel {
+    fn from(fault: Fault) -> NoModel {
+        NoModel::Fault(fault)
+    }
+}
+
+/// Where a model is to be.
+struct At<'a> {
+    choice: &'a Choice,
+    place: &'a Place,
+    /// Coordinates that are no states.
+    records: &'a [bool],
+}
+
+/// All matrices at a state.
+#[derive(Clone)]
+struct Matrices {
+    a: DMatrix<f64>,
+    b: DMatrix<f64>,
+    c: DMatrix<f64>,
+    d: DMatrix<f64>,
+    basis: DMatrix<f64>,
+    drift: DMatrix<f64>,
+    y: DMatrix<f64>,
+}
+
+impl Matrices {
+    fn each(&self) -> [&DMatrix<f64>; 7] {
+        let Matrices {
+            a,
+            b,
+            c,
+            d,
+            basis,
+            drift,
+            y,
+        } = self;
+        [a, b, c, d, basis, drift, y]
+    }
+
+    fn each_mut(&mut self) -> [&mut DMatrix<f64>; 7] {
+        let Matrices {
+            a,
+            b,
+            c,
+            d,
+            basis,
+            drift,
+            y,
+        } = self;
+        [a, b, c, d, basis, drift, y]
+    }
+}
+
+/// What rounding makes of a number may be this many times as much in other cases.
+const SAFETY: f64 = 4.0;
+
+/// Times at which a model is to be the same, in s.
+const TIMES: [f64; 3] = [0.37, 1.13, 29.7];
+
+/// How far to both sides of a state a corner is looked for, in rad, m, or as a share.
+const NEAR: [f64; 2] = [1e-10, 1e-13];
+
+/// What is below this share of the largest number is the rounding of 32 digits.
+const ROUNDING: f64 = 1e-21;
+
+/// The model about an equilibrium, or along a steady motion.
+///
+/// # Errors
+/// Why there is none.
+pub fn along(
+    machine: &InterpretedMachine,
+    motion: &Motion,
+    request: &Request,
+) -> Result<Model, NoModel> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let found = &motion.found;
+    let q = found.place.q();
+    let mut reduced = Reduced::new(machine, &system, &inputs, &states(&q, &motion.v));
+    let at = At {
+        choice: &found.choice,
+        place: &found.place,
+        records: &motion.records,
+    };
+    let asked = Asked::new(machine, &system, request, at.choice)?;
+    smooth(&mut reduced, &asked, &at)?;
+    let (mut here, bounds) = settled(&mut reduced, &asked, &at)?;
+    goes_on(&mut reduced, &asked, &at, (&here, &bounds), &motion.v)?;
+    // x is what the machine is off its motion, which places follow.
+    here.drift.rows_mut(0, at.places().len()).fill(0.0);
+    let v = motion.v.clone();
+    Ok(asked.model(&at, here, bounds, (q, v, inputs)))
+}
+
+/// The model about a state at a time, whatever the machine does there. With constraints the coordinates are moved onto them.
+///
+/// # Errors
+/// Why there is none.
+pub fn about(
+    machine: &InterpretedMachine,
+    (t, q, v): (f64, &[f64], &[f64]),
+    request: &Request,
+) -> Result<Model, NoModel> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, v));
+    reduced.set_time(t);
+    let mut wide: Vec<DoubleDouble> = q.iter().map(|x| (*x).into()).collect();
+    reduced.bring(&mut wide, &|_| true)?;
+    let near: Vec<f64> = wide.iter().map(|x| x.hi()).collect();
+    let n = near.len();
+    let choice = reduced.choose(&near, &vec![false; n])?;
+    let place = Place {
+        s: choice.independent.iter().map(|j| v[*j].into()).collect(),
+        q: wide,
+    };
+    let records = vec![false; n];
+    let at = At {
+        choice: &choice,
+        place: &place,
+        records: &records,
+    };
+    let asked = Asked::new(machine, &system, request, &choice)?;
+    smooth(&mut reduced, &asked, &at)?;
+    let (here, bounds) = settled(&mut reduced, &asked, &at)?;
+    let (wide, s) = (constants(&place.q), constants(&place.s));
+    let rates = reduced.evaluate(&choice, &wide, &s)?.rates;
+    let v = rates.iter().map(|v| v.value.hi()).collect();
+    Ok(asked.model(&at, here, bounds, (near, v, inputs)))
+}
+
+fn constants(values: &[DoubleDouble]) -> Vec<Number> {
+    values.iter().copied().map(Dual::constant).collect()
+}
+
+impl At<'_> {
+    /// The coordinates that are states, in the order of the spec.
+    fn places(&self) -> Vec<usize> {
+        let places = self.choice.places().into_iter();
+        let mut places: Vec<usize> = places.filter(|j| !self.records[*j]).collect();
+        places.sort_unstable();
+        places
+    }
+}
+
+/// A request, and the names of what is in it.
+struct Asked<'a> {
+    request: &'a Request,
+    system: &'a InterpretedSystem,
+    coordinates: Vec<Label>,
+    inputs: Vec<Label>,
+    outputs: Vec<Label>,
+    has_multipliers: bool,
+}
+
+/// `der(x)` in its unit.
+fn rate(of: &Label, order: u8) -> Label {
+    let name = match order {
+        1 => format!("der({})", of.name),
+        _ => format!("der({},{order})", of.name),
+    };
+    let per = if order == 1 { "s" } else { "s^2" };
+    let unit = match of.unit.as_str() {
+        "1" => format!("1/{per}"),
+        unit => format!("{unit}/{per}"),
+    };
+    Label { name, unit }
+}
+
+impl<'a> Asked<'a> {
+    fn new(
+        machine: &InterpretedMachine,
+        system: &'a InterpretedSystem,
+        request: &'a Request,
+        choice: &Choice,
+    ) -> Result<Asked<'a>, NoModel> {
+        let coordinates: Vec<Label> = system
+            .coordinates()
+            .map(|q| Label {
+                name: q.name.to_owned(),
+                unit: q.unit.to_owned(),
+            })
+            .collect();
+        let program = machine.program();
+        let slot = |slot: &lagrangian_program::Slot| Label {
+            name: slot.name.to_string(),
+            unit: slot.label(),
+        };
+        let constraints: Vec<String> = system.constraints().map(|c| c.name.to_owned()).collect();
+        let mut outputs = Vec::new();
+        for observed in &request.outputs {
+            outputs.push(match *observed {
+                Observed::Output(k) => slot(&program.outputs[k]),
+                Observed::Coordinate(j) => coordinates[j].clone(),
+                Observed::Rate(j) => rate(&coordinates[j], 1),
+                Observed::Acceleration(j) => rate(&coordinates[j], 2),
+                Observed::Multiplier(k) if choice.rows.len() < constraints.len() => {
+                    return Err(NoModel::Multiplier(k));
+                }
+                Observed::Multiplier(k) => Label {
+                    name: format!("multiplier({})", constraints[k]),
+                    // In the unit of energy over that of the constraint, which has none here.
+                    unit: String::new(),
+                },
+            });
+        }
+        let inputs = request.inputs.iter();
+        let is_multiplier = |o: &Observed| matches!(o, Observed::Multiplier(_));
+        Ok(Asked {
+            system,
+            inputs: inputs.map(|k| slot(&program.inputs[*k])).collect(),
+            coordinates,
+            outputs,
+            has_multipliers: request.outputs.iter().any(is_multiplier),
+            request,
+        })
+    }
+
+    fn model(
+        self,
+        at: &At<'_>,
+        matrices: Matrices,
+        bounds: Matrices,
+        (q, v, u): (Vec<f64>, Vec<f64>, Vec<f64>),
+    ) -> Model {
+        let places = at.places();
+        let names = places.iter().map(|j| self.coordinates[*j].clone());
+        let rates = at.choice.independent.iter();
+        let rates = rates.map(|j| rate(&self.coordinates[*j], 1));
+        let records = self.coordinates.iter().zip(at.records);
+        let records = records.filter(|(_, is_record)| **is_record);
+        let states: Vec<Label> = names.chain(rates).collect();
+        let Matrices {
+            a,
+            b,
+            c,
+            d,
+            basis,
+            drift,
+            y,
+        } = matrices;
+        Model {
+            y: y.iter().copied().collect(),
+            drift: drift.iter().copied().collect(),
+            is_reduced: states.len() < 2 * q.len(),
+            records: records.map(|(label, _)| label.name.clone()).collect(),
+            a_bounds: bounds.a,
+            inputs: self.inputs,
+            outputs: self.outputs,
+            states,
+            a,
+            b,
+            c,
+            d,
+            basis,
+            q,
+            v,
+            u,
+        }
+    }
+}
+
+/// What changes with states and inputs, over numbers with a derivative.
+struct Response {
+    rates: Vec<Number>,
+    /// ṡ.
+    accelerations: Vec<Number>,
+    /// a, of all coordinates.
+    all: Vec<Number>,
+    /// y.
+    outputs: Vec<Number>,
+}
+
+fn respond(
+    reduced: &mut Reduced<'_>,
+    asked: &Asked<'_>,
+    choice: &Choice,
+    q: &[Number],
+    s: &[Number],
+) -> Result<Response, Fault> {
+    let here = reduced.evaluate(choice, q, s)?;
+    let (n, count) = (q.len(), choice.independent.len());
+    let sum = |terms: &mut dyn Iterator<Item = Number>| terms.fold(Number::ZERO, |sum, x| sum + x);
+    // M T, and Tᵀ M T.
+    let carried: Vec<Vec<Number>> = (0..n)
+        .map(|i| {
+            let column =
+                |c: usize| sum(&mut (0..n).map(|j| here.mass[i * n + j] * here.along[j][c]));
+            (0..count).map(column).collect()
+        })
+        .collect();
+    let mass = (0..count).map(|r| {
+        let entry = |c: usize| sum(&mut (0..n).map(|i| here.along[i][r] * carried[i][c]));
+        (0..count).map(entry).collect()
+    });
+    let forces = here.forces.iter().map(|force| vec![*force]).collect();
+    let singular = || Fault::Singular(choice.independent.first().copied().unwrap_or(0));
+    let solved = solve(mass.collect(), forces).ok_or_else(singular)?;
+    let accelerations: Vec<Number> = solved.into_iter().map(|row| row[0]).collect();
+    let finite = |x: &Number| x.value.is_finite() && x.derivative.is_finite();
+    if let Some(c) = accelerations.iter().position(|x| !finite(x)) {
+        return Err(Fault::NotFinite(choice.independent[c]));
+    }
+    let all: Vec<Number> = (0..n)
+        .map(|i| {
+            let free = accelerations.iter().zip(&here.along[i]);
+            here.held[i] + sum(&mut free.map(|(a, t)| *a * *t))
+        })
+        .collect();
+    let mut multipliers = Vec::new();
+    if asked.has_multipliers {
+        let rows = reduced.constraint_rows(q);
+        let dependent: Vec<usize> = choice
+            .tied
+            .iter()
+            .chain(&choice.followers)
+            .copied()
+            .collect();
+        let matrix = dependent
+            .iter()
+            .map(|j| choice.rows.iter().map(|k| rows[k * n + j]).collect());
+        let left = dependent.iter().map(|&j| {
+            let inertia = sum(&mut (0..n).map(|i| here.mass[j * n + i] * all[i]));
+            vec![inertia - here.applied[j]]
+        });
+        let solved = solve(matrix.collect(), left.collect()).ok_or_else(singular)?;
+        multipliers = vec![Number::ZERO; choice.rows.len()];
+        for (k, row) in choice.rows.iter().zip(solved) {
+            multipliers[*k] = row[0];
+        }
+    }
+    let outputs = asked
+        .request
+        .outputs
+        .iter()
+        .map(|observed| match *observed {
+            Observed::Output(k) => reduced.output(k, (q, &here.rates, &all)),
+            Observed::Coordinate(j) => q[j],
+            Observed::Rate(j) => here.rates[j],
+            Observed::Acceleration(j) => all[j],
+            Observed::Multiplier(k) => multipliers[k],
+        });
+    Ok(Response {
+        outputs: outputs.collect(),
+        rates: here.rates,
+        accelerations,
+        all,
+    })
+}
+
+/// All matrices at a state, as they come out.
+fn matrices(
+    reduced: &mut Reduced<'_>,
+    asked: &Asked<'_>,
+    at: &At<'_>,
+    place: &Place,
+) -> Result<Matrices, Fault> {
+    let choice = at.choice;
+    let (mut q, mut s) = (constants(&place.q), constants(&place.s));
+    let tangent = reduced.tangent(choice, &q)?;
+    let here = respond(reduced, asked, choice, &q, &s)?;
+    let places = at.places();
+    let (n, moving, kept) = (q.len(), s.len(), places.len());
+    let states = kept + moving;
+    let value = |x: &Number| x.value.hi();
+    let drift = places.iter().map(|j| value(&here.rates[*j]));
+    let drift = drift.chain(here.accelerations.iter().map(value));
+    let outputs = here.outputs.len();
+    let mut found = Matrices {
+        a: DMatrix::zeros(states, states),
+        b: DMatrix::zeros(states, asked.request.inputs.len()),
+        c: DMatrix::zeros(outputs, states),
+        d: DMatrix::zeros(outputs, asked.request.inputs.len()),
+        basis: DMatrix::zeros(2 * n, states),
+        drift: DMatrix::from_iterator(states, 1, drift),
+        y: DMatrix::from_iterator(outputs, 1, here.outputs.iter().map(value)),
+    };
+    let slope = |x: &Number| x.derivative.hi();
+    let rows = |response: &Response| -> Vec<f64> {
+        let rates = places.iter().map(|j| slope(&response.rates[*j]));
+        let all = rates.chain(response.accelerations.iter().map(slope));
+        all.collect()
+    };
+    let all = choice.places();
+    let columns = places
+        .iter()
+        .filter_map(|j| all.iter().position(|k| k == j));
+    for (column, direction) in columns.enumerate() {
+        let direction = &tangent[direction];
+        for (q, d) in q.iter_mut().zip(direction) {
+            q.derivative = *d;
+        }
+        let there = respond(reduced, asked, choice, &q, &s)?;
+        for (i, x) in rows(&there).into_iter().enumerate() {
+            found.a[(i, column)] = x;
+        }
+        for (i, x) in there.outputs.iter().enumerate() {
+            found.c[(i, column)] = slope(x);
+        }
+        for i in 0..n {
+            let is_state = !at.records[i];
+            found.basis[(i, column)] = if is_state { direction[i].hi() } else { 0.0 };
+            found.basis[(n + i, column)] = if is_state {
+                slope(&there.rates[i])
+            } else {
+                0.0
+            };
+        }
+    }
+    q = constants(&place.q);
+    for k in 0..moving {
+        s[k].derivative = DoubleDouble::ONE;
+        let there = respond(reduced, asked, choice, &q, &s)?;
+        s[k].derivative = DoubleDouble::ZERO;
+        let column = kept + k;
+        for (i, x) in rows(&there).into_iter().enumerate() {
+            found.a[(i, column)] = x;
+        }
+        for (i, x) in there.outputs.iter().enumerate() {
+            found.c[(i, column)] = slope(x);
+        }
+        for i in (0..n).filter(|i| !at.records[*i]) {
+            found.basis[(n + i, column)] = slope(&there.rates[i]);
+        }
+    }
+    for (column, &input) in asked.request.inputs.iter().enumerate() {
+        reduced.inputs_mut()[input].derivative = DoubleDouble::ONE;
+        let there = respond(reduced, asked, choice, &q, &s);
+        reduced.inputs_mut()[input].derivative = DoubleDouble::ZERO;
+        let there = there?;
+        for (i, x) in rows(&there).into_iter().enumerate() {
+            found.b[(i, column)] = x;
+        }
+        for (i, x) in there.outputs.iter().enumerate() {
+            found.d[(i, column)] = slope(x);
+        }
+    }
+    let numbers = found.each().into_iter().flat_map(|m| m.iter());
+    if numbers.copied().any(|x| !x.is_finite()) {
+        return Err(Fault::NotFinite(places.first().copied().unwrap_or(0)));
+    }
+    Ok(found)
+}
+
+/// The matrices, with what is 0 but for rounding as 0; and what rounding may make of each number.
+fn settled(
+    reduced: &mut Reduced<'_>,
+    asked: &Asked<'_>,
+    at: &At<'_>,
+) -> Result<(Matrices, Matrices), Fault> {
+    let mut here = matrices(reduced, asked, at, at.place)?;
+    let mut bounds = here.clone();
+    for matrix in bounds.each_mut() {
+        matrix.fill(0.0);
+    }
+    reduced.rounded(at.place, |reduced, other| {
+        let Ok(found) = matrices(reduced, asked, at, other) else {
+            return;
+        };
+        let pairs = found.each().into_iter().zip(here.each());
+        for (bound, (x, y)) in bounds.each_mut().into_iter().zip(pairs) {
+            let off = (x - y).abs() * SAFETY;
+            bound.zip_apply(&off, |bound, off| *bound = bound.max(off));
+        }
+    });
+    for (matrix, bound) in here.each_mut().into_iter().zip(bounds.each()) {
+        matrix.zip_apply(bound, |x, bound| {
+            if x.abs() <= bound {
+                *x = 0.0;
+            }
+        });
+    }
+    Ok((here, bounds))
+}
+
+/// Whether inputs and outputs have the same part in the model wherever a steady motion has come, and at all times.
+fn goes_on(
+    reduced: &mut Reduced<'_>,
+    asked: &Asked<'_>,
+    at: &At<'_>,
+    (here, bounds): (&Matrices, &Matrices),
+    v: &[f64],
+) -> Result<(), NoModel> {
+    let largest = |m: &DMatrix<f64>| m.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let compare = |there: &Matrices, moving: Moving| {
+        let pairs = [
+            (&here.b, &there.b, &bounds.b),
+            (&here.c, &there.c, &bounds.c),
+            (&here.d, &there.d, &bounds.d),
+        ];
+        for (part, (one, other, bound)) in pairs.into_iter().enumerate() {
+            let rounding = motion::SAME * largest(one).max(largest(other));
+            let is_other = |row: usize, column: usize| {
+                let place = (row, column);
+                (one[place] - other[place]).abs() > bound[place].max(rounding)
+            };
+            let mut places =
+                (0..one.nrows()).flat_map(|row| (0..one.ncols()).map(move |c| (row, c)));
+            if let Some((row, column)) = places.find(|(row, column)| is_other(*row, *column)) {
+                return Err(match part {
+                    0 => NoModel::InputTurns(asked.inputs[column].name.clone(), moving),
+                    _ => NoModel::OutputTurns(asked.outputs[row].name.clone(), moving),
+                });
+            }
+        }
+        Ok(())
+    };
+    let coordinate = |j: usize| Moving::Coordinate(asked.coordinates[j].name.clone());
+    let places = at.choice.places();
+    for &j in places.iter().filter(|j| v[**j] != 0.0) {
+        for there in motion::elsewhere(reduced, at.choice, at.place, j) {
+            // Where the equations end nothing can be compared.
+            if let Ok(there) = matrices(reduced, asked, at, &there) {
+                compare(&there, coordinate(j))?;
+            }
+        }
+    }
+    // An output that depends on what only records is the same nowhere.
+    let (q, s) = (constants(&at.place.q), constants(&at.place.s));
+    let tangent = reduced.tangent(at.choice, &q)?;
+    for (column, &j) in places.iter().enumerate().filter(|(_, j)| at.records[**j]) {
+        let mut q = q.clone();
+        for (q, d) in q.iter_mut().zip(&tangent[column]) {
+            q.derivative = *d;
+        }
+        let there = respond(reduced, asked, at.choice, &q, &s)?;
+        let rounding = motion::SAME * largest(&here.c);
+        let mut slopes = there.outputs.iter().map(|y| y.derivative.hi().abs());
+        if let Some(k) = slopes.position(|slope| slope > rounding) {
+            let name = asked.outputs[k].name.clone();
+            return Err(NoModel::OutputTurns(name, coordinate(j)));
+        }
+    }
+    for time in TIMES {
+        reduced.set_time(time);
+        let there = matrices(reduced, asked, at, at.place);
+        reduced.set_time(0.0);
+        compare(&there?, Moving::Time)?;
+    }
+    Ok(())
+}
+
+/// Whether nothing has a corner or a jump at the state: `abs`, `sign`, `min` or `max` where their arguments change sides.
+///
+/// All that the equations are made of is evaluated on both sides of the state, with its derivative, at two distances. Where it
+/// is smooth what it differs by falls with the distance; beside a corner it stays. In 32 digits there is no rounding at these
+/// distances.
+fn smooth(reduced: &mut Reduced<'_>, asked: &Asked<'_>, at: &At<'_>) -> Result<(), NoModel> {
+    let (q, s) = (constants(&at.place.q), constants(&at.place.s));
+    let here = respond(reduced, asked, at.choice, &q, &s)?;
+    let (n, u) = (q.len(), reduced.inputs_mut().to_vec());
+    let time = reduced.time();
+    let state = [&q[..], &here.rates, &u, &here.all].concat();
+    // A direction in which nothing is alone; then one number after the other, to name it.
+    let weight = |k: usize| 0.5 + (k * 29 % 97) as f64 / 97.0;
+    let mut jump = |only: Option<usize>| -> Option<usize> {
+        let mut numbers = |by: f64| -> Vec<Number> {
+            let moved = state.iter().enumerate().map(|(k, x)| {
+                let weight = match only {
+                    Some(one) if one != k => 0.0,
+                    _ => weight(k),
+                };
+                let unit = DoubleDouble::from(x.value.hi().abs().max(1.0) * weight);
+                Dual {
+                    value: x.value + unit * DoubleDouble::from(by),
+                    derivative: unit,
+                }
+            });
+            let moved: Vec<Number> = moved.collect();
+            let (q, rest) = moved.split_at(n);
+            let (v, rest) = rest.split_at(n);
+            let (inputs, a) = rest.split_at(u.len());
+            reduced.inputs_mut().copy_from_slice(inputs);
+            let mut numbers = reduced.ingredients(q, v, time).concat();
+            for observed in &asked.request.outputs {
+                if let Observed::Output(k) = *observed {
+                    numbers.push(reduced.output(k, (q, v, a)));
+                }
+            }
+            reduced.inputs_mut().copy_from_slice(&u);
+            numbers
+        };
+        let here = numbers(0.0);
+        let [far, near] = NEAR.map(|by| {
+            let (above, below) = (numbers(by), numbers(-by));
+            let off = |x: DoubleDouble, y: DoubleDouble| (x - y).hi().abs();
+            let differ = above.iter().zip(&below).zip(&here).map(|((x, y), z)| {
+                [
+                    off(x.value, y.value),
+                    off(x.derivative, y.derivative),
+                    // At a corner itself dual numbers take some slope between those of the sides.
+                    off(x.derivative, z.derivative),
+                ]
+            });
+            differ.collect::<Vec<[f64; 3]>>()
+        });
+        let all = numbers(NEAR[0]);
+        let sizes = all.iter().flat_map(|x| [x.value.hi(), x.derivative.hi()]);
+        let largest = sizes.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        (0..all.len()).find(|&i| {
+            let pairs = near[i].iter().zip(far[i]);
+            let mut stays =
+                pairs.map(|(near, far)| *near > 0.5 * far && *near > ROUNDING * largest);
+            stays.any(|stays| stays)
+        })
+    };
+    let Some(index) = jump(None) else {
+        return Ok(());
+    };
+    let is_output = |pair: &(&Observed, &Label)| matches!(pair.0, Observed::Output(_));
+    let outputs = asked.request.outputs.iter().zip(&asked.outputs);
+    let mut outputs = outputs.filter(is_output).map(|(_, label)| label);
+    let equations = numbers_of_equations(n, asked.system);
+    if let Some(label) = index
+        .checked_sub(equations)
+        .and_then(|index| outputs.nth(index))
+    {
+        return Err(NoModel::OutputKink(label.name.clone()));
+    }
+    let only = (0..2 * n + u.len()).find(|k| jump(Some(*k)).is_some());
+    Err(NoModel::Kink(match only {
+        Some(k) if k < n => Some(asked.coordinates[k].name.clone()),
+        Some(k) if k < 2 * n => Some(rate(&asked.coordinates[k - n], 1).name),
+        _ => None,
+    }))
+}
+
+/// How many numbers the equations are made of, before the outputs.
+fn numbers_of_equations(n: usize, system: &InterpretedSystem) -> usize {
+    let m = system.constraints().len();
+    n * (n + 1) / 2 + n + m * n + 3 * m
+}

@@ -1,0 +1,225 @@
+//! The steady motion of a machine, from its program and a start, and in words why there is none.
+
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem};
+use lagrangian::{Machine, System};
+use lagrangian_program::Role;
+
+use crate::motion::{self, Motion, State, Unsteady};
+use crate::reduced::{Fault, Place, Reduced};
+use crate::search::{self, Lost, Wanted};
+
+/// Why there is no steady motion.
+pub enum NoMotion {
+    /// The search ended elsewhere.
+    Lost(Lost),
+    /// What was found does not go on.
+    Unsteady(Unsteady),
+}
+
+/// What the options are called by which a caller says where to look.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// The start values, as in `--start`.
+    pub start: &'static str,
+    /// Which coordinates move steadily, as in `--steady`.
+    pub steady: &'static str,
+}
+
+/// The steady motion that is reached from `q`, and the motions near it.
+///
+/// # Errors
+/// Why there is none.
+pub fn motion(
+    machine: &InterpretedMachine,
+    q: &[f64],
+    wanted: &Wanted,
+) -> Result<Motion, NoMotion> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let mut reduced = Reduced::new(machine, &system, &inputs, &states(q, &wanted.given()));
+    let found = search::find(&mut reduced, q, wanted);
+    let found = found.map_err(|lost| match start_is_unsteady(&mut reduced, q, wanted) {
+        // What depends on where it is cannot be balanced for long either.
+        Some(unsteady) => NoMotion::Unsteady(unsteady),
+        None => NoMotion::Lost(lost),
+    })?;
+    let motion = motion::near(&mut reduced, found, &wanted.steady);
+    motion.map_err(NoMotion::Unsteady)
+}
+
+/// Whether the equations depend, where the search begins, on what is to move steadily.
+fn start_is_unsteady(reduced: &mut Reduced<'_>, q: &[f64], wanted: &Wanted) -> Option<Unsteady> {
+    if !wanted.steady.contains(&true) {
+        return None;
+    }
+    let mut wide: Vec<_> = q.iter().map(|x| (*x).into()).collect();
+    reduced.bring(&mut wide, &|_| true).ok()?;
+    let choice = reduced.choose(q, &wanted.steady).ok()?;
+    let s = choice.independent.iter().map(|j| match wanted.steady[*j] {
+        true => wanted.rates[*j].into(),
+        false => 0.0.into(),
+    });
+    let place = Place {
+        s: s.collect(),
+        q: wide,
+    };
+    let (here, bounds) = reduced.linearized(&choice, &place).ok()?;
+    let state = State {
+        choice: &choice,
+        place: &place,
+        here: &here,
+        bounds: &bounds,
+    };
+    motion::records(reduced, &state).err()
+}
+
+/// The start, and two states beside it that have nothing in common.
+pub(crate) fn states(q: &[f64], v: &[f64]) -> [(Vec<f64>, Vec<f64>); 3] {
+    let beside = |list: &[f64], seed: usize| -> Vec<f64> {
+        let shift = |k: usize| 0.01 + ((seed + 7 * k) * 29 % 97) as f64 / 997.0;
+        list.iter()
+            .enumerate()
+            .map(|(k, x)| x + shift(k) * x.abs().max(1.0))
+            .collect()
+    };
+    [
+        (q.to_vec(), v.to_vec()),
+        (beside(q, 1), beside(v, 2)),
+        (beside(q, 3), beside(v, 4)),
+    ]
+}
+
+/// Whether the equations of a machine change with time, so that it is at rest nowhere.
+///
+/// # Errors
+/// They do; the names of the parameters each of which stops the drive by being 0.
+pub fn drives(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<(), Vec<String>> {
+    let reads_time = |role: &Role| {
+        let function = machine.program().function(*role);
+        function.is_some_and(|function| function.reads().time)
+    };
+    let roles = [
+        Role::MassMatrix,
+        Role::Forces,
+        Role::ConstraintMatrix,
+        Role::ConstraintRates,
+        Role::ConstraintDrift,
+        Role::ConstraintPositions,
+    ];
+    if !roles.iter().any(reads_time) {
+        return Ok(());
+    }
+    let states = states(q, &wanted.given());
+    // A drive that parameters hold still, `cos(0*t)`, gives the same numbers at all times. What has none is no answer.
+    let stands_still = |machine: &InterpretedMachine| {
+        let system = machine.prepare();
+        let inputs = system.default_inputs().values;
+        Reduced::new(machine, &system, &inputs, &[]).stands_still(&states)
+    };
+    if stands_still(machine) {
+        return Ok(());
+    }
+    // Nor is a machine without inertia, on which the drive has no hold either.
+    let is_regular = |machine: &InterpretedMachine| {
+        let system = machine.prepare();
+        Reduced::new(machine, &system, &[], &[]).is_regular(&states)
+    };
+    let has_inertia = is_regular(machine);
+    let stops = |name: &String| {
+        let mut still = machine.clone();
+        still.set(name, 0.0).is_ok() && (is_regular(&still) || !has_inertia) && stands_still(&still)
+    };
+    let names = machine.parameters();
+    let names = names.map(|(parameter, _)| parameter.name.to_owned());
+    Err(names.filter(stops).collect())
+}
+
+fn name(system: &InterpretedSystem, index: usize) -> String {
+    let coordinate = system.coordinates().nth(index);
+    coordinate.map_or_else(|| "?".to_owned(), |coordinate| coordinate.name.to_owned())
+}
+
+impl NoMotion {
+    /// Why, in one sentence.
+    pub fn in_words(
+        &self,
+        system: &InterpretedSystem,
+        wanted: &Wanted,
+        options: Options,
+    ) -> String {
+        match self {
+            NoMotion::Lost(lost) => why_lost(system, wanted, lost, options),
+            NoMotion::Unsteady(unsteady) => why_unsteady(system, unsteady, options),
+        }
+    }
+}
+
+fn why_unsteady(system: &InterpretedSystem, unsteady: &Unsteady, options: Options) -> String {
+    let name = |index: &usize| name(system, *index);
+    match unsteady {
+        Unsteady::Depends(index) => format!(
+            "`{}` cannot turn steadily: the equations of motion depend on where it is",
+            name(index)
+        ),
+        Unsteady::Follows(index, other) => format!(
+            "`{}` cannot turn steadily: the rate of `{}` changes with it, and the equations of motion depend on where that is",
+            name(other),
+            name(index)
+        ),
+        Unsteady::Fault(fault) => fault.in_words(system, options),
+        Unsteady::NoEigenvalues => "the eigenvalues cannot be found".to_owned(),
+    }
+}
+
+impl Fault {
+    /// What is wrong, in one sentence.
+    pub fn in_words(&self, system: &InterpretedSystem, options: Options) -> String {
+        let name = |index: &usize| name(system, *index);
+        let Options { start, steady } = options;
+        match self {
+            Fault::Singular(index) => format!(
+                "the mass matrix is singular in `{}` on the way to an equilibrium; {start} sets another place to look from",
+                name(index)
+            ),
+            Fault::NotFinite(index) => format!(
+                "the acceleration of `{}`, or a derivative of it, is not finite on the way to an equilibrium; {start} sets another \
+                 place to look from",
+                name(index)
+            ),
+            Fault::Follows(index) => format!(
+                "{steady} {0}: by the constraints the rate of `{0}` follows from the others; leave it out, or one of those",
+                name(index)
+            ),
+            Fault::Unmet(index) => {
+                let constraint = system.constraints().nth(*index);
+                let name = constraint.map_or_else(|| "?".to_owned(), |c| c.name.to_owned());
+                format!(
+                    "the constraint `{name}` cannot be met near the start; {start} sets another place to look from"
+                )
+            }
+        }
+    }
+}
+
+fn why_lost(system: &InterpretedSystem, wanted: &Wanted, lost: &Lost, options: Options) -> String {
+    let Options { start, steady } = options;
+    let kind = match wanted.steady.contains(&true) {
+        true => "steady motion",
+        false => "equilibrium",
+    };
+    let place = match wanted.steady.contains(&true) {
+        true => format!("{start} sets another place to look from, {steady} other rates"),
+        false => format!("{start} sets another place to look from"),
+    };
+    match lost {
+        Lost::Fault(fault) => fault.in_words(system, options),
+        Lost::Accelerates(index, left) => format!(
+            "there is no {kind} near the start: nothing takes the acceleration {left:.3e} of `{}` away; {place}",
+            name(system, *index)
+        ),
+        Lost::NoEnd(steps) => {
+            let times = if *steps == 1 { "step" } else { "steps" };
+            format!("no {kind} was found in {steps} {times} from the start; {place}")
+        }
+    }
+}
