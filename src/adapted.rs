@@ -237,6 +237,9 @@ where
     type Coordinates = S::Coordinates;
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
+    const MAY_BE_CONSTRAINED: bool = S::MAY_BE_CONSTRAINED;
+    const MAY_SLIDE: bool = S::MAY_SLIDE;
+    const MAY_COLLIDE: bool = S::MAY_COLLIDE;
 
     forward!(
         coordinates,

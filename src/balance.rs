@@ -47,6 +47,7 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for super::NoBalance {}
     impl Sealed for super::EnergyIntegrals {}
+    impl Sealed for Option<super::EnergyIntegrals> {}
 }
 
 /// No energy balance is kept, and none costs anything.
@@ -155,6 +156,55 @@ impl<S: System> Quadratures<S> for EnergyIntegrals {
 
     fn integrals(&self) -> Option<&EnergyIntegrals> {
         Some(self)
+    }
+}
+
+/// Whether the balance is kept is known when the program runs. A simulation is compiled once for both: asking at each stage
+/// is lost in the time of an evaluation, and a second copy of the whole run would double what a user's build takes.
+impl<S: System> Quadratures<S> for Option<EnergyIntegrals> {
+    #[inline(always)]
+    fn stage(
+        &mut self,
+        stage: usize,
+        system: &S,
+        at: (f64, &S::Vector, &S::Vector, &S::Vector),
+        u: &S::Inputs,
+    ) {
+        if let Some(integrals) = self {
+            integrals.stage(stage, system, at, u);
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, stage: usize, work: f64, lost: f64) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::add(integrals, stage, work, lost);
+        }
+    }
+
+    #[inline(always)]
+    fn add_at_once(&mut self, work: f64, lost: f64) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::add_at_once(integrals, work, lost);
+        }
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, h: f64, b: &[f64]) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::advance(integrals, h, b);
+        }
+    }
+
+    #[inline(always)]
+    fn retreat(&mut self, b: &[f64]) {
+        if let Some(integrals) = self {
+            Quadratures::<S>::retreat(integrals, b);
+        }
+    }
+
+    fn integrals(&self) -> Option<&EnergyIntegrals> {
+        self.as_ref()
     }
 }
 

@@ -209,7 +209,7 @@ fn solve<S: System>(
     multipliers: &mut [f64],
     contacts: &mut [ContactForce],
 ) -> Option<()> {
-    if !contacts.is_empty() {
+    if S::MAY_SLIDE && !contacts.is_empty() {
         let at = (t, q, v, u);
         return contact_forces(system, at, a.as_mut_slice(), multipliers, contacts).ok();
     }
@@ -218,10 +218,12 @@ fn solve<S: System>(
         .and_then(|()| system.multipliers(t, q, v, u, multipliers));
     match found {
         Ok(()) => Some(()),
-        Err(singular) if matches!(singular.at, Pivot::Constraint(_)) => {
-            least_multipliers(system, t, q, v, u, a, multipliers).ok()
+        Err(singular) => {
+            if S::MAY_BE_CONSTRAINED && matches!(singular.at, Pivot::Constraint(_)) {
+                return least_multipliers(system, t, q, v, u, a, multipliers).ok();
+            }
+            None
         }
-        Err(_) => None,
     }
 }
 

@@ -305,7 +305,7 @@ pub(crate) fn find<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
         };
         watch.changes(looks, roundoff, exact, |watch, from, to| {
             let side_before = watch.side;
-            let theta = root([from, to], roundoff, |theta| exact(watch, theta))?;
+            let theta = root([from, to], roundoff, &mut |theta| exact(watch, theta))?;
             found.push(Found {
                 watch: index,
                 theta,
@@ -441,10 +441,13 @@ pub(crate) fn theta_roundoff<S: System, L: InputLaw<S>, A: Quadratures<S>>(
 /// T. R. Chandrupatla, *A new hybrid quadratic/bisection algorithm for finding the zero of a
 /// nonlinear function without using derivatives*, Adv. Eng. Software 28 (1997) 145–149: inverse
 /// quadratic interpolation where that is safe, else bisection.
+///
+/// The function is called through a pointer: it evaluates a motion, and one copy of the search serves all machines and
+/// events, where each would compile its own.
 pub(crate) fn root(
     [mut a, mut b]: [f64; 2],
     roundoff: f64,
-    mut f: impl FnMut(f64) -> Result<f64, Error>,
+    f: &mut dyn FnMut(f64) -> Result<f64, Error>,
 ) -> Result<f64, Error> {
     let (mut f_a, mut f_b) = (f(a)?, f(b)?);
     // The newest point and the one on the other side are `b` and `a`; `c` was there before.
@@ -486,7 +489,7 @@ pub(crate) fn root(
 pub(crate) fn last_positive(
     [from, to]: [f64; 2],
     roundoff: f64,
-    mut f: impl FnMut(f64) -> Result<f64, Error>,
+    f: &mut dyn FnMut(f64) -> Result<f64, Error>,
 ) -> Result<f64, Error> {
     let mut positive = from;
     if f(from)? <= 0.0 {

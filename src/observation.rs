@@ -106,17 +106,20 @@ impl<'x, V: Vector> Known<'x, V> {
         a: &mut V,
     ) -> Result<(), StepError> {
         let (t, q, v, u) = at;
-        if let Some(touching) = self.touching {
+        if S::MAY_COLLIDE
+            && let Some(touching) = self.touching
+        {
             return touching.accelerations(system, at, a);
         }
-        match self.constraints {
-            Some(known) if known.redundant => {
-                let mut known = known.clone();
-                known.choose_as_many(system, t, q)?;
-                known.accelerations(system, t, q, v, u, a)
-            }
-            known => accelerations(system, (known, &self.contacts.cloned()), at, a),
+        if S::MAY_BE_CONSTRAINED
+            && let Some(known) = self.constraints
+            && known.redundant
+        {
+            let mut known = known.clone();
+            known.choose_as_many(system, t, q)?;
+            return known.accelerations(system, t, q, v, u, a);
         }
+        accelerations(system, (self.constraints, &self.contacts.cloned()), at, a)
     }
 
     fn multipliers<S: System<Vector = V>>(
@@ -125,8 +128,13 @@ impl<'x, V: Vector> Known<'x, V> {
         at: At<'_, S>,
     ) -> Result<Vec<f64>, StepError> {
         let (t, q, v, u) = at;
-        if let Some(touching) = self.touching {
+        if S::MAY_COLLIDE
+            && let Some(touching) = self.touching
+        {
             return touching.multipliers(system, at);
+        }
+        if !S::MAY_BE_CONSTRAINED {
+            return Ok(Vec::new());
         }
         let mut multipliers = vec![0.0; system.constraints().len()];
         match self.constraints {
@@ -165,22 +173,25 @@ impl<'x, V: Vector> Known<'x, V> {
         let mut a = q.zeros_like();
         let at = (t, &q, &v, &u);
         self.accelerations(system, at, &mut a)?;
-        let (multipliers, contacts) = match self.contacts {
-            None => (self.multipliers(system, at)?, Vec::new()),
-            Some(known) => {
-                let mut multipliers = vec![0.0; system.constraints().len()];
-                let mut forces = vec![ContactForce::default(); system.contacts().len()];
-                known
-                    .forces(system, at, &mut multipliers, &mut forces)
-                    .map_err(|singular| StepError::Singular { singular, t })?;
-                (multipliers, forces)
-            }
-        };
-        let unilateral = match self.touching {
-            None => Vec::new(),
-            Some(touching) => touching.forces(system, at, &mut a)?,
-        };
-        let stored = (self.touching).map_or(0.0, |touching| touching.stored(system, t, &q, &v));
+        let (mut multipliers, mut contacts);
+        if M::System::MAY_SLIDE
+            && let Some(known) = self.contacts
+        {
+            multipliers = vec![0.0; system.constraints().len()];
+            contacts = vec![ContactForce::default(); system.contacts().len()];
+            known
+                .forces(system, at, &mut multipliers, &mut contacts)
+                .map_err(|singular| StepError::Singular { singular, t })?;
+        } else {
+            (multipliers, contacts) = (self.multipliers(system, at)?, Vec::new());
+        }
+        let (mut unilateral, mut stored) = (Vec::new(), 0.0);
+        if M::System::MAY_COLLIDE
+            && let Some(touching) = self.touching
+        {
+            unilateral = touching.forces(system, at, &mut a)?;
+            stored = touching.stored(system, t, &q, &v);
+        }
         Ok(Observation {
             t,
             multipliers,

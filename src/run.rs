@@ -71,14 +71,12 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let tolerance = settings.tolerance(&system)?;
     let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
     check_start(&system, start.t, &q, &v)?;
-    let (start, of_start) = match system.constraints().len() {
-        0 => (start, Vec::new()),
-        _ => {
-            let kept = settings.kept(&system, goes_on)?;
-            let found = bring_start(&system, start.t, &mut q, &mut v, kept)?;
-            (state(&system, (start.t, q.clone(), v.clone())), found)
-        }
-    };
+    let (mut start, mut of_start) = (start, Vec::new());
+    if <M::System as System>::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
+        let kept = settings.kept(&system, goes_on)?;
+        of_start = bring_start(&system, start.t, &mut q, &mut v, kept)?;
+        start = state(&system, (start.t, q.clone(), v.clone()));
+    }
     let ended = resumed.filter(|resumed| resumed.t == start.t);
     let ended = ended.and_then(|resumed| resumed.event);
     let sampling = callbacks.sampled.as_ref().map(|of| of.begin(&system));
@@ -156,7 +154,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     if (run.record.energies.first()).is_some_and(|of| (of.kinetic + of.potential).is_nan()) {
         return Err(Error::EnergiesUnknown { t: start.t });
     }
-    run.meet_at_start()?;
+    if <M::System as System>::MAY_COLLIDE {
+        run.meet_at_start()?;
+    }
     let (ending, error) = match run.go_to_end() {
         Ok(ending) => (ending, None),
         Err(error) => (Ending::Error, Some(error)),
@@ -193,7 +193,9 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let work = stepper.work();
     let balance = balance(&stepper, &energies, &explained, kinetic_energy);
     let mut warnings = warnings(&settings, &stepper, of_start);
-    warnings.extend(unilateral.warning(&system));
+    if <M::System as System>::MAY_COLLIDE {
+        warnings.extend(unilateral.warning(&system));
+    }
     if let Some(balance) = &balance
         && error.is_none()
         && balance.residual().abs() > balance.explained
@@ -321,7 +323,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
 
             let mut interpolant = None;
-            if pending.is_none()
+            if <M::System as System>::MAY_SLIDE
+                && pending.is_none()
                 && ending.is_ok()
                 && let Some((t, change)) = self.contact_changed(&mut interpolant)?
             {
@@ -333,7 +336,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 }
                 continue;
             }
-            if self.stepper.touching().is_some() {
+            if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
                 let (looks, changes) = (ending.is_ok(), &mut last_change);
                 let next = self.follow_contacts(&mut meeting, &mut interpolant, looks, changes)?;
                 match next {
@@ -360,11 +363,14 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             if self.shall_stop() {
                 return Ok(Ending::Stopped);
             }
-            if self.stepper.is_done() {
+            if <M::System as System>::MAY_SLIDE && self.stepper.is_done() {
                 self.change(&mut pending, &mut last_change)?;
-                if let Some(ending) = self.meet(&mut meeting, &mut last_change)? {
-                    return Ok(ending);
-                }
+            }
+            if <M::System as System>::MAY_COLLIDE
+                && self.stepper.is_done()
+                && let Some(ending) = self.meet(&mut meeting, &mut last_change)?
+            {
+                return Ok(ending);
             }
         }
         ending
@@ -398,7 +404,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                     continue;
                 }
                 let margin = |theta| exactly(theta).map(|margin| margin.value);
-                let found = event::last_positive([theta_before, theta], theta_roundoff, margin)?;
+                let found =
+                    event::last_positive([theta_before, theta], theta_roundoff, &mut &margin)?;
                 if earliest.is_none_or(|(known, ..)| found < known) {
                     earliest = Some((found, at(found)?.0, change));
                 }
@@ -516,7 +523,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                 continue;
             }
             let roundoff = event::theta_roundoff(stepper);
-            let theta = event::root([0.0, theta], roundoff, margin)?;
+            let theta = event::root([0.0, theta], roundoff, &mut &margin)?;
             return Ok(Some((at(theta)?.0, text)));
         }
         Ok(None)
@@ -709,8 +716,12 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             dissipated: integrals.dissipated(),
         };
         record.explained.take(model.system, stepper, &energies);
-        let stored = (stepper.touching().as_ref())
-            .map_or(0.0, |touching| touching.stored(model.system, t, q, v));
+        let mut stored = 0.0;
+        if <M::System as System>::MAY_COLLIDE
+            && let Some(touching) = stepper.touching()
+        {
+            stored = touching.stored(model.system, t, q, v);
+        }
         if !self.settings.keep_energies
             && record.energies.len() > 1
             && record.energies.last().is_some_and(Energies::are_finite)
@@ -957,6 +968,9 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         else {
             return None;
         };
+        if !S::MAY_BE_CONSTRAINED {
+            return None;
+        }
         let mut known = Constraints::new(self.system, q, v);
         let weakest = known.weakest(self.system, self.start, (t, q)).ok()??;
         let (row, left) = weakest;
@@ -1100,12 +1114,13 @@ fn contradiction<S: System>(error: StepError, system: &S, q: &S::Vector, v: &S::
     {
         (*at, *rates) = (q.as_slice().to_vec(), v.as_slice().to_vec());
     }
-    if let Error::InconsistentConstraints {
-        constraint,
-        with,
-        t,
-        ..
-    } = &mut error_of_run
+    if S::MAY_BE_CONSTRAINED
+        && let Error::InconsistentConstraints {
+            constraint,
+            with,
+            t,
+            ..
+        } = &mut error_of_run
     {
         let mut known = Constraints::new(system, q, v);
         if known.choose_again(system, *t, q).is_ok() {

@@ -3,7 +3,7 @@
 use std::boxed::Box;
 use std::vec::Vec;
 
-use crate::balance::{EnergyIntegrals, NoBalance};
+use crate::balance::EnergyIntegrals;
 use crate::callbacks::{Observe, Shared, Watched};
 use crate::event::{Crossing, Watch};
 use crate::inputs::{AnyInputs, DefaultInputs, InputFunction, InputLaw};
@@ -534,11 +534,8 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
             callbacks: self.callbacks,
             resumed: self.resumed,
         };
-        if task.settings.energy_balance {
-            run::run(task, start, EnergyIntegrals::default())
-        } else {
-            run::run(task, start, NoBalance)
-        }
+        let quadratures = task.settings.energy_balance.then(EnergyIntegrals::default);
+        run::run(task, start, quadratures)
     }
 }
 

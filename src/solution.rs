@@ -234,7 +234,9 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
 
     /// A state within the run, on the constraints.
     fn project(&self, t: f64, (mut q, mut v): Pair<M>) -> Result<Pair<M>, Error> {
-        if let Some(phase) = self.phase_at(t) {
+        if M::System::MAY_COLLIDE
+            && let Some(phase) = self.phase_at(t)
+        {
             let held = phase.touching.machine(&self.system);
             project(&held, &phase.constraints, t, &mut q, &mut v)
                 .map_err(|error| Error::of_step(error, &self.system))?;
@@ -306,8 +308,12 @@ impl<M: Machine, L> Solution<M, L> {
 
     /// What unilateral contacts that yield hold, in J.
     fn stored(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> f64 {
-        let phase = self.phase_at(t);
-        phase.map_or(0.0, |phase| phase.touching.stored(&self.system, t, q, v))
+        if M::System::MAY_COLLIDE
+            && let Some(phase) = self.phase_at(t)
+        {
+            return phase.touching.stored(&self.system, t, q, v);
+        }
+        0.0
     }
 
     /// Which unilateral contacts are closed at a time within the run, in their order.
@@ -459,12 +465,16 @@ impl<M: Machine, L: InputLaw<M::System>> Sampler<'_, M, L> {
                 .map_err(|error| Error::of_step(error, &run.system))?;
             energies.work += half * weight * run.system.work_rate(t, &q, &v, &a, &u);
             energies.dissipated += half * weight * run.system.dissipation_rate(t, &q, &v, &u);
-            if let Some(contacts) = run.contacts_at(t) {
+            if M::System::MAY_SLIDE
+                && let Some(contacts) = run.contacts_at(t)
+            {
                 let [work, lost] = contacts.power(&run.system, (t, &q, &v, &u));
                 energies.work += half * weight * work;
                 energies.dissipated += half * weight * lost;
             }
-            if let Some(phase) = run.phase_at(t) {
+            if M::System::MAY_COLLIDE
+                && let Some(phase) = run.phase_at(t)
+            {
                 let [work, lost] = phase.touching.power(&run.system, (t, &q, &v, &u));
                 energies.work += half * weight * work;
                 energies.dissipated += half * weight * lost;

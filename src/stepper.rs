@@ -187,7 +187,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         let zeros = q.zeros_like();
         let mut start = Point::new(t, q, v);
         let mut constraints = None;
-        if system.constraints().len() != 0 {
+        if S::MAY_BE_CONSTRAINED && system.constraints().len() != 0 {
             let known = constraints.insert(Constraints::new(system.get(), &start.q, &start.v));
             known.begin(system.get(), &mut start.place(), None)?;
         }
@@ -238,7 +238,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             work,
             ..
         } = &mut stepper;
-        if model.system.contacts().len() != 0 {
+        if S::MAY_SLIDE && model.system.contacts().len() != 0 {
             let Model { law, inputs, .. } = model;
             let system = model.system.get();
             law.set(system, now.t, &now.q, &now.v, inputs);
@@ -246,11 +246,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             model.contacts = Some(contacts);
         }
         #[cfg(feature = "std")]
-        if model.system.unilateral_contacts().len() != 0 {
+        if S::MAY_COLLIDE && model.system.unilateral_contacts().len() != 0 {
             model.touching = Some(Touching::new(model.system.get()));
         }
         let found = model.accelerations(now.t, &now.q, &now.v, &mut k[0], work);
-        if let Some(constraints) = &mut model.constraints
+        if S::MAY_BE_CONSTRAINED
+            && let Some(constraints) = &mut model.constraints
             && found.is_err()
             && constraints.meet_fork(model.system.get(), [(now.t, &now.q); 2])
         {
@@ -258,7 +259,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         } else {
             found?;
         }
-        if let Some(constraints) = &model.constraints
+        if S::MAY_BE_CONSTRAINED
+            && let Some(constraints) = &model.constraints
             && constraints.redundant
         {
             let at = (now.t, &now.q, &now.v, &model.inputs);
@@ -418,7 +420,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         model
             .law
             .set(model.system.get(), now.t, &now.q, &now.v, &mut model.inputs);
-        if let Some(contacts) = &mut model.contacts {
+        if S::MAY_SLIDE
+            && let Some(contacts) = &mut model.contacts
+        {
             let place = now.place();
             let at = (place.t, &*place.q[0], &model.inputs);
             contacts.change(model.system.get(), at, place.v, change, is_at_once)?;
@@ -582,7 +586,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             ..
         } = self;
         let at = (now.t, &now.q, &now.v);
-        if model.system.contacts().len() != 0 {
+        if S::MAY_SLIDE && model.system.contacts().len() != 0 {
             let Model { law, inputs, .. } = model;
             law.set(model.system.get(), now.t, &now.q, &now.v, inputs);
             let contacts = Contacts::begin(model.system.get(), now.t, &now.q, &now.v, inputs)?;
@@ -718,7 +722,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// the metric of its inertia.
     pub fn project(&self, t: f64, q: &mut S::Vector, v: &mut S::Vector) -> Result<(), StepError> {
         #[cfg(feature = "std")]
-        if let Some(touching) = &self.model.touching {
+        if S::MAY_COLLIDE
+            && let Some(touching) = &self.model.touching
+        {
             let held = touching.machine(self.model.system.get());
             return project(&held, &self.model.constraints, t, q, v);
         }
@@ -826,6 +832,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if model.touching.is_some() {
             return false;
         }
+        if !S::MAY_BE_CONSTRAINED {
+            return false;
+        }
         let Some(constraints) = &mut model.constraints else {
             return false;
         };
@@ -869,7 +878,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     ///
     /// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
     fn error(&self, h: f64) -> f64 {
-        if let Some(constraints) = &self.model.constraints
+        if (S::MAY_BE_CONSTRAINED || S::MAY_COLLIDE)
+            && let Some(constraints) = &self.model.constraints
             && constraints.at_fork
         {
             return self.error_along(constraints, h);
@@ -1090,9 +1100,12 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         let known = (&self.constraints, &self.contacts);
         let at = (t, q, v, &self.inputs);
         #[cfg(feature = "std")]
-        match &self.touching {
-            Some(touching) => touching.accelerations(self.system.get(), at, a)?,
-            None => accelerations(self.system.get(), known, at, a)?,
+        if S::MAY_COLLIDE
+            && let Some(touching) = &self.touching
+        {
+            touching.accelerations(self.system.get(), at, a)?;
+        } else {
+            accelerations(self.system.get(), known, at, a)?;
         }
         #[cfg(not(feature = "std"))]
         accelerations(self.system.get(), known, at, a)?;
@@ -1132,7 +1145,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     #[inline(always)]
     fn project(&mut self, now: &mut Point<S::Vector>) -> Result<bool, StepError> {
         #[cfg(feature = "std")]
-        if self.system.unilateral_contacts().len() != 0
+        if S::MAY_COLLIDE
+            && self.system.unilateral_contacts().len() != 0
             && let Some(touching) = &self.touching
         {
             let held = touching.machine(self.system.get());
@@ -1143,13 +1157,15 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
                 _ => Ok(false),
             };
         }
-        let moved = match &mut self.constraints {
-            Some(constraints) if self.system.constraints().len() != 0 => {
-                constraints.project(self.system.get(), &mut now.place())?
-            }
-            _ => false,
-        };
-        if self.system.contacts().len() != 0
+        let mut moved = false;
+        if S::MAY_BE_CONSTRAINED
+            && self.system.constraints().len() != 0
+            && let Some(constraints) = &mut self.constraints
+        {
+            moved = constraints.project(self.system.get(), &mut now.place())?;
+        }
+        if S::MAY_SLIDE
+            && self.system.contacts().len() != 0
             && let Some(contacts) = &self.contacts
         {
             let place = now.place();
@@ -1162,17 +1178,18 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
     /// Takes note of the end of a step.
     #[inline(always)]
     fn accept(&mut self, now: &Point<S::Vector>) {
-        if self.system.contacts().len() != 0
+        if S::MAY_SLIDE
+            && self.system.contacts().len() != 0
             && let Some(contacts) = &mut self.contacts
         {
             contacts.accept(self.system.get(), now.t, &now.q, &now.v);
         }
         #[cfg(feature = "std")]
-        if self.system.unilateral_contacts().len() != 0 {
+        if S::MAY_COLLIDE && self.system.unilateral_contacts().len() != 0 {
             self.accept_contacts(now);
             return;
         }
-        if self.system.constraints().len() == 0 {
+        if !S::MAY_BE_CONSTRAINED || self.system.constraints().len() == 0 {
             return;
         }
         if let Some(constraints) = &mut self.constraints {
@@ -1195,7 +1212,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         at: (f64, &S::Vector, &S::Vector, &S::Vector),
     ) {
         quadratures.stage(stage, self.system.get(), at, &self.inputs);
-        if self.system.contacts().len() != 0
+        if S::MAY_SLIDE
+            && self.system.contacts().len() != 0
             && let Some(contacts) = &self.contacts
             && quadratures.integrals().is_some()
         {
@@ -1204,7 +1222,8 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
             quadratures.add(stage, work, lost);
         }
         #[cfg(feature = "std")]
-        if self.system.unilateral_contacts().len() != 0
+        if S::MAY_COLLIDE
+            && self.system.unilateral_contacts().len() != 0
             && let Some(touching) = &self.touching
             && quadratures.integrals().is_some()
         {
@@ -1241,14 +1260,16 @@ pub(crate) fn accelerations<S: System>(
     (t, q, v, u): (f64, &S::Vector, &S::Vector, &S::Inputs),
     a: &mut S::Vector,
 ) -> Result<(), StepError> {
-    if system.contacts().len() != 0
+    if S::MAY_SLIDE
+        && system.contacts().len() != 0
         && let Some(contacts) = contacts
     {
         return contacts
             .accelerations(system, (t, q, v, u), a)
             .map_err(|singular| StepError::Singular { singular, t });
     }
-    if system.constraints().len() != 0
+    if S::MAY_BE_CONSTRAINED
+        && system.constraints().len() != 0
         && let Some(constraints) = constraints
         && (constraints.redundant || constraints.at_fork)
     {
@@ -1268,12 +1289,13 @@ pub(crate) fn project<S: System>(
     q: &mut S::Vector,
     v: &mut S::Vector,
 ) -> Result<(), StepError> {
-    match constraints {
-        Some(constraints) if system.constraints().len() != 0 => {
-            constraints.project_between(system, t, q, v)
-        }
-        _ => Ok(()),
+    if S::MAY_BE_CONSTRAINED
+        && system.constraints().len() != 0
+        && let Some(constraints) = constraints
+    {
+        return constraints.project_between(system, t, q, v);
     }
+    Ok(())
 }
 
 /// The first coordinate for which one of two vectors is not finite.

@@ -344,6 +344,19 @@ pub trait System {
         false
     }
 
+    /// Whether there may be constraints. Emitted code says `false` for a machine that has none, and nothing of what handles them
+    /// is compiled for it.
+    #[doc(hidden)]
+    const MAY_BE_CONSTRAINED: bool = true;
+
+    /// The same of guided contacts with friction.
+    #[doc(hidden)]
+    const MAY_SLIDE: bool = true;
+
+    /// The same of unilateral contacts.
+    #[doc(hidden)]
+    const MAY_COLLIDE: bool = true;
+
     /// The bilateral constraints, in the order of the rows below. None by default, and a machine
     /// without any has nothing to say in the methods that follow.
     ///

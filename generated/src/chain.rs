@@ -1192,6 +1192,9 @@ impl ::lagrangian::emitted::System for Prepared {
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
+    const MAY_BE_CONSTRAINED: bool = false;
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)

@@ -1367,6 +1367,8 @@ impl ::lagrangian::emitted::System for Prepared {
     type Coordinates = Coordinates;
     type Inputs = Inputs;
     type Outputs = Outputs;
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     fn coordinates(&self) -> impl ExactSizeIterator<Item = ::lagrangian::emitted::Quantity<'_>> {
         COORDINATES.iter().map(quantity)

@@ -245,28 +245,46 @@ pub(super) fn in_workspace<S: System, R>(
     let (n, m) = (coordinates, system.constraints().len());
     let rank = m.min(n);
     system.with_workspace(constraint_workspace(n, m), |workspace| {
-        let mut rest = workspace.ok_or(StepError::NoWorkspace { t })?;
-        let mut part = |length: usize| {
-            let (part, left) = core::mem::take(&mut rest)
-                .split_at_mut_checked(length)
-                .ok_or(StepError::NoWorkspace { t })?;
-            rest = left;
-            Ok(part)
-        };
+        let [
+            matrix,
+            basis,
+            triangle,
+            positions,
+            rates,
+            row,
+            column,
+            before,
+            lengths,
+        ] = workspace
+            .and_then(|all| divided(all, [m * n, rank * n, rank * rank, m, m, m, n, n, n]))
+            .ok_or(StepError::NoWorkspace { t })?;
         work(&mut Workspace {
             n,
             m,
             metric: S::Matrix::zeros(n * n),
             is_lent: false,
-            matrix: part(m * n)?,
-            basis: part(rank * n)?,
-            triangle: part(rank * rank)?,
-            positions: part(m)?,
-            rates: part(m)?,
-            row: part(m)?,
-            column: part(n)?,
-            before: part(n)?,
-            lengths: part(n)?,
+            matrix,
+            basis,
+            triangle,
+            positions,
+            rates,
+            row,
+            column,
+            before,
+            lengths,
         })
     })
+}
+
+/// The first parts of `all`, which have these lengths; `None` if it is too short. No copy of this for every machine and
+/// every piece of work is compiled.
+fn divided<const PARTS: usize>(
+    mut all: &mut [f64],
+    lengths: [usize; PARTS],
+) -> Option<[&mut [f64]; PARTS]> {
+    let mut parts = core::array::from_fn(|_| <&mut [f64]>::default());
+    for (part, length) in parts.iter_mut().zip(lengths) {
+        (*part, all) = all.split_at_mut_checked(length)?;
+    }
+    Some(parts)
 }

@@ -419,7 +419,8 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
                         continue;
                     }
                     let margin = |theta| exactly(theta).map(|(margin, _)| margin.value);
-                    let mut found = event::last_positive([theta_before, theta], roundoff, margin)?;
+                    let mut found =
+                        event::last_positive([theta_before, theta], roundoff, &mut &margin)?;
                     let is_shared = !is_only && (kind == 1 || !touching.yields(k));
                     let cause = match (is_shared, touching.modes()[k], kind) {
                         (true, ..) => Cause::Asked,
@@ -473,19 +474,19 @@ fn closing(
             return Ok(Some(to));
         }
         // It opens first: up to where it is greatest.
-        open = event::root([from, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        open = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
         if at(open)?[0] <= 0.0 {
             return Ok(Some(open));
         }
     }
     if gap_after < 0.0 {
-        let found = event::root([open, to], roundoff, |theta| Ok(at(theta)?[0]))?;
+        let found = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
         return Ok(Some(found));
     }
     if rate < 0.0 && rate_after > 0.0 {
-        let nearest = event::root([open, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        let nearest = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
         if at(nearest)?[0] < 0.0 {
-            let found = event::root([open, nearest], roundoff, |theta| Ok(at(theta)?[0]))?;
+            let found = event::root([open, nearest], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
             return Ok(Some(found));
         }
     }
@@ -513,13 +514,13 @@ fn pressing(
             }
             open = from + part;
         }
-        let found = event::root([open, to], roundoff, |theta| Ok(at(theta)?[0]))?;
+        let found = event::root([open, to], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
         return Ok(Some(found));
     }
     if clearance >= 0.0 && rate < 0.0 && rate_after > 0.0 {
-        let nearest = event::root([from, to], roundoff, |theta| Ok(at(theta)?[1]))?;
+        let nearest = event::root([from, to], roundoff, &mut |theta| Ok(at(theta)?[1]))?;
         if at(nearest)?[0] < 0.0 {
-            let found = event::root([from, nearest], roundoff, |theta| Ok(at(theta)?[0]))?;
+            let found = event::root([from, nearest], roundoff, &mut |theta| Ok(at(theta)?[0]))?;
             return Ok(Some(found));
         }
     }

@@ -84,7 +84,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
         }
         self.record.held.push((t, inputs));
         let at_start = self.stepper.work().steps == 0;
-        if self.stepper.touching().is_some() {
+        if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
             let step = self.stepper.next_step();
             self.meet_now(Cause::Asked, step, at_start)?;
         } else if !at_start {
@@ -93,7 +93,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
             }
             self.enter_energies();
         }
-        if before.is_some() {
+        if <M::System as System>::MAY_SLIDE && before.is_some() {
             self.note_contacts(before);
         }
         if !at_start {

@@ -89,6 +89,9 @@ impl<S: System> System for Held<'_, S> {
     type Coordinates = S::Coordinates;
     type Inputs = S::Inputs;
     type Outputs = S::Outputs;
+    // What touches is among the constraints.
+    const MAY_SLIDE: bool = false;
+    const MAY_COLLIDE: bool = false;
 
     forward!(
         coordinates,

@@ -218,6 +218,17 @@ impl Emitter<'_> {
             .line(format!("type Coordinates = {coordinates};"));
         self.writer.line(format!("type Inputs = {inputs};"));
         self.writer.line(format!("type Outputs = {outputs};"));
+        let absent = [
+            ("MAY_BE_CONSTRAINED", self.program.constraints.is_empty()),
+            ("MAY_SLIDE", self.program.contacts.is_empty()),
+            ("MAY_COLLIDE", self.program.unilateral.is_empty()),
+        ];
+        for (what, _) in absent.iter().filter(|(_, is_absent)| *is_absent) {
+            self.writer.line(format!(
+                "const {what}: {} = false;",
+                self.types.known("bool")
+            ));
+        }
 
         let quantities = format!(
             "impl {}<Item = {runtime}::Quantity<'_>>",
