@@ -96,6 +96,15 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
+    /// An input is not known from some instant on: its table ends, or changes more often there than times can tell apart.
+    InputEnded {
+        /// What the input, or its table, is called.
+        input: String,
+        /// Why, as the end of a sentence.
+        why: &'static str,
+        /// Time, in s.
+        t: f64,
+    },
     /// The acceleration of a coordinate is infinite or not a number, and shorter steps do not avoid
     /// it.
     NotFinite {
@@ -555,6 +564,9 @@ impl Display for Error {
                     t = Short(*t),
                     value = Short(*value)
                 )
+            }
+            Self::InputEnded { input, why, t } => {
+                write!(f, "{input} {why} t = {t} s", t = Short(*t))
             }
             Self::NotFinite { coordinate, t } => write!(
                 f,

@@ -1,6 +1,7 @@
 //! How inputs are set while a machine runs.
 
 use crate::System;
+use crate::piece::{NoPiece, Piece};
 
 /// How a machine's inputs are set while it runs.
 ///
@@ -18,6 +19,75 @@ pub trait InputLaw<S: System> {
     fn is_constant(&self) -> bool {
         false
     }
+
+    /// The piece of time that a run enters at `t`, later or earlier, in which the inputs are smooth enough for a method of this
+    /// order: a step of a [`Simulation`](crate::Simulation) ends where it ends. All of time by default.
+    ///
+    /// # Errors
+    /// Where the inputs are not known from there on.
+    fn piece(&self, _t: f64, _forward: bool, _order: u32) -> Result<Piece, NoPiece<'_>> {
+        Ok(Piece::ALL)
+    }
+
+    /// Sets the inputs for an instant of a piece: at its ends what they tend to from within. As [`set`](Self::set) by default.
+    #[inline(always)]
+    fn set_in(
+        &self,
+        _piece: Piece,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        inputs: &mut S::Inputs,
+    ) {
+        self.set(system, t, q, v, inputs);
+    }
+
+    /// Whether the inputs are the same at all times and states within each [piece](Self::piece). As
+    /// [`is_constant`](Self::is_constant) by default.
+    fn is_constant_in_pieces(&self) -> bool {
+        self.is_constant()
+    }
+
+    /// Whether it leaves some inputs as they are, so that somebody else may set these:
+    /// [`sampled`](crate::Simulation::sampled). False by default.
+    fn is_partial(&self) -> bool {
+        false
+    }
+}
+
+/// Everything but `set`, as another law has it.
+macro_rules! as_of {
+    ($self:ident, $law:expr) => {
+        fn is_constant(&$self) -> bool {
+            $law.is_constant()
+        }
+
+        fn piece(&$self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
+            $law.piece(t, forward, order)
+        }
+
+        #[inline(always)]
+        fn set_in(
+            &$self,
+            piece: Piece,
+            system: &S,
+            t: f64,
+            q: &S::Vector,
+            v: &S::Vector,
+            inputs: &mut S::Inputs,
+        ) {
+            $law.set_in(piece, system, t, q, v, inputs);
+        }
+
+        fn is_constant_in_pieces(&$self) -> bool {
+            $law.is_constant_in_pieces()
+        }
+
+        fn is_partial(&$self) -> bool {
+            $law.is_partial()
+        }
+    };
 }
 
 impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
@@ -26,9 +96,7 @@ impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
         (**self).set(system, t, q, v, inputs);
     }
 
-    fn is_constant(&self) -> bool {
-        (**self).is_constant()
-    }
+    as_of!(self, (**self));
 }
 
 /// The inputs keep the defaults of the description.
@@ -40,6 +108,10 @@ impl<S: System> InputLaw<S> for DefaultInputs {
     fn set(&self, _: &S, _: f64, _: &S::Vector, _: &S::Vector, _: &mut S::Inputs) {}
 
     fn is_constant(&self) -> bool {
+        true
+    }
+
+    fn is_partial(&self) -> bool {
         true
     }
 }
@@ -121,17 +193,18 @@ impl<S: System> InputLaw<S> for AnyInputs<'_, S> {
         self.0.set(system, t, q, v, inputs);
     }
 
-    fn is_constant(&self) -> bool {
-        self.0.is_constant()
-    }
+    as_of!(self, self.0);
 }
 
-/// The law of a simulation, or what a sampled controller holds in its place.
+/// The law of a simulation within a piece of time, and what a sampled controller holds.
 #[cfg(feature = "std")]
 #[derive(Debug)]
 pub(crate) struct Held<'r, L, I> {
     pub law: &'r L,
+    /// What a sampled controller holds; the law may set other inputs beside these.
     pub held: Option<I>,
+    /// Where the run is.
+    pub piece: Piece,
 }
 
 #[cfg(feature = "std")]
@@ -140,6 +213,7 @@ impl<L, I: Clone> Clone for Held<'_, L, I> {
         Self {
             law: self.law,
             held: self.held.clone(),
+            piece: self.piece,
         }
     }
 }
@@ -148,13 +222,16 @@ impl<L, I: Clone> Clone for Held<'_, L, I> {
 impl<S: System, L: InputLaw<S>> InputLaw<S> for Held<'_, L, S::Inputs> {
     #[inline(always)]
     fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
-        match &self.held {
-            None => self.law.set(system, t, q, v, inputs),
-            Some(held) => inputs.clone_from(held),
+        if let Some(held) = &self.held {
+            inputs.clone_from(held);
+            if !self.law.is_partial() {
+                return;
+            }
         }
+        self.law.set_in(self.piece, system, t, q, v, inputs);
     }
 
     fn is_constant(&self) -> bool {
-        self.held.is_some() || self.law.is_constant()
+        (self.held.is_some() && !self.law.is_partial()) || self.law.is_constant_in_pieces()
     }
 }

@@ -21,6 +21,8 @@ use lagrangian_spec::token::normalized;
 mod engine;
 mod reading;
 mod recording;
+mod signals;
+mod table_file;
 
 use crate::shared_workspace::SharedWorkspace;
 
@@ -29,6 +31,8 @@ pub use crate::names::UnknownName;
 pub use engine::Engine;
 pub use reading::Reading;
 pub use recording::{Column, Kind, Recording};
+pub use signals::{Signal, SignalError, SignalFunction, Signals};
+pub use table_file::{TableFile, TableFileError};
 
 use crate::{
     Assumption, Compliance, Constraint, Differentiate, ImpactLaw, ImpactOrder, Linearize, Machine,

@@ -108,6 +108,7 @@ mod names;
 mod observation;
 #[cfg(feature = "std")]
 mod phases;
+mod piece;
 #[cfg(feature = "std")]
 mod roots;
 #[cfg(feature = "std")]
@@ -122,6 +123,8 @@ mod shared_workspace;
 mod simulation;
 #[cfg(feature = "std")]
 mod solution;
+#[cfg(feature = "std")]
+mod table;
 
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
@@ -137,6 +140,7 @@ pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method, TAYLOR};
+pub use piece::{NoPiece, Piece};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
 pub use stepper::{ControlledStepper, Stepper, StepperBuilder, Work};
@@ -179,6 +183,8 @@ pub use settings::Progress;
 pub use simulation::Simulation;
 #[cfg(feature = "std")]
 pub use solution::{Ending, Solution, Statistics};
+#[cfg(feature = "std")]
+pub use table::{Between, Beyond, Table, TableError, TableInputs};
 
 #[cfg(feature = "macros")]
 pub use lagrangian_macros::machine;

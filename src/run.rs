@@ -19,6 +19,7 @@ use crate::inputs::{Held, InputLaw};
 use crate::interpolant::Interpolant;
 use crate::observation::{Known, Sight};
 use crate::phases::Kept;
+use crate::piece::Piece;
 use crate::roots;
 use crate::settings::{Callbacks, Of, Progress, Settings, Task};
 use crate::solution::{Ending, Solution, Statistics, Steps, is_beyond};
@@ -66,7 +67,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         });
     }
     if let Some(sampled) = &callbacks.sampled {
-        sampled.check(start.t, until, law.is_constant())?;
+        sampled.check(start.t, until, law.is_constant() || law.is_partial())?;
     }
     let tolerance = settings.tolerance(&system)?;
     let (mut q, mut v) = (system.to_vector(&start.q), system.to_vector(&start.v));
@@ -81,6 +82,10 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     let ended = ended.and_then(|resumed| resumed.event);
     let sampling = callbacks.sampled.as_ref().map(|of| of.begin(&system));
     let held = sampling.is_some().then(|| system.default_inputs());
+    let forward = until >= start.t;
+    let order = settings.method.tableau.order;
+    let piece = law.piece(start.t, forward, order);
+    let piece = piece.map_err(|none| none.error(start.t))?;
     let model = Model {
         system: &system,
         sight: Sight {
@@ -88,6 +93,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
             law: Held {
                 law: &law,
                 held: held.clone(),
+                piece,
             },
         },
         start: (start.t, &q),
@@ -136,6 +142,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         next_step: None,
         record: Record {
             held: held.map(|held| (start.t, held)).into_iter().collect(),
+            pieces: (piece != Piece::ALL).then_some(piece).into_iter().collect(),
             steps: settings.keep_steps.then(|| Steps::new(settings.method)),
             samples: settings.every.map(|_| start.clone()).into_iter().collect(),
             events: Vec::new(),
@@ -171,6 +178,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
     } = run;
     let Record {
         held,
+        pieces,
         steps,
         mut samples,
         events,
@@ -223,6 +231,7 @@ pub(crate) fn run<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>>
         contacts,
         unilateral,
         held,
+        pieces,
         start,
         end,
         steps,
@@ -249,7 +258,7 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
     callbacks: &'r mut Callbacks<'a, M>,
     start: f64,
     until: f64,
-    /// Where the stepper is to stop: where a sampled controller acts, or at the end.
+    /// Where the stepper is to stop: where the inputs are not smooth, where a sampled controller looks or acts, or at the end.
     stop: f64,
     /// What a sampled controller has set, if there is one.
     sampling: Option<Sampling<Inputs<M>>>,
@@ -262,6 +271,8 @@ struct Run<'r, 'a, M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>
 struct Record<M: Machine> {
     /// What a sampled controller has set, and since when.
     held: Vec<(f64, Inputs<M>)>,
+    /// The pieces of time in which the inputs are smooth, in the order of the run; none where all of time is one.
+    pieces: Vec<Piece>,
     steps: Option<Steps<VectorOf<M>>>,
     samples: Vec<State<Coordinates<M>>>,
     events: Vec<Event<Coordinates<M>>>,
@@ -285,7 +296,7 @@ impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, 
     /// Goes to the end, or to what ends the run before.
     fn go_to_end(&mut self) -> Result<Ending, Error> {
         loop {
-            if let Some(ending) = self.sample()? {
+            if let Some(ending) = self.change_inputs()? {
                 return Ok(ending);
             }
             let ending = self.go()?;

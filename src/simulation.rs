@@ -12,6 +12,7 @@ use crate::observation::Observation;
 use crate::run;
 use crate::settings::{Callbacks, Of, Progress, Resumed, Sampled, Settings, Stream, Task};
 use crate::solution::{Ending, Solution};
+use crate::table::{Table, TableInputs};
 use crate::{Coordinates, Error, Inputs, Machine, State, StepMotion};
 
 /// A run to be made: machine, end, tolerance, and what to watch for.
@@ -117,6 +118,47 @@ impl<'a, M: Machine, L> Simulation<'a, M, L> {
         Simulation {
             of,
             law,
+            settings,
+            callbacks,
+            resumed,
+        }
+    }
+}
+
+impl<'a, M: Machine, L> Simulation<'a, M, L> {
+    /// Drives the machine by a table, beside what sets the inputs otherwise: `set` is given the value of the table at each instant
+    /// and puts it into the inputs. A step ends wherever the table is not smooth enough for the method.
+    ///
+    /// ```
+    /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }
+    /// # use by_hand::Toy;
+    /// use lagrangian::{Simulation, Table};
+    ///
+    /// // A mass of 1 kg, pushed by a force that grows to 2 N in a second and then stays.
+    /// let mass = Toy::new(([0.0], [0.0]), |_, _, _, u, _| [u]);
+    /// let push = Table::linear([0.0, 1.0], [0.0, 2.0])?;
+    /// let run = Simulation::new(&mass)
+    ///     .until(2.0)
+    ///     .table(push, |force, value| *force = value)
+    ///     .run(mass.start())?;
+    /// assert!((run.at(1.0)?.v[0] - 1.0).abs() < 1e-15);
+    /// assert!((run.end().v[0] - 3.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn table<F>(self, table: Table, set: F) -> Simulation<'a, M, TableInputs<L, F>>
+    where
+        F: Fn(&mut Inputs<M>, f64),
+    {
+        let Self {
+            of,
+            law,
+            settings,
+            callbacks,
+            resumed,
+        } = self;
+        Simulation {
+            of,
+            law: TableInputs::new(law, table, set),
             settings,
             callbacks,
             resumed,
@@ -391,7 +433,18 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
         crossing: Crossing,
         function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
     ) -> Self {
-        self.watch(name, crossing, Some(1), of_observation::<M>(function))
+        self.until_nth_event_on(1, name, crossing, function)
+    }
+
+    /// Ends the run when `function` of what can be observed changes its sign for the `n`th time; at the first, if `n` is 0.
+    pub fn until_nth_event_on(
+        self,
+        n: usize,
+        name: &str,
+        crossing: Crossing,
+        function: impl FnMut(&Observation<M>) -> f64 + Clone + Send + 'a,
+    ) -> Self {
+        self.watch(name, crossing, Some(n), of_observation::<M>(function))
     }
 
     fn watch(
@@ -449,7 +502,7 @@ impl<'a, M: Machine, L: InputLaw<M::System>> Simulation<'a, M, L> {
     /// defaults.
     ///
     /// A step ends at each look. Samples are taken forward in time, and there are no [`inputs`](Simulation::inputs) beside
-    /// them.
+    /// them; a [`table`](Simulation::table) may be, which goes before the controller where both set the same.
     ///
     /// ```
     /// # mod by_hand { include!("../tests/by_hand/toy.rs"); }

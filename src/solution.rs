@@ -14,6 +14,7 @@ use crate::interpolant::{Ends, Interpolant};
 use crate::methods::{MAX_STAGES, Method};
 use crate::observation::{Known, Observation};
 use crate::phases::{Kept, Phase};
+use crate::piece::Piece;
 use crate::settings::Settings;
 use crate::step_error::StepError;
 use crate::stepper::project;
@@ -49,6 +50,8 @@ pub struct Solution<M: Machine, L = DefaultInputs> {
     pub(crate) contacts: Vec<(f64, Contacts)>,
     /// What a sampled controller set, and since when.
     pub(crate) held: Vec<(f64, Inputs<M>)>,
+    /// The pieces of time in which the inputs are smooth, in the order of the run; none where all of time is one.
+    pub(crate) pieces: Vec<Piece>,
     /// What unilateral contacts did.
     pub(crate) unilateral: Kept<Coordinates<M>, VectorOf<M>>,
 }
@@ -74,6 +77,7 @@ impl<M: Machine<System: Clone>, L: Clone> Clone for Solution<M, L> {
             constraints: self.constraints.clone(),
             contacts: self.contacts.clone(),
             held: self.held.clone(),
+            pieces: self.pieces.clone(),
             unilateral: self.unilateral.clone(),
         }
     }
@@ -195,12 +199,35 @@ impl<M: Machine, L: InputLaw<M::System>> Solution<M, L> {
 
     fn inputs(&self, t: f64, q: &VectorOf<M>, v: &VectorOf<M>) -> Inputs<M> {
         let after = self.held.partition_point(|(since, _)| *since <= t);
-        if let Some((_, held)) = after.checked_sub(1).and_then(|at| self.held.get(at)) {
-            return held.clone();
-        }
-        let mut inputs = self.system.default_inputs();
-        self.law.set(&self.system, t, q, v, &mut inputs);
+        let held = after.checked_sub(1).and_then(|at| self.held.get(at));
+        let mut inputs = match held {
+            Some((_, held)) if !self.law.is_partial() => return held.clone(),
+            Some((_, held)) => held.clone(),
+            None => self.system.default_inputs(),
+        };
+        let piece = self.piece_at(t);
+        self.law.set_in(piece, &self.system, t, q, v, &mut inputs);
         inputs
+    }
+
+    /// Whether inputs change in the run.
+    #[cfg(feature = "interpreter")]
+    pub(crate) fn is_driven(&self) -> bool {
+        !self.held.is_empty() || !self.law.is_constant()
+    }
+
+    /// The piece that a time is in; where two meet, to rounding, the later one.
+    fn piece_at(&self, t: f64) -> Piece {
+        let pieces = &self.pieces;
+        let is_from = |piece: &Piece| piece.from <= t || is_near(piece.from, t);
+        let is_forward = pieces.first().zip(pieces.last());
+        let found = match is_forward.is_none_or(|(first, last)| first.from <= last.from) {
+            true => pieces.partition_point(is_from).checked_sub(1),
+            false => Some(pieces.partition_point(|piece| !is_from(piece))),
+        };
+        let found = found.and_then(|place| pieces.get(place));
+        let found = found.filter(|piece| t <= piece.to || is_near(piece.to, t));
+        found.copied().unwrap_or(Piece::ALL)
     }
 
     /// What the run knew of constraints and contacts at a time.
@@ -597,6 +624,14 @@ impl<V: Vector> Steps<V> {
         };
         self.times
             .push((now, 0.0_f64.copysign(stepper.last_step())));
+        if self.of_step != 0 {
+            // Of a step by series, all that there is of its motion: place and velocity.
+            let zeros = stepper.q().zeros_like();
+            let state = [stepper.q().clone(), stepper.v().clone()];
+            self.coefficients.extend(state);
+            let count = self.times.len() * self.of_step;
+            self.coefficients.resize(count, zeros);
+        }
         self.vectors.resize(self.times.len() * self.stride(), last);
     }
 
@@ -661,6 +696,11 @@ impl<V: Vector> Steps<V> {
             accelerations,
         )
     }
+}
+
+/// Whether a finite time is another one but for roundoff.
+fn is_near(one: f64, other: f64) -> bool {
+    one.is_finite() && (one - other).abs() <= 4.0 * f64::EPSILON * one.abs().max(other.abs())
 }
 
 /// Whether `t` is at or past `end`, or before it by roundoff only, in the direction of `interval`.

@@ -525,7 +525,14 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         self.changed = true;
     }
 
-    /// The same at once, the inputs having jumped: with the accelerations that follow, what sticks and slides decided anew,
+    /// Puts another law in the place of the one that sets the inputs, which has the same values now: the accelerations stay as they
+    /// are.
+    #[cfg(feature = "std")]
+    pub(crate) fn go_on_with(&mut self, law: L) {
+        self.model.law = law;
+    }
+
+    /// The same as [`set_law`](Self::set_law) at once, the inputs having jumped: with the accelerations that follow, what sticks and slides decided anew,
     /// and the work that the jump does on the potential energy.
     #[cfg(feature = "std")]
     pub(crate) fn jump_inputs(&mut self, law: L) -> Result<(), StepError> {

@@ -94,6 +94,9 @@ impl Command {
                 add("--to", &call.to);
             }
         }
+        if let Command::Simulate(call) = self {
+            named.extend(call.inputs.iter().map(|set| ("--input", set.name.as_str())));
+        }
         if let Command::Sweep(call) = self {
             let mut add = |option: &'static str, list: &'a [Assignment]| {
                 named.extend(list.iter().map(|set| (option, set.name.as_str())));
@@ -120,6 +123,13 @@ impl Call {
         let twice = named.windows(2).find(|pair| pair[0] == pair[1]);
         if let Some(&[(option, name), _]) = twice {
             return Err(format!("{option} gives `{name}` a value more than once"));
+        }
+        let driven = named.iter().filter(|(option, _)| *option == "--input");
+        let mut driven = driven.filter(|(_, name)| named.contains(&("--set", name)));
+        if let Some((_, name)) = driven.next() {
+            return Err(format!(
+                "`{name}` is driven by --input, and has one value by --set too"
+            ));
         }
         if let Command::Library(call) = &self.command {
             let mut lanes = call.lanes.clone();
@@ -286,6 +296,12 @@ pub struct Simulate {
     pub start: Start,
     #[command(flatten)]
     pub keep: Keep,
+    /// Drive an input while the machine runs: by a formula in time, coordinates, rates, parameters, other inputs and outputs,
+    /// `--input 'u=0.5*N*sin(10*rad/s*t)'`; by a controller that evaluates one every so often, `--input
+    /// 'u=-5*N*s/m*der(x),every=1*ms,delay=0.2*ms'`; or by a table `.csv` or `.parquet` with columns `t` and the input's name,
+    /// `--input u=table.csv[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
+    #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
+    pub inputs: Vec<Assignment>,
     /// Integrate to this time, in s; before 0 backward in time.
     #[arg(long, value_name = "SECONDS", value_parser = number, allow_hyphen_values = true)]
     pub until: f64,
@@ -353,9 +369,11 @@ pub struct Sweep {
     /// Take the runs from a table `.csv` or `.parquet`: a row a run, columns under the names that are varied.
     #[arg(long, value_name = "FILE")]
     pub table: Option<PathBuf>,
-    /// Set an input while the machine runs: a formula in time and state, as in `--input 'u=-5*der(x)'`, or a table `.csv` with
-    /// columns `t` and the input's name.
-    #[arg(long = "input", value_name = "NAME=FORMULA|FILE.csv", value_parser = assignment, allow_hyphen_values = true)]
+    /// Drive an input while the machine runs: by a formula in time, coordinates, rates, parameters, other inputs and outputs,
+    /// `--input 'u=0.5*N*sin(10*rad/s*t)'`; by a controller that evaluates one every so often, `--input
+    /// 'u=-5*N*s/m*der(x),every=1*ms,delay=0.2*ms'`; or by a table `.csv` or `.parquet` with columns `t` and the input's name,
+    /// `--input u=table.csv[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
+    #[arg(long = "input", value_name = "NAME=FORMULA|FILE", value_parser = assignment, allow_hyphen_values = true)]
     pub inputs: Vec<Assignment>,
     /// Watch for changes of sign of a formula, as in `--event top=theta-pi`.
     #[arg(long = "event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]

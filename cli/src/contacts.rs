@@ -4,8 +4,10 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
-use lagrangian::{Crossing, Event, Machine, Pivot, Simulation, State, System, least_multipliers};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signals};
+use lagrangian::{
+    Crossing, Event, Machine, Observation, Pivot, Simulation, State, System, least_multipliers,
+};
 use lagrangian_spec::model::Model;
 use lagrangian_symbolic::evaluate;
 use serde_json::{Map, Value, json};
@@ -43,8 +45,11 @@ struct Seen {
 struct Track {
     /// When it was looked at first, and `N` and `T` then.
     start: Option<(f64, [f64; 2])>,
-    /// When last.
+    /// When last, and `N` and `T` then.
     last: f64,
+    forces: [f64; 2],
+    /// Whether inputs change, so that forces may jump.
+    is_driven: bool,
     /// The last two demands in a row, with their times.
     before: [Option<(f64, f64)>; 2],
     /// The greatest demand and its time.
@@ -136,9 +141,14 @@ impl Contacts {
     /// A simulation that looks at the contacts. Without any it is as it was.
     pub fn watch<'a>(
         &'a self,
-        mut simulation: Simulation<'a, InterpretedMachine>,
-    ) -> Simulation<'a, InterpretedMachine> {
+        mut simulation: Simulation<'a, InterpretedMachine, Signals>,
+        is_driven: bool,
+    ) -> Simulation<'a, InterpretedMachine, Signals> {
         for (index, contact) in self.contacts.iter().enumerate() {
+            if is_driven {
+                simulation = self.watch_driven(simulation, index);
+                continue;
+            }
             let pulls = move |state: &State<Named>| self.look(index, state)[0];
             simulation = simulation.event(&pulling(&contact.name), Crossing::Falling, pulls);
             if let Some(friction) = contact.friction {
@@ -150,6 +160,31 @@ impl Contacts {
             }
         }
         simulation
+    }
+
+    /// The same with inputs that change, which the run knows.
+    fn watch_driven<'a>(
+        &'a self,
+        simulation: Simulation<'a, InterpretedMachine, Signals>,
+        index: usize,
+    ) -> Simulation<'a, InterpretedMachine, Signals> {
+        let contact = &self.contacts[index];
+        self.seen().tracks[index].is_driven = true;
+        let look = move |seen: &Observation<InterpretedMachine>| {
+            let of = |k: usize| seen.multipliers.get(k).copied().unwrap_or(0.0);
+            let mut all = self.seen();
+            all.tracks[index].take(seen.t, contact.multipliers.map(of))
+        };
+        let pulls = move |seen: &Observation<InterpretedMachine>| look(seen)[0];
+        let simulation = simulation.event_on(&pulling(&contact.name), Crossing::Falling, pulls);
+        let Some(friction) = contact.friction else {
+            return simulation;
+        };
+        let reserve = move |seen: &Observation<InterpretedMachine>| {
+            let [normal, tangential] = look(seen);
+            friction * normal - tangential.abs()
+        };
+        simulation.event_on(&slipping(&contact.name), Crossing::Falling, reserve)
     }
 
     fn seen(&self) -> MutexGuard<'_, Seen> {
@@ -166,9 +201,7 @@ impl Contacts {
         let multipliers = seen.last.as_ref().map(|(_, multipliers)| multipliers);
         let of = |k: usize| multipliers.map_or(0.0, |multipliers| multipliers[k]);
         let forces = self.contacts[index].multipliers.map(of);
-        let forces = forces.map(|force| if force.is_finite() { force } else { 0.0 });
-        seen.tracks[index].add(state.t, forces);
-        forces
+        seen.tracks[index].take(state.t, forces)
     }
 
     fn multipliers(&self, state: &State<Named>) -> Vec<f64> {
@@ -233,16 +266,29 @@ pub fn other_events<'r>(
 }
 
 impl Track {
+    /// Adds a look; what has no value counts as nothing.
+    fn take(&mut self, t: f64, forces: [f64; 2]) -> [f64; 2] {
+        let forces = forces.map(|force| if force.is_finite() { force } else { 0.0 });
+        self.add(t, forces);
+        forces
+    }
+
     /// Adds a look, unless it goes back in time, as those do that search for an event.
     fn add(&mut self, t: f64, forces: [f64; 2]) {
         let Some((begin, _)) = self.start else {
             self.start = Some((t, forces));
-            self.last = t;
+            (self.last, self.forces) = (t, forces);
             self.follow(t, demand(forces));
             return;
         };
+        if self.is_driven && t == self.last && forces != self.forces {
+            // The inputs have jumped: what was before says nothing of what follows.
+            self.before = [None; 2];
+            self.forces = forces;
+            self.follow(t, demand(forces));
+        }
         if (t - begin).abs() > (self.last - begin).abs() {
-            self.last = t;
+            (self.last, self.forces) = (t, forces);
             self.follow(t, demand(forces));
         }
     }

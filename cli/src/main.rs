@@ -13,6 +13,7 @@ mod diagnostics;
 mod evaluate;
 mod exit;
 mod failure;
+mod inputs;
 mod interrupt;
 mod library;
 mod linearize;

@@ -33,9 +33,10 @@ pub const COLOURS: [RGBColor; 8] = [
 ];
 
 /// What is drawn, from top to bottom.
-const KINDS: [Kind; 6] = [
+const KINDS: [Kind; 7] = [
     Kind::Coordinate,
     Kind::Output,
+    Kind::Input,
     Kind::Multiplier,
     Kind::Contact,
     Kind::Energy,

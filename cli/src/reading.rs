@@ -2,18 +2,22 @@
 
 use std::path::Path;
 
-use lagrangian::interpreted::{Engine, InterpretedMachine, Named, UnknownName};
-use lagrangian::{Machine, Simulation, State};
+use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, UnknownName};
+use lagrangian::{InputLaw, Machine, Simulation, State};
 use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
+use lagrangian_spec::resolve::Formula;
 use lagrangian_spec::source::{Disk, Files, SourceId, Sources};
 use lagrangian_spec::unit::Unit;
+use lagrangian_sweep::plan::Law;
+use lagrangian_sweep::signals::Written;
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::call::{self, Assignment};
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::inputs;
 use crate::output::{Destination, keep_apart};
 
 /// A spec that was read, and what is wrong with it.
@@ -21,6 +25,8 @@ pub struct Reading {
     name: String,
     text: String,
     constants: Vec<(String, Rational)>,
+    /// Formulas of the call beside those of the spec: the option that has each, its text and the unit that it is to have.
+    formulas: Vec<(String, String, String)>,
     /// The texts that messages point into.
     pub sources: Sources,
     /// What is wrong.
@@ -43,6 +49,7 @@ impl Reading {
             name: path.into_owned(),
             text,
             constants: spec.constants.clone(),
+            formulas: Vec::new(),
             sources: Sources::new(),
             report: Report::new(),
             is_warned: false,
@@ -85,11 +92,55 @@ impl Reading {
             name,
             text,
             constants,
+            formulas,
             sources,
             report,
             ..
         } = self;
-        lagrangian_spec::model(dag, name, text, constants, &mut Disk, sources, report)
+        let asked = formulas.iter().map(|(said, text, unit)| Formula {
+            name: said,
+            said,
+            text,
+            unit: Some(unit),
+        });
+        let asked: Vec<Formula<'_>> = asked.collect();
+        let spec = lagrangian_spec::parse(sources, name, text, report);
+        Model::resolve_with(spec, dag, constants, &asked, &mut Disk, sources, report)
+    }
+
+    /// Puts the formulas that drive inputs beside those of the spec, as outputs behind its own.
+    ///
+    /// # Errors
+    /// If there is no such input, a table is wrong, or the spec.
+    pub fn drive(
+        &mut self,
+        spec: &call::Spec,
+        written: &[(String, Written)],
+    ) -> Result<Vec<(String, Law)>, Failure> {
+        if written.is_empty() {
+            return Ok(Vec::new());
+        }
+        let dag = Dag::new();
+        let mut plain = Reading::open(spec)?;
+        let Some(model) = plain.model(&dag) else {
+            return Err(plain.failure());
+        };
+        let laws = inputs::laws(written, &model)?;
+        for (name, law) in &laws {
+            let mut known = model.inputs.iter();
+            let input = known.find(|input| input.name.to_string() == *name);
+            if let (Some(formula), Some(input)) = (law.formula(), input) {
+                let said = format!("--input {name}");
+                self.formulas
+                    .push((said, formula.to_owned(), input.unit_text.clone()));
+            }
+        }
+        Ok(laws)
+    }
+
+    /// How many formulas of the call are among the outputs, behind those of the spec.
+    pub fn formulas(&self) -> usize {
+        self.formulas.len()
     }
 
     /// The machine through every stage.
@@ -138,7 +189,8 @@ impl Reading {
         let files = 0..self.sources.len();
         let files = files.filter_map(|index| u16::try_from(index).ok());
         let names = files.map(|index| self.sources.name(SourceId(index)));
-        let bases = names.filter(|name| **name != self.name);
+        let is_file = |name: &&str| *name != "the unit" && !name.starts_with("--");
+        let bases = names.filter(|name| **name != self.name).filter(is_file);
         let bases = bases.map(|name| (Path::new(name), "which the spec extends"));
         let read: Vec<_> = std::iter::once(spec).chain(bases).collect();
         keep_apart(destinations, &read)
@@ -274,14 +326,14 @@ pub fn check_kept_once(keep: &call::Keep) -> Result<(), Failure> {
 }
 
 /// A run that keeps what a call says of its start, if it says anything.
-pub fn keep<'a>(
-    simulation: Simulation<'a, InterpretedMachine>,
+pub fn keep<'a, L: InputLaw<InterpretedSystem>>(
+    simulation: Simulation<'a, InterpretedMachine, L>,
     keep: &call::Keep,
-) -> Simulation<'a, InterpretedMachine> {
+) -> Simulation<'a, InterpretedMachine, L> {
     let Some(names) = kept_names(keep) else {
         return simulation;
     };
-    let keep = |simulation: Simulation<'a, _>, name: &String| simulation.keep(name);
+    let keep = |simulation: Simulation<'a, _, L>, name: &String| simulation.keep(name);
     names.iter().fold(simulation.keep_none(), keep)
 }
 

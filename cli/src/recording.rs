@@ -1,11 +1,11 @@
 //! What is drawn of a recording.
 
 use lagrangian::Solution;
-use lagrangian::interpreted::InterpretedMachine;
 pub use lagrangian::interpreted::{Column, Kind, Recording};
+use lagrangian::interpreted::{InterpretedMachine, Signals};
 
 /// A run of a machine read from a spec.
-pub type Run = Solution<InterpretedMachine>;
+pub type Run = Solution<InterpretedMachine, Signals>;
 
 /// What is drawn together: coordinates, rates, outputs and multipliers by unit, energies, the residual; of the kinds asked for,
 /// each where there is something in it.
@@ -61,7 +61,7 @@ impl Panel<'_> {
         match self.kind {
             Kind::Residual => 0.0,
             Kind::Coordinate | Kind::Rate => ROUNDING * largest.max(1.0),
-            Kind::Output | Kind::Contact | Kind::Multiplier | Kind::Energy => {
+            Kind::Output | Kind::Input | Kind::Contact | Kind::Multiplier | Kind::Energy => {
                 // They may be small beside their unit, and are made of a few hundred operations.
                 1e3 * f64::EPSILON * largest
             }
@@ -74,6 +74,7 @@ impl Panel<'_> {
             Kind::Coordinate => "coordinates",
             Kind::Rate => "rates",
             Kind::Output => "outputs",
+            Kind::Input => "inputs",
             Kind::Multiplier => "multipliers",
             Kind::Contact => "contacts",
             Kind::Energy => "energy",

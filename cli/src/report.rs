@@ -67,6 +67,7 @@ impl Report<'_, '_> {
             Kind::Coordinate,
             Kind::Rate,
             Kind::Output,
+            Kind::Input,
             Kind::Multiplier,
             Kind::Contact,
             Kind::Energy,

@@ -1,10 +1,13 @@
 //! `lagrangian simulate`: the motion of a machine.
 
+use std::iter;
+
 use lagrangian::interpreted::InterpretedMachine;
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{Ending, Error, Machine, Simulation, System, Warning};
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::nearest;
+use lagrangian_sweep::signals::{self, Written};
 use lagrangian_sweep::verdict;
 use lagrangian_symbolic::Dag;
 use serde_json::{Value, json};
@@ -14,6 +17,7 @@ use crate::collisions;
 use crate::contacts::{self, Contacts, Found};
 use crate::evaluate::set_start;
 use crate::failure::Failure;
+use crate::inputs;
 use crate::interrupt::Interrupt;
 use crate::numbers::{by_name, shortest};
 use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
@@ -37,14 +41,16 @@ struct Files {
 }
 
 impl Files {
-    fn new(call: &call::Simulate) -> Result<Files, Failure> {
+    fn new(call: &call::Simulate, written: &[(String, Written)]) -> Result<Files, Failure> {
         let files = Files {
             out: Destination::of("--out", call.out.as_ref(), TABLE)?,
             plot: Destination::of("--plot", call.plot.as_ref(), SVG)?,
             report: Destination::of("--report", call.report.as_ref(), PAGE)?,
         };
         output::keep_document_apart(files.all(), call.spec.json)?;
-        keep_apart(files.all(), &[(&call.spec.path, "the spec")])?;
+        let spec = (call.spec.path.as_path(), "the spec");
+        let read: Vec<_> = iter::once(spec).chain(inputs::files(written)).collect();
+        keep_apart(files.all(), &read)?;
         Ok(files)
     }
 
@@ -91,14 +97,27 @@ impl Trouble<'_> {
 /// If the spec, the run or the call is at fault. What there is of a run that ends early is written and summarized first.
 pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     let mut method = method(&call.method)?;
-    let files = Files::new(call)?;
+    let written = inputs::written(&call.inputs)?;
+    let files = Files::new(call, &written)?;
     let dag = Dag::new();
-    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, files.all())?;
+    let mut reading = Reading::open(&call.spec)?;
+    let laws = reading.drive(&call.spec, &written)?;
+    let formulas = reading.formulas();
+    let compiled = reading.compile_beside(&dag, files.all());
+    let mut compiled = compiled.map_err(inputs::told)?;
     let mut machine = reading::machine(&compiled, &call.start)?;
+    // What drives an input is no output of the machine.
+    let own = compiled.model.outputs.len() - formulas;
+    compiled.model.outputs.truncate(own);
+    let mut numbers = own..;
+    let signals = signals::signals(&laws, &machine, || numbers.next().unwrap_or(own));
+    let signals = signals.map_err(Failure::Call)?;
     if std::ptr::eq(method, &TAYLOR) {
         progress::now("deriving the series");
         let series = ProvedSeries::derive(&compiled.model);
-        if let Err(reason) = &series {
+        let reason = series.as_ref().err().map(ToString::to_string);
+        let reason = reason.or_else(|| signals::without_series(&signals, &machine));
+        if let Some(reason) = reason {
             method = <&Method>::default();
             output::complain(format_args!(
                 "warning: no Taylor series: {reason}; {} is used",
@@ -131,7 +150,8 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     progress::at(start.t, 0.0, 0);
     progress::run(call.until);
     let mut is_said = false;
-    let mut simulation = Simulation::new(&machine)
+    let mut simulation = signals
+        .drive(Simulation::new(&machine), &machine)
         .tolerance(call.tolerance)
         .method(method)
         .until(call.until)
@@ -161,7 +181,7 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         simulation = simulation.every(interval / f64::from(finer));
     }
     simulation = reading::keep(simulation, &call.keep);
-    let simulation = contacts.watch(simulation);
+    let simulation = contacts.watch(simulation, !signals.is_empty());
     let (run, error) = simulation.run_as_far_as_possible(start).map_err(cause)?;
     let mut trouble = Trouble {
         error: error.as_ref(),
@@ -192,10 +212,10 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
     }
     let interruption = trouble.interruption(&run, call.until);
     if call.spec.json {
-        let document = document(&run, &contacts, &interruption, &trouble.errors());
+        let document = document(call, &run, &contacts, &interruption, &trouble.errors());
         output::line(format_args!("{document:#}"));
     } else {
-        print_summary(&machine, method, &run, &contacts);
+        print_summary(call, &machine, method, &run, &contacts);
         if let Some(interruption) = &interruption {
             output::line(format_args!("  {interruption}"));
         }
@@ -232,13 +252,14 @@ fn cause(error: Error) -> Failure {
             needed,
         } => {
             // One option sets both tolerances of the library.
-            let option = if matches!(setting, "relative" | "absolute") {
-                "tolerance"
-            } else {
-                setting
+            let option = match setting {
+                "relative" | "absolute" => "--tolerance",
+                "sampled" => "--input …,every=",
+                "delay" => "--input …,delay=",
+                _ => &format!("--{setting}"),
             };
             let value = shortest(value);
-            Failure::Call(format!("--{option} {value}: must be {needed}"))
+            Failure::Call(format!("{option} {value}: must be {needed}"))
         }
         error => Failure::run(error),
     }
@@ -268,6 +289,7 @@ pub fn record(run: &Run) -> Recording {
 }
 
 fn document(
+    call: &call::Simulate,
     run: &Run,
     contacts: &[Found],
     interruption: &Option<String>,
@@ -296,6 +318,11 @@ fn document(
         "warnings": warnings,
     });
     if let Value::Object(fields) = &mut document {
+        if !call.inputs.is_empty() {
+            let inputs = call.inputs.iter();
+            let inputs = inputs.map(|input| (input.name.clone(), input.value.clone().into()));
+            fields.insert("inputs".into(), Value::Object(inputs.collect()));
+        }
         if !contacts.is_empty() {
             let contacts = contacts.iter().map(Found::json);
             fields.insert("contacts".into(), contacts.collect());
@@ -313,7 +340,13 @@ fn document(
     document
 }
 
-fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, contacts: &[Found]) {
+fn print_summary(
+    call: &call::Simulate,
+    machine: &InterpretedMachine,
+    method: &Method,
+    run: &Run,
+    contacts: &[Found],
+) {
     let statistics = run.statistics();
     let (start, end) = (run.start(), run.end());
     output::line(format_args!(
@@ -327,6 +360,12 @@ fn print_summary(machine: &InterpretedMachine, method: &Method, run: &Run, conta
         "  {} steps, {} rejected, {} evaluations, {:.3} s",
         statistics.steps, statistics.rejected, statistics.evaluations, statistics.seconds
     ));
+    if !call.inputs.is_empty() {
+        output::line(format_args!("  inputs"));
+    }
+    for input in &call.inputs {
+        output::line(format_args!("    {} = {}", input.name, input.value));
+    }
     let width = end
         .q
         .iter()

@@ -12,7 +12,7 @@ use lagrangian::interpreted::Engine;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::Model;
 use lagrangian_spec::source::{Disk, Files, Sources};
-use lagrangian_sweep::plan::{Law, SpecText, VERSION, Watch};
+use lagrangian_sweep::plan::{SpecText, VERSION, Watch};
 use lagrangian_sweep::table::Format;
 use lagrangian_sweep::{
     Folder, Plan, Summary, Sweep, Trouble, Wrong, chunk_length, cores, run_all, samples_beside,
@@ -23,6 +23,7 @@ use serde_json::json;
 use crate::call::{self, Assignment};
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::inputs;
 use crate::interrupt;
 use crate::output::{self, Destination, TABLE, ending_is_one_of, keep_apart};
 use crate::progress;
@@ -309,11 +310,8 @@ fn keep_from<'a>(
             .iter()
             .map(|path| (path.as_path(), "the table of runs")),
     );
-    let inputs = call
-        .inputs
-        .iter()
-        .filter(|input| input.value.ends_with(".csv"));
-    read.extend(inputs.map(|input| (Path::new(&input.value), "the table of an input")));
+    let written = inputs::written(&call.inputs)?;
+    read.extend(inputs::files(&written));
     keep_apart(destinations, &read)
 }
 
@@ -323,29 +321,14 @@ fn made(plan: Plan, engine: Engine) -> Result<Sweep, Failure> {
         Wrong::Plan(message) => Failure::Call(message),
         Wrong::Spec(wrong) => {
             let (report, sources) = *wrong;
-            formula(&report, &sources).unwrap_or_else(|| Failure::Spec(Box::new((report, sources))))
+            inputs::formula(&report, &sources)
+                .unwrap_or_else(|| Failure::Spec(Box::new((report, sources))))
         }
     })?;
     if let Some(warning) = sweep.warning() {
         output::complain(format_args!("warning: {warning}"));
     }
     Ok(sweep)
-}
-
-/// What is wrong with formulas of the call, if nothing else is wrong.
-fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
-    let said = report.diagnostics().into_iter().map(|wrong| {
-        let source = wrong.span.source;
-        let option = sources.name(source);
-        let help = wrong.help.iter().map(|help| format!("; {help}"));
-        let help: String = help.collect();
-        option.starts_with("--").then(|| {
-            let text = sources.text(source);
-            format!("{option}: {} in `{text}`{help}", wrong.message)
-        })
-    });
-    let said: Option<Vec<String>> = said.collect();
-    Some(Failure::Call(said?.join("\n       ")))
 }
 
 fn refused(trouble: Trouble) -> Failure {
@@ -461,7 +444,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         tolerance: call.tolerance,
         method: call.method.clone(),
         max_steps: call.max_steps as u64,
-        inputs: inputs(&call.inputs)?,
+        inputs: inputs::laws(&inputs::written(&call.inputs)?, &model)?,
         reduce: reductions::reductions(&call.reductions, &events)?,
         events,
         at,
@@ -482,23 +465,6 @@ fn check_kept(model: &Model<'_>, keep: &call::Keep) -> Result<(), Failure> {
             .map_err(|why| Failure::Call(format!("--keep {name}: {why}")))?;
     }
     Ok(())
-}
-
-/// What inputs do: formulas, and tables.
-fn inputs(given: &[Assignment]) -> Result<Vec<(String, Law)>, Failure> {
-    let law = |input: &Assignment| {
-        let name = &input.name;
-        if !input.value.ends_with(".csv") {
-            return Ok((name.clone(), Law::Formula(input.value.clone())));
-        }
-        let path = Path::new(&input.value);
-        let wrong = |why: String| Failure::Call(format!("--input {name}={}: {why}", input.value));
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-        let rows = table::rows(&text, &["t".to_owned(), name.clone()]).map_err(wrong)?;
-        let (times, values) = rows.iter().map(|row| (row[0], row[1])).unzip();
-        Ok((name.clone(), Law::Table { times, values }))
-    };
-    given.iter().map(law).collect()
 }
 
 /// Rows of numbers under names, from a table of runs.

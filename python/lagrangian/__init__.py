@@ -12,6 +12,7 @@ from ._equations import Equations, Program
 from ._machine import Evaluation, Machine, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
+from ._signals import Sampled, Table
 from ._simulate import Energy, Event, Run
 from ._sweep import LogUniform, Normal, Sweep, Triangular, Uniform, run_chunk
 from .errors import (
@@ -50,10 +51,12 @@ __all__ = [
     "Program",
     "Run",
     "RunError",
+    "Sampled",
     "SingularError",
     "SpecError",
     "State",
     "Sweep",
+    "Table",
     "Triangular",
     "Uniform",
     "UnknownName",

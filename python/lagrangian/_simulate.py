@@ -11,7 +11,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Seq
 
 import numpy as np
 
-from . import _batch, _native
+from . import _batch, _native, _signals
 from ._named import Named, State
 from .errors import RunError, unknown
 
@@ -467,9 +467,11 @@ def simulate(
 
     * ``start``, ``rate``: mappings from names to numbers, in place of the spec's, or arrays (n,); or ``start`` is a State, as
       ``run.end``.
-    * ``inputs``: a mapping from names to numbers, formulas of the spec's language (``"30*N*theta + 5*N*s*der(theta)"``) or functions
-      ``f(t, q, v)``; or one function of all, which returns an array (m,) or a mapping. Functions must depend on their arguments
-      alone, since they are called out of order in time.
+    * ``inputs``: a mapping from names to what drives each: a number, a formula of the spec's language (``"30*N*theta +
+      5*N*s*der(theta)"``), a function ``f(t, q, v)``, a :class:`Table` or its arrays ``(t, values)``, a table in a file as the command
+      has it (``"run.csv:push,hold"``, or a path), or a :class:`Sampled` controller; or one function of all inputs, which returns an
+      array (m,) or a mapping. Functions must depend on their arguments alone, since they are called out of order in time, but of
+      sampled ones.
     * ``events``: a mapping from names to formulas, functions ``f(t, q, v)``, or :class:`Event`. Each change of sign is found to
       the rounding of time. A callable's attributes ``terminal`` and ``direction`` count as in SciPy.
     * ``stop``: a formula that is greater than 0, or a function that is true, at the end of the step where the run ends.
@@ -525,7 +527,7 @@ def simulate(
 
     driven: Dict[str, Any] = {}
     # What sets an input, what is watched: the number of a formula, or a function.
-    rules: List[Tuple[int, str, Optional[int], Optional[Callable[..., Any]]]] = []
+    rules: List[Tuple[int, str, Optional[int], Optional[Callable[..., Any]], Any, Any]] = []
     watched: List[Tuple[str, Optional[int], Optional[Callable[..., Any]], int, Optional[int]]] = []
     stops: Optional[Tuple[Optional[int], Optional[Callable[..., Any]]]] = None
     all_inputs: Optional[Callable[..., Any]] = None
@@ -539,13 +541,15 @@ def simulate(
                 raise unknown("input", name, known_inputs)
             for place in places:
                 own = known_inputs[place]
-                if isinstance(what, str):
-                    unit = machine.units[own]
-                    rules.append((place, own, formula("input", f"input {own}", what, unit), None))
-                elif callable(what):
-                    rules.append((place, own, None, _named_arguments(what, names)))
-                else:
+                unit = machine.units[own]
+                signal = _signals.driven(what, own, unit)
+                if signal is None:
                     driven[own] = what
+                    continue
+                text, function, table, sampling = signal
+                number = None if text is None else formula("input", f"input {own}", text, unit)
+                called = None if function is None else _named_arguments(function, names)
+                rules.append((place, own, number, called, table, sampling))
     if driven:
         machine = machine._set(driven)
     event_names: List[str] = []
@@ -579,7 +583,7 @@ def simulate(
         program = machine._program.with_formulas(formulas)
         runs = type(machine)._with(program, *machine._values)
         outputs = program.formulas
-        rules = [(i, n, None if k is None else outputs[k], f) for i, n, k, f in rules]
+        rules = [(i, n, None if k is None else outputs[k], *rest) for i, n, k, *rest in rules]  # type: ignore[misc]
         watched = [(n, None if k is None else outputs[k], f, d, e) for n, k, f, d, e in watched]
         if stops is not None and stops[0] is not None:
             stops = (outputs[stops[0]], None)

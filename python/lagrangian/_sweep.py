@@ -13,7 +13,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optio
 
 import numpy as np
 
-from . import _batch, _native
+from . import _batch, _native, _signals
 from ._named import State
 from .errors import unknown
 
@@ -312,8 +312,8 @@ def sweep(
     * ``reduce``: a mapping from names to reductions, ``"max(abs(x))"``: ``max``, ``min``, ``range``, ``mean``, ``rms``,
       ``integral``, ``first``, ``last``, ``when_max``, ``when_min`` of an expression, ``count``, ``first``, ``last`` of an event;
       from ``after`` on, in s.
-    * ``inputs``, ``events``: numbers and formulas, as ``simulate`` has them. Functions in Python are refused: they are not
-      portable.
+    * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as ``simulate`` has them. Functions in Python are
+      refused: they are not portable.
     * ``engine``: None for the cores of this machine, ``"ray"``, ``"dask"``, or a client of ``dask.distributed``. All give the same
       bits.
 
@@ -331,9 +331,10 @@ def sweep(
     setting = [[name, x] for name, x, place in given if place not in is_varied and not math.isnan(x)]
     laws = []
     for name, what in (inputs or {}).items():
-        if isinstance(what, str):
-            laws.append([name, {"formula": what}])
-        elif callable(what):
+        law = _signals.law_of(what, name, machine.units.get(name, "1"))
+        if law is not None:
+            laws.append([name, law])
+        elif callable(what) or isinstance(what, _signals.Sampled):
             raise TypeError(
                 f"input {name} is a function in Python, which a sweep cannot repeat elsewhere: write a formula, or a loop over simulate"
             )

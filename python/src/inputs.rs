@@ -1,29 +1,125 @@
-//! What sets the inputs of a run: formulas, tables, and functions in Python.
+//! What sets the inputs of a run: formulas, tables, controllers that are sampled, and functions in Python.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use lagrangian::InputLaw;
-use lagrangian::interpreted::{InterpretedSystem, Named};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named, Signal, Signals};
+use lagrangian::{Between, Beyond, InputLaw, NoPiece, Piece, Table};
+use lagrangian_sweep::plan::Law as Written;
+use lagrangian_sweep::signals;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-/// What an input does.
-pub enum Rule {
-    /// It is the output of this number.
-    Output(usize),
-    /// A function of t, q and v.
-    Function(Py<PyAny>),
-}
+/// A table: its name, times, values, what is between its rows and what beyond.
+pub type Rows = (String, Vec<f64>, Vec<f64>, String, String);
+
+/// What drives an input: its number, its name, and the number of a formula, a function, or a table; and of what is sampled period
+/// and delay.
+pub type Ruled = (
+    usize,
+    String,
+    Option<usize>,
+    Option<Py<PyAny>>,
+    Option<Rows>,
+    Option<[f64; 2]>,
+);
 
 /// All inputs of a run.
 pub struct Law {
-    /// Which inputs, with their names, and what each does.
-    pub rules: Vec<(usize, String, Rule)>,
+    /// What drives them.
+    pub signals: Signals,
     /// A function that gives all of them.
     pub all: Option<Py<PyAny>>,
     /// The first exception of a function.
     pub raised: Raised,
+}
+
+/// The signals of a run.
+///
+/// # Errors
+/// Which of them cannot be.
+pub fn driven(
+    machine: &InterpretedMachine,
+    rules: Vec<Ruled>,
+    raised: &Raised,
+) -> PyResult<Signals> {
+    let (mut all, mut sampled, mut sampling) = (Vec::new(), Vec::new(), None);
+    for (place, name, output, function, rows, own) in rules {
+        let signal = match (output, function, rows) {
+            (Some(output), ..) => Signal::Output(output),
+            (_, Some(function), _) => called_as_signal(function, &name, raised),
+            (.., Some(rows)) => Signal::Table(Arc::new(table(rows)?)),
+            _ => return Err(PyValueError::new_err("neither a formula nor a function")),
+        };
+        match own {
+            None => all.push((place, signal)),
+            Some(own) => {
+                if *sampling.get_or_insert(own) != own {
+                    return Err(PyValueError::new_err(format!(
+                        "input {name}: all inputs that are sampled have one period and one delay"
+                    )));
+                }
+                sampled.push((place, signal));
+            }
+        }
+    }
+    let wrong = |wrong: lagrangian::interpreted::SignalError| PyValueError::new_err(wrong.to_string());
+    let signals = Signals::new(machine, all).map_err(wrong)?;
+    match sampling {
+        None => Ok(signals),
+        Some(sampling) => signals
+            .and_sampled(machine, sampled, sampling)
+            .map_err(wrong),
+    }
+}
+
+/// A function in Python as a signal.
+fn called_as_signal(function: Py<PyAny>, name: &str, raised: &Raised) -> Signal {
+    let (name, raised) = (format!("input {name}"), raised.clone());
+    Signal::Function(Arc::new(move |t, q, v| {
+        Python::attach(|py| {
+            let value = number(py, &function, &name, (t, q, v));
+            value.unwrap_or_else(|error| {
+                raised.keep(py, error, t);
+                f64::NAN
+            })
+        })
+    }))
+}
+
+fn table((name, times, values, between, beyond): Rows) -> PyResult<Table> {
+    let between = match between.as_str() {
+        "hold" => Between::Hold,
+        "linear" => Between::Linear,
+        "cubic" => Between::Cubic,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "between={other:?}: must be 'hold', 'linear' or 'cubic'"
+            )));
+        }
+    };
+    let beyond = match beyond.as_str() {
+        "hold" => Beyond::Hold,
+        "error" => Beyond::Error,
+        "repeat" => Beyond::Repeat,
+        other => {
+            return Err(PyValueError::new_err(format!(
+                "end={other:?}: must be 'hold', 'error' or 'repeat'"
+            )));
+        }
+    };
+    let table = Table::new(between, beyond, times, values);
+    let table = table.map_err(|wrong| PyValueError::new_err(format!("{name}: {wrong}")))?;
+    Ok(table.named(name))
+}
+
+/// What stands behind an input as the command reads it, as a plan of a sweep holds it: JSON.
+#[pyfunction]
+pub fn written(text: &str, input: &str, unit: &str) -> PyResult<String> {
+    let law: Result<Written, String> =
+        signals::written(text).and_then(|written| written.law(input, unit));
+    let law = law.map_err(|why| PyValueError::new_err(format!("input {input}: {why}")))?;
+    serde_json::to_string(&law).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 /// An exception that waits for the end of a run.
@@ -98,43 +194,54 @@ impl InputLaw<InterpretedSystem> for SharedLaw {
         v: &Vec<f64>,
         inputs: &mut Named,
     ) {
-        let law = &*self.0;
-        if let Some(function) = &law.all {
-            let set = Python::attach(|py| {
-                let values = called(py, function, (t, q, v)).and_then(|values| {
-                    let values: Vec<f64> = values.extract()?;
-                    let (given, wanted) = (values.len(), inputs.values.len());
-                    if given == wanted {
-                        return Ok(values);
-                    }
-                    Err(PyValueError::new_err(format!(
-                        "inputs: the function returned {given} numbers, the machine has {wanted} inputs"
-                    )))
-                });
-                values.map_err(|error| law.raised.keep(py, error, t)).ok()
-            });
-            match set {
-                Some(values) => inputs.values.copy_from_slice(&values),
-                None => inputs.values.fill(f64::NAN),
-            }
-            return;
-        }
-        for (place, name, rule) in &law.rules {
-            inputs.values[*place] = match rule {
-                Rule::Output(output) => system.output(*output, t, q, v, &[], &inputs.values),
-                Rule::Function(function) => Python::attach(|py| {
-                    let name = format!("input {name}");
-                    let value = number(py, function, &name, (t, q, v));
-                    value.unwrap_or_else(|error| {
-                        law.raised.keep(py, error, t);
-                        f64::NAN
-                    })
-                }),
-            };
-        }
+        self.set_in(Piece::ALL, system, t, q, v, inputs);
     }
 
     fn is_constant(&self) -> bool {
-        self.0.rules.is_empty() && self.0.all.is_none()
+        self.0.all.is_none() && self.0.signals.is_constant()
+    }
+
+    fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
+        self.0.signals.piece(t, forward, order)
+    }
+
+    fn set_in(
+        &self,
+        piece: Piece,
+        system: &InterpretedSystem,
+        t: f64,
+        q: &Vec<f64>,
+        v: &Vec<f64>,
+        inputs: &mut Named,
+    ) {
+        let law = &*self.0;
+        let Some(function) = &law.all else {
+            return law.signals.set_in(piece, system, t, q, v, inputs);
+        };
+        let set = Python::attach(|py| {
+            let values = called(py, function, (t, q, v)).and_then(|values| {
+                let values: Vec<f64> = values.extract()?;
+                let (given, wanted) = (values.len(), inputs.values.len());
+                if given == wanted {
+                    return Ok(values);
+                }
+                Err(PyValueError::new_err(format!(
+                    "inputs: the function returned {given} numbers, the machine has {wanted} inputs"
+                )))
+            });
+            values.map_err(|error| law.raised.keep(py, error, t)).ok()
+        });
+        match set {
+            Some(values) => inputs.values.copy_from_slice(&values),
+            None => inputs.values.fill(f64::NAN),
+        }
+    }
+
+    fn is_constant_in_pieces(&self) -> bool {
+        self.0.all.is_none() && self.0.signals.is_constant_in_pieces()
+    }
+
+    fn is_partial(&self) -> bool {
+        self.0.all.is_none()
     }
 }

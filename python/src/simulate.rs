@@ -1,19 +1,20 @@
 //! A run, made.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
-    Crossing, Error, InputLaw, Machine as _, Progress, Simulation, Solution, State, StepMotion,
+    Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State, StepMotion,
     System,
 };
+use lagrangian_sweep::signals::without_series;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors;
-use crate::inputs::{self, Law, Raised, Rule, SharedLaw};
+use crate::inputs::{self, Law, Raised, Ruled, SharedLaw};
 use crate::machine::Machine;
 use crate::run::Run;
 
@@ -37,9 +38,6 @@ enum Watched {
 
 /// An event that is looked for: name, number of a formula or function, direction (−1, 0, 1), and at which one the run ends.
 type Watch = (String, Option<usize>, Option<Py<PyAny>>, i32, Option<usize>);
-
-/// What sets an input: its number, its name, and the number of a formula or a function.
-type Ruled = (usize, String, Option<usize>, Option<Py<PyAny>>);
 
 /// The settings of a run.
 #[derive(FromPyObject)]
@@ -173,18 +171,19 @@ pub fn simulate(
         machine = machine.with_series(Ok(series));
     }
     let raised = Raised::default();
-    let mut law = Law {
-        rules: Vec::new(),
+    let signals = inputs::driven(&machine, settings.rules, &raised)?;
+    if std::ptr::eq(method, &TAYLOR)
+        && let Some(reason) = without_series(&signals, &machine)
+    {
+        return Err(PyValueError::new_err(format!(
+            "method taylor: no series: {reason}"
+        )));
+    }
+    let law = Law {
+        signals,
         all: settings.all_inputs,
         raised: raised.clone(),
     };
-    for (place, name, output, function) in settings.rules {
-        let rule = match Watched::of(output, function)? {
-            Watched::Output(output) => Rule::Output(output),
-            Watched::Function(function) => Rule::Function(function),
-        };
-        law.rules.push((place, name, rule));
-    }
     let mut watches = Vec::new();
     for (name, output, function, direction, ends) in settings.events {
         let crossing = match direction {
@@ -307,6 +306,10 @@ impl Task {
             }
         };
         let value = &value;
+        // What a controller holds is known to the run: at the end of its last step.
+        let is_sampled = self.law.0.signals.is_sampled();
+        let held: Mutex<Option<Named>> = Mutex::new(None);
+        let held = &held;
         let mut samples = self.samples.clone();
         samples.begin(&self.start);
         let mut last = Instant::now();
@@ -317,7 +320,15 @@ impl Task {
             .energy_balance(self.energy)
             .method(self.method)
             .law(self.law.clone())
-            .each_step(|step| samples.take(step))
+            .each_step(|step| {
+                if is_sampled {
+                    let [_, to] = step.span();
+                    let State { q, v, .. } = step.state(to)?;
+                    let inputs = step.inputs(to, &q.values, &v.values);
+                    *held.lock().unwrap_or_else(PoisonError::into_inner) = Some(inputs);
+                }
+                samples.take(step)
+            })
             .progress(|now| {
                 if last.elapsed() >= BETWEEN {
                     last = Instant::now();
@@ -325,8 +336,15 @@ impl Task {
                 }
             })
             .stop_if(|state| {
+                let held = held.lock().unwrap_or_else(PoisonError::into_inner);
                 let stops = self.stop.as_ref();
-                let stops = stops.is_some_and(|watched| value(watched, "stop", state) > 0.0);
+                let stops = stops.is_some_and(|watched| match (watched, &*held) {
+                    (Watched::Output(output), Some(u)) => {
+                        let (q, v) = (&state.q.values, &state.v.values);
+                        system.output(*output, state.t, q, v, &[], &u.values) > 0.0
+                    }
+                    _ => value(watched, "stop", state) > 0.0,
+                });
                 self.raised.is_kept() || stops
             });
         simulation = match relative == absolute {
@@ -351,7 +369,20 @@ impl Task {
                 simulation = simulation.keep(name);
             }
         }
+        simulation = self.law.0.signals.sample(simulation, machine);
         for (name, watched, crossing, ends) in &self.watches {
+            if let (true, Watched::Output(output)) = (is_sampled, watched) {
+                let (output, system) = (*output, system.clone());
+                let function = move |seen: &Observation<InterpretedMachine>| {
+                    let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
+                    system.output(output, seen.t, q, v, &[], u)
+                };
+                simulation = match ends {
+                    None => simulation.event_on(name, *crossing, function),
+                    Some(n) => simulation.until_nth_event_on(*n, name, *crossing, function),
+                };
+                continue;
+            }
             let said = format!("event {name}");
             let function = move |state: &State<Named>| value(watched, &said, state);
             simulation = match ends {

@@ -97,6 +97,66 @@ def test_inputs_are_formulas_or_functions(oscillator, force):
     assert not any("formula" in name for name in run.columns)
 
 
+def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
+    # From rest at x = 1 under 8 N for a second, whose equilibrium is x = 1, and free from there on.
+    times, values = [0.0, 1.0], [8.0, 0.0]
+    path = tmp_path / "push.csv"
+    path.write_text("t [ms];force [kN]\n0;0.008\n1000;0\n")
+    runs = [
+        oscillator.simulate(3, inputs={"force": force}, tolerance=1e-11)
+        for force in (lg.Table(times, values, "hold"), f"{path}:force,hold")
+    ]
+    run = runs[0]
+    np.testing.assert_allclose(run.at([0.5, 1.0, 2.5]).q["x"], [1, 1, math.cos(3)], atol=1e-10)
+    assert run["force"][999 // 3] == 8.0 and run["force"][-1] == 0.0
+    assert np.array_equal(run.q, runs[1].q) and np.array_equal(run.v, runs[1].v)
+    lines = [(np.array([0.0, 1.0, 2.0]), np.array([0.0, 3.0, 0.0])), lg.Table([0, 1, 2], [0, 3, 0])]
+    one, two = (oscillator.simulate(3, inputs={"force": line}) for line in lines)
+    assert np.array_equal(one.q, two.q) and one["force"].max() == pytest.approx(3, abs=1e-2)
+    for wrong, why in (
+        (lg.Table([0, 1], [1, 2], end="error"), "ends"),
+        (lg.Table([1, 0], [1, 2]), "not later"),
+        (f"{path}:speed", "no column"),
+        (path.with_suffix(".txt"), ""),
+    ):
+        with pytest.raises((ValueError, lg.LagrangianError), match=why):
+            oscillator.simulate(3, inputs={"force": wrong})
+    with pytest.raises(ValueError, match="no series"):
+        oscillator.simulate(3, inputs={"force": "1*N*sin(1*rad/s*t)"}, method="taylor")
+    with pytest.raises(ValueError, match="between"):
+        lg.Table([0, 1], [1, 2], "steps")
+
+
+def test_sampled_controllers_hold_what_they_set(oscillator):
+    text = "-4*N*s/m*der(x)"
+    law = lg.Sampled(text, every=0.05, delay=0.01)
+    of_command = oscillator.simulate(2, inputs={"force": f"{text},every=50*ms,delay=10*ms"}, tolerance=1e-11)
+    looks = []
+
+    def remembers(t, q, v):
+        looks.append(t)
+        return -4 * v["x"]
+
+    runs = [
+        oscillator.simulate(2, inputs={"force": what}, tolerance=1e-11, events={"slow": "force + 1*N"}, stop="-1*N - force")
+        for what in (law, lg.Sampled(remembers, every=0.05, delay=0.01))
+    ]
+    assert np.allclose(looks, 0.05 * np.arange(len(looks))) and len(looks) > 3
+    assert runs[0].end.t == runs[1].end.t
+    np.testing.assert_allclose(runs[0].end.y, runs[1].end.y, atol=1e-13)
+    # The force passes −1 N in a jump, which is an event; the run stops at the end of the step before or behind it.
+    assert runs[0].ending == "stop"
+    # By hand: between two changes the mass swings about force/k.
+    x, v, force = 1.0, 0.0, 0.0
+    for _ in range(40):
+        look = -4 * v
+        for h, next_force in ((0.01, look), (0.04, look)):
+            middle, c, s = force / 8, math.cos(2 * h), math.sin(2 * h)
+            x, v = middle + (x - middle) * c + v / 2 * s, v * c - 2 * (x - middle) * s
+            force = next_force
+    np.testing.assert_allclose([of_command.end.q["x"], of_command.end.v["x"]], [x, v], atol=1e-9)
+
+
 def test_all_inputs_by_one_function(oscillator):
     for function in (lambda t, q, v: [math.sin(t)], lambda t, q, v: {"force": math.sin(t)}):
         run = oscillator.simulate(5, inputs=function, tolerance=1e-11)

@@ -21,6 +21,8 @@ pub enum Kind {
     Residual,
     /// A quantity that the spec asks to observe.
     Output,
+    /// An input that is driven.
+    Input,
     /// The normal reaction, the friction or the slip of a contact.
     Contact,
     /// The multiplier of a constraint.
@@ -119,8 +121,28 @@ impl Recording {
         let start = run.start();
         let (q, v) = (&start.q.values, &start.v.values);
         let outputs = system.outputs(start.t, q, v, &vec![0.0; q.len()], &system.default_inputs());
+        // Formulas that somebody has added have names that no spec can give.
+        let is_shown = |name: &str| !name.contains(' ');
+        let shown: Vec<bool> = system
+            .output_values(&outputs)
+            .map(|(quantity, _)| is_shown(quantity.name))
+            .collect();
         for (quantity, _) in system.output_values(&outputs) {
-            column(quantity.name.into(), quantity.unit.into(), Kind::Output);
+            if is_shown(quantity.name) {
+                column(quantity.name.into(), quantity.unit.into(), Kind::Output);
+            }
+        }
+        let is_driven = run.is_driven();
+        let inputs = system.default_inputs();
+        for (quantity, _) in system.input_values(&inputs).filter(|_| is_driven) {
+            let name = quantity.name;
+            let mut others = system.output_values(&outputs);
+            let is_taken = others.any(|(other, _)| other.name == name);
+            let name = match is_taken {
+                true => format!("input({name})"),
+                false => name.into(),
+            };
+            column(name, quantity.unit.into(), Kind::Input);
         }
         for constraint in system.constraints() {
             let name = format!("multiplier({})", constraint.name);
@@ -160,7 +182,7 @@ impl Recording {
             + is_layer.iter().filter(|is_layer| **is_layer).count();
         for state in states {
             // Where a run ends early there may be no accelerations, and then nothing that is made from them.
-            let (outputs, reactions, energies) = match run.observe_state(state) {
+            let (seen, inputs, reactions, energies) = match run.observe_state(state) {
                 Ok(seen) => {
                     let (kinetic, potential) = (seen.kinetic_energy, seen.potential_energy);
                     let energies = [kinetic, potential, kinetic + potential];
@@ -175,16 +197,22 @@ impl Recording {
                     });
                     let reactions = seen.multipliers.iter().copied().chain(contacts);
                     let reactions = reactions.chain(unilateral);
-                    (seen.outputs.values, reactions.collect(), energies)
+                    let inputs = seen.inputs.values;
+                    (seen.outputs.values, inputs, reactions.collect(), energies)
                 }
                 Err(_) => {
                     let outputs = unknown(outputs.values.len());
-                    (outputs, unknown(reactions), [f64::NAN; 3])
+                    let inputs = unknown(inputs.values.len());
+                    (outputs, inputs, unknown(reactions), [f64::NAN; 3])
                 }
             };
             let moving = state.q.values.iter().chain(&state.v.values).copied();
             let residual = residual_at(run.energies(), state.t);
-            let observed = outputs.into_iter().chain(reactions);
+            let outputs = seen.into_iter().zip(&shown);
+            let outputs = outputs.filter(|(_, is_shown)| **is_shown);
+            let outputs = outputs.map(|(value, _)| value);
+            let inputs = inputs.into_iter().filter(|_| is_driven);
+            let observed = outputs.chain(inputs).chain(reactions);
             let row = moving.chain(observed).chain(energies).chain([residual]);
             for (column, value) in columns.iter_mut().zip(row) {
                 column.values.push(value);

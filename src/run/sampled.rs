@@ -1,4 +1,4 @@
-//! Controllers that look at a machine at certain instants, and what they set in between.
+//! Where inputs change: at the ends of the pieces in which they are smooth, and where controllers look at a machine and set them.
 
 use std::collections::VecDeque;
 
@@ -6,6 +6,7 @@ use super::Run;
 use crate::balance::Quadratures;
 use crate::event::state;
 use crate::inputs::InputLaw;
+use crate::piece::{NoPiece, Piece};
 use crate::settings::Sampled;
 use crate::solution::{Ending, is_beyond};
 use crate::stepper::Cause;
@@ -33,56 +34,104 @@ impl<M: Machine> Sampled<'_, M> {
 }
 
 impl<M: Machine, L: InputLaw<M::System>, A: Quadratures<M::System>> Run<'_, '_, M, L, A> {
-    /// Lets a sampled controller look at the machine and set its inputs, if it is time for either; then goes on to where it
-    /// will be time again. The answer is the event that ends the run.
-    pub(super) fn sample(&mut self) -> Result<Option<Ending>, Error> {
-        let Some(sampled) = &mut self.callbacks.sampled else {
+    /// Where inputs change: enters the piece of time that begins here, lets a sampled controller look at the machine and set its
+    /// inputs, if it is time for any of that; then goes on to where it will be time again. The answer is the event that ends the
+    /// run.
+    pub(super) fn change_inputs(&mut self) -> Result<Option<Ending>, Error> {
+        let forward = self.until >= self.start;
+        let mut stop = self.model.sight.law.piece.end(forward);
+        if stop.is_infinite() && self.sampling.is_none() {
             return Ok(None);
-        };
-        let Some(sampling) = &mut self.sampling else {
-            return Ok(None);
-        };
+        }
         let t = self.stepper.t();
-        let next = |taken: u64| self.start + taken as f64 * sampled.period;
-        while is_beyond(t, next(sampling.taken), 1.0) {
-            let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
-            let now = state(self.model.system, now);
-            (sampled.controller)(&now, &mut sampling.latest);
-            let acts = next(sampling.taken) + sampled.delay;
-            sampling.pending.push_back((acts, sampling.latest.clone()));
-            sampling.taken += 1;
+        let entered = self.enter_piece(forward)?;
+        if let Some(piece) = entered {
+            stop = piece.end(forward);
         }
         let mut acting = None;
-        while let Some((_, inputs)) = sampling
-            .pending
-            .pop_front_if(|(acts, _)| is_beyond(t, *acts, 1.0))
-        {
-            acting = Some(inputs);
+        if let (Some(sampled), Some(sampling)) = (&mut self.callbacks.sampled, &mut self.sampling) {
+            let next = |taken: u64| self.start + taken as f64 * sampled.period;
+            while is_beyond(t, next(sampling.taken), 1.0) {
+                let now = (t, self.stepper.q().clone(), self.stepper.v().clone());
+                let now = state(self.model.system, now);
+                (sampled.controller)(&now, &mut sampling.latest);
+                let acts = next(sampling.taken) + sampled.delay;
+                sampling.pending.push_back((acts, sampling.latest.clone()));
+                sampling.taken += 1;
+            }
+            while let Some((_, inputs)) = sampling
+                .pending
+                .pop_front_if(|(acts, _)| is_beyond(t, *acts, 1.0))
+            {
+                acting = Some(inputs);
+            }
+            let later = sampling.pending.front().map(|(acts, _)| *acts);
+            stop = stop
+                .min(later.unwrap_or(f64::INFINITY))
+                .min(next(sampling.taken));
         }
-        let later = sampling.pending.front().map(|(acts, _)| *acts);
-        let stop = later.unwrap_or(f64::INFINITY).min(next(sampling.taken));
-        self.stop = match is_beyond(stop, self.until, 1.0) {
+        let direction = if forward { 1.0 } else { -1.0 };
+        self.stop = match stop.is_infinite() || is_beyond(stop, self.until, direction) {
             true => self.until,
             false => stop,
         };
         self.stepper.set_end(self.stop);
-        match acting {
-            Some(inputs) => self.set_inputs(inputs),
-            None => Ok(None),
+        match (acting, entered) {
+            (None, None) => Ok(None),
+            (None, Some(piece)) if !piece.jumps => {
+                self.model.sight.law.piece = piece;
+                self.stepper.go_on_with(self.model.sight.law.clone());
+                Ok(None)
+            }
+            (acting, entered) => self.jump_inputs(acting, entered),
         }
     }
 
+    /// The piece of time that the run enters now, if it comes to the end of the one before.
+    fn enter_piece(&mut self, forward: bool) -> Result<Option<Piece>, Error> {
+        let t = self.stepper.t();
+        let order = self.settings.method.tableau.order;
+        let direction = if forward { 1.0 } else { -1.0 };
+        let law = &self.model.sight.law;
+        let mut end = law.piece.end(forward);
+        let mut entered: Option<Piece> = None;
+        // What follows within the roundoff of time is entered at once.
+        while end.is_finite() && is_beyond(t, end, direction) {
+            let piece = law.law.piece(end, forward, order);
+            let piece = piece.map_err(|none| none.error(t))?;
+            if (piece.end(forward) - end) * direction <= 0.0 {
+                // A law by hand that does not get on.
+                return Err(NoPiece::TooFine("an input").error(t));
+            }
+            let jumps = piece.jumps || entered.is_some_and(|before| before.jumps);
+            entered = Some(Piece { jumps, ..piece });
+            end = piece.end(forward);
+        }
+        self.record.pieces.extend(entered);
+        Ok(entered)
+    }
+
     /// The inputs jump to other values.
-    fn set_inputs(&mut self, inputs: Inputs<M>) -> Result<Option<Ending>, Error> {
+    fn jump_inputs(
+        &mut self,
+        held: Option<Inputs<M>>,
+        piece: Option<Piece>,
+    ) -> Result<Option<Ending>, Error> {
         let t = self.stepper.t();
         let before = self.stepper.contacts().clone();
-        self.model.sight.law.held = Some(inputs.clone());
-        let law = self.model.sight.law.clone();
+        let law = &mut self.model.sight.law;
+        if let Some(piece) = piece {
+            law.piece = piece;
+        }
+        if let Some(held) = held {
+            law.held = Some(held.clone());
+            self.record.held.push((t, held));
+        }
+        let law = law.clone();
         if let Err(error) = self.stepper.jump_inputs(law) {
             let (q, v) = (self.stepper.q(), self.stepper.v());
             return Err(self.model.explain(error, q, v));
         }
-        self.record.held.push((t, inputs));
         let at_start = self.stepper.work().steps == 0;
         if <M::System as System>::MAY_COLLIDE && self.stepper.touching().is_some() {
             let step = self.stepper.next_step();

@@ -16,4 +16,5 @@ mod specs;
 mod stiff;
 #[path = "../support/mod.rs"]
 mod support;
+mod tables;
 mod travel;

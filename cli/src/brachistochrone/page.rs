@@ -1,6 +1,6 @@
 //! The page of the fastest motion: the machine on the fastest way beside the machine that is left to itself.
 
-use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::interpreted::{InterpretedMachine, Signals};
 use lagrangian::{Machine, Simulation};
 use lagrangian_mechanics::Compiled;
 use serde_json::{Value, json};
@@ -75,7 +75,8 @@ fn left_to_itself(
     start.q.values.clone_from(&found.moments[0].q);
     start.v.values.fill(0.0);
     let until = found.motion.time();
-    let run = Simulation::new(machine)
+    let run = Signals::default()
+        .drive(Simulation::new(machine), machine)
         .until(until)
         .every(until / f64::from(INSTANTS))
         .forget_steps()

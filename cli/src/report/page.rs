@@ -279,16 +279,28 @@ fn parameters(report: &Report<'_, '_>) -> String {
         .zip(system.input_values(&inputs))
         .map(|(slot, (_, value))| {
             let default = slot.default.as_ref().map_or(0.0, |default| default.value);
+            let own = slot.name.to_string();
+            let family = own.split_once('[').map(|(family, _)| family);
+            let mut given = call.inputs.iter();
+            let driven =
+                given.find(|input| input.name == own || Some(input.name.as_str()) == family);
             vec![
                 name(&slot.name),
-                changed(value, Some(default)),
+                match driven {
+                    Some(input) => name(&input.value),
+                    None => changed(value, Some(default)),
+                },
                 Cell::Words(unit(&slot.unit_text)),
                 words(&slot.docs),
             ]
         })
         .collect();
     if !inputs.is_empty() {
-        html.push_str(&html::table("Inputs, held constant", &head, &inputs));
+        let title = match call.inputs.is_empty() {
+            true => "Inputs, held constant",
+            false => "Inputs",
+        };
+        html.push_str(&html::table(title, &head, &inputs));
     }
     if html.is_empty() {
         html.push_str("<p>The machine has no parameters.</p>");

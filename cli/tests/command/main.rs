@@ -13,6 +13,7 @@ mod linearize;
 mod map;
 mod modes;
 mod report;
+mod signals;
 #[path = "../support/mod.rs"]
 mod support;
 mod sweep;

@@ -6,13 +6,13 @@
 
 pub mod design;
 mod folder;
-mod laws;
 mod normal;
 mod numbers;
 mod philox;
 pub mod plan;
 mod reduce;
 pub mod rows;
+pub mod signals;
 mod sobol;
 mod sweep;
 pub mod table;

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use lagrangian::{Between, Beyond};
 use lagrangian_spec::source::Files;
 use lagrangian_symbolic::Rational;
 use serde::{Deserialize, Serialize};
@@ -90,12 +91,28 @@ pub struct ReadFile {
 pub enum Law {
     /// An expression of the spec's language in time and state.
     Formula(String),
-    /// Values at times, straight lines between them, and the first and the last value beyond.
+    /// The same, evaluated at the start and every so often after it, to act a time later and to hold until then.
+    Sampled {
+        /// The expression.
+        formula: String,
+        /// The time between two looks, in s.
+        every: f64,
+        /// How long after a look what is set begins to act, in s.
+        #[serde(default)]
+        delay: f64,
+    },
+    /// Values at times.
     Table {
         /// Times, in s, each greater than the one before it.
         times: Vec<f64>,
         /// The value at each, in the unit of the input.
         values: Vec<f64>,
+        /// What is between them; straight lines where nothing is said.
+        #[serde(default)]
+        between: Between,
+        /// What is before the first and behind the last; their values where nothing is said.
+        #[serde(default)]
+        beyond: Beyond,
     },
 }
 

@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named};
+use lagrangian::interpreted::{Engine, InterpretedMachine, InterpretedSystem, Named, Signals};
 use lagrangian::methods::{Method, TAYLOR};
-use lagrangian::{Crossing, Ending, Machine, Simulation, State, System};
+use lagrangian::{Crossing, Ending, Machine, Observation, Simulation, State, System};
 use lagrangian_mechanics::Compiled;
 use lagrangian_mechanics::series::ProvedSeries;
 use lagrangian_spec::diagnostic::{Report, Severity, nearest};
@@ -15,10 +15,10 @@ use lagrangian_spec::source::Sources;
 use lagrangian_symbolic::{Dag, Rational};
 
 use crate::design;
-use crate::laws::{Laws, Rule};
-use crate::plan::{Function, Kept, Law, Plan, Reduction};
+use crate::plan::{Function, Kept, Plan, Reduction};
 use crate::reduce::{Formula, Looks, Tracker};
 use crate::rows::{Cell, Column, Kind, Rows};
+use crate::signals::{self, without_series};
 use crate::sobol::MOST_VARIABLES;
 use crate::verdict;
 
@@ -44,7 +44,7 @@ pub struct Sweep {
     warning: Option<String>,
     constants: Vec<(String, Rational)>,
     places: Vec<Place>,
-    laws: Laws,
+    signals: Signals,
     /// For each event the output that its function is.
     events: Vec<usize>,
     reductions: Vec<Made>,
@@ -248,21 +248,14 @@ impl Sweep {
                 reads_accelerations: false,
             })
         };
-        let mut laws = Laws::default();
-        for (name, law) in &plan.inputs {
-            let place = compiled
-                .model
-                .inputs
-                .iter()
-                .position(|input| input.name.to_string() == *name);
-            let rule = match law {
-                Law::Formula(_) => Rule::Output(next().output),
-                Law::Table { times, values } => Rule::Table {
-                    times: times.clone(),
-                    values: values.clone(),
-                },
-            };
-            laws.rules.extend(place.map(|place| (place, rule)));
+        let signals = signals::signals(&plan.inputs, &machine, || next().output);
+        let signals = signals.map_err(Wrong::Plan)?;
+        if std::ptr::eq(method, &TAYLOR)
+            && let Some(reason) = without_series(&signals, &machine)
+        {
+            method = <&Method>::default();
+            let name = method.tableau.name;
+            warning = Some(format!("no Taylor series: {reason}; {name} is used"));
         }
         let events: Vec<usize> = plan.events.iter().map(|_| next().output).collect();
         let mut units = Vec::new();
@@ -312,7 +305,7 @@ impl Sweep {
             warning,
             constants,
             places,
-            laws,
+            signals,
             events,
             reductions,
             columns,
@@ -466,19 +459,19 @@ impl Sweep {
         let function = |output: usize, state: &State<Named>| {
             let mut u = system.default_inputs();
             let State { t, q, v } = state;
-            lagrangian::InputLaw::set(&self.laws, &system, *t, &q.values, &v.values, &mut u);
+            lagrangian::InputLaw::set(&self.signals, &system, *t, &q.values, &v.values, &mut u);
             system.output(output, *t, &q.values, &v.values, &[], &u.values)
         };
         let started = &mut watched;
-        let mut simulation = Simulation::new(&machine)
+        let simulation = Simulation::new(&machine)
             .tolerance(plan.tolerance)
             .method(self.method)
             .until(plan.until)
             .max_steps(usize::try_from(plan.max_steps).unwrap_or(usize::MAX))
             .energy_balance(true)
             .forget_steps()
-            .forget_energies()
-            .law(self.laws.clone());
+            .forget_energies();
+        let mut simulation = self.signals.drive(simulation, &machine);
         if let Some(keep) = &plan.keep {
             simulation = simulation.keep_none();
             for name in keep {
@@ -486,6 +479,19 @@ impl Sweep {
             }
         }
         for (watch, &output) in plan.events.iter().zip(&self.events) {
+            if self.signals.is_sampled() {
+                // What a controller holds is known to the run.
+                let system = system.clone();
+                let seen = move |seen: &Observation<InterpretedMachine>| {
+                    let (q, v, u) = (&seen.q.values, &seen.v.values, &seen.inputs.values);
+                    system.output(output, seen.t, q, v, &[], u)
+                };
+                simulation = match watch.ends {
+                    true => simulation.until_event_on(&watch.name, Crossing::Any, seen),
+                    false => simulation.event_on(&watch.name, Crossing::Any, seen),
+                };
+                continue;
+            }
             let function = move |state: &State<Named>| function(output, state);
             simulation = match watch.ends {
                 true => simulation.until_event(&watch.name, Crossing::Any, function),
@@ -724,7 +730,7 @@ fn is_closed(text: &str) -> bool {
 fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<String>)> {
     let mut all = Vec::new();
     for (name, law) in &plan.inputs {
-        if let Law::Formula(text) = law {
+        if let Some(text) = law.formula() {
             let input = model
                 .inputs
                 .iter()
@@ -733,7 +739,7 @@ fn names(plan: &Plan, model: &Model<'_>) -> Vec<(String, String, String, Option<
             all.push((
                 format!("input {name}"),
                 format!("--input {name}"),
-                text.clone(),
+                text.to_owned(),
                 unit,
             ));
         }
@@ -831,34 +837,15 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
     {
         unit_of(model, name).map_err(Wrong::Plan)?;
     }
-    for (name, law) in &plan.inputs {
-        if !model
-            .inputs
-            .iter()
-            .any(|input| input.name.to_string() == *name)
-        {
-            let names: Vec<String> = model
-                .inputs
-                .iter()
-                .map(|input| input.name.to_string())
-                .collect();
-            let help = match (
-                nearest(name, names.iter().map(String::as_str)),
-                names.is_empty(),
-            ) {
-                (Some(near), _) => format!("did you mean `{near}`?"),
-                (None, true) => "the machine has none".into(),
-                (None, false) => format!("there are: {}", names.join(", ")),
-            };
-            return wrong(format!("--input {name}: no input named `{name}`; {help}"));
+    for (name, _) in &plan.inputs {
+        let mut inputs = model.inputs.iter();
+        if !inputs.any(|input| input.name.to_string() == *name) {
+            return wrong(signals::unknown(name, model));
         }
-        if let Law::Table { times, values } = law {
-            let grow = times.windows(2).all(|pair| pair[0] < pair[1]);
-            if times.is_empty() || times.len() != values.len() || !grow {
-                return wrong(format!(
-                    "--input {name}: the times of its table do not grow from row to row"
-                ));
-            }
+        if plan.set.iter().any(|(set, _)| set == name) {
+            return wrong(format!(
+                "`{name}` is driven by --input, and has one value by --set too"
+            ));
         }
     }
     for factor in &plan.design {

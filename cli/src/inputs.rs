@@ -1,0 +1,71 @@
+//! `--input`: what drives the inputs of a run.
+
+use std::path::Path;
+
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::Model;
+use lagrangian_spec::source::Sources;
+use lagrangian_sweep::plan::Law;
+use lagrangian_sweep::signals::{self, Written};
+
+use crate::call::Assignment;
+use crate::failure::Failure;
+
+/// What each `--input` says, in their order.
+///
+/// # Errors
+/// The call is at fault.
+pub fn written(given: &[Assignment]) -> Result<Vec<(String, Written)>, Failure> {
+    let one = |input: &Assignment| {
+        let written = signals::written(&input.value);
+        let written = written.map_err(|why| {
+            Failure::Call(format!("--input {}={}: {why}", input.name, input.value))
+        })?;
+        Ok((input.name.clone(), written))
+    };
+    given.iter().map(one).collect()
+}
+
+/// The files that inputs are read from, which must not be written.
+pub fn files(written: &[(String, Written)]) -> impl Iterator<Item = (&Path, &'static str)> {
+    let files = written.iter().filter_map(|(_, written)| written.file());
+    files.map(|path| (path, "the table of an input"))
+}
+
+/// What the inputs of a machine do.
+///
+/// # Errors
+/// If there is no such input, or a table is wrong.
+pub fn laws(
+    written: &[(String, Written)],
+    model: &Model<'_>,
+) -> Result<Vec<(String, Law)>, Failure> {
+    signals::laws(written, model).map_err(Failure::Call)
+}
+
+/// A failure of a spec as one of the call, where all that is wrong are formulas that the call has.
+pub fn told(failure: Failure) -> Failure {
+    match failure {
+        Failure::Spec(wrong) => {
+            let (report, sources) = *wrong;
+            formula(&report, &sources).unwrap_or_else(|| Failure::Spec(Box::new((report, sources))))
+        }
+        other => other,
+    }
+}
+
+/// What is wrong with formulas of the call, if nothing else is wrong.
+pub fn formula(report: &Report, sources: &Sources) -> Option<Failure> {
+    let said = report.diagnostics().into_iter().map(|wrong| {
+        let source = wrong.span.source;
+        let option = sources.name(source);
+        let help = wrong.help.iter().map(|help| format!("; {help}"));
+        let help: String = help.collect();
+        option.starts_with("--").then(|| {
+            let text = sources.text(source);
+            format!("{option}: {} in `{text}`{help}", wrong.message)
+        })
+    });
+    let said: Option<Vec<String>> = said.collect();
+    Some(Failure::Call(said?.join("\n       ")))
+}

@@ -1,0 +1,434 @@
+//! What drives inputs, as a call writes it: formulas, tables in files, and controllers that are sampled.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use lagrangian::interpreted::{InterpretedMachine, Signal, Signals, TableFile};
+use lagrangian::{Between, Beyond, Table};
+use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::model::Model;
+use lagrangian_spec::resolve::value_in;
+use lagrangian_spec::source::Sources;
+
+use crate::plan::Law;
+use crate::table;
+
+/// What a call writes behind `--input NAME=`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Written {
+    /// A formula of the spec's language.
+    Formula(String),
+    /// The same, evaluated every so often, to act a time later and to hold until then: both in s.
+    Sampled {
+        /// The formula.
+        formula: String,
+        /// The time between two looks.
+        every: f64,
+        /// How long after a look what is set begins to act.
+        delay: f64,
+    },
+    /// A column of a table in a file.
+    File {
+        /// The file, `.csv` or `.parquet`.
+        path: PathBuf,
+        /// The column; that of the input's name where none is named.
+        column: Option<String>,
+        /// What is between its rows.
+        between: Between,
+        /// What is before and behind them.
+        beyond: Beyond,
+    },
+}
+
+/// Reads `FORMULA`, `FORMULA,every=TIME[,delay=TIME]` or `FILE[:COLUMN][,hold|linear|cubic][,end=hold|error|repeat]`.
+///
+/// # Errors
+/// What is wrong, and what is expected instead.
+pub fn written(text: &str) -> Result<Written, String> {
+    let text = text.trim();
+    let Some(end) = end_of_file(text) else {
+        return formula(text);
+    };
+    let (path, rest) = text.split_at(end);
+    let (column, options) = match rest.strip_prefix(':') {
+        Some(rest) => {
+            let column = parts(rest).first().copied().unwrap_or_default();
+            if column.trim().is_empty() {
+                return Err("expected the name of a column behind `:`".into());
+            }
+            (Some(column.trim().to_owned()), &rest[column.len()..])
+        }
+        None => (None, rest),
+    };
+    let (mut between, mut beyond) = (None, None);
+    for option in parts(options).into_iter().skip(1).map(str::trim) {
+        let said = match option {
+            "hold" => between.replace(Between::Hold).is_some(),
+            "linear" => between.replace(Between::Linear).is_some(),
+            "cubic" => between.replace(Between::Cubic).is_some(),
+            "end=hold" => beyond.replace(Beyond::Hold).is_some(),
+            "end=error" => beyond.replace(Beyond::Error).is_some(),
+            "end=repeat" => beyond.replace(Beyond::Repeat).is_some(),
+            _ => {
+                let near = nearest(option, FILE_OPTIONS.iter().copied());
+                let near = near.map(|near| format!("; did you mean `{near}`?"));
+                return Err(format!(
+                    "`{option}` is no option of a table: {}{}",
+                    FILE_OPTIONS.join(", "),
+                    near.unwrap_or_default()
+                ));
+            }
+        };
+        if said {
+            return Err(format!("`{option}` is said beside another one of its kind"));
+        }
+    }
+    Ok(Written::File {
+        path: PathBuf::from(path),
+        column,
+        between: between.unwrap_or_default(),
+        beyond: beyond.unwrap_or_default(),
+    })
+}
+
+const FILE_OPTIONS: [&str; 6] = [
+    "hold",
+    "linear",
+    "cubic",
+    "end=hold",
+    "end=error",
+    "end=repeat",
+];
+
+/// Where the name of a table ends with which a text begins; none if it is a formula.
+fn end_of_file(text: &str) -> Option<usize> {
+    let lower = text.to_ascii_lowercase();
+    let ends = [".csv", ".parquet"].iter().flat_map(|ending| {
+        let found = lower.match_indices(ending);
+        found.map(|(at, ending)| at + ending.len())
+    });
+    let is_end = |end: &usize| {
+        let rest = text.get(*end..);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with([',', ':']))
+    };
+    ends.filter(is_end).min()
+}
+
+/// What stands between commas that are in no brackets.
+fn parts(text: &str) -> Vec<&str> {
+    let mut depth = 0_i32;
+    let parts = text.split(|c: char| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        c == ',' && depth == 0
+    });
+    parts.collect()
+}
+
+fn formula(text: &str) -> Result<Written, String> {
+    let parts = parts(text);
+    let formula = parts.first().copied().unwrap_or_default().trim().to_owned();
+    if formula.is_empty() {
+        return Err("expected a formula or a table `.csv` or `.parquet`".into());
+    }
+    let (mut every, mut delay) = (None, None);
+    for option in parts.iter().skip(1).map(|part| part.trim()) {
+        let (name, value) = option.split_once('=').unwrap_or((option, ""));
+        let time = |least: f64| {
+            let (mut sources, mut report) = (Sources::new(), Report::new());
+            let time = value_in(value.trim(), "s", &mut sources, &mut report);
+            let said = report.diagnostics().into_iter();
+            let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
+            match time {
+                Some(time) if time.is_finite() && time >= least => Ok(time),
+                Some(_) if least == 0.0 => Err(format!("`{option}`: a delay is not negative")),
+                Some(_) => Err(format!("`{option}`: a period is greater than 0")),
+                None => Err(format!("`{option}`: {}", said.join("; "))),
+            }
+        };
+        let said = match name.trim() {
+            "every" => every.replace(time(f64::MIN_POSITIVE)?).is_some(),
+            "delay" => delay.replace(time(0.0)?).is_some(),
+            _ => {
+                return Err(format!(
+                    "`{option}` stands behind a formula, where `every=TIME` and `delay=TIME` may"
+                ));
+            }
+        };
+        if said {
+            return Err(format!("`{name}` is said twice"));
+        }
+    }
+    match (every, delay) {
+        (None, None) => Ok(Written::Formula(formula)),
+        (Some(every), delay) => Ok(Written::Sampled {
+            formula,
+            every,
+            delay: delay.unwrap_or(0.0),
+        }),
+        (None, Some(_)) => {
+            Err("a formula acts with a delay where it is sampled: `every=TIME`".into())
+        }
+    }
+}
+
+impl Written {
+    /// The file that it reads.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Written::File { path, .. } => Some(path),
+            _ => None,
+        }
+    }
+
+    /// What an input of this name and unit does.
+    ///
+    /// # Errors
+    /// What is wrong with its table.
+    pub fn law(&self, input: &str, unit: &str) -> Result<Law, String> {
+        Ok(match self {
+            Written::Formula(formula) => Law::Formula(formula.clone()),
+            Written::Sampled {
+                formula,
+                every,
+                delay,
+            } => Law::Sampled {
+                formula: formula.clone(),
+                every: *every,
+                delay: *delay,
+            },
+            Written::File {
+                path,
+                column,
+                between,
+                beyond,
+            } => {
+                let shown = path.display().to_string();
+                let is_parquet = path
+                    .extension()
+                    .is_some_and(|ending| ending.eq_ignore_ascii_case("parquet"));
+                let unread = |error: std::io::Error| format!("cannot read {shown}: {error}");
+                let file = match is_parquet {
+                    true => {
+                        let cells = table::cells(path).map_err(unread)?;
+                        TableFile::from_cells(&shown, cells)
+                    }
+                    false => {
+                        let bytes = std::fs::read(path).map_err(unread)?;
+                        TableFile::from_bytes(&shown, &bytes)
+                    }
+                };
+                let column = column.as_deref().unwrap_or(input);
+                let read = file.and_then(|file| file.column(column, unit));
+                let (times, values) = read.map_err(|wrong| wrong.to_string())?;
+                let law = Law::Table {
+                    times,
+                    values,
+                    between: *between,
+                    beyond: *beyond,
+                };
+                law.table(input).map_err(|why| format!("{shown}: {why}"))?;
+                law
+            }
+        })
+    }
+}
+
+impl Law {
+    /// The formula that it evaluates.
+    pub fn formula(&self) -> Option<&str> {
+        match self {
+            Law::Formula(formula) | Law::Sampled { formula, .. } => Some(formula),
+            Law::Table { .. } => None,
+        }
+    }
+
+    /// The table that it follows, as that of an input.
+    pub(crate) fn table(&self, input: &str) -> Result<Option<Table>, String> {
+        let Law::Table {
+            times,
+            values,
+            between,
+            beyond,
+        } = self
+        else {
+            return Ok(None);
+        };
+        let table = Table::new(*between, *beyond, times.clone(), values.clone());
+        let table = table.map_err(|wrong| wrong.to_string())?;
+        Ok(Some(table.named(format!("the table of input {input}"))))
+    }
+}
+
+/// Inputs with what is written for each; the name of a family is that of all its members.
+///
+/// # Errors
+/// If there is no such input, with the near name, or a table is wrong.
+pub fn laws(
+    written: &[(String, Written)],
+    model: &Model<'_>,
+) -> Result<Vec<(String, Law)>, String> {
+    let inputs = || {
+        let inputs = model.inputs.iter();
+        inputs.map(|input| (input.name.to_string(), input.unit_text.as_str()))
+    };
+    let mut laws: Vec<(String, Law)> = Vec::new();
+    for (name, what) in written {
+        let is_meant = |own: &str| {
+            own == name
+                || own
+                    .split_once('[')
+                    .is_some_and(|(base, _)| base == name.as_str())
+        };
+        let meant: Vec<(String, &str)> = inputs().filter(|(own, _)| is_meant(own)).collect();
+        if meant.is_empty() {
+            return Err(unknown(name, model));
+        }
+        for (own, unit) in meant {
+            let law = what.law(&own, unit);
+            laws.push((own, law.map_err(|why| format!("--input {name}: {why}"))?));
+        }
+    }
+    Ok(laws)
+}
+
+/// That there is no such input.
+pub(crate) fn unknown(name: &str, model: &Model<'_>) -> String {
+    let names: Vec<String> = model
+        .inputs
+        .iter()
+        .map(|input| input.name.to_string())
+        .collect();
+    let near = nearest(name, names.iter().map(String::as_str));
+    let help = match (near, names.is_empty()) {
+        (Some(near), _) => format!("did you mean `{near}`?"),
+        (None, true) => "the machine has none".into(),
+        (None, false) => format!("there are: {}", names.join(", ")),
+    };
+    format!("--input {name}: no input named `{name}`; {help}")
+}
+
+/// The signals of a machine, whose formulas are the outputs that `next` numbers in their order.
+///
+/// # Errors
+/// Which of them cannot be.
+pub fn signals(
+    laws: &[(String, Law)],
+    machine: &InterpretedMachine,
+    mut next: impl FnMut() -> usize,
+) -> Result<Signals, String> {
+    let inputs: Vec<String> = machine
+        .program()
+        .inputs
+        .iter()
+        .map(|input| input.name.to_string())
+        .collect();
+    let (mut driven, mut sampled, mut sampling) = (Vec::new(), Vec::new(), None);
+    for (name, law) in laws {
+        let signal = match law.table(name) {
+            Err(why) => return Err(format!("--input {name}: {why}")),
+            Ok(Some(table)) => Signal::Table(Arc::new(table)),
+            Ok(None) => Signal::Output(next()),
+        };
+        let Some(place) = inputs.iter().position(|input| input == name) else {
+            return Err(format!("--input {name}: no input named `{name}`"));
+        };
+        match law {
+            Law::Sampled { every, delay, .. } => {
+                let own = [*every, *delay];
+                if *sampling.get_or_insert(own) != own {
+                    return Err(format!(
+                        "--input {name}: all inputs that are sampled have one period and one delay"
+                    ));
+                }
+                sampled.push((place, signal));
+            }
+            _ => driven.push((place, signal)),
+        }
+    }
+    let wrong = |wrong: lagrangian::interpreted::SignalError| format!("--input: {wrong}");
+    let signals = Signals::new(machine, driven).map_err(wrong)?;
+    match sampling {
+        None => Ok(signals),
+        Some(sampling) => signals
+            .and_sampled(machine, sampled, sampling)
+            .map_err(wrong),
+    }
+}
+
+/// Why signals have no Taylor series, if they have none.
+pub fn without_series(signals: &Signals, machine: &InterpretedMachine) -> Option<String> {
+    let input = signals.first_varying()?;
+    let name = machine.program().inputs.get(input)?.name.to_string();
+    Some(format!(
+        "input `{name}` changes all the time, and not at instants only"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_behind_an_input_is_told_apart() {
+        let file = |path: &str, column: Option<&str>, between, beyond| {
+            Ok(Written::File {
+                path: path.into(),
+                column: column.map(str::to_owned),
+                between,
+                beyond,
+            })
+        };
+        let sampled = |formula: &str, every: f64, delay: f64| {
+            Ok(Written::Sampled {
+                formula: formula.into(),
+                every,
+                delay,
+            })
+        };
+        let formula = |text: &str| Ok(Written::Formula(text.into()));
+        for (text, known) in [
+            ("0.5*sin(10*t)", formula("0.5*sin(10*t)")),
+            ("max(x, y)", formula("max(x, y)")),
+            ("-5*x,every=1*ms", sampled("-5*x", 1e-3, 0.0)),
+            (
+                "max(x,y), every=0.1, delay=20*ms",
+                sampled("max(x,y)", 0.1, 0.02),
+            ),
+            ("a.csv", file("a.csv", None, Between::Linear, Beyond::Hold)),
+            (
+                "a,b (1).CSV:q[1,2],hold,end=repeat",
+                file("a,b (1).CSV", Some("q[1,2]"), Between::Hold, Beyond::Repeat),
+            ),
+            (
+                "C:\\runs\\a.csv.parquet:push,end=error,cubic",
+                file(
+                    "C:\\runs\\a.csv.parquet",
+                    Some("push"),
+                    Between::Cubic,
+                    Beyond::Error,
+                ),
+            ),
+        ] {
+            assert_eq!(written(text), known, "{text}");
+        }
+        for (text, why) in [
+            ("", "expected a formula"),
+            ("a.csv,holds", "did you mean `hold`?"),
+            ("a.csv,hold,linear", "beside another one"),
+            ("a.csv:,hold", "the name of a column"),
+            ("x,every=0", "a period is greater than 0"),
+            ("x,every=1*m", "expected s, found m"),
+            ("x,delay=1*ms", "where it is sampled"),
+            ("x,every=1,delay=-1", "a delay is not negative"),
+            ("x,every=1,every=1", "said twice"),
+            ("x,often", "`every=TIME`"),
+        ] {
+            let said = written(text).expect_err(text);
+            assert!(said.contains(why), "{text}: {said}");
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! Tables as text: columns of numbers under names with units.
+
+use core::fmt::{self, Display};
+use std::format;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use lagrangian_spec::diagnostic::{Report, nearest};
+use lagrangian_spec::resolve::value_in;
+use lagrangian_spec::source::Sources;
+
+/// A table that was read: a header, `t [ms]` or `torque [N*m]`, and rows of cells.
+///
+/// ```
+/// use lagrangian::Table;
+/// use lagrangian::interpreted::TableFile;
+///
+/// let text = "# measured\nt [ms]; torque [kN*m]\n0; 0\n500; 0.02\n";
+/// let file = TableFile::from_text("drive.csv", text)?;
+/// let (times, values) = file.column("torque", "N*m")?;
+/// assert_eq!((times, values), (vec![0.0, 0.5], vec![0.0, 20.0]));
+///
+/// let wrong = TableFile::from_text("drive.csv", "t,torque\n0,1\n0.5,\n")?;
+/// let error = wrong.column("torque", "N*m").unwrap_err();
+/// assert_eq!(error.to_string(), "drive.csv, line 3, column 5: the cell of `torque` is empty");
+/// # Ok::<(), lagrangian::interpreted::TableFileError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct TableFile {
+    name: String,
+    header: Vec<Cell>,
+    rows: Vec<Vec<Cell>>,
+    /// Whether lines and columns are places in a text, and not numbers of rows.
+    is_text: bool,
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug)]
+struct Cell {
+    text: String,
+    /// Line and column in the text, from 1.
+    place: (usize, usize),
+}
+
+/// What is wrong with a table in a file, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TableFileError {
+    /// What the file is called.
+    pub file: String,
+    /// The line, from 1, and the column in it, in characters; or the row, from 1, of a file that is no text.
+    pub place: Option<(usize, Option<usize>)>,
+    /// What is wrong.
+    pub message: String,
+}
+
+impl Display for TableFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        match self.place {
+            None => {}
+            Some((row, None)) => write!(f, ", row {row}")?,
+            Some((line, Some(column))) => write!(f, ", line {line}, column {column}")?,
+        }
+        write!(f, ": {}", self.message)
+    }
+}
+
+impl core::error::Error for TableFileError {}
+
+/// The most columns that a message lists.
+const SHOWN: usize = 12;
+
+impl TableFile {
+    /// Reads comma-separated text, or text with semicolons, with a point as decimal mark. Lines may be empty, and what follows a
+    /// `#` is a comment.
+    ///
+    /// # Errors
+    /// If there is no header, or a quote is not closed.
+    pub fn from_text(name: &str, text: &str) -> Result<TableFile, TableFileError> {
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let mut file = TableFile {
+            name: name.into(),
+            header: Vec::new(),
+            rows: Vec::new(),
+            is_text: true,
+        };
+        let mut separator = ',';
+        for (number, line) in text.lines().enumerate() {
+            let line = uncommented(line);
+            if line.trim().is_empty() {
+                continue;
+            }
+            let is_header = file.header.is_empty();
+            if is_header && cells(line, ';', true).is_some_and(|cells| cells.len() > 1) {
+                separator = ';';
+            }
+            let place = |column: usize| (number + 1, column);
+            let Some(cells) = cells(line, separator, is_header) else {
+                return Err(file.wrong(Some(place(1)), "a quote is not closed"));
+            };
+            let cells = cells.into_iter().map(|(text, column)| Cell {
+                text,
+                place: place(column),
+            });
+            match is_header {
+                true => file.header = cells.collect(),
+                false => file.rows.push(cells.collect()),
+            }
+        }
+        match file.header.is_empty() {
+            true => Err(file.wrong(None, "it is empty; its first line is to name its columns")),
+            false => Ok(file),
+        }
+    }
+
+    /// The same of bytes, which must be UTF-8.
+    ///
+    /// # Errors
+    /// As [`from_text`](Self::from_text), and where the bytes are no text.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<TableFile, TableFileError> {
+        match core::str::from_utf8(bytes) {
+            Ok(text) => Self::from_text(name, text),
+            Err(error) => {
+                let before = bytes.get(..error.valid_up_to()).unwrap_or_default();
+                let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+                let since = before.rsplit(|byte| *byte == b'\n').next();
+                let since = since.map_or("".into(), String::from_utf8_lossy);
+                Err(TableFileError {
+                    file: name.into(),
+                    place: Some((line, Some(since.chars().count() + 1))),
+                    message: "this is no UTF-8: save the table as text in UTF-8".into(),
+                })
+            }
+        }
+    }
+
+    /// The same of cells that were read otherwise, the header first.
+    ///
+    /// # Errors
+    /// If there is no header.
+    pub fn from_cells(name: &str, rows: Vec<Vec<String>>) -> Result<TableFile, TableFileError> {
+        let mut rows = rows.into_iter().enumerate().map(|(row, cells)| {
+            let cells = cells.into_iter().enumerate();
+            let cells = cells.map(|(column, text)| Cell {
+                text,
+                place: (row, column + 1),
+            });
+            cells.collect::<Vec<Cell>>()
+        });
+        let header = rows.next().unwrap_or_default();
+        let file = TableFile {
+            name: name.into(),
+            header,
+            rows: rows.collect(),
+            is_text: false,
+        };
+        match file.header.is_empty() {
+            true => Err(file.wrong(None, "it has no columns")),
+            false => Ok(file),
+        }
+    }
+
+    /// Times in seconds, from the column `t`, and the values of a column, in a unit. What a header says of its unit is checked and
+    /// converted; a column without one is in that unit already.
+    ///
+    /// # Errors
+    /// Which column there is not, which unit is another one, and which cell is no number or, of times, no later one.
+    pub fn column(&self, name: &str, unit: &str) -> Result<(Vec<f64>, Vec<f64>), TableFileError> {
+        let (t, seconds) = self.find("t", "s")?;
+        let (place, factor) = self.find(name, unit)?;
+        let (mut times, mut values) = (Vec::new(), Vec::new());
+        for row in &self.rows {
+            let beyond = row.iter().skip(self.header.len());
+            if let Some(cell) = beyond.into_iter().find(|cell| !cell.text.is_empty()) {
+                let message = format!(
+                    "the row has more cells than the header, which has {}",
+                    self.header.len()
+                );
+                return Err(self.wrong(Some(cell.place), message));
+            }
+            let time = seconds * self.number(row, t, "t")?;
+            if times.last().is_some_and(|before| time <= *before) {
+                let at = row.get(t).map(|cell| cell.place);
+                return Err(self.wrong(at, "this time is not later than the one before it"));
+            }
+            times.push(time);
+            values.push(factor * self.number(row, place, name)?);
+        }
+        match times.is_empty() {
+            true => Err(self.wrong(None, "it has no rows below its header")),
+            false => Ok((times, values)),
+        }
+    }
+
+    /// The place of a column, and what its numbers are to be multiplied by.
+    fn find(&self, name: &str, unit: &str) -> Result<(usize, f64), TableFileError> {
+        let split = |cell: &Cell| {
+            let text = cell.text.trim();
+            match text
+                .strip_suffix(']')
+                .and_then(|text| text.rsplit_once(" ["))
+            {
+                Some((name, unit)) => (name.trim_end().to_string(), Some(unit.trim().to_string())),
+                None => (text.to_string(), None),
+            }
+        };
+        let columns: Vec<(String, Option<String>)> = self.header.iter().map(split).collect();
+        let mut found = (0..columns.len()).filter(|place| columns[*place].0 == name);
+        let Some(place) = found.next() else {
+            let names = || columns.iter().map(|(name, _)| name.as_str());
+            let help = match nearest(name, names()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => {
+                    let shown: Vec<&str> = names().take(SHOWN).collect();
+                    let more = if names().count() > SHOWN { ", …" } else { "" };
+                    format!("there are: {}{more}", shown.join(", "))
+                }
+            };
+            let at = self.header.first().map(|cell| cell.place);
+            return Err(self.wrong(at, format!("no column is named `{name}`; {help}")));
+        };
+        if let Some(other) = found.next() {
+            let at = self.header.get(other).map(|cell| cell.place);
+            return Err(self.wrong(at, format!("a second column is named `{name}`")));
+        }
+        match columns[place].1.as_deref() {
+            Some(own) if own != unit => {
+                let factor = factor(own, unit).map_err(|why| {
+                    let at = self.header.get(place).map(|cell| cell.place);
+                    self.wrong(at, format!("the unit `{own}` of `{name}`: {why}"))
+                })?;
+                Ok((place, factor))
+            }
+            _ => Ok((place, 1.0)),
+        }
+    }
+
+    fn number(&self, row: &[Cell], place: usize, name: &str) -> Result<f64, TableFileError> {
+        let Some(cell) = row.get(place) else {
+            let at = row.last().map(|cell| cell.place);
+            let message = format!("the row ends before its cell of `{name}`");
+            return Err(self.wrong(at, message));
+        };
+        let text = cell.text.trim();
+        if text.is_empty() {
+            let message = format!("the cell of `{name}` is empty");
+            return Err(self.wrong(Some(cell.place), message));
+        }
+        match text.parse::<f64>() {
+            Ok(number) if number.is_finite() => Ok(number),
+            _ => {
+                let help = match text.contains(',') {
+                    true => "; the decimal mark is a point",
+                    false => "",
+                };
+                let message = format!("`{text}` in `{name}` is no finite number{help}");
+                Err(self.wrong(Some(cell.place), message))
+            }
+        }
+    }
+
+    fn wrong(&self, place: Option<(usize, usize)>, message: impl Into<String>) -> TableFileError {
+        let place = place.map(|(line, column)| (line, self.is_text.then_some(column)));
+        // The header of a file that is no text is no row.
+        let place = place.filter(|(line, _)| self.is_text || *line > 0);
+        TableFileError {
+            file: self.name.clone(),
+            place,
+            message: message.into(),
+        }
+    }
+}
+
+/// How many of a unit another one is.
+fn factor(of: &str, unit: &str) -> Result<f64, String> {
+    if !of.chars().any(char::is_alphabetic) && of != "1" {
+        return Err("expected a unit, as in [N*m], [deg] or [1]".into());
+    }
+    let (mut sources, mut report) = (Sources::new(), Report::new());
+    // A bare number would count as one of the other unit.
+    let text = format!("1*({of})*s/s");
+    let factor = value_in(&text, unit, &mut sources, &mut report);
+    let factor = factor.filter(|factor| factor.is_finite() && *factor != 0.0);
+    factor.ok_or_else(|| {
+        let said = report.diagnostics().into_iter();
+        let said: Vec<String> = said.map(|wrong| wrong.message.clone()).collect();
+        match said.is_empty() {
+            true => "it cannot be converted".into(),
+            false => said.join("; "),
+        }
+    })
+}
+
+/// A line without its comment.
+fn uncommented(line: &str) -> &str {
+    let mut is_quoted = false;
+    let end = line.find(|c: char| {
+        is_quoted ^= c == '"';
+        c == '#' && !is_quoted
+    });
+    end.and_then(|end| line.get(..end)).unwrap_or(line)
+}
+
+/// The cells of a line, each with the column at which it stands, in characters from 1; none where a quote is not closed. In a
+/// header a separator in brackets is none: `q[1,2]`.
+fn cells(line: &str, separator: char, is_header: bool) -> Option<Vec<(String, usize)>> {
+    let mut cells = Vec::new();
+    let (mut cell, mut from) = (String::new(), 1);
+    let (mut is_quoted, mut depth) = (false, 0_usize);
+    let mut characters = line.chars().enumerate().peekable();
+    let ended = |cell: &mut String, from: usize| {
+        let text = core::mem::take(cell);
+        let blank = text.chars().take_while(|c| c.is_whitespace()).count();
+        // An empty cell stands where it begins.
+        let blank = if text.trim().is_empty() { 0 } else { blank };
+        (text.trim().to_string(), from + blank)
+    };
+    while let Some((at, c)) = characters.next() {
+        match c {
+            '"' if is_quoted && characters.peek().is_some_and(|(_, next)| *next == '"') => {
+                cell.push('"');
+                characters.next();
+            }
+            '"' => is_quoted = !is_quoted,
+            _ if is_quoted => cell.push(c),
+            _ if c == separator && depth == 0 => {
+                cells.push(ended(&mut cell, from));
+                from = at + 2;
+            }
+            _ => {
+                match c {
+                    '[' if is_header => depth += 1,
+                    ']' if is_header => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+                cell.push(c);
+            }
+        }
+    }
+    cells.push(ended(&mut cell, from));
+    (!is_quoted).then_some(cells)
+}

@@ -1,0 +1,70 @@
+//! Pieces of time in which inputs are smooth.
+
+/// A stretch of time within which inputs are smooth; they may jump or have a kink at its ends, where the steps of a
+/// [`Simulation`](crate::Simulation) end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Its beginning, in s; −∞ where there is none.
+    pub from: f64,
+    /// Its end, later than its beginning, in s; ∞ where there is none.
+    pub to: f64,
+    /// Whether the inputs jump where a run enters it, which is its end backward in time; else they are continuous there.
+    pub jumps: bool,
+}
+
+/// Why there is no piece behind an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoPiece<'a> {
+    /// What this is called is not known there.
+    Ended(&'a str),
+    /// What this is called changes more often than times can tell apart there.
+    TooFine(&'a str),
+}
+
+impl Piece {
+    /// All of time.
+    pub const ALL: Piece = Piece {
+        from: f64::NEG_INFINITY,
+        to: f64::INFINITY,
+        jumps: false,
+    };
+
+    /// Where a run leaves it, in s; infinite if nowhere.
+    pub fn end(&self, forward: bool) -> f64 {
+        if forward { self.to } else { self.from }
+    }
+
+    /// Where a run enters it, in s.
+    pub fn beginning(&self, forward: bool) -> f64 {
+        self.end(!forward)
+    }
+
+    /// The part that it has in common with another one, which a run enters where it enters the later of both.
+    #[must_use]
+    pub fn and(self, other: Piece, forward: bool) -> Piece {
+        let entered = |piece: &Piece| match forward {
+            true => piece.from,
+            false => -piece.to,
+        };
+        let jumps = match (entered(&self), entered(&other)) {
+            (one, two) if one > two => self.jumps,
+            (one, two) if one < two => other.jumps,
+            _ => self.jumps || other.jumps,
+        };
+        Piece {
+            from: self.from.max(other.from),
+            to: self.to.min(other.to),
+            jumps,
+        }
+    }
+
+    /// An instant well within it: what holds there holds in all of it. `t` itself where it is all of time.
+    pub fn within(&self, t: f64) -> f64 {
+        match (self.from.is_finite(), self.to.is_finite()) {
+            (true, true) => 0.5 * self.from + 0.5 * self.to,
+            (true, false) => self.from + self.from.abs().max(1.0),
+            (false, true) => self.to - self.to.abs().max(1.0),
+            (false, false) => t,
+        }
+    }
+}

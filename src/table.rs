@@ -1,0 +1,639 @@
+//! Values at instants, and what is between them and beyond: what drives an input that was measured, or drawn by hand.
+
+use core::fmt::{self, Display};
+use std::string::String;
+use std::sync::Arc;
+use std::vec::Vec;
+
+use crate::inputs::InputLaw;
+use crate::piece::{NoPiece, Piece};
+use crate::{Error, System};
+
+/// What a table is between its rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Between {
+    /// The value of the row before, which holds until the next.
+    Hold,
+    /// A straight line.
+    #[default]
+    Linear,
+    /// A cubic spline with two continuous derivatives. At its ends it is one cubic over two intervals («not a knot»): so a cubic
+    /// polynomial is found again. C. de Boor, *A Practical Guide to Splines*, rev. ed., 2001, chapter IV.
+    Cubic,
+}
+
+/// What a table is before its first row and behind its last.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Beyond {
+    /// The value of the first row, or of the last.
+    #[default]
+    Hold,
+    /// Nothing: a run that goes there ends with an error.
+    Error,
+    /// The table once more, and again; its last row is at the instant of the first of the next round.
+    Repeat,
+}
+
+/// A function of time that is given by its values at instants: for [`Simulation::table`](crate::Simulation::table).
+///
+/// ```
+/// use lagrangian::{Beyond, Table};
+///
+/// let torque = Table::linear([0.0, 1.0, 3.0], [0.0, 5.0, 0.0])?;
+/// assert_eq!([-1.0, 0.5, 2.0, 9.0].map(|t| torque.value(t)), [0.0, 2.5, 2.5, 0.0]);
+/// let again = torque.beyond(Beyond::Repeat)?;
+/// assert_eq!(again.value(3.5), 2.5);
+/// # Ok::<(), lagrangian::TableError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    name: String,
+    between: Between,
+    beyond: Beyond,
+    /// The first instant and the last.
+    ends: [f64; 2],
+    /// Instants, each later than the one before it. Where values are held, those at which they change, and the first.
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// The slope of a cubic at each instant.
+    slopes: Vec<f64>,
+    /// The instants at which it is not smooth enough for methods of high order, and for those of low order; of the first round,
+    /// if it repeats.
+    breaks: [Vec<f64>; 2],
+    /// The least time between two instants.
+    finest: f64,
+}
+
+/// Why values at instants are no table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TableError {
+    /// There are no rows.
+    Empty,
+    /// There are not as many values as times.
+    Lengths {
+        /// How many times there are.
+        times: usize,
+        /// How many values.
+        values: usize,
+    },
+    /// A time or a value is infinite or not a number.
+    NotFinite {
+        /// The number of its row, from 0.
+        row: usize,
+    },
+    /// A time is not later than the one before it.
+    NotLater {
+        /// The number of its row, from 0.
+        row: usize,
+    },
+    /// A table of one row is to be repeated.
+    NoPeriod,
+    /// A cubic is to be repeated that does not end where it begins.
+    NotPeriodic,
+    /// The slopes of a cubic are greater than any number.
+    TooSteep,
+}
+
+impl Display for TableError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(f, "a table has at least one row"),
+            Self::Lengths { times, values } => {
+                write!(f, "there are {times} times and {values} values")
+            }
+            Self::NotFinite { row } => write!(f, "row {row} holds what is no finite number"),
+            Self::NotLater { row } => {
+                write!(f, "the time of row {row} is not later than the one before")
+            }
+            Self::NoPeriod => write!(f, "a table that repeats has at least two rows"),
+            Self::NotPeriodic => write!(
+                f,
+                "a cubic that repeats ends with the value with which it begins"
+            ),
+            Self::TooSteep => write!(f, "its slopes are greater than any number"),
+        }
+    }
+}
+
+impl core::error::Error for TableError {}
+
+/// From this order of a method on a step ends at every knot of a cubic spline. There the third derivative of the input jumps: a
+/// step of length h across it has an error of h⁴, where one of a method of order p has h^(p + 1), and there are as many such
+/// steps as knots, however short the steps are; so up to order 4 nothing is lost.
+const ORDER_OF_SPLINES: u32 = 5;
+
+impl Table {
+    /// A table of values that hold until the next.
+    ///
+    /// # Errors
+    /// If the times do not grow, or some number is not finite.
+    pub fn hold(
+        times: impl Into<Vec<f64>>,
+        values: impl Into<Vec<f64>>,
+    ) -> Result<Self, TableError> {
+        Self::new(Between::Hold, Beyond::Hold, times, values)
+    }
+
+    /// A table of values with straight lines between them.
+    ///
+    /// # Errors
+    /// As [`hold`](Self::hold).
+    pub fn linear(
+        times: impl Into<Vec<f64>>,
+        values: impl Into<Vec<f64>>,
+    ) -> Result<Self, TableError> {
+        Self::new(Between::Linear, Beyond::Hold, times, values)
+    }
+
+    /// A table of values with a cubic spline through them.
+    ///
+    /// # Errors
+    /// As [`hold`](Self::hold).
+    pub fn cubic(
+        times: impl Into<Vec<f64>>,
+        values: impl Into<Vec<f64>>,
+    ) -> Result<Self, TableError> {
+        Self::new(Between::Cubic, Beyond::Hold, times, values)
+    }
+
+    /// The same table with something else before its first row and behind its last.
+    ///
+    /// # Errors
+    /// If it is to be repeated and cannot.
+    pub fn beyond(self, beyond: Beyond) -> Result<Self, TableError> {
+        let name = self.name;
+        // Of values that hold, the last row may say no more than when the table ends.
+        let (mut times, mut values) = (self.times, self.values);
+        if let (Some(time), Some(value)) = (times.last().copied(), values.last().copied())
+            && time < self.ends[1]
+        {
+            times.push(self.ends[1]);
+            values.push(value);
+        }
+        Ok(Self::new(self.between, beyond, times, values)?.named(name))
+    }
+
+    /// A table.
+    ///
+    /// # Errors
+    /// If the times do not grow, some number is not finite, or it is to be repeated and cannot.
+    pub fn new(
+        between: Between,
+        beyond: Beyond,
+        times: impl Into<Vec<f64>>,
+        values: impl Into<Vec<f64>>,
+    ) -> Result<Self, TableError> {
+        let (times, values): (Vec<f64>, Vec<f64>) = (times.into(), values.into());
+        if times.len() != values.len() {
+            return Err(TableError::Lengths {
+                times: times.len(),
+                values: values.len(),
+            });
+        }
+        for (row, (time, value)) in times.iter().zip(&values).enumerate() {
+            if !(time.is_finite() && value.is_finite()) {
+                return Err(TableError::NotFinite { row });
+            }
+            if row > 0 && *time <= times[row - 1] {
+                return Err(TableError::NotLater { row });
+            }
+        }
+        let [Some(first), Some(last)] = [times.first().copied(), times.last().copied()] else {
+            return Err(TableError::Empty);
+        };
+        if beyond == Beyond::Repeat {
+            if first == last {
+                return Err(TableError::NoPeriod);
+            }
+            if between == Between::Cubic && values.first() != values.last() {
+                return Err(TableError::NotPeriodic);
+            }
+        }
+        let gaps = times.windows(2).map(|pair| pair[1] - pair[0]);
+        let mut table = Self {
+            name: "the table of an input".into(),
+            between,
+            beyond,
+            ends: [first, last],
+            finest: gaps.fold(f64::INFINITY, f64::min),
+            times,
+            values,
+            slopes: Vec::new(),
+            breaks: [Vec::new(), Vec::new()],
+        };
+        match between {
+            Between::Hold => table.keep_changes(),
+            Between::Linear => {}
+            Between::Cubic => {
+                table.slopes = match beyond {
+                    Beyond::Repeat => periodic_slopes(&table.times, &table.values),
+                    _ => slopes(&table.times, &table.values),
+                };
+                if table.slopes.iter().any(|slope| !slope.is_finite()) {
+                    return Err(TableError::TooSteep);
+                }
+            }
+        }
+        table.breaks = table.find_breaks();
+        Ok(table)
+    }
+
+    /// The same under a name, for messages: `the table drive.csv of input u`.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..self
+        }
+    }
+
+    /// What messages call it.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is between its rows.
+    pub fn between(&self) -> Between {
+        self.between
+    }
+
+    /// Leaves out rows that hold what is held already.
+    fn keep_changes(&mut self) {
+        let changes = |row: &usize| *row == 0 || self.values[*row] != self.values[row - 1];
+        let kept: Vec<usize> = (0..self.times.len()).filter(changes).collect();
+        self.times = kept.iter().map(|row| self.times[*row]).collect();
+        self.values = kept.iter().map(|row| self.values[*row]).collect();
+    }
+
+    /// Where a step ends, of methods of high order and of low order.
+    fn find_breaks(&self) -> [Vec<f64>; 2] {
+        let [first, last] = self.ends;
+        let of_round = || self.times.iter().copied().filter(|time| *time < last);
+        let is_one = first == last;
+        match (self.between, self.beyond) {
+            (_, Beyond::Hold) if is_one => [Vec::new(), Vec::new()],
+            // The first value holds before its instant, too.
+            (Between::Hold, Beyond::Hold) => {
+                let changes: Vec<f64> = self.times.iter().copied().skip(1).collect();
+                [changes.clone(), changes]
+            }
+            (Between::Hold | Between::Linear, Beyond::Repeat) => {
+                [of_round().collect(), of_round().collect()]
+            }
+            (Between::Cubic, Beyond::Repeat) => [of_round().collect(), Vec::new()],
+            (Between::Hold, Beyond::Error) => {
+                let mut breaks: Vec<f64> = of_round().collect();
+                breaks.push(last);
+                [breaks.clone(), breaks]
+            }
+            (Between::Linear, _) => [self.times.clone(), self.times.clone()],
+            (Between::Cubic, _) => [self.times.clone(), std::vec![first, last]],
+        }
+    }
+
+    /// The value at a time; where it jumps, that behind the jump. Not a number where it is not known.
+    pub fn value(&self, t: f64) -> f64 {
+        self.value_in(Piece::ALL, t)
+    }
+
+    /// The value at a time of a piece: at its ends what it tends to from within.
+    pub fn value_in(&self, piece: Piece, t: f64) -> f64 {
+        // A cubic is continuous, and may have knots within the piece.
+        let within = match self.between {
+            Between::Cubic => t,
+            _ => piece.within(t),
+        };
+        let [first, last] = self.ends;
+        let round = match self.beyond {
+            Beyond::Repeat => ((within - first) / (last - first)).floor(),
+            _ => 0.0,
+        };
+        let mut shift = match round {
+            0.0 => 0.0,
+            round => round * (last - first),
+        };
+        // By rounding it may be a round later, or earlier.
+        if self.beyond == Beyond::Repeat {
+            if within - shift >= last {
+                shift += last - first;
+            } else if within - shift < first {
+                shift -= last - first;
+            }
+        }
+        let (within, t) = (within - shift, t - shift);
+        if !(first..=last).contains(&within) {
+            match self.beyond {
+                Beyond::Hold if within < first => return self.values[0],
+                Beyond::Hold => return self.values[self.values.len() - 1],
+                Beyond::Error => return f64::NAN,
+                Beyond::Repeat => {} // it is within but for rounding
+            }
+        }
+        let row = self.times.partition_point(|time| *time <= within);
+        let row = row.saturating_sub(1);
+        if self.between == Between::Hold {
+            return self.values[row];
+        }
+        let row = row.min(self.times.len().saturating_sub(2));
+        let (Some(to), Some(next)) = (self.times.get(row + 1), self.values.get(row + 1)) else {
+            return self.values[row];
+        };
+        let (from, value) = (self.times[row], self.values[row]);
+        let (h, share) = (to - from, (t - from) / (to - from));
+        if self.between == Between::Linear {
+            return value + share * (next - value);
+        }
+        // Hermite's form: values and slopes at both ends.
+        let slopes = [self.slopes[row], self.slopes[row + 1]].map(|slope| slope * h);
+        let rise = next - value;
+        let [bend, twist] = [
+            3.0 * rise - 2.0 * slopes[0] - slopes[1],
+            slopes[0] + slopes[1] - 2.0 * rise,
+        ];
+        value + share * (slopes[0] + share * (bend + share * twist))
+    }
+
+    /// The piece of time that a run enters at `t`, in which the table is smooth enough for a method of this order.
+    ///
+    /// # Errors
+    /// Where the table is not known, or changes more often than times can tell apart.
+    pub fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
+        let [first, last] = self.ends;
+        if self.beyond == Beyond::Error {
+            let is_known = match forward {
+                true => (first..last).contains(&t),
+                false => first < t && t <= last,
+            };
+            if !is_known {
+                return Err(NoPiece::Ended(&self.name));
+            }
+        }
+        let breaks = &self.breaks[usize::from(order < ORDER_OF_SPLINES)];
+        if breaks.is_empty() {
+            return Ok(Piece::ALL);
+        }
+        // The break of a round and a number in it, which is the same to the last bit whenever it is asked for.
+        let count = breaks.len();
+        let at = |round: f64, number: usize| match round {
+            0.0 => breaks[number],
+            round => round * (last - first) + breaks[number],
+        };
+        let is_passed = |time: f64| if forward { time <= t } else { time < t };
+        let rounds = match self.beyond {
+            Beyond::Repeat => {
+                if self.finest < 16.0 * f64::EPSILON * t.abs() {
+                    return Err(NoPiece::TooFine(&self.name));
+                }
+                let round = ((t - first) / (last - first)).floor();
+                [-2.0, -1.0, 0.0, 1.0, 2.0].map(|more| round + more)
+            }
+            _ => [0.0; 5],
+        };
+        let mut from = None;
+        let mut to = None;
+        for round in rounds {
+            let passed = first_of(count, |number| !is_passed(at(round, number)));
+            if passed > 0 {
+                from = Some((at(round, passed - 1), passed - 1));
+            }
+            if passed < count {
+                to = Some((at(round, passed), passed));
+                break;
+            }
+        }
+        let entered = if forward { from } else { to };
+        Ok(Piece {
+            from: from.map_or(f64::NEG_INFINITY, |(time, _)| time),
+            to: to.map_or(f64::INFINITY, |(time, _)| time),
+            jumps: entered.is_some_and(|(_, number)| self.jumps(number)),
+        })
+    }
+
+    /// Whether it jumps at the break of this number.
+    fn jumps(&self, number: usize) -> bool {
+        match self.between {
+            Between::Hold => true,
+            Between::Linear | Between::Cubic => {
+                self.beyond == Beyond::Repeat
+                    && number == 0
+                    && self.values.first() != self.values.last()
+            }
+        }
+    }
+}
+
+/// The first of so many numbers for which something holds that holds of all behind it, too; `count` if of none.
+fn first_of(count: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let (mut from, mut to) = (0, count);
+    while from < to {
+        let middle = from + (to - from) / 2;
+        match holds(middle) {
+            true => to = middle,
+            false => from = middle + 1,
+        }
+    }
+    from
+}
+
+/// Lengths and slopes of the straight lines between rows.
+fn lines(times: &[f64], values: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let lengths: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let rises = values.windows(2).map(|pair| pair[1] - pair[0]);
+    let slopes = rises.zip(&lengths).map(|(rise, length)| rise / length);
+    let slopes = slopes.collect();
+    (lengths, slopes)
+}
+
+/// The slopes of the cubic spline whose third derivative is continuous at the second knot and at the last but one; of three
+/// rows those of the parabola, of two that of the line.
+///
+/// C. de Boor, *A Practical Guide to Splines*, rev. ed., 2001, chapter IV, eqs. (4)–(7).
+fn slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let (h, line) = lines(times, values);
+    let n = times.len();
+    match n {
+        0 | 1 => return std::vec![0.0; n],
+        2 => return std::vec![line[0]; 2],
+        3 => {
+            let bend = (line[1] - line[0]) / (times[2] - times[0]);
+            return std::vec![
+                line[0] - bend * h[0],
+                line[0] + bend * h[0],
+                line[1] + bend * h[1]
+            ];
+        }
+        _ => {}
+    }
+    // below·s₍ᵢ₋₁₎ + middle·sᵢ + above·s₍ᵢ₊₁₎ = right, eliminated from the first row on.
+    let (mut middle, mut above, mut right) = (Vec::new(), Vec::new(), Vec::new());
+    let both = h[0] + h[1];
+    middle.push(h[1]);
+    above.push(both);
+    right.push(((h[0] + 2.0 * both) * h[1] * line[0] + h[0] * h[0] * line[1]) / both);
+    for i in 1..n {
+        let (below, own, over, known) = if i < n - 1 {
+            let known = 3.0 * (h[i] * line[i - 1] + h[i - 1] * line[i]);
+            (h[i], 2.0 * (h[i - 1] + h[i]), h[i - 1], known)
+        } else {
+            let [before, last] = [h[n - 3], h[n - 2]];
+            let both = before + last;
+            let known = last * last * line[n - 3] + (2.0 * both + last) * before * line[n - 2];
+            (both, before, 0.0, known / both)
+        };
+        let factor = below / middle[i - 1];
+        middle.push(own - factor * above[i - 1]);
+        above.push(over);
+        right.push(known - factor * right[i - 1]);
+    }
+    let mut found = right;
+    found[n - 1] /= middle[n - 1];
+    for i in (0..n - 1).rev() {
+        found[i] = (found[i] - above[i] * found[i + 1]) / middle[i];
+    }
+    found
+}
+
+/// The slopes of the cubic spline that is periodic with two derivatives; the last row is the first of the next round.
+///
+/// The equations are those of [`slopes`] in a ring. They are solved without it and with a column for it: J. Sherman and W. J.
+/// Morrison, *Adjustment of an inverse matrix corresponding to a change in one element of a given matrix*, Ann. Math. Stat. 21
+/// (1950) 124.
+fn periodic_slopes(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let (h, line) = lines(times, values);
+    let m = h.len();
+    let before = |i: usize| (i + m - 1) % m;
+    let known = |i: usize| 3.0 * (h[i] * line[before(i)] + h[before(i)] * line[i]);
+    let own = |i: usize| 2.0 * (h[before(i)] + h[i]);
+    let mut found = match m {
+        1 => std::vec![0.0],
+        2 => {
+            // Each row is the other's neighbour on both sides.
+            let across = h[0] + h[1];
+            let determinant = own(0) * own(1) - across * across;
+            std::vec![
+                (known(0) * own(1) - across * known(1)) / determinant,
+                (own(0) * known(1) - across * known(0)) / determinant,
+            ]
+        }
+        _ => {
+            // The corners, h₀ on the right of the first row and h₍ₘ₋₂₎ on the left of the last one, are a product of vectors
+            // (γ, 0, …, last) and (1, 0, …, first/γ).
+            let [first, last] = [h[0], h[m - 2]];
+            let gamma = -own(0);
+            let diagonal = |i: usize| match i {
+                0 => own(0) - gamma,
+                i if i == m - 1 => own(i) - first * last / gamma,
+                i => own(i),
+            };
+            let solve = |mut right: Vec<f64>| {
+                let mut middle = std::vec![diagonal(0)];
+                for i in 1..m {
+                    let factor = h[i] / middle[i - 1];
+                    middle.push(diagonal(i) - factor * h[before(i - 1)]);
+                    right[i] -= factor * right[i - 1];
+                }
+                right[m - 1] /= middle[m - 1];
+                for i in (0..m - 1).rev() {
+                    right[i] = (right[i] - h[before(i)] * right[i + 1]) / middle[i];
+                }
+                right
+            };
+            let plain = solve((0..m).map(known).collect());
+            let mut column = std::vec![0.0; m];
+            (column[0], column[m - 1]) = (gamma, last);
+            let column = solve(column);
+            let along = |x: &[f64]| x[0] + first / gamma * x[m - 1];
+            let share = along(&plain) / (1.0 + along(&column));
+            let pairs = plain.iter().zip(&column);
+            pairs
+                .map(|(plain, column)| plain - share * column)
+                .collect()
+        }
+    };
+    found.push(found[0]);
+    found
+}
+
+/// Inputs of which one is driven by a table, and the others by a law: what
+/// [`Simulation::table`](crate::Simulation::table) makes.
+#[derive(Clone, Debug)]
+pub struct TableInputs<L, F> {
+    law: L,
+    table: Arc<Table>,
+    set: F,
+}
+
+impl<L, F> TableInputs<L, F> {
+    /// Inputs as the law has them but for what `set` puts in place of it.
+    pub fn new(law: L, table: Table, set: F) -> Self {
+        Self {
+            law,
+            table: Arc::new(table),
+            set,
+        }
+    }
+}
+
+impl<S, L, F> InputLaw<S> for TableInputs<L, F>
+where
+    S: System,
+    L: InputLaw<S>,
+    F: Fn(&mut S::Inputs, f64),
+{
+    fn set(&self, system: &S, t: f64, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        self.set_in(Piece::ALL, system, t, q, v, inputs);
+    }
+
+    fn piece(&self, t: f64, forward: bool, order: u32) -> Result<Piece, NoPiece<'_>> {
+        let of_law = self.law.piece(t, forward, order)?;
+        Ok(of_law.and(self.table.piece(t, forward, order)?, forward))
+    }
+
+    fn set_in(
+        &self,
+        piece: Piece,
+        system: &S,
+        t: f64,
+        q: &S::Vector,
+        v: &S::Vector,
+        inputs: &mut S::Inputs,
+    ) {
+        self.law.set_in(piece, system, t, q, v, inputs);
+        (self.set)(inputs, self.table.value_in(piece, t));
+    }
+
+    fn is_constant_in_pieces(&self) -> bool {
+        self.table.is_constant_in_pieces() && self.law.is_constant_in_pieces()
+    }
+
+    fn is_partial(&self) -> bool {
+        self.law.is_partial()
+    }
+}
+
+impl Table {
+    /// Whether it has one value within each piece.
+    pub fn is_constant_in_pieces(&self) -> bool {
+        self.between == Between::Hold || self.values.len() == 1
+    }
+}
+
+impl NoPiece<'_> {
+    /// The error of a run that comes to `t`.
+    pub(crate) fn error(self, t: f64) -> Error {
+        let (input, why) = match self {
+            NoPiece::Ended(name) => (name, "ends, and the run goes on: there is no value beyond"),
+            NoPiece::TooFine(name) => (name, "changes more often than times can tell apart at"),
+        };
+        Error::InputEnded {
+            input: input.into(),
+            why,
+            t,
+        }
+    }
+}
