@@ -1,6 +1,7 @@
 //! `lagrangian linearize`: the linear model of a machine, and what engineers ask of it.
 
 mod along;
+mod arrays;
 mod files;
 mod frequencies;
 mod mat;
@@ -387,22 +388,20 @@ fn text_of_values(values: &[Complex<f64>]) -> String {
     let mut text = String::new();
     for value in values.iter().filter(|value| value.im >= 0.0) {
         let Complex { re, im } = *value;
-        let _ = match (damping(*value), re) {
-            (Some(ratio), _) => {
-                let re = if re == 0.0 {
-                    String::new()
-                } else {
-                    format!("{} ", number(re))
+        let _ = match damping(*value) {
+            Some(ratio) => {
+                let re = match re {
+                    0.0 => String::new(),
+                    re => format!("{} ", number(re)),
                 };
+                let (hertz, ratio) = (number(im / TAU), number(ratio));
                 writeln!(
                     text,
-                    "  {re}± {}i 1/s: {} Hz, damping ratio {}",
-                    number(im),
-                    number(im / TAU),
-                    number(ratio)
+                    "  {re}± {}i 1/s: {hertz} Hz, damping ratio {ratio}",
+                    number(im)
                 )
             }
-            (None, _) => writeln!(text, "  {} 1/s", number(re)),
+            None => writeln!(text, "  {} 1/s", number(re)),
         };
     }
     text

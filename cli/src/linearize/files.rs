@@ -4,25 +4,12 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use lagrangian_linear::DMatrix;
-use lagrangian_linear::model::Label;
 
+use super::arrays::{arrays, plain};
 use super::{Linearization, as_json, frequencies, mat, npz};
 use crate::call;
 use crate::failure::Failure;
 use crate::output::{self, Destination, MODEL, SVG, TABLE, keep_apart};
-
-/// An array with a name.
-pub struct Array {
-    pub name: &'static str,
-    pub content: Content,
-}
-
-/// What is in an array.
-pub enum Content {
-    Matrix(DMatrix<f64>),
-    Vector(Vec<f64>),
-    Text(Vec<String>),
-}
 
 /// The files that a call asks for.
 #[derive(Default)]
@@ -93,8 +80,8 @@ impl Files {
         let model = &result.model;
         if let Some(file) = &self.model {
             match file.ending() {
-                "npz" => file.write(|to| to.write_all(&npz::bytes(&arrays(result))?))?,
-                "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(result))))?,
+                "npz" => file.write(|to| to.write_all(&npz::bytes(&arrays(&result.model))?))?,
+                "mat" => file.write(|to| to.write_all(&mat::bytes(&arrays(&result.model))))?,
                 _ => file.write_text(&format!("{:#}\n", as_json(names, result)))?,
             }
         }
@@ -123,38 +110,6 @@ impl Files {
         }
         Ok(())
     }
-}
-
-/// Names without units.
-fn plain(labels: &[Label]) -> Vec<String> {
-    labels.iter().map(|label| label.name.clone()).collect()
-}
-
-/// What `.npz` and `.mat` hold.
-fn arrays(result: &Linearization) -> Vec<Array> {
-    let model = &result.model;
-    let matrix = |name, matrix: &DMatrix<f64>| Array {
-        name,
-        content: Content::Matrix(matrix.clone()),
-    };
-    let text = |name, labels: &[Label]| Array {
-        name,
-        content: Content::Text(plain(labels)),
-    };
-    vec![
-        matrix("A", &model.a),
-        matrix("B", &model.b),
-        matrix("C", &model.c),
-        matrix("D", &model.d),
-        Array {
-            name: "drift",
-            content: Content::Vector(model.drift.clone()),
-        },
-        matrix("basis", &model.basis),
-        text("states", &model.states),
-        text("inputs", &model.inputs),
-        text("outputs", &model.outputs),
-    ]
 }
 
 /// A cell of comma-separated text; `der(x,2)` has a comma of its own.

@@ -1,7 +1,7 @@
 //! `.mat`: variables of MATLAB in the form of level 5, without compression (The MathWorks, *MAT-File Format*, R2023a, chapter 1).
 //! Text is a column of cells.
 
-use super::files::{Array, Content};
+use super::arrays::{Array, Content};
 
 /// Types of data, tables 1-1 and 1-3.
 const INT8: u32 = 1;

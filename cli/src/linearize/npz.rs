@@ -6,7 +6,7 @@ use std::io::{self, Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use super::files::{Array, Content};
+use super::arrays::{Array, Content};
 
 /// The archive.
 ///

@@ -569,14 +569,13 @@ fn matrices(
         for (i, x) in there.outputs.iter().enumerate() {
             found.c[(i, column)] = slope(x);
         }
-        for i in 0..n {
-            let is_state = !at.records[i];
-            found.basis[(i, column)] = if is_state { direction[i].hi() } else { 0.0 };
-            found.basis[(n + i, column)] = if is_state {
-                slope(&there.rates[i])
-            } else {
-                0.0
-            };
+        for (i, step) in direction
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| !at.records[*i])
+        {
+            found.basis[(i, column)] = step.hi();
+            found.basis[(n + i, column)] = slope(&there.rates[i]);
         }
     }
     q = constants(&place.q);

@@ -114,10 +114,9 @@ fn models_at_random_states_have_the_derivatives_of_the_program() {
         let (still, size) = (accelerations(None), model.b.amax().max(1.0));
         for j in 0..model.b.ncols() {
             let pushed = accelerations(Some(j));
-            for i in 0..n {
-                let exact = pushed[i] - still[i];
-                let size = size.max(pushed[i].abs());
-                let off = (model.b[(n + i, j)] - exact).abs();
+            for (i, (pushed, still)) in pushed.iter().zip(&still).enumerate() {
+                let size = size.max(pushed.abs());
+                let off = (model.b[(n + i, j)] - (pushed - still)).abs();
                 assert!(off <= 1e4 * f64::EPSILON * size, "{name}: {off:e}");
                 assert_eq!(model.b[(i, j)], 0.0);
             }

@@ -1,0 +1,48 @@
+//! A model as arrays with names, whatever file they go to.
+
+use lagrangian_linear::DMatrix;
+use lagrangian_linear::model::{Label, Model};
+
+/// An array with a name.
+pub struct Array {
+    pub name: &'static str,
+    pub content: Content,
+}
+
+/// What is in an array.
+pub enum Content {
+    Matrix(DMatrix<f64>),
+    Vector(Vec<f64>),
+    Text(Vec<String>),
+}
+
+/// Names without units.
+pub fn plain(labels: &[Label]) -> Vec<String> {
+    labels.iter().map(|label| label.name.clone()).collect()
+}
+
+/// What `.npz` and `.mat` hold.
+pub fn arrays(model: &Model) -> Vec<Array> {
+    let matrix = |name, matrix: &DMatrix<f64>| Array {
+        name,
+        content: Content::Matrix(matrix.clone()),
+    };
+    let text = |name, labels: &[Label]| Array {
+        name,
+        content: Content::Text(plain(labels)),
+    };
+    vec![
+        matrix("A", &model.a),
+        matrix("B", &model.b),
+        matrix("C", &model.c),
+        matrix("D", &model.d),
+        Array {
+            name: "drift",
+            content: Content::Vector(model.drift.clone()),
+        },
+        matrix("basis", &model.basis),
+        text("states", &model.states),
+        text("inputs", &model.inputs),
+        text("outputs", &model.outputs),
+    ]
+}
