@@ -117,7 +117,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
         (lg.Table([0, 1], [1, 2], end="error"), "ends"),
         (lg.Table([1, 0], [1, 2]), "not later"),
         (f"{path}:speed", "no column"),
-        (path.with_suffix(".txt"), ""),
+        (path.with_suffix(".txt"), "no table"),
     ):
         with pytest.raises((ValueError, lg.LagrangianError), match=why):
             oscillator.simulate(3, inputs={"force": wrong})
@@ -128,7 +128,7 @@ def test_tables_drive_inputs_to_the_bits_of_the_command(oscillator, tmp_path):
 
 
 def test_sampled_controllers_hold_what_they_set(oscillator):
-    text = "-4*N*s/m*der(x)"
+    text = "-4*kg/s*der(x)"
     law = lg.Sampled(text, every=0.05, delay=0.01)
     of_command = oscillator.simulate(2, inputs={"force": f"{text},every=50*ms,delay=10*ms"}, tolerance=1e-11)
     looks = []
@@ -138,14 +138,18 @@ def test_sampled_controllers_hold_what_they_set(oscillator):
         return -4 * v["x"]
 
     runs = [
-        oscillator.simulate(2, inputs={"force": what}, tolerance=1e-11, events={"slow": "force + 1*N"}, stop="-1*N - force")
+        oscillator.simulate(2, inputs={"force": what}, tolerance=1e-11, events={"strong": "force - 2*N"}, stop="force - 3*N")
         for what in (law, lg.Sampled(remembers, every=0.05, delay=0.01))
     ]
     assert np.allclose(looks, 0.05 * np.arange(len(looks))) and len(looks) > 3
     assert runs[0].end.t == runs[1].end.t
     np.testing.assert_allclose(runs[0].end.y, runs[1].end.y, atol=1e-13)
-    # The force passes −1 N in a jump, which is an event; the run stops at the end of the step before or behind it.
-    assert runs[0].ending == "stop"
+    # The force passes 2 N in a jump, which is an event, and the run stops where a step ends with more than 3 N.
+    for run in runs:
+        assert run.ending == "stop" and run["force"][-1] > 3 and run.end.t < 0.5
+        assert [event.name for event in run.events] == ["strong"]
+        jump = run.events[0].t
+        assert (jump - 0.01) / 0.05 == pytest.approx(round((jump - 0.01) / 0.05), abs=1e-9)
     # By hand: between two changes the mass swings about force/k.
     x, v, force = 1.0, 0.0, 0.0
     for _ in range(40):
