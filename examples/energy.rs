@@ -50,9 +50,7 @@ pub fn main() -> Result<(), Error> {
     println!("tolerance  work [J]        exactly         dissipated      left over");
     for tolerance in [1e-4, 1e-7, 1e-10] {
         let (balance, exact) = balance(tolerance)?;
-        let EnergyBalance {
-            work, dissipated, ..
-        } = balance;
+        let (work, dissipated) = (balance.work, balance.dissipated);
         let left = balance.residual();
         println!("{tolerance:9.0e}  {work:.11}  {exact:.11}  {dissipated:.11}  {left:9.1e}");
     }

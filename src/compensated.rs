@@ -8,9 +8,9 @@ use core::ops::{Add, Sub};
 /// A million steps of 10⁻⁶ s make 1 s to the last bit; plain addition is off by 10⁻¹¹ s. D. E.
 /// Knuth, *The Art of Computer Programming*, vol. 2, section 4.2.2, theorem B.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Sum {
-    pub high: f64,
-    pub low: f64,
+pub(crate) struct Sum<N = f64> {
+    pub high: N,
+    pub low: N,
 }
 
 impl Sum {

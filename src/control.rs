@@ -1,8 +1,126 @@
 //! How long the next step is: what all steppers do by themselves, for one trajectory.
 
+#[cfg(doc)]
+use crate::Stepper;
 use crate::math::{power, rough_power, sqrt};
 use crate::methods::Method;
+use crate::step_error::StepError;
+use crate::step_number::StepNumber;
 use crate::tolerance::SAFETY;
+
+/// Counts of the work done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub struct Work {
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps tried and given up, since their error was too great.
+    pub rejected: usize,
+    /// Evaluations of the accelerations, or of their series.
+    pub evaluations: usize,
+}
+
+/// How many steps may be taken to an end, if nobody says.
+pub(crate) const MAX_STEPS: usize = 10_000_000;
+
+/// What stands for the error of the step before where there is none.
+const NO_ERROR_BEFORE: f64 = 1e-4;
+
+/// The state of the control of one trajectory, whatever its numbers: a [`Stepper`] has one, and each lane of an ensemble.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Control {
+    /// The step to try next, with its sign; 0 until one is chosen.
+    pub step: f64,
+    /// The step being tried, or tried last.
+    pub last_step: f64,
+    /// The error of the step before, for smoothing.
+    pub error_before: f64,
+    /// Whether the step to be tried was tried before, and was not good.
+    pub is_retry: bool,
+    pub work: Work,
+}
+
+impl Control {
+    pub fn new() -> Self {
+        Self {
+            step: 0.0,
+            last_step: 0.0,
+            error_before: NO_ERROR_BEFORE,
+            is_retry: false,
+            work: Work::default(),
+        }
+    }
+
+    /// Forgets the error of the step before, where the motion goes on in another way.
+    pub fn forget_error(&mut self) {
+        self.error_before = NO_ERROR_BEFORE;
+    }
+
+    /// Turns towards an end that is `left` away.
+    pub fn turn(&mut self, left: f64) {
+        self.step = self.step.abs().copysign(left);
+    }
+
+    /// Whether a step as it is to be tried is none: it has shrunk to `least`, and not because its end is that near.
+    #[inline(always)]
+    pub fn is_too_small(&self, least: f64, left: f64) -> bool {
+        self.step.abs() <= least.min(0.9 * left.abs())
+    }
+
+    /// Keeps the next step below the longest one, and says whether it is the last: that may stretch by a hundredth, so that no
+    /// sliver is left over.
+    #[inline(always)]
+    pub fn is_last(&mut self, left: f64, longest: f64) -> bool {
+        self.step = self.step.clamp(-longest, longest);
+        1.01 * self.step.abs() >= left.abs()
+    }
+
+    /// A good step of length `h` was taken; the next may be longer by `factor`.
+    #[inline(always)]
+    pub fn take(&mut self, h: f64, error: f64, factor: f64) {
+        // Not longer right after a rejection: what stood in the way is still near.
+        self.step = h * if self.is_retry {
+            factor.min(1.0)
+        } else {
+            factor
+        };
+        self.error_before = error.max(NO_ERROR_BEFORE);
+        self.is_retry = false;
+        self.work.steps += 1;
+    }
+
+    /// A step was not good, and one of length `next` is to be tried. Says whether that is a step.
+    pub fn give_up(&mut self, next: f64, least: f64) -> bool {
+        self.step = next;
+        self.work.rejected += 1;
+        self.is_retry = self.step.abs() > least;
+        self.is_retry
+    }
+}
+
+/// Whether one more step may be taken after `taken` ones, at time `t`.
+pub(crate) fn check_count(taken: usize, steps: usize, t: f64) -> Result<(), StepError> {
+    match taken < steps {
+        true => Ok(()),
+        false => Err(StepError::TooManySteps { steps, t }),
+    }
+}
+
+/// The longest step that somebody asks for: what is no length sets no bound.
+pub(crate) fn longest(step: f64) -> f64 {
+    match step > 0.0 {
+        true => step,
+        false => f64::INFINITY,
+    }
+}
+
+/// A few parts in 10¹⁵ of the time, in `f64`: shorter steps have no beginning and no end. Near t = 0 that is no limit; there the
+/// smallest numbers are.
+#[inline(always)]
+pub(crate) fn least<N: StepNumber>(t: f64) -> f64 {
+    (10.0 * N::EPSILON * t.abs()).max(N::LEAST_STEP)
+}
 
 /// The error of a step in the root mean square of `numbers`, 1 being just tolerable, from the sums of squares of the estimate and of
 /// the coarser one, which is 0 in methods that have none.

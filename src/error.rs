@@ -105,7 +105,7 @@ pub enum Error {
         /// Time, in s.
         t: f64,
     },
-    /// The acceleration of a coordinate is infinite or not a number, and shorter steps do not avoid
+    /// A coordinate, its rate or its acceleration is infinite or not a number, and shorter steps do not avoid
     /// it.
     NotFinite {
         /// The coordinate.
@@ -570,7 +570,7 @@ impl Display for Error {
             }
             Self::NotFinite { coordinate, t } => write!(
                 f,
-                "the acceleration of `{coordinate}` has no finite value at t = {t} s, and shorter steps do not avoid it",
+                "`{coordinate}`, its rate or its acceleration has no finite value at t = {t} s, and shorter steps do not avoid it",
                 t = Short(*t)
             ),
             Self::SingularMassMatrix {

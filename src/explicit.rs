@@ -10,13 +10,13 @@ mod stepper;
 pub use ensemble::{Arrival, Ensemble, Trajectory};
 pub use stepper::{ExplicitStepper, ExplicitStepperBuilder};
 
-use crate::compensated::two_sum;
-use crate::control;
+use crate::attempt::{self, not_finite};
+use crate::control::{self, Control, Work};
+use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::methods::{MAX_STAGES, Method};
-use crate::stages::{Point, advance_state, squared_errors, stage_state, weigh};
+use crate::stages::Point;
 use crate::step_error::StepError;
-use crate::step_number::StepNumber;
-use crate::stepper::Work;
+use crate::step_number::{Real, StepNumber};
 use crate::tolerance::Tolerance;
 use crate::{Singular, Vector};
 
@@ -39,22 +39,14 @@ pub(crate) enum Outcome {
     Failed(StepError),
 }
 
-/// The state of the control of one trajectory.
+/// One of the trajectories.
 #[derive(Clone, Copy, Debug)]
-struct Control {
+struct Lane {
     /// Whether it is to go on.
     is_running: bool,
-    /// The step to try next, with its sign.
-    step: f64,
-    /// The step being tried or taken last.
-    last_step: f64,
-    /// The error of the step before, for smoothing.
-    error_before: f64,
-    /// Whether the step that is to be tried was tried before, and was too long.
-    is_retry: bool,
     /// Whether the acceleration now is that at the end of a step.
     is_after_step: bool,
-    work: Work,
+    control: Control,
 }
 
 /// Trajectories side by side, with what a method needs of each.
@@ -69,7 +61,9 @@ pub(crate) struct Track<N: StepNumber, V> {
     /// Accelerations at the stages of the last step; the first is that at its beginning.
     k: [V; MAX_STAGES],
     stage: (V, V),
-    control: N::Each<Control>,
+    /// The lengths of the steps tried last.
+    h: N,
+    lanes: N::Each<Lane>,
 }
 
 /// Whether a method can be used in these numbers.
@@ -123,24 +117,30 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             now,
             k: core::array::from_fn(|_| zeros.clone()),
             stage: (zeros.clone(), zeros),
-            control: N::each(|_| Control {
+            h: N::NOTHING,
+            lanes: N::each(|_| Lane {
                 is_running: false,
-                step: 0.0,
-                last_step: 0.0,
-                error_before: 1e-4,
-                is_retry: false,
                 is_after_step: false,
-                work: Work::default(),
+                control: Control::new(),
             }),
         })
     }
 
     pub fn set_longest_step(&mut self, step: f64) {
-        self.longest = step;
+        self.longest = control::longest(step);
     }
 
     pub fn set_first_step(&mut self, step: f64) {
-        self.control.as_mut()[0].step = step;
+        self.control_mut().step = step;
+    }
+
+    /// The control of one trajectory.
+    fn control(&self) -> &Control {
+        &self.lanes.as_ref()[0].control
+    }
+
+    fn control_mut(&mut self) -> &mut Control {
+        &mut self.lanes.as_mut()[0].control
     }
 
     pub fn t(&self) -> N {
@@ -157,22 +157,50 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// The accelerations of one trajectory now, where its last try was good.
     pub fn a(&self) -> &V {
-        match self.control.as_ref()[0].is_after_step {
-            true => &self.k[self.method.tableau.stages],
-            false => &self.k[0],
+        &self.k[self.newest()]
+    }
+
+    /// Which stage of one trajectory has the acceleration now.
+    fn newest(&self) -> usize {
+        match self.is_after_step() {
+            true => self.method.tableau.stages,
+            false => 0,
         }
     }
 
+    /// Whether one trajectory is at the end of a good step.
+    pub fn is_after_step(&self) -> bool {
+        self.lanes.as_ref()[0].is_after_step
+    }
+
+    /// Whether dense output asks for accelerations beyond those of a step.
+    pub fn dense_needs_evaluations(&self) -> bool {
+        self.method.dense_needs_evaluations()
+    }
+
+    /// Where the last step of one trajectory began; now, if it has taken none.
+    pub fn before(&self) -> &Point<V, N> {
+        match self.is_after_step() {
+            true => &self.before,
+            false => &self.now,
+        }
+    }
+
+    /// The accelerations of one trajectory at the beginning of its last step.
+    pub fn a_before(&self) -> &V {
+        &self.k[0]
+    }
+
     pub fn work(&self, lane: usize) -> Work {
-        self.control.as_ref()[lane].work
+        self.lanes.as_ref()[lane].control.work
     }
 
     pub fn last_step(&self) -> f64 {
-        self.control.as_ref()[0].last_step
+        self.control().last_step
     }
 
     pub fn next_step(&self) -> f64 {
-        self.control.as_ref()[0].step
+        self.control().step
     }
 
     /// Whether a trajectory is at its end.
@@ -182,7 +210,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// Lets a trajectory stand.
     pub fn stop(&mut self, lane: usize) {
-        self.control.as_mut()[lane].is_running = false;
+        self.lanes.as_mut()[lane].is_running = false;
     }
 
     /// Sends one trajectory to another end.
@@ -190,34 +218,29 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         self.end = end;
         let [to, from] = [end, self.now.t].map(|t| t.rounded().as_ref()[0]);
         let is_done = self.is_done(0);
-        let control = &mut self.control.as_mut()[0];
-        control.step = control.step.abs().copysign(to - from);
-        control.is_running = !is_done;
+        let lane = &mut self.lanes.as_mut()[0];
+        lane.control.turn(to - from);
+        lane.is_running = !is_done;
     }
 
     /// Finds the accelerations of one trajectory now, as at its start or where the inputs have changed.
     pub fn look(&mut self, machine: &impl Accelerate<N, V>) -> Result<(), StepError> {
-        let newest = match self.control.as_ref()[0].is_after_step {
-            true => self.method.tableau.stages,
-            false => 0,
-        };
-        let Self {
-            now, k, control, ..
-        } = self;
+        let newest = self.newest();
+        let Self { now, k, .. } = self;
         let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
         let at = (now.t, &now.q, &now.v);
         evaluate(machine, at, &mut k[newest], &mut trying, &mut failed);
-        let control = &mut control.as_mut()[0];
+        let control = self.control_mut();
         control.work.evaluations += 1;
-        control.error_before = 1e-4;
+        control.forget_error();
         failed.as_ref()[0].map_or(Ok(()), Err)
     }
 
     /// Chooses the length of the first step of one trajectory, where nobody has.
     pub fn choose_first_step(&mut self, machine: &impl Accelerate<N, V>) {
-        if self.control.as_ref()[0].step == 0.0 && !self.is_done(0) {
+        if self.control().step == 0.0 && !self.is_done(0) {
             let step = self.first_step(machine);
-            self.control.as_mut()[0].step = step;
+            self.control_mut().step = step;
         }
     }
 
@@ -227,50 +250,20 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let Self {
             method,
             tolerance,
+            longest,
             now,
             k,
-            stage,
-            control,
+            stage: (q, v),
+            lanes,
             ..
         } = self;
-        let (relative, absolute) = (tolerance.relative, tolerance.absolute.as_slice());
-        let norm = |of: &dyn Fn(usize) -> [N; 2]| {
-            let mut sum = 0.0;
-            for (i, absolute) in absolute.iter().enumerate() {
-                let sizes = [now.q.as_slice()[i], now.v.as_slice()[i]];
-                let squares = [0, 1].map(|level| {
-                    let size = [sizes[level]; 2];
-                    let square = of(i)[level].squared_error(size, *absolute, relative);
-                    square.as_ref()[0]
-                });
-                sum += squares[0] + squares[1];
-            }
-            crate::math::sqrt(sum)
-        };
-
-        let a = k[0].as_slice();
-        let size = norm(&|i| [now.q.as_slice()[i], now.v.as_slice()[i]]);
-        let rate = norm(&|i| [now.v.as_slice()[i], a[i]]);
-        let guess = control::first_guess([size, rate], left, self.longest);
-        let ahead_by = N::gather(N::each(|_| guess));
-        let (q, v) = (&mut stage.0, &mut stage.1);
-        for (i, a) in a.iter().enumerate() {
-            q.as_mut_slice()[i] = now.q.as_slice()[i] + ahead_by * now.v.as_slice()[i];
-            v.as_mut_slice()[i] = now.v.as_slice()[i] + ahead_by * *a;
-        }
-        // Where the machine has no acceleration that far off, the guess is tried and will be shortened.
-        let (first, rest) = k.split_at_mut(1);
-        let (a, ahead) = (first[0].as_slice(), &mut rest[0]);
-        let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
-        let at = (now.t + ahead_by, &*q, &*v);
-        evaluate(machine, at, ahead, &mut trying, &mut failed);
-        control.as_mut()[0].work.evaluations += 1;
-        if failed.as_ref()[0].is_some() {
-            return guess;
-        }
-        let ahead = ahead.as_slice();
-        let change = norm(&|i| [ahead_by * a[i], ahead[i] - a[i]]) / guess.abs();
-        control::first_step(method, guess, [rate, change], left, self.longest)
+        let bounds = [left, *longest];
+        attempt::first_step((method, tolerance), now, k, [q, v], bounds, |at, a| {
+            let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
+            evaluate(machine, at, a, &mut trying, &mut failed);
+            lanes.as_mut()[0].control.work.evaluations += 1;
+            failed.as_ref()[0].is_none()
+        })
     }
 
     /// One try of every trajectory that is not at its end.
@@ -282,7 +275,7 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let errors = self.try_steps((h, &is_last), machine, &mut failed);
         let h = h.rounded();
         for (lane, outcome) in outcomes.as_mut().iter_mut().enumerate() {
-            if self.control.as_ref()[lane].is_running {
+            if self.lanes.as_ref()[lane].is_running {
                 let (error, cause) = (errors.as_ref()[lane], failed.as_ref()[lane]);
                 *outcome = self.decide(lane, h.as_ref()[lane], error, cause);
             }
@@ -292,11 +285,11 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
 
     /// Makes now the beginning of a step, but where the last one is tried again.
     fn begin_steps(&mut self) {
-        let control = self.control.as_mut();
-        let begins = N::each(|lane| !control[lane].is_retry);
-        let moves = N::each(|lane| !control[lane].is_retry && control[lane].is_after_step);
-        for (lane, control) in control.iter_mut().enumerate() {
-            control.is_after_step &= !begins.as_ref()[lane];
+        let lanes = self.lanes.as_mut();
+        let begins = N::each(|lane| !lanes[lane].control.is_retry);
+        let moves = N::each(|lane| begins.as_ref()[lane] && lanes[lane].is_after_step);
+        for (lane, begins) in lanes.iter_mut().zip(begins.as_ref()) {
+            lane.is_after_step &= !begins;
         }
         choose_point(&begins, &mut self.before, &self.now);
         let (first, rest) = self.k.split_at_mut(1);
@@ -310,32 +303,31 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
         let mut lengths = N::each(|_| 0.0);
         let mut is_last = N::each(|_| false);
         let (t, lefts) = (self.before.t.rounded(), left.rounded());
-        for (lane, control) in self.control.as_mut().iter_mut().enumerate() {
-            if !control.is_running {
+        for (i, lane) in self.lanes.as_mut().iter_mut().enumerate() {
+            if !lane.is_running {
                 continue;
             }
-            let (t, left) = (t.as_ref()[lane], lefts.as_ref()[lane]);
-            let least = least::<N>(t).min(0.9 * left.abs());
-            if !control.is_retry && control.step.abs() <= least {
-                control.is_running = false;
-                outcomes.as_mut()[lane] = Outcome::Failed(StepError::StepTooSmall {
+            let (t, left) = (t.as_ref()[i], lefts.as_ref()[i]);
+            let control = &mut lane.control;
+            if !control.is_retry && control.is_too_small(control::least::<N>(t), left) {
+                lane.is_running = false;
+                outcomes.as_mut()[i] = Outcome::Failed(StepError::StepTooSmall {
                     coordinate: 0,
                     t,
                     step: control.last_step,
                 });
                 continue;
             }
-            control.step = control.step.clamp(-self.longest, self.longest);
-            // The last step may stretch by a hundredth, so that no sliver is left over.
-            is_last.as_mut()[lane] = 1.01 * control.step.abs() >= left.abs();
-            lengths.as_mut()[lane] = control.step;
+            is_last.as_mut()[i] = control.is_last(left, self.longest);
+            lengths.as_mut()[i] = control.step;
         }
         let h = left.where_true(&is_last, N::gather(lengths));
-        for (control, h) in self.control.as_mut().iter_mut().zip(h.rounded().as_ref()) {
-            if control.is_running {
-                control.last_step = *h;
+        for (lane, h) in self.lanes.as_mut().iter_mut().zip(h.rounded().as_ref()) {
+            if lane.is_running {
+                lane.control.last_step = *h;
             }
         }
+        self.h = h;
         (h, is_last)
     }
 
@@ -354,61 +346,55 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
             now,
             before,
             k,
-            stage,
-            control,
+            stage: (q, v),
+            lanes,
             ..
         } = self;
-        let control = control.as_mut();
-        let (tableau, scheme) = (&method.tableau, &method.scheme);
-        let stages = tableau.stages;
-        let mut trying = N::each(|lane| control[lane].is_running);
+        let lanes = lanes.as_mut();
+        let (scheme, stages) = (&method.scheme, method.tableau.stages);
+        let mut trying = N::each(|lane| lanes[lane].is_running);
         let mut ask = |at: (N, &V, &V),
                        a: &mut V,
                        trying: &mut N::Each<bool>,
                        failed: &mut N::Each<Option<StepError>>| {
-            for (control, trying) in control.iter_mut().zip(trying.as_ref()) {
-                control.work.evaluations += usize::from(*trying);
+            for (lane, trying) in lanes.iter_mut().zip(trying.as_ref()) {
+                lane.control.work.evaluations += usize::from(*trying);
             }
             evaluate(machine, at, a, trying, failed);
         };
 
-        let (q, v) = (&mut stage.0, &mut stage.1);
-        for i in 1..stages {
-            if !trying.as_ref().contains(&true) {
-                break;
-            }
-            let ch = h.weighted(tableau.c[i], scheme.c_beyond[i]);
-            let t = before.t + (before.t_low + ch);
-            stage_state((&scheme.rows[i], ch, h), [&before.q, &before.v], k, [q, v]);
-            ask((t, q, v), &mut k[i], &mut trying, failed);
+        let tried: Result<(), NobodyTries> = match trying.as_ref().contains(&true) {
+            false => Err(NobodyTries),
+            true => attempt::go_through_stages(method, (before, h), k, [q, v], |_, at, a| {
+                ask(at, a, &mut trying, failed);
+                match trying.as_ref().contains(&true) {
+                    true => Ok(()),
+                    false => Err(NobodyTries),
+                }
+            }),
+        };
+        if tried.is_err() {
+            choose_point(&N::each(|_| true), now, before);
+            return N::each(|_| f64::INFINITY);
         }
 
-        advance_state((&scheme.rows[stages], h), before, k, now);
-        let (t, t_low) = two_sum(before.t, before.t_low + h);
-        now.t = end.where_true(is_last, t);
-        now.t_low = N::NOTHING.where_true(is_last, t_low);
+        attempt::arrive(method, (before, h), k, now, (*end, is_last));
         if scheme.error_needs_end && trying.as_ref().contains(&true) {
             keep_where(&trying, now, before);
             let at = (now.t, &now.q, &now.v);
             ask(at, &mut k[stages], &mut trying, failed);
         }
-        let of = (tolerance.relative, &tolerance.absolute);
-        let fine = squared_errors((&scheme.error, h), [before, now], k, of);
-        let coarse = match tableau.coarse_error {
-            Some(_) => squared_errors((&scheme.coarse_error, h), [before, now], k, of),
-            None => N::each(|_| 0.0),
-        };
-        let numbers = 2 * N::PARTS * now.q.as_slice().len();
+        let found = attempt::errors(method, h, [before, now], k, tolerance);
+        // Where the state has left the range of numbers, the error says nothing.
+        let are_numbers = attempt::are_finite(&now.q, &now.v);
         let errors = N::each(|lane| {
-            let [fine, coarse] = [fine, coarse].map(|sums| sums.as_ref()[lane]);
-            let error = control::combined(fine, coarse, numbers);
-            match error.is_finite() {
+            let error = found.as_ref()[lane];
+            match error.is_finite() && are_numbers.as_ref()[lane] {
                 true => error,
                 // An error beyond all measure.
                 false => f64::INFINITY,
             }
         });
-        // Where the state itself has left the range of numbers, the error has as well.
         for (lane, failed) in failed.as_mut().iter_mut().enumerate() {
             let is_beyond = trying.as_ref()[lane] && errors.as_ref()[lane] == f64::INFINITY;
             if is_beyond && let Some(coordinate) = not_finite(&now.q, &now.v, lane) {
@@ -429,65 +415,85 @@ impl<N: StepNumber, V: Vector<N>> Track<N, V> {
     /// What becomes of a trajectory after a try of a step.
     fn decide(&mut self, lane: usize, h: f64, error: f64, cause: Option<StepError>) -> Outcome {
         let is_done = self.is_done(lane);
-        let control = &mut self.control.as_mut()[lane];
-        match cause {
+        let Lane {
+            is_running,
+            is_after_step,
+            control,
+        } = &mut self.lanes.as_mut()[lane];
+        let next = match cause {
             None if error <= 1.0 => {
                 let factor = control::growth(self.method, error, control.error_before);
-                // Not longer right after a rejection: what stood in the way is still near.
-                let is_held = control.is_retry;
-                control.step = h * if is_held { factor.min(1.0) } else { factor };
-                control.error_before = error.max(1e-4);
-                control.is_retry = false;
-                control.is_after_step = true;
-                control.is_running = !is_done;
-                control.work.steps += 1;
+                control.take(h, error, factor);
+                *is_after_step = true;
+                *is_running = !is_done;
                 return Outcome::Taken;
             }
-            None => control.step = h * control::reduction(self.method, error),
+            None => h * control::reduction(self.method, error),
             // Perhaps a stage reached beyond where the machine can be.
-            Some(_) => control.step = 0.1 * h,
-        }
-        control.is_retry = true;
-        control.work.rejected += 1;
+            Some(_) => 0.1 * h,
+        };
         let t = self.before.t.rounded().as_ref()[lane];
-        if control.step.abs() > least::<N>(t) {
+        if control.give_up(next, control::least::<N>(t)) {
             return Outcome::GivenUp;
         }
-        control.is_running = false;
-        control.is_retry = false;
-        Outcome::Failed(cause.unwrap_or(StepError::StepTooSmall {
-            coordinate: self.worst(lane),
-            t,
-            step: h,
-        }))
-    }
-
-    /// The coordinate with the greatest error in the last try of a trajectory.
-    fn worst(&self, lane: usize) -> usize {
-        let h = N::gather(N::each(|lane| self.control.as_ref()[lane].last_step));
-        let Tolerance { relative, absolute } = &self.tolerance;
-        let mut worst = (0, 0.0);
-        for (i, absolute) in absolute.as_slice().iter().enumerate() {
-            let [[position], [velocity]] = weigh::<1, N, V>(&self.method.scheme.error, &self.k, i);
-            let at = |vector: &V| [vector.as_slice()[i]; 2];
-            let squares = [
-                (h * h * position).squared_error(at(&self.before.q), *absolute, *relative),
-                (h * velocity).squared_error(at(&self.before.v), *absolute, *relative),
-            ];
-            for square in squares {
-                if square.as_ref()[lane] > worst.1 {
-                    worst = (i, square.as_ref()[lane]);
-                }
+        *is_running = false;
+        Outcome::Failed(cause.unwrap_or_else(|| {
+            let (ends, of) = ([&self.before; 2], (&self.tolerance, lane));
+            StepError::StepTooSmall {
+                coordinate: attempt::worst(self.method, self.h, ends, &self.k, of),
+                t,
+                step: h,
             }
-        }
-        worst.0
+        }))
     }
 }
 
-/// A few parts in 10¹⁵ of the time, in `f64`: shorter steps have no beginning and no end. Near t = 0 that is no limit; there the
-/// smallest numbers are.
-fn least<N: StepNumber>(t: f64) -> f64 {
-    (10.0 * N::EPSILON * t.abs()).max(N::LEAST_STEP)
+/// No trajectory is trying any more.
+struct NobodyTries;
+
+impl<N: Real, V: Vector<N>> Track<N, V> {
+    /// The motion of one trajectory within its last step, from the ends of the step alone.
+    pub fn hermite(&self, theta: N) -> (V, V) {
+        let before = self.before();
+        hermite(
+            self.h,
+            [&before.q, &self.now.q],
+            [&before.v, &self.now.v],
+            [self.a_before(), self.a()],
+            theta,
+        )
+    }
+
+    /// The continuous extension of the last step of one trajectory.
+    ///
+    /// # Errors
+    /// Where a stage of it has no accelerations.
+    pub fn interpolant(
+        &mut self,
+        machine: &impl Accelerate<N, V>,
+    ) -> Result<Interpolant<V, N>, StepError> {
+        let Self {
+            method,
+            now,
+            before,
+            k,
+            h,
+            lanes,
+            ..
+        } = self;
+        let ends = Ends {
+            start: before.time(),
+            h: *h,
+            q: [&before.q, &now.q],
+            v: [&before.v, &now.v],
+        };
+        Interpolant::new(method, &ends, k, |t, q, v, a| {
+            let (mut failed, mut trying) = (N::each(|_| None), N::each(|_| true));
+            evaluate(machine, (t, q, v), a, &mut trying, &mut failed);
+            lanes.as_mut()[0].control.work.evaluations += 1;
+            failed.as_ref()[0].map_or(Ok(()), Err)
+        })
+    }
 }
 
 /// Accelerations of the trajectories that are trying. One that has none tries no more; its accelerations are 0, so that those of
@@ -523,14 +529,6 @@ fn evaluate<N: StepNumber, V: Vector<N>>(
     for a in a.as_mut_slice() {
         *a = a.where_true(&fine, N::NOTHING);
     }
-}
-
-/// The first coordinate for which one of two vectors is not finite in a trajectory.
-fn not_finite<N: StepNumber, V: Vector<N>>(one: &V, other: &V, lane: usize) -> Option<usize> {
-    let pairs = one.as_slice().iter().zip(other.as_slice());
-    pairs
-        .map(|pair| <[&N; 2]>::from(pair).map(|number| number.are_finite().as_ref()[lane]))
-        .position(|finite| finite != [true; 2])
 }
 
 /// Copies a vector, in the trajectories for which `condition` holds.

@@ -1,7 +1,7 @@
 //! How inputs are set while a machine runs.
 
-use crate::System;
 use crate::piece::{NoPiece, Piece};
+use crate::{Real, System, SystemIn};
 
 /// How a machine's inputs are set while it runs.
 ///
@@ -99,6 +99,13 @@ impl<S: System, L: InputLaw<S>> InputLaw<S> for &L {
     as_of!(self, (**self));
 }
 
+/// How a machine's inputs are set while it runs in numbers `N` by an [`ExplicitStepper`](crate::ExplicitStepper): an [`InputLaw`]
+/// for numbers of any kind. Must depend on its arguments alone.
+pub trait InputLawIn<S: SystemIn<N>, N: Real> {
+    /// Sets the inputs for an instant. `inputs` holds the defaults.
+    fn set(&self, system: &S, t: N, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs);
+}
+
 /// The inputs keep the defaults of the description.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DefaultInputs;
@@ -137,6 +144,19 @@ where
     }
 }
 
+impl<S, N, F> InputLawIn<S, N> for InputFunction<F>
+where
+    S: SystemIn<N>,
+    N: Real,
+    F: Fn(N, &S::Coordinates, &S::Coordinates, &mut S::Inputs),
+{
+    #[inline]
+    fn set(&self, system: &S, t: N, q: &S::Vector, v: &S::Vector, inputs: &mut S::Inputs) {
+        let [q, v] = [q, v].map(|vector| system.to_coordinates(vector));
+        (self.0)(t, &q, &v, inputs);
+    }
+}
+
 /// The inputs are what was set last, and stay so.
 #[derive(Clone, Debug)]
 pub struct HeldInputs<I>(pub I);
@@ -149,6 +169,13 @@ impl<S: System> InputLaw<S> for HeldInputs<S::Inputs> {
 
     fn is_constant(&self) -> bool {
         true
+    }
+}
+
+impl<S: SystemIn<N>, N: Real> InputLawIn<S, N> for HeldInputs<S::Inputs> {
+    #[inline(always)]
+    fn set(&self, _: &S, _: N, _: &S::Vector, _: &S::Vector, inputs: &mut S::Inputs) {
+        inputs.clone_from(&self.0);
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::methods::{MAX_STAGES, Method};
 use crate::stages::{stage_state, weigh};
 use crate::step_error::StepError;
+use crate::step_number::{Real, StepNumber};
 use crate::{Vector, compensated::Sum};
 
 /// The most coefficients that a polynomial has: four of the cubic, and those of the method.
@@ -19,10 +20,12 @@ const MAX_COEFFICIENTS: usize = 8;
 /// in steps of Runge–Kutta methods, where `c₀ … c₃` make the cubic through values and slopes of both ends, and the others `h Σⱼ dⱼ
 /// kⱼ` belong to the method. E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
 /// Equations I*, 2nd ed., 1993, section II.6. In steps by Taylor series it is the polynomial of the step itself.
+///
+/// In numbers `N`, those of the step.
 #[derive(Clone, Debug)]
-pub struct Interpolant<V> {
-    start: Sum,
-    h: f64,
+pub struct Interpolant<V, N = f64> {
+    start: Sum<N>,
+    h: N,
     curve: Curve<V>,
 }
 
@@ -45,22 +48,22 @@ struct Stages<V> {
 }
 
 /// The ends of a step: time of the beginning, length, state before and after.
-pub(crate) struct Ends<'a, V> {
-    pub start: Sum,
-    pub h: f64,
+pub(crate) struct Ends<'a, V, N = f64> {
+    pub start: Sum<N>,
+    pub h: N,
     pub q: [&'a V; 2],
     pub v: [&'a V; 2],
 }
 
-impl<V: Vector> Interpolant<V> {
+impl<N: StepNumber, V: Vector<N>> Interpolant<V, N> {
     /// The polynomials of a step of `method` with the accelerations `k`. `accelerations(t, q, v,
     /// a)` is called for the stages beyond the step that they need, whose accelerations go into
     /// `k`.
     pub(crate) fn new(
         method: &Method,
-        ends: &Ends<'_, V>,
+        ends: &Ends<'_, V, N>,
         k: &mut [V; MAX_STAGES],
-        mut accelerations: impl FnMut(f64, &V, &V, &mut V) -> Result<(), StepError>,
+        mut accelerations: impl FnMut(N, &V, &V, &mut V) -> Result<(), StepError>,
     ) -> Result<Self, StepError> {
         let (tableau, scheme) = (&method.tableau, &method.scheme);
         let &Ends {
@@ -78,11 +81,11 @@ impl<V: Vector> Interpolant<V> {
         };
 
         for stage in tableau.stages + 1..scheme.length {
-            let c = tableau.c[stage];
+            let ch = h.weighted(tableau.c[stage], scheme.c_beyond[stage]);
             // The stages are kept where coefficients are not yet set.
             let (q, v) = (&mut interpolant.q[0], &mut interpolant.v[0]);
-            stage_state((&scheme.rows[stage], c * h, h), [q0, v0], k, [q, v]);
-            accelerations(start.high + (start.low + c * h), q, v, &mut k[stage])?;
+            stage_state((&scheme.rows[stage], ch, h), [q0, v0], k, [q, v]);
+            accelerations(start.high + (start.low + ch), q, v, &mut k[stage])?;
         }
 
         let (a0, a1) = (&k[0], &k[tableau.stages]);
@@ -106,7 +109,9 @@ impl<V: Vector> Interpolant<V> {
             curve: Curve::Stages(interpolant),
         })
     }
+}
 
+impl<V: Vector> Interpolant<V> {
     /// The motion in a step of length `h`, by its Taylor coefficients.
     #[cfg(feature = "std")]
     pub(crate) fn of_series(start: Sum, h: f64, coefficients: &[V]) -> Self {
@@ -116,14 +121,16 @@ impl<V: Vector> Interpolant<V> {
             curve: Curve::Series(coefficients.to_vec()),
         }
     }
+}
 
+impl<N: Real, V: Vector<N>> Interpolant<V, N> {
     /// Coordinates and rates at time `t`, which should be in the step.
-    pub fn state(&self, t: f64) -> (V, V) {
+    pub fn state(&self, t: N) -> (V, V) {
         self.state_at(((t - self.start.high) - self.start.low) / self.h)
     }
 
     /// Coordinates and rates at the fraction `theta` of the step.
-    pub fn state_at(&self, theta: f64) -> (V, V) {
+    pub fn state_at(&self, theta: N) -> (V, V) {
         match &self.curve {
             Curve::Stages(stages) => (
                 evaluate(&stages.q[..stages.length], theta),
@@ -135,23 +142,27 @@ impl<V: Vector> Interpolant<V> {
     }
 
     /// Time at the fraction `theta` of the step, in s.
-    pub fn time_at(&self, theta: f64) -> f64 {
+    pub fn time_at(&self, theta: N) -> N {
         self.start.high + (self.start.low + theta * self.h)
     }
 }
 
 /// `c₀ … c₃` for values and slopes (times `h`) at both ends.
 #[inline(always)]
-fn cubic([y0, y1]: [f64; 2], [slope0, slope1]: [f64; 2]) -> [f64; 4] {
+fn cubic<N: StepNumber>([y0, y1]: [N; 2], [slope0, slope1]: [N; 2]) -> [N; 4] {
     let rise = y1 - y0;
     let bend = slope0 - rise;
     [y0, rise, bend, rise - slope1 - bend]
 }
 
-fn evaluate<V: Vector>(coefficients: &[V], theta: f64) -> V {
+fn evaluate<N: Real, V: Vector<N>>(coefficients: &[V], theta: N) -> V {
     let mut y = coefficients[0].zeros_like();
     for power in (1..coefficients.len()).rev() {
-        let factor = if power % 2 == 1 { theta } else { 1.0 - theta };
+        let factor = if power % 2 == 1 {
+            theta
+        } else {
+            N::ONE - theta
+        };
         for (y, c) in y
             .as_mut_slice()
             .iter_mut()
@@ -161,7 +172,7 @@ fn evaluate<V: Vector>(coefficients: &[V], theta: f64) -> V {
         }
     }
     for (y, c) in y.as_mut_slice().iter_mut().zip(coefficients[0].as_slice()) {
-        *y += c;
+        *y = *y + *c;
     }
     y
 }
@@ -169,31 +180,32 @@ fn evaluate<V: Vector>(coefficients: &[V], theta: f64) -> V {
 /// Coordinates and rates at the fraction `theta` of a step of length `h`, from its ends alone: the
 /// quintic through positions, velocities and accelerations. Costs no evaluation and is of order 5;
 /// good enough to look for events with.
-pub(crate) fn hermite<V: Vector>(
-    h: f64,
+pub(crate) fn hermite<N: Real, V: Vector<N>>(
+    h: N,
     [q0, q1]: [&V; 2],
     [v0, v1]: [&V; 2],
     [a0, a1]: [&V; 2],
-    theta: f64,
+    theta: N,
 ) -> (V, V) {
+    let [half, two, three] = [0.5, 2.0, 3.0].map(N::from_f64);
     let (mut q, mut v) = (q0.zeros_like(), v0.zeros_like());
     for i in 0..q0.as_slice().len() {
         let at = |vector: &V| vector.as_slice()[i];
         let (slope0, slope1) = (h * at(v0), h * at(v1));
-        let (bend0, bend1) = (0.5 * h * h * at(a0), 0.5 * h * h * at(a1));
+        let (bend0, bend1) = (half * h * h * at(a0), half * h * h * at(a1));
         // Newton's divided differences over the nodes 0, 0, 0, 1, 1, 1.
         let rise = at(q1) - at(q0);
         let (d01, d11) = (rise - slope0, slope1 - rise);
         let (e001, e011, e111) = (d01 - bend0, d11 - d01, bend1 - d11);
         let (f0, f1) = (e011 - e001, e111 - e011);
         let g = f1 - f0;
-        let s = theta - 1.0;
+        let s = theta - N::ONE;
         // q = q₀ + θ slope₀ + θ² bend₀ + θ³ (e₀ + s (f₀ + s g)), and its derivative
         let inner = e001 + s * (f0 + s * g);
-        let inner_slope = f0 + 2.0 * s * g;
+        let inner_slope = f0 + two * s * g;
         q.as_mut_slice()[i] = at(q0) + theta * (slope0 + theta * (bend0 + theta * inner));
         v.as_mut_slice()[i] =
-            (slope0 + theta * (2.0 * bend0 + theta * (3.0 * inner + theta * inner_slope))) / h;
+            (slope0 + theta * (two * bend0 + theta * (three * inner + theta * inner_slope))) / h;
     }
     (q, v)
 }

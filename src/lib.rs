@@ -54,6 +54,7 @@
 extern crate std;
 
 mod adapted;
+mod attempt;
 mod balance;
 #[cfg(feature = "std")]
 mod callbacks;
@@ -129,6 +130,7 @@ mod table;
 pub use adapted::{Adapted, AdaptedSystem, HasFriction};
 pub use balance::{Energies, EnergyBalance, EnergyIntegrals, NoBalance, Quadratures};
 pub use constraints::{constraint_workspace, least_multipliers};
+pub use control::Work;
 pub use explicit::{Arrival, Ensemble, ExplicitStepper, ExplicitStepperBuilder, Trajectory};
 pub use friction::{
     ContactForce, accelerations_with_friction, contact_forces, contact_workspace,
@@ -136,14 +138,14 @@ pub use friction::{
 };
 #[cfg(feature = "std")]
 pub use inputs::AnyInputs;
-pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw};
+pub use inputs::{DefaultInputs, HeldInputs, InputFunction, InputLaw, InputLawIn};
 pub use interpolant::Interpolant;
 pub use lanes::{Batch, Batched, LaneVector, SomeSingular};
 pub use methods::{METHODS, Method, TAYLOR};
 pub use piece::{NoPiece, Piece};
 pub use step_error::StepError;
 pub use step_number::{Real, StepNumber};
-pub use stepper::{ControlledStepper, Stepper, StepperBuilder, Work};
+pub use stepper::{ControlledStepper, Stepper, StepperBuilder};
 pub use system::{
     Assumption, Constraint, Coordinates, Differentiate, Inputs, Linearize, MOST_CONTACTS, Machine,
     Outputs, Pivot, Quantity, Singular, Staged, State, System,

@@ -125,6 +125,11 @@ impl Method {
         check::check(&self.tableau)
     }
 
+    /// Whether dense output asks for accelerations beyond those of a step.
+    pub(crate) fn dense_needs_evaluations(&self) -> bool {
+        self.scheme.length > self.tableau.stages + 1
+    }
+
     /// Prepares a tableau of which tests know that it is what it says.
     const fn new(tableau: Tableau) -> Self {
         let scheme = Scheme::new(&tableau, None);

@@ -29,7 +29,8 @@ impl UnknownName {
         let near = known
             .iter()
             .filter(|known| name.len() <= LONGEST && known.len() <= LONGEST)
-            .min_by_key(slips)
+            // Of two that differ from it in as much but case, the one in its case.
+            .min_by_key(|known| (slips(known), strsim::osa_distance(known, name)))
             .filter(|known| slips(known) <= allowed)
             .filter(|known| {
                 slips(known) == 0 || name.chars().count().max(known.chars().count()) > 1

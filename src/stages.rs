@@ -5,7 +5,7 @@
 //! vector instructions of them.
 
 use crate::Vector;
-use crate::compensated::two_sum;
+use crate::compensated::{Sum, two_sum};
 use crate::constraints::Place;
 use crate::methods::{MAX_STAGES, Row};
 use crate::step_number::StepNumber;
@@ -41,6 +41,22 @@ impl<N: StepNumber, V: Vector<N>> Point<V, N> {
         self.q_low.clone_from(&other.q_low);
         self.v.clone_from(&other.v);
         self.v_low.clone_from(&other.v_low);
+    }
+
+    /// Sets the time to the end of a step of length `h` from `before`: exactly to `end` where `is_last` holds.
+    #[inline(always)]
+    pub fn set_time(&mut self, before: &Self, h: N, (end, is_last): (N, &N::Each<bool>)) {
+        let (t, t_low) = two_sum(before.t, before.t_low + h);
+        self.t = end.where_true(is_last, t);
+        self.t_low = N::NOTHING.where_true(is_last, t_low);
+    }
+
+    /// Time, with what rounding took from it.
+    pub fn time(&self) -> Sum<N> {
+        Sum {
+            high: self.t,
+            low: self.t_low,
+        }
     }
 }
 
@@ -209,35 +225,4 @@ pub(crate) fn add(sums: &mut impl AsMut<[f64]>, terms: &impl AsRef<[f64]>) {
     for (sum, term) in sums.as_mut().iter_mut().zip(terms.as_ref()) {
         *sum += term;
     }
-}
-
-/// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
-/// tolerable.
-#[inline(always)]
-pub(crate) fn relative_errors<const B: usize, V: Vector>(
-    (row, h): (&Row, f64),
-    before: &Point<V>,
-    now: &Point<V>,
-    k: &[V; MAX_STAGES],
-    (relative, absolute): (f64, &V),
-    start: usize,
-) -> [[f64; B]; 2] {
-    let [position, velocity] = weigh::<B, f64, V>(row, k, start);
-    let absolute = block::<B, f64, V>(absolute, start);
-    let tolerable = |before: &V, now: &V| {
-        let (before, now) = (
-            block::<B, f64, V>(before, start),
-            block::<B, f64, V>(now, start),
-        );
-        core::array::from_fn::<f64, B, _>(|i| {
-            let (before, now) = (before[i].abs(), now[i].abs());
-            // Not `max`, which costs more because it passes over what is not a number.
-            absolute[i] + relative * if before > now { before } else { now }
-        })
-    };
-    let (q, v) = (tolerable(&before.q, &now.q), tolerable(&before.v, &now.v));
-    [
-        core::array::from_fn(|i| h * h * position[i] / q[i]),
-        core::array::from_fn(|i| h * velocity[i] / v[i]),
-    ]
 }

@@ -19,7 +19,7 @@ pub enum StepError {
         /// That time.
         t: f64,
     },
-    /// The motion within the last step was asked for at a time outside of it.
+    /// The motion within the last step was asked for at a time outside of it, or before there is a step.
     OutsideStep {
         /// That time, in s.
         t: f64,
@@ -28,7 +28,7 @@ pub enum StepError {
         /// When it ended, in s.
         to: f64,
     },
-    /// The acceleration of a coordinate is infinite or undefined at time `t`, and shorter steps do
+    /// A coordinate, its rate or its acceleration is infinite or undefined at time `t`, and shorter steps do
     /// not avoid it.
     NotFinite {
         /// The coordinate.
@@ -97,7 +97,7 @@ pub enum StepError {
         /// Time, in s.
         t: f64,
     },
-    /// A trajectory takes more steps than it may.
+    /// A trajectory, or the way to a time, takes more steps than it may.
     TooManySteps {
         /// How many it may take.
         steps: usize,
@@ -125,7 +125,7 @@ impl Display for StepError {
             ),
             Self::NotFinite { coordinate, t } => write!(
                 f,
-                "the acceleration of coordinate number {} has no finite value at t = {t:e} s",
+                "coordinate number {}, its rate or its acceleration has no finite value at t = {t:e} s",
                 coordinate + 1
             ),
             Self::Singular { singular, t } => write!(f, "{singular}, at t = {t:e} s"),

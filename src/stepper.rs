@@ -14,12 +14,14 @@ pub(crate) use meeting::{Cause, Happened};
 pub(crate) use owned::Whose;
 pub use owned::{ControlledStepper, StepperBuilder};
 
+use crate::attempt::{self, not_finite};
 use crate::balance::{NoBalance, Quadratures};
-use crate::compensated::{Sum, two_sum};
+#[cfg(feature = "std")]
+use crate::compensated::Sum;
 use crate::constraints::Constraints;
 #[cfg(feature = "std")]
 use crate::contact::Touching;
-use crate::control;
+use crate::control::{self, Control, MAX_STEPS, Work};
 #[cfg(feature = "std")]
 use crate::friction::Change;
 use crate::friction::Contacts;
@@ -30,8 +32,8 @@ use crate::interpolant::{Ends, Interpolant, hermite};
 use crate::math::sqrt;
 #[cfg(doc)]
 use crate::methods::Tableau;
-use crate::methods::{MAX_STAGES, Method, Row};
-use crate::stages::{Point, advance_state, in_blocks, relative_errors, stage_state, weigh};
+use crate::methods::{MAX_STAGES, Method};
+use crate::stages::{Point, in_blocks, weigh};
 use crate::step_error::StepError;
 #[cfg(feature = "std")]
 use crate::taylor::Taylor;
@@ -47,19 +49,6 @@ const STEPS_BETWEEN_STIFFNESS_TESTS: usize = 1000;
 /// absolute: 10⁻¹⁶ in a constraint are 10⁻⁵ in the accelerations of a stage where the weakest row has 3·10⁻⁴
 /// of its length left, and a hundredth of that in what a step makes of them.
 const ACROSS: f64 = 1e-7;
-
-/// Counts of the work done.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct Work {
-    /// Steps taken.
-    pub steps: usize,
-    /// Steps tried and given up, since their error was too great.
-    pub rejected: usize,
-    /// Evaluations of the accelerations, or of their series.
-    pub evaluations: usize,
-}
 
 /// Advances the state of a system, step by step, with steps as long as the tolerance allows.
 ///
@@ -84,13 +73,10 @@ pub struct Stepper<'s, S: System, L = DefaultInputs, A = NoBalance> {
     /// State at a stage.
     stage: (S::Vector, S::Vector),
 
-    /// The last step, with its sign.
-    last_step: f64,
-    /// The step to try next.
-    step: f64,
-    /// The error of the step before, for smoothing.
-    error_before: f64,
-    work: Work,
+    /// How long steps are.
+    control: Control,
+    /// How many steps one [`advance_to`](Self::advance_to) may take.
+    max_steps: usize,
     stiffness: Stiffness,
     /// Whether the acceleration now has to be found again, since what it depends on has changed.
     changed: bool,
@@ -214,10 +200,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             stage: (zeros.clone(), zeros),
             before: start.clone(),
             now: start,
-            last_step: 0.0,
-            step: 0.0,
-            error_before: 1e-4,
-            work: Work::default(),
+            control: Control::new(),
+            max_steps: MAX_STEPS,
             stiffness: Stiffness::default(),
             changed: false,
             #[cfg(feature = "std")]
@@ -235,7 +219,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             now,
             k,
             quadratures,
-            work,
+            control: Control { work, .. },
             ..
         } = &mut stepper;
         if S::MAY_SLIDE && model.system.contacts().len() != 0 {
@@ -312,7 +296,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Length of the last step, in s; negative backward in time.
     pub fn last_step(&self) -> f64 {
-        self.last_step
+        self.control.last_step
     }
 
     /// The motion within the last step, at the fraction `theta` of it: cheap and of order 5, good
@@ -322,10 +306,10 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     pub fn hermite(&self, theta: f64) -> (S::Vector, S::Vector) {
         #[cfg(feature = "std")]
         if let Some(taylor) = &self.taylor {
-            return crate::taylor::state(taylor.of_step(), theta * self.last_step);
+            return crate::taylor::state(taylor.of_step(), theta * self.control.last_step);
         }
         hermite(
-            self.last_step,
+            self.control.last_step,
             [&self.before.q, &self.now.q],
             [&self.before.v, &self.now.v],
             [self.a_before(), self.a()],
@@ -338,7 +322,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// [`hermite`](Self::hermite), of order 3.
     #[cfg(feature = "std")]
     pub(crate) fn control_points(&self) -> [(f64, S::Vector, S::Vector); 2] {
-        let third = self.last_step / 3.0;
+        let third = self.control.last_step / 3.0;
         let point = |t: f64, q: &S::Vector, v: &S::Vector, third: f64| {
             let mut ahead = q.clone();
             for (q, v) in ahead.as_mut_slice().iter_mut().zip(v.as_slice()) {
@@ -355,10 +339,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Beginning of the last step, with what rounding took from it.
     #[cfg(feature = "std")]
     pub(crate) fn beginning(&self) -> Sum {
-        Sum {
-            high: self.before.t,
-            low: self.before.t_low,
-        }
+        self.before.time()
     }
 
     /// Accelerations at the stages of the last step; the first is that at its beginning.
@@ -428,7 +409,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             contacts.change(model.system.get(), at, place.v, change, is_at_once)?;
         }
         let newest = self.newest;
-        let work = &mut self.work;
+        let work = &mut self.control.work;
         model.accelerations(now.t, &now.q, &now.v, &mut k[newest], work)?;
         model.take_rates(
             &mut self.quadratures,
@@ -436,8 +417,8 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             (now.t, &now.q, &now.v, &k[newest]),
         );
         self.end = end;
-        self.step = step;
-        self.error_before = 1e-4;
+        self.control.step = step;
+        self.control.forget_error();
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }
@@ -446,7 +427,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The work done so far.
     pub fn work(&self) -> Work {
-        self.work
+        self.control.work
     }
 
     /// The quadratures so far: what is integrated beside the motion.
@@ -456,7 +437,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The step to be tried next, in s.
     pub fn next_step(&self) -> f64 {
-        self.step
+        self.control.step
     }
 
     /// When the motion was first seen to be stiff: when steps were held short by the stability of
@@ -472,12 +453,18 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// Sets the length of the first step, which otherwise is chosen by the motion at the start.
     pub fn set_first_step(&mut self, step: f64) {
-        self.step = step.copysign(self.end - self.now.t);
+        self.control.step = step.copysign(self.end - self.now.t);
     }
 
-    /// Sets the greatest length of a step.
+    /// Sets the greatest length of a step, in s; what is not greater than 0 sets none.
     pub fn set_longest_step(&mut self, step: f64) {
-        self.longest = step;
+        self.longest = control::longest(step);
+    }
+
+    /// Sets how many steps one [`advance_to`](Self::advance_to) may take, ten million if nobody says; one that would take more is an
+    /// error. In a loop of a fixed rate it bounds the time that the stepper takes.
+    pub fn set_max_steps(&mut self, steps: usize) {
+        self.max_steps = steps;
     }
 
     /// Says that the accelerations are others from now on, at the same state: because the law of the
@@ -556,7 +543,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
     /// Goes on to another end, later or earlier than now.
     pub fn set_end(&mut self, end: f64) {
         self.end = end;
-        self.step = self.step.abs().copysign(end - self.now.t);
+        self.control.turn(end - self.now.t);
     }
 
     /// Takes the last step back, and makes `end` the end of the run: to end a run at an event
@@ -573,9 +560,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 taylor.retreat();
             }
             self.quadratures.retreat(self.method.tableau.a[stages]);
-            self.work.steps -= 1;
+            self.control.work.steps -= 1;
             // It was short enough.
-            self.step = self.last_step;
+            self.control.step = self.control.last_step;
         }
         self.end = end;
     }
@@ -589,7 +576,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             now,
             k,
             newest,
-            work,
+            control,
             ..
         } = self;
         let at = (now.t, &now.q, &now.v);
@@ -599,9 +586,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             let contacts = Contacts::begin(model.system.get(), now.t, &now.q, &now.v, inputs)?;
             model.contacts = Some(contacts);
         }
-        model.accelerations(at.0, at.1, at.2, &mut k[*newest], work)?;
+        model.accelerations(at.0, at.1, at.2, &mut k[*newest], &mut control.work)?;
         model.take_rates(quadratures, 0, (at.0, at.1, at.2, &k[*newest]));
-        self.error_before = 1e-4;
+        control.forget_error();
         #[cfg(feature = "std")]
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
@@ -626,61 +613,47 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         if self.taylor.is_some() {
             self.choose_length()?;
         }
-        if self.work.steps == 0 && self.step == 0.0 {
-            self.step = self.first_step();
+        if self.control.work.steps == 0 && self.control.step == 0.0 {
+            self.control.step = self.first_step();
         }
-        // A few parts in 10¹⁵ of the time: shorter steps have no beginning and no end. Near t = 0
-        // that is no limit; there the smallest numbers are.
-        let least = (10.0 * f64::EPSILON * self.now.t.abs()).max(1e-290);
+        let least = control::least::<f64>(self.now.t);
         let left = (self.end - self.now.t) - self.now.t_low;
-        if self.step.abs() <= least.min(0.9 * left.abs()) {
+        if self.control.is_too_small(least, left) {
             return Err(self.too_small());
         }
 
         self.begin();
-        let mut given_up = false;
+        self.control.is_retry = false;
         loop {
-            self.step = self.step.clamp(-self.longest, self.longest);
-            // The last step may stretch by a hundredth, so that no sliver is left over.
-            let last = 1.01 * self.step.abs() >= left.abs();
-            let h = if last { left } else { self.step };
-            self.last_step = h;
+            let last = self.control.is_last(left, self.longest);
+            let h = if last { left } else { self.control.step };
+            self.control.last_step = h;
 
             #[cfg(feature = "std")]
             let tried = match (&self.implicit, &self.taylor) {
                 (None, None) => self.attempt(h, last),
-                (Some(_), _) => self.attempt_implicitly(h, last, given_up),
+                (Some(_), _) => self.attempt_implicitly(h, last),
                 (None, Some(_)) => self.attempt_in_series(h, last),
             };
             #[cfg(not(feature = "std"))]
             let tried = self.attempt(h, last);
-            let cause = match tried {
+            let (next, cause) = match tried {
                 Ok(error) if error <= 1.0 => {
                     let factor = self.growth(h, error);
-                    // Not longer right after a rejection: what stood in the way is still near.
-                    self.step = h * if given_up { factor.min(1.0) } else { factor };
-                    self.error_before = error.max(1e-4);
+                    self.control.take(h, error, factor);
                     self.accept(h);
                     return Ok(());
                 }
                 _ if self.meets_fork(h) => {
                     // Once more, with an eye on that.
-                    self.work.rejected += 1;
+                    self.control.work.rejected += 1;
                     continue;
                 }
-                Ok(error) => {
-                    self.step = h * self.reduction(error);
-                    None
-                }
-                Err(cause) => {
-                    // Perhaps a stage reached beyond where the machine can be.
-                    self.step = 0.1 * h;
-                    Some(cause)
-                }
+                Ok(error) => (h * self.reduction(error), None),
+                // Perhaps a stage reached beyond where the machine can be.
+                Err(cause) => (0.1 * h, Some(cause)),
             };
-            given_up = true;
-            self.work.rejected += 1;
-            if self.step.abs() > least {
+            if self.control.give_up(next, least) {
                 continue;
             }
             let error = cause.unwrap_or_else(|| self.too_small());
@@ -701,27 +674,26 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             let of_step = taylor.of_step();
             return Ok(Interpolant::of_series(
                 self.beginning(),
-                self.last_step,
+                self.control.last_step,
                 of_step,
             ));
         }
-        let needs_evaluations = self.method.scheme.length > self.method.tableau.stages + 1;
-        if self.changed && needs_evaluations {
+        if self.changed && self.method.dense_needs_evaluations() {
             return Err(StepError::Changed { t: self.now.t });
         }
         Interpolant::new(
             self.method,
             &Ends {
-                start: Sum {
-                    high: self.before.t,
-                    low: self.before.t_low,
-                },
-                h: self.last_step,
+                start: self.before.time(),
+                h: self.control.last_step,
                 q: [&self.before.q, &self.now.q],
                 v: [&self.before.v, &self.now.v],
             },
             &mut self.k,
-            |t, q, v, a| self.model.accelerations(t, q, v, a, &mut self.work),
+            |t, q, v, a| {
+                let work = &mut self.control.work;
+                self.model.accelerations(t, q, v, a, work)
+            },
         )
     }
 
@@ -760,39 +732,28 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             now,
             k,
             stage,
-            work,
+            control: Control { work, .. },
             ..
         } = self;
-        let scheme = &method.scheme;
         let stages = method.tableau.stages;
-        let new_point = &scheme.rows[stages];
-        let (q, v) = (&mut stage.0, &mut stage.1);
-
-        for i in 1..stages {
-            let c = method.tableau.c[i];
-            let t = before.t + (before.t_low + c * h);
-            stage_state(
-                (&scheme.rows[i], c * h, h),
-                [&before.q, &before.v],
-                k,
-                [q, v],
-            );
-            model.accelerations(t, q, v, &mut k[i], work)?;
-            model.take_rates(quadratures, i, (t, q, v, &k[i]));
-        }
-
-        advance_state((new_point, h), before, k, now);
-        (now.t, now.t_low) = if last {
-            (self.end, 0.0)
-        } else {
-            two_sum(before.t, before.t_low + h)
-        };
+        let room = [&mut stage.0, &mut stage.1];
+        attempt::go_through_stages(method, (before, h), k, room, |i, (t, q, v), a| {
+            model.accelerations(t, q, v, a, work)?;
+            model.take_rates(quadratures, i, (t, q, v, a));
+            Ok(())
+        })?;
+        attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
         let mut moved = false;
-        if scheme.error_needs_end {
+        if method.scheme.error_needs_end {
             moved = model.project(now)?;
             model.end(now, quadratures, stages, k, work)?;
         }
         let mut error = self.error(h);
+        // Where accelerations say nothing of it, the error of what has left the range of numbers is none.
+        let [is_finite] = attempt::are_finite(&self.now.q, &self.now.v);
+        if !is_finite {
+            error = f64::INFINITY;
+        }
         if moved {
             error = error.max(self.error_of_move());
         }
@@ -802,13 +763,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             quadratures,
             now,
             k,
-            work,
+            control: Control { work, .. },
             ..
         } = self;
         if !error.is_finite() {
             // Either an error beyond all measure, or the state itself has left the range of
             // numbers.
-            return match not_finite(&now.q, &now.v) {
+            return match not_finite(&now.q, &now.v, 0) {
                 Some(coordinate) => Err(StepError::NotFinite {
                     coordinate,
                     t: now.t,
@@ -863,16 +824,13 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
             taylor.accept();
             // Where nothing moves any more, or there are no numbers, it says nothing.
             let length = taylor.length(&self.tolerance);
-            self.step = if length.is_finite() { length } else { h.abs() }.copysign(h);
+            self.control.step = if length.is_finite() { length } else { h.abs() }.copysign(h);
         }
         self.model.accept(&self.now);
         self.quadratures.advance(h, self.method.tableau.a[stages]);
-        self.work.steps += 1;
         if let Some(stability) = self.method.tableau.stability {
-            let due = self
-                .work
-                .steps
-                .is_multiple_of(STEPS_BETWEEN_STIFFNESS_TESTS);
+            let steps = self.control.work.steps;
+            let due = steps.is_multiple_of(STEPS_BETWEEN_STIFFNESS_TESTS);
             if due || self.stiffness.signs > 0 {
                 let stiff = self.stiffness_of_step(h) > stability;
                 self.stiffness.take(stiff, self.before.t);
@@ -882,8 +840,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The error of the step just tried, in the root mean square over coordinates and rates, 1
     /// being just tolerable.
-    ///
-    /// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
     fn error(&self, h: f64) -> f64 {
         if (S::MAY_BE_CONSTRAINED || S::MAY_COLLIDE)
             && let Some(constraints) = &self.model.constraints
@@ -891,15 +847,9 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         {
             return self.error_along(constraints, h);
         }
-        let scheme = &self.method.scheme;
-        let (mut fine, mut coarse) = (0.0, 0.0);
-        in_blocks!(self.now.q.as_slice().len(), |start, B| {
-            fine += squares(self.relative_errors::<B>(&scheme.error, h, start));
-            if self.method.tableau.coarse_error.is_some() {
-                coarse += squares(self.relative_errors::<B>(&scheme.coarse_error, h, start));
-            }
-        });
-        control::combined(fine, coarse, 2 * self.now.q.as_slice().len())
+        let ends = [&self.before, &self.now];
+        let [error] = attempt::errors(self.method, h, ends, &self.k, &self.tolerance);
+        error
     }
 
     /// The same where constraints are about to depend on each other: of what goes across them, which they
@@ -967,14 +917,6 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         sqrt(sum / (2 * self.now.q.as_slice().len()) as f64)
     }
 
-    /// Estimated errors of `B` coordinates from `start` and of their rates, relative to what is
-    /// tolerable.
-    #[inline(always)]
-    fn relative_errors<const B: usize>(&self, row: &Row, h: f64, start: usize) -> [[f64; B]; 2] {
-        let tolerance = (self.tolerance.relative, &self.tolerance.absolute);
-        relative_errors::<B, _>((row, h), &self.before, &self.now, &self.k, tolerance, start)
-    }
-
     /// By how much the next step may be longer than this good one of length `h`.
     #[inline(always)]
     fn growth(&mut self, _h: f64, error: f64) -> f64 {
@@ -985,7 +927,7 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
                 return implicit.accept(_h, error, exponent, self.method.tableau.step_change);
             }
         }
-        control::growth(self.method, error, self.error_before)
+        control::growth(self.method, error, self.control.error_before)
     }
 
     /// By how much the next try is to be shorter than this one, which was not good.
@@ -998,58 +940,27 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
         control::reduction(self.method, error)
     }
 
-    /// A length for the first step, from the size of the first two derivatives: *Solving Ordinary
-    /// Differential Equations I*, section II.4, "Starting Step Size".
+    /// A length for the first step.
     fn first_step(&mut self) -> f64 {
-        let left = self.end - self.now.t;
         let Self {
             method,
             tolerance,
             model,
             now,
             k,
-            stage,
-            work,
+            stage: (q, v),
+            control: Control { work, .. },
             ..
         } = self;
-        let n = now.q.as_slice().len();
-        let tolerable =
-            |y: f64, i: usize| tolerance.absolute.as_slice()[i] + tolerance.relative * y.abs();
-        let norm = |of: &dyn Fn(usize) -> [f64; 2]| {
-            let mut sum = 0.0;
-            for i in 0..n {
-                let [q, v] = of(i);
-                let q = q / tolerable(now.q.as_slice()[i], i);
-                let v = v / tolerable(now.v.as_slice()[i], i);
-                sum += q * q + v * v;
-            }
-            sqrt(sum)
-        };
-
-        let a = k[0].as_slice();
-        let size = norm(&|i| [now.q.as_slice()[i], now.v.as_slice()[i]]);
-        let rate = norm(&|i| [now.v.as_slice()[i], a[i]]);
-        let guess = control::first_guess([size, rate], left, self.longest);
-
-        let (q, v) = (&mut stage.0, &mut stage.1);
-        for (i, a) in a.iter().enumerate() {
-            q.as_mut_slice()[i] = now.q.as_slice()[i] + guess * now.v.as_slice()[i];
-            v.as_mut_slice()[i] = now.v.as_slice()[i] + guess * a;
-        }
-        // Where the machine has no acceleration that far off, the guess is tried and will be
-        // shortened.
-        let (first, rest) = k.split_at_mut(1);
-        let (a, ahead) = (first[0].as_slice(), &mut rest[0]);
-        if model
-            .accelerations(now.t + guess, q, v, ahead, work)
-            .is_err()
-        {
-            return guess;
-        }
-        let ahead = ahead.as_slice();
-        let change = norm(&|i| [guess * a[i], ahead[i] - a[i]]) / guess.abs();
-
-        control::first_step(method, guess, [rate, change], left, self.longest)
+        let bounds = [self.end - now.t, self.longest];
+        attempt::first_step(
+            (method, tolerance),
+            now,
+            k,
+            [q, v],
+            bounds,
+            |(t, q, v), a| model.accelerations(t, q, v, a, work).is_ok(),
+        )
     }
 
     /// `h |λ|` of the greatest eigenvalue, from the two evaluations at the end of the step.
@@ -1074,19 +985,12 @@ impl<'s, S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'s, S, L, A> {
 
     /// The step of the last attempt was too long still, and a shorter one there cannot be.
     fn too_small(&self) -> StepError {
-        let row = &self.method.scheme.error;
-        let mut worst = (0, 0.0);
-        for i in 0..self.now.q.as_slice().len() {
-            let [[position], [velocity]] = self.relative_errors::<1>(row, self.last_step, i);
-            let error = position.abs().max(velocity.abs());
-            if error > worst.1 {
-                worst = (i, error);
-            }
-        }
+        let ends = [&self.before, &self.now];
+        let h = self.control.last_step;
         StepError::StepTooSmall {
-            coordinate: worst.0,
+            coordinate: attempt::worst(self.method, h, ends, &self.k, (&self.tolerance, 0)),
             t: self.before.t,
-            step: self.last_step,
+            step: h,
         }
     }
 }
@@ -1121,7 +1025,7 @@ impl<S: System, L: InputLaw<S>> Model<'_, S, L> {
         if sum.is_finite() {
             return Ok(());
         }
-        match not_finite(a, a) {
+        match not_finite(a, a, 0) {
             Some(coordinate) => Err(StepError::NotFinite { coordinate, t }),
             None => Ok(()),
         }
@@ -1303,18 +1207,4 @@ pub(crate) fn project<S: System>(
         return constraints.project_between(system, t, q, v);
     }
     Ok(())
-}
-
-/// The first coordinate for which one of two vectors is not finite.
-fn not_finite<V: Vector>(one: &V, other: &V) -> Option<usize> {
-    let pairs = one.as_slice().iter().zip(other.as_slice());
-    pairs
-        .map(|(one, other)| one.is_finite() && other.is_finite())
-        .position(|finite| !finite)
-}
-
-/// Sum of squares.
-#[inline(always)]
-fn squares<const B: usize>([position, velocity]: [[f64; B]; 2]) -> f64 {
-    position.iter().chain(&velocity).map(|x| x * x).sum()
 }

@@ -13,7 +13,7 @@ use crate::compensated::two_sum;
 use crate::math::{rough_exp2, rough_log2};
 use crate::stages::{Point, in_blocks};
 use crate::tolerance::Tolerance;
-use crate::{Singular, System, Vector};
+use crate::{Real, Singular, System, Vector};
 
 /// Coefficients of the accelerations for tolerances down to [`FINE`], and below.
 const ORDERS: [usize; 2] = [12, 20];
@@ -180,7 +180,7 @@ impl<V: Vector> Taylor<V> {
     pub fn advance(&self, h: f64, before: &Point<V>, now: &mut Point<V>) {
         let coefficients = self.of_step();
         in_blocks!(before.q.as_slice().len(), |start, B| {
-            let [q, v] = rises::<B, V>(coefficients, start, h);
+            let [q, v] = rises::<B, _, V>(coefficients, start, h);
             for k in 0..B {
                 let i = start + k;
                 let low = before.v_low.as_slice()[i];
@@ -197,18 +197,23 @@ impl<V: Vector> Taylor<V> {
 /// By how much `B` coordinates from `start` on and their rates change in a time `tau`: side by side, so that the
 /// processor has several sums to work at.
 #[inline(always)]
-fn rises<const B: usize, V: Vector>(coefficients: &[V], start: usize, tau: f64) -> [[f64; B]; 2] {
+fn rises<const B: usize, N: Real, V: Vector<N>>(
+    coefficients: &[V],
+    start: usize,
+    tau: N,
+) -> [[N; B]; 2] {
     // Terms of even and of odd powers by Horner's rule each, which do not wait for each other.
-    let (mut q, mut v) = ([[0.0; B]; 2], [[0.0; B]; 2]);
+    let zeros = [N::ZERO; B];
+    let (mut q, mut v) = ([zeros; 2], [zeros; 2]);
     let block = |j: usize| {
         let row = coefficients[j].as_slice().get(start..start + B);
         row.and_then(|row| row.first_chunk::<B>())
             .copied()
-            .unwrap_or([f64::NAN; B])
+            .unwrap_or([N::from_f64(f64::NAN); B])
     };
     let square = tau * tau;
     let mut add = |j: usize, parity: usize| {
-        let (row, power) = (block(j), j as f64);
+        let (row, power) = (block(j), N::from_f64(j as f64));
         for (k, c) in row.into_iter().enumerate() {
             q[parity][k] = q[parity][k] * square + c;
             v[parity][k] = v[parity][k] * square + power * c;
@@ -224,7 +229,7 @@ fn rises<const B: usize, V: Vector>(coefficients: &[V], start: usize, tau: f64) 
         add(2 * j, 0);
     }
     let first = block(1);
-    let (mut by_q, mut by_v) = ([0.0; B], [0.0; B]);
+    let (mut by_q, mut by_v) = (zeros, zeros);
     for k in 0..B {
         by_q[k] = (first[k] + (q[0][k] + q[1][k] * tau) * tau) * tau;
         by_v[k] = (v[0][k] + v[1][k] * tau) * tau;
@@ -233,13 +238,14 @@ fn rises<const B: usize, V: Vector>(coefficients: &[V], start: usize, tau: f64) 
 }
 
 /// Coordinates and rates at a time `tau` after the state that was expanded.
-pub(crate) fn state<V: Vector>(coefficients: &[V], tau: f64) -> (V, V) {
+pub(crate) fn state<N: Real, V: Vector<N>>(coefficients: &[V], tau: N) -> (V, V) {
     let (mut q, mut v) = (coefficients[0].clone(), coefficients[1].clone());
     in_blocks!(q.as_slice().len(), |start, B| {
-        let [by_q, by_v] = rises::<B, V>(coefficients, start, tau);
+        let [by_q, by_v] = rises::<B, _, V>(coefficients, start, tau);
         for k in 0..B {
-            q.as_mut_slice()[start + k] += by_q[k];
-            v.as_mut_slice()[start + k] += by_v[k];
+            let i = start + k;
+            q.as_mut_slice()[i] = q.as_slice()[i] + by_q[k];
+            v.as_mut_slice()[i] = v.as_slice()[i] + by_v[k];
         }
     });
     (q, v)

@@ -3,10 +3,11 @@
 use lagrangian_native::Lanes;
 
 use super::{Accelerate, Outcome, Track};
+use crate::control::{MAX_STEPS, Work};
 use crate::methods::Method;
 use crate::stages::Point;
 use crate::step_error::StepError;
-use crate::stepper::Work;
+
 use crate::tolerance::Tolerance;
 use crate::{Batch, Batched, LaneVector, Machine, Singular, State, System, Vector};
 
@@ -102,7 +103,7 @@ impl<const W: usize> Ensemble<W> {
             method: Default::default(),
             tolerance: 1e-9,
             longest_step: f64::INFINITY,
-            max_steps: 10_000_000,
+            max_steps: MAX_STEPS,
         }
     }
 
@@ -120,9 +121,7 @@ impl<const W: usize> Ensemble<W> {
 
     /// The greatest length of a step, in s.
     pub fn longest_step(mut self, step: f64) -> Self {
-        if step.is_finite() && step > 0.0 {
-            self.longest_step = step;
-        }
+        self.longest_step = step;
         self
     }
 
@@ -376,13 +375,13 @@ impl<S: Batched<W>, const W: usize> SideBySide<S, W> {
         }
         track.end[lane] = one.end;
         put(&mut track.k[0], &one.k[0]);
-        track.control[lane] = one.control[0];
+        track.lanes[lane] = one.lanes[0];
     }
 
     /// How many trajectories are under way.
     fn count(&self) -> usize {
-        let running = self.track.control.iter();
-        running.filter(|control| control.is_running).count()
+        let running = self.track.lanes.iter();
+        running.filter(|lane| lane.is_running).count()
     }
 
     /// One try of every trajectory.

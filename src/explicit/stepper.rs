@@ -1,10 +1,12 @@
 //! Steps of one machine in numbers of any kind.
 
 use super::{Accelerate, Outcome, Track};
+use crate::control::{self, MAX_STEPS, Work};
+use crate::inputs::{HeldInputs, InputLawIn};
+use crate::interpolant::Interpolant;
 use crate::methods::Method;
 use crate::step_error::StepError;
 use crate::step_number::Real;
-use crate::stepper::Work;
 use crate::tolerance::Tolerance;
 use crate::{Singular, State, SystemIn, Vector};
 
@@ -12,7 +14,8 @@ use crate::{Singular, State, SystemIn, Vector};
 /// the whole run.
 ///
 /// In `f64` it takes the steps of a [`Stepper`](crate::Stepper), bit for bit. It is for machines without constraints and contacts; it
-/// owns its system, holds its inputs, and allocates nothing.
+/// owns its system and allocates nothing. Inputs are held, or a [law](ExplicitStepperBuilder::input_law) sets them by time and state.
+/// Within its last step it knows the motion, to the digits of its numbers.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -39,10 +42,11 @@ use crate::{Singular, State, SystemIn, Vector};
 /// # Ok::<(), lagrangian::StepError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct ExplicitStepper<S: SystemIn<N>, N: Real> {
+pub struct ExplicitStepper<S: SystemIn<N>, N: Real, L = HeldInputs<<S as SystemIn<N>>::Inputs>> {
     system: S,
-    inputs: S::Inputs,
+    law: L,
     track: Track<N, S::Vector>,
+    max_steps: usize,
     /// Whether the acceleration now has to be found again.
     changed: bool,
 }
@@ -50,19 +54,24 @@ pub struct ExplicitStepper<S: SystemIn<N>, N: Real> {
 /// A stepper in the making: what [`ExplicitStepper::builder`] begins and [`start`](Self::start) ends.
 #[derive(Clone, Debug)]
 #[must_use = "a stepper comes of it by `start(state)`"]
-pub struct ExplicitStepperBuilder<S: SystemIn<N>, N: Real> {
+pub struct ExplicitStepperBuilder<
+    S: SystemIn<N>,
+    N: Real,
+    L = HeldInputs<<S as SystemIn<N>>::Inputs>,
+> {
     system: S,
-    inputs: S::Inputs,
+    law: L,
     method: &'static Method,
     tolerance: Tolerance<S::Vector>,
     first_step: f64,
     longest_step: f64,
+    max_steps: usize,
 }
 
-/// A system with its inputs.
-struct With<'s, S: SystemIn<N>, N: Real>(&'s S, &'s S::Inputs);
+/// A system with the law of its inputs.
+struct With<'s, S, L>(&'s S, &'s L);
 
-impl<S: SystemIn<N>, N: Real> Accelerate<N, S::Vector> for With<'_, S, N> {
+impl<N: Real, S: SystemIn<N>, L: InputLawIn<S, N>> Accelerate<N, S::Vector> for With<'_, S, L> {
     #[inline(always)]
     fn accelerate(
         &self,
@@ -71,8 +80,10 @@ impl<S: SystemIn<N>, N: Real> Accelerate<N, S::Vector> for With<'_, S, N> {
         v: &S::Vector,
         a: &mut S::Vector,
     ) -> Result<(), N::Each<Option<Singular>>> {
-        let Self(system, inputs) = self;
-        let found = system.accelerations(t, q, v, inputs, a);
+        let Self(system, law) = self;
+        let mut inputs = system.default_inputs();
+        law.set(system, t, q, v, &mut inputs);
+        let found = system.accelerations(t, q, v, &inputs, a);
         found.map_err(|singular| N::each(|_| Some(singular)))
     }
 }
@@ -83,7 +94,7 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
     pub fn builder(system: S) -> ExplicitStepperBuilder<S, N> {
         let zeros = S::Vector::zeros(system.coordinates().len());
         ExplicitStepperBuilder {
-            inputs: system.default_inputs(),
+            law: HeldInputs(system.default_inputs()),
             method: Default::default(),
             tolerance: Tolerance {
                 relative: 0.0,
@@ -91,11 +102,19 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
             },
             first_step: 0.0,
             longest_step: f64::INFINITY,
+            max_steps: MAX_STEPS,
             system,
         }
         .tolerance(N::TOLERANCE)
     }
 
+    /// Sets the inputs from now on. The last step stays what it was.
+    pub fn set_inputs(&mut self, inputs: S::Inputs) {
+        self.set_law(HeldInputs(inputs));
+    }
+}
+
+impl<S: SystemIn<N>, N: Real, L: InputLawIn<S, N>> ExplicitStepper<S, N, L> {
     /// Takes one step. It ends at the end that was set, or short of it.
     ///
     /// # Errors
@@ -104,7 +123,7 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
         if self.is_done() {
             return Ok(());
         }
-        let machine = With(&self.system, &self.inputs);
+        let machine = With(&self.system, &self.law);
         if self.changed {
             self.track.look(&machine)?;
             self.changed = false;
@@ -123,14 +142,18 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
     /// that of the time at which the run ends.
     ///
     /// # Errors
-    /// If a step cannot be taken; now is then where the last good one ended. If `t` is not a finite number; then nothing happens.
+    /// If a step cannot be taken, or more steps would be needed than [may be taken](ExplicitStepperBuilder::max_steps); now is then
+    /// where the last good one ended. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: N) -> Result<(), StepError> {
         if !t.are_finite().as_ref()[0] {
             return Err(StepError::NoTime { t: t.to_f64() });
         }
         self.set_end(t);
+        let mut taken = 0;
         while !self.is_done() {
+            control::check_count(taken, self.max_steps, self.t().to_f64())?;
             self.step()?;
+            taken += 1;
         }
         Ok(())
     }
@@ -145,15 +168,19 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
         self.track.is_done(0)
     }
 
-    /// Sets the inputs from now on.
-    pub fn set_inputs(&mut self, inputs: S::Inputs) {
-        self.inputs = inputs;
+    /// Puts another law of the same kind in the place of the one that sets the inputs, from now on. The last step stays what it was:
+    /// an [`interpolant`](Self::interpolant) of it has to be taken before, if the method needs evaluations for it.
+    pub fn set_law(&mut self, law: L) {
+        self.law = law;
         self.changed = true;
     }
 
-    /// The inputs that act from now on.
-    pub fn inputs(&self) -> &S::Inputs {
-        &self.inputs
+    /// The inputs at the state of now.
+    pub fn inputs(&self) -> S::Inputs {
+        let mut inputs = self.system.default_inputs();
+        let (t, q, v) = (self.t(), self.q(), self.v());
+        self.law.set(&self.system, t, q, v, &mut inputs);
+        inputs
     }
 
     /// The system.
@@ -190,6 +217,74 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
         self.track.a()
     }
 
+    /// Time at the beginning of the last step, in s; now, before the first.
+    pub fn t_before(&self) -> N {
+        self.track.before().t
+    }
+
+    /// Coordinates at the beginning of the last step.
+    pub fn q_before(&self) -> &S::Vector {
+        &self.track.before().q
+    }
+
+    /// Rates at the beginning of the last step.
+    pub fn v_before(&self) -> &S::Vector {
+        &self.track.before().v
+    }
+
+    /// Accelerations at the beginning of the last step.
+    pub fn a_before(&self) -> &S::Vector {
+        self.track.a_before()
+    }
+
+    /// The motion within the last step, at the fraction `theta` of it: of order 5, good enough to look for events with. It costs no
+    /// evaluation, where [`interpolant`](Self::interpolant) may. Before the first step it is no number.
+    pub fn hermite(&self, theta: N) -> (S::Vector, S::Vector) {
+        self.track.hermite(theta)
+    }
+
+    /// The continuous extension of the last step: the motion between its ends, in the numbers of the run.
+    ///
+    /// Costs the evaluations that the method needs beyond its step: 3 for `dop853`, none for the others.
+    ///
+    /// # Errors
+    /// If there is no step yet, or the inputs were changed after it and the method needs evaluations; if a stage of it has no
+    /// accelerations.
+    pub fn interpolant(&mut self) -> Result<Interpolant<S::Vector, N>, StepError> {
+        let t = self.t().to_f64();
+        if !self.track.is_after_step() {
+            return Err(StepError::OutsideStep { t, from: t, to: t });
+        }
+        if self.changed && self.track.dense_needs_evaluations() {
+            return Err(StepError::Changed { t });
+        }
+        self.track.interpolant(&With(&self.system, &self.law))
+    }
+
+    /// The state at a time within the last step, from its [`t_before`](Self::t_before) to now, on the continuous extension of the
+    /// method. Of a dual number, the derivative is that of the state at this time.
+    ///
+    /// Costs what [`interpolant`](Self::interpolant) costs, which is better for many times.
+    ///
+    /// # Errors
+    /// If `t` is outside of the last step, or [as for `interpolant`](Self::interpolant).
+    pub fn state_at(&mut self, t: N) -> Result<State<S::Coordinates>, StepError> {
+        let before = self.t_before();
+        let [at, from, to] = [t, before, self.t()].map(N::to_f64);
+        if !(from.min(to) <= at && at <= from.max(to)) {
+            return Err(StepError::OutsideStep { t: at, from, to });
+        }
+        if t == self.t() {
+            return Ok(self.state());
+        }
+        let (q, v) = self.interpolant()?.state(t);
+        Ok(State {
+            t: at,
+            q: self.system.to_coordinates(&q),
+            v: self.system.to_coordinates(&v),
+        })
+    }
+
     /// Length of the last step, in s; negative backward in time.
     pub fn last_step(&self) -> f64 {
         self.track.last_step()
@@ -206,7 +301,7 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepper<S, N> {
     }
 }
 
-impl<S: SystemIn<N>, N: Real> ExplicitStepperBuilder<S, N> {
+impl<S: SystemIn<N>, N: Real, L> ExplicitStepperBuilder<S, N, L> {
     /// The method of integration, an explicit one. In double-doubles it is of its order beyond the digits of `f64` if it is one of
     /// [`METHODS`](crate::METHODS); another one is an error there.
     pub fn method(mut self, method: &'static Method) -> Self {
@@ -241,10 +336,65 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepperBuilder<S, N> {
         self
     }
 
-    /// The inputs at the start.
-    pub fn inputs(mut self, inputs: S::Inputs) -> Self {
-        self.inputs = inputs;
+    /// How many steps one [`advance_to`](ExplicitStepper::advance_to) may take, ten million if nobody says; one that would take more is
+    /// an error.
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.max_steps = steps;
         self
+    }
+
+    /// The inputs, which stay so until others are [set](ExplicitStepper::set_inputs).
+    pub fn inputs(self, inputs: S::Inputs) -> ExplicitStepperBuilder<S, N> {
+        self.input_law(HeldInputs(inputs))
+    }
+
+    /// The law by which time and state set the inputs, in the numbers of the run: so the derivative of a controlled run is that of
+    /// machine and controller together.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use lagrangian::scalar::Dual;
+    /// use lagrangian::{ExplicitStepper, InputFunction};
+    ///
+    /// lagrangian::machine! {
+    ///     machine Cart in plane {
+    ///         coordinates { x: m = 1 }
+    ///         inputs { push: N }
+    ///         bodies { cart { mass: 1, at: (x, 0) } }
+    ///         forces { drive { on: x, value: push } }
+    ///     }
+    /// }
+    ///
+    /// // x″ = −k x: the derivative of cos √k t by the gain, at k = 4 and t = 1, is −(sin 2)/4.
+    /// let gain = Dual::variable(4.0);
+    /// let law = InputFunction(move |_t, q: &cart::Coordinates<_>, _v: &cart::Coordinates<_>, u: &mut cart::Inputs<_>| {
+    ///     u.push = -(gain * q.x);
+    /// });
+    /// let machine = Cart::default().map(Dual::constant);
+    /// let mut stepper = ExplicitStepper::builder(machine.prepare()).input_law(law).start(machine.start())?;
+    /// stepper.advance_to(Dual::constant(1.0))?;
+    /// assert!((stepper.state().q.x.derivative + 2.0_f64.sin() / 4.0).abs() < 1e-8);
+    /// # Ok::<(), lagrangian::StepError>(())
+    /// ```
+    pub fn input_law<M: InputLawIn<S, N>>(self, law: M) -> ExplicitStepperBuilder<S, N, M> {
+        let Self {
+            system,
+            law: _,
+            method,
+            tolerance,
+            first_step,
+            longest_step,
+            max_steps,
+        } = self;
+        ExplicitStepperBuilder {
+            system,
+            law,
+            method,
+            tolerance,
+            first_step,
+            longest_step,
+            max_steps,
+        }
     }
 
     /// The stepper, at a state.
@@ -252,32 +402,34 @@ impl<S: SystemIn<N>, N: Real> ExplicitStepperBuilder<S, N> {
     /// # Errors
     /// Where the accelerations at the start have no value; for a method that is not explicit, or whose coefficients are known to fewer
     /// digits than the numbers have.
-    pub fn start(self, state: State<S::Coordinates>) -> Result<ExplicitStepper<S, N>, StepError> {
+    pub fn start(self, state: State<S::Coordinates>) -> Result<ExplicitStepper<S, N, L>, StepError>
+    where
+        L: InputLawIn<S, N>,
+    {
         let Self {
             system,
-            inputs,
+            law,
             method,
             tolerance,
             first_step,
             longest_step,
+            max_steps,
         } = self;
         let start = (
             N::from_f64(state.t),
             system.to_vector(&state.q),
             system.to_vector(&state.v),
         );
-        let mut track = Track::begin(method, tolerance, start, &With(&system, &inputs))?;
-        let is_length = |step: f64| step.is_finite() && step > 0.0;
-        if is_length(longest_step) {
-            track.set_longest_step(longest_step);
-        }
-        if is_length(first_step) {
+        let mut track = Track::begin(method, tolerance, start, &With(&system, &law))?;
+        track.set_longest_step(longest_step);
+        if first_step.is_finite() {
             track.set_first_step(first_step);
         }
         Ok(ExplicitStepper {
             system,
-            inputs,
+            law,
             track,
+            max_steps,
             changed: false,
         })
     }

@@ -13,6 +13,7 @@ coefficients! {
     ],
     error: [-5.0 / 72.0, 1.0 / 12.0, 1.0 / 9.0, -1.0 / 8.0],
     coarse_error: [],
+    dense: [],
 }
 
 /// Bogacki–Shampine 3(2), first same as last.
@@ -31,7 +32,7 @@ pub(super) const TABLEAU: Tableau = Tableau {
     // b − b̂ with b̂ = (7/24, 1/4, 1/3, 1/8)
     error: ERROR,
     coarse_error: None,
-    dense: &[],
+    dense: DENSE,
     step_change: (0.2, 10.0),
     smoothing: 0.0,
     stability: None,

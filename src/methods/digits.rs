@@ -122,27 +122,32 @@ pub(crate) struct Beyond {
     pub error: &'static [f64],
     /// For the coarser estimate.
     pub coarse_error: &'static [f64],
+    /// For the rows of dense output.
+    pub dense: &'static [&'static [f64]],
 }
 
-/// Nodes, rows and estimates of the error as the constants `C`, `A`, `ERROR` and `COARSE`, and as `BEYOND` what these leave out of what is
+/// Nodes, rows, estimates of the error and dense output as the constants `C`, `A`, `ERROR`, `COARSE` and `DENSE`, and as `BEYOND` what these leave out of what is
 /// written.
 macro_rules! coefficients {
     (
         c: [$($c:expr),* $(,)?],
         a: [$([$($a:expr),* $(,)?]),* $(,)?],
         error: [$($error:expr),* $(,)?],
-        coarse_error: [$($coarse:expr),* $(,)?] $(,)?
+        coarse_error: [$($coarse:expr),* $(,)?],
+        dense: [$([$($dense:expr),* $(,)?]),* $(,)?] $(,)?
     ) => {
         const C: &[f64] = &[$($c),*];
         const A: &[&[f64]] = &[$(&[$($a),*]),*];
         const ERROR: &[f64] = &[$($error),*];
         #[allow(dead_code, reason = "only some methods have a coarser estimate")]
         const COARSE: &[f64] = &[$($coarse),*];
+        const DENSE: &[&[f64]] = &[$(&[$($dense),*]),*];
         pub(super) const BEYOND: super::digits::Beyond = super::digits::Beyond {
             c: &[$(super::digits::beyond(stringify!($c), $c)),*],
             a: &[$(&[$(super::digits::beyond(stringify!($a), $a)),*]),*],
             error: &[$(super::digits::beyond(stringify!($error), $error)),*],
             coarse_error: &[$(super::digits::beyond(stringify!($coarse), $coarse)),*],
+            dense: &[$(&[$(super::digits::beyond(stringify!($dense), $dense)),*]),*],
         };
     };
 }

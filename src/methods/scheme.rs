@@ -218,7 +218,10 @@ impl Scheme {
         let mut dense = [Row::EMPTY; MAX_DENSE];
         let mut i = 0;
         while i < tableau.dense.len() {
-            dense[i] = Row::new(tableau.dense[i], a);
+            dense[i] = match beyond {
+                Some(beyond) => Row::wide([tableau.dense[i], beyond.dense[i]], [a, beyond.a]),
+                None => Row::new(tableau.dense[i], a),
+            };
             i += 1;
         }
 

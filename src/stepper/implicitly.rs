@@ -1,21 +1,17 @@
 //! A step whose stages depend on each other.
 
-use super::{Stepper, not_finite};
+use super::Stepper;
+use crate::attempt::{self, not_finite};
 use crate::balance::Quadratures;
-use crate::compensated::two_sum;
+use crate::control::Control;
 use crate::implicit::Task;
-use crate::stages::{advance_state, stage_state};
+use crate::stages::stage_state;
 use crate::{InputLaw, StepError, System};
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Tries a step of length `h` from `before`, to `now`. Returns its error, 1 being just tolerable;
     /// infinite if its stages could not be found.
-    pub(super) fn attempt_implicitly(
-        &mut self,
-        h: f64,
-        last: bool,
-        given_up: bool,
-    ) -> Result<f64, StepError> {
+    pub(super) fn attempt_implicitly(&mut self, h: f64, last: bool) -> Result<f64, StepError> {
         let Self {
             method,
             tolerance,
@@ -25,7 +21,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now,
             k,
             stage,
-            work,
+            control: Control { work, is_retry, .. },
             implicit,
             ..
         } = self;
@@ -48,18 +44,14 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
         let rows = &method.scheme.rows;
         let stages = method.tableau.stages;
-        advance_state((&rows[stages], h), before, k, now);
-        (now.t, now.t_low) = if last {
-            (self.end, 0.0)
-        } else {
-            two_sum(before.t, before.t_low + h)
-        };
-        let again = given_up || work.steps == 0;
+        attempt::arrive(method, (before, h), k, now, (self.end, &[last]));
+        let again = *is_retry || work.steps == 0;
         let error = implicit.error_of_step(&task, (k, now), [q, v], again, |t, q, v, a| {
             model.accelerations(t, q, v, a, work)
         });
-        if !error.is_finite() {
-            return match not_finite(&now.q, &now.v) {
+        let [is_finite] = attempt::are_finite(&now.q, &now.v);
+        if !(error.is_finite() && is_finite) {
+            return match not_finite(&now.q, &now.v, 0) {
                 Some(coordinate) => Err(StepError::NotFinite {
                     coordinate,
                     t: now.t,

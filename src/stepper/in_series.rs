@@ -1,8 +1,9 @@
 //! A step by the Taylor series of the motion.
 
-use super::{Stepper, not_finite};
+use super::Stepper;
+use crate::attempt::not_finite;
 use crate::balance::Quadratures;
-use crate::compensated::two_sum;
+use crate::control::Control;
 use crate::{InputLaw, StepError, System, Vector};
 
 impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
@@ -30,8 +31,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now,
             taylor,
             tolerance,
-            step,
-            work,
+            control: Control { step, work, .. },
             end,
             longest,
             ..
@@ -65,7 +65,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             now,
             k,
             stage,
-            work,
+            control: Control { work, .. },
             taylor,
             end,
             ..
@@ -75,12 +75,8 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
         };
         let stages = method.tableau.stages;
         taylor.advance(h, before, now);
-        (now.t, now.t_low) = if last {
-            (*end, 0.0)
-        } else {
-            two_sum(before.t, before.t_low + h)
-        };
-        if let Some(coordinate) = not_finite(&now.q, &now.v) {
+        now.set_time(before, h, (*end, &[last]));
+        if let Some(coordinate) = not_finite(&now.q, &now.v, 0) {
             return Err(StepError::NotFinite {
                 coordinate,
                 t: now.t,
@@ -102,7 +98,7 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
             .expand(model.system.get(), now, &model.inputs, true)
             .map_err(|singular| StepError::Singular { singular, t: now.t })?;
         taylor.accelerations(true, &mut k[stages]);
-        if let Some(coordinate) = not_finite(&k[stages], &k[stages]) {
+        if let Some(coordinate) = not_finite(&k[stages], &k[stages], 0) {
             return Err(StepError::NotFinite {
                 coordinate,
                 t: now.t,
@@ -115,6 +111,6 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
 
 /// The first coordinate of which some coefficient is not finite.
 fn not_finite_among<V: Vector>(rows: &[V]) -> usize {
-    let found = rows.iter().find_map(|row| not_finite(row, row));
+    let found = rows.iter().find_map(|row| not_finite(row, row, 0));
     found.unwrap_or(0)
 }

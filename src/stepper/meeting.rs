@@ -245,18 +245,24 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     fn begin_again(&mut self, end: f64, step: f64, flight: Option<f64>) -> Result<(), StepError> {
         let Self { model, now, k, .. } = self;
         let newest = self.newest;
-        model.accelerations(now.t, &now.q, &now.v, &mut k[newest], &mut self.work)?;
+        model.accelerations(
+            now.t,
+            &now.q,
+            &now.v,
+            &mut k[newest],
+            &mut self.control.work,
+        )?;
         model.take_rates(
             &mut self.quadratures,
             0,
             (now.t, &now.q, &now.v, &k[newest]),
         );
         self.end = end;
-        self.step = match flight {
+        self.control.step = match flight {
             Some(flight) if flight > 0.0 => step.min(FLIGHTS * flight),
             _ => step,
         };
-        self.error_before = 1e-4;
+        self.control.forget_error();
         if let Some(implicit) = &mut self.implicit {
             implicit.forget();
         }

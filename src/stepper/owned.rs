@@ -4,6 +4,7 @@ use core::ops::Deref;
 
 use super::Stepper;
 use crate::balance::{NoBalance, Quadratures};
+use crate::control::{self, MAX_STEPS};
 use crate::inputs::{HeldInputs, InputLaw};
 use crate::methods::Method;
 use crate::step_error::StepError;
@@ -49,6 +50,7 @@ pub struct StepperBuilder<S: System> {
     tolerance: Tolerance<S::Vector>,
     first_step: Option<f64>,
     longest_step: f64,
+    max_steps: usize,
 }
 
 impl<S: System> Stepper<'static, S, HeldInputs<S::Inputs>> {
@@ -87,6 +89,7 @@ impl<S: System> Stepper<'static, S, HeldInputs<S::Inputs>> {
             },
             first_step: None,
             longest_step: f64::INFINITY,
+            max_steps: MAX_STEPS,
             system,
         }
     }
@@ -124,6 +127,12 @@ impl<S: System> StepperBuilder<S> {
         self
     }
 
+    /// How many steps one [`advance_to`](Stepper::advance_to) may take: see [`set_max_steps`](Stepper::set_max_steps).
+    pub fn max_steps(mut self, steps: usize) -> Self {
+        self.max_steps = steps;
+        self
+    }
+
     /// The inputs at the start.
     pub fn inputs(mut self, inputs: S::Inputs) -> Self {
         self.inputs = inputs;
@@ -143,11 +152,8 @@ impl<S: System> StepperBuilder<S> {
             tolerance,
             first_step,
             longest_step,
+            max_steps,
         } = self;
-        let finite = |number: f64, otherwise: f64| match number.is_finite() && number > 0.0 {
-            true => number,
-            false => otherwise,
-        };
         let start = (
             state.t,
             system.to_vector(&state.q),
@@ -158,8 +164,10 @@ impl<S: System> StepperBuilder<S> {
         let own = Whose::Own(system);
         let mut stepper =
             ControlledStepper::begun(own, law, NoBalance, method, tolerance, start, state.t)?;
-        stepper.longest = finite(longest_step, f64::INFINITY);
-        stepper.step = first_step.map_or(0.0, |step| finite(step.abs(), 0.0));
+        stepper.set_longest_step(longest_step);
+        stepper.set_max_steps(max_steps);
+        let is_length = |step: &f64| step.is_finite();
+        stepper.control.step = first_step.filter(is_length).map_or(0.0, f64::abs);
         Ok(stepper)
     }
 }
@@ -177,15 +185,18 @@ impl<S: System, L: InputLaw<S>, A: Quadratures<S>> Stepper<'_, S, L, A> {
     /// Steps to time `t`, later or earlier than now, and stands there: a step ends at `t`.
     ///
     /// # Errors
-    /// If a step cannot be taken; now is then where the last good one ended. If `t` is not a finite number; then nothing
-    /// happens.
+    /// If a step cannot be taken, or more steps would be needed than [may be taken](Self::set_max_steps); now is then where the last
+    /// good one ended. If `t` is not a finite number; then nothing happens.
     pub fn advance_to(&mut self, t: f64) -> Result<(), StepError> {
         if !t.is_finite() {
             return Err(StepError::NoTime { t });
         }
         self.set_end(t);
+        let mut taken = 0;
         while !self.is_done() {
+            control::check_count(taken, self.max_steps, self.now.t)?;
             self.step()?;
+            taken += 1;
         }
         Ok(())
     }

@@ -60,6 +60,29 @@ fn every_example_is_here() {
     }
 }
 
+/// What a program of some use asks for is asked for in less than sixty lines.
+#[test]
+fn programs_of_some_use_are_short() {
+    for name in [
+        "drag",
+        "edited_spec",
+        "fit",
+        "generic",
+        "lqr",
+        "microcontroller",
+        "own_method",
+        "realtime",
+        "sweep",
+    ] {
+        let path = format!("{}/examples/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+        let lines = std::fs::read_to_string(path)
+            .expect("it is text")
+            .lines()
+            .count();
+        assert!(lines < 60, "{name}: {lines}");
+    }
+}
+
 #[test]
 fn the_period_grows_with_the_amplitude() {
     pendulum::main().unwrap();

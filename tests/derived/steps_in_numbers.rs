@@ -2,8 +2,8 @@
 
 use lagrangian::scalar::{DoubleDouble, Dual, Scalar};
 use lagrangian::{
-    DefaultInputs, ExplicitStepper, HeldInputs, Machine, MachineIn, Method, NoBalance, Real,
-    Sensitive, Simulation, State, StepError, Stepper, System, SystemIn, Tolerance,
+    DefaultInputs, ExplicitStepper, HeldInputs, InputFunction, Machine, MachineIn, Method,
+    NoBalance, Real, Sensitive, Simulation, State, StepError, Stepper, System, SystemIn, Tolerance,
 };
 use lagrangian_machines::{CartPole, DoublePendulum, TwoBodyOrbit, cart_pole, two_body_orbit};
 
@@ -150,6 +150,31 @@ where
                 "{name}"
             );
             assert_eq!((one.t(), one.work()), (other.t(), other.work()), "{name}");
+            // Within the last step as well.
+            let curves = (one.interpolant(), other.interpolant());
+            let (Ok(of_one), Ok(of_other)) = curves else {
+                panic!("{name}: {curves:?}")
+            };
+            for theta in [0.0, 0.21, 0.5, 1.0] {
+                assert_eq!(of_one.state_at(theta), of_other.state_at(theta), "{name}");
+                assert_eq!(one.hermite(theta), other.hermite(theta), "{name}");
+            }
+            assert_eq!(
+                (
+                    one.t_before(),
+                    one.q_before(),
+                    one.v_before(),
+                    one.a_before()
+                ),
+                (
+                    other.t_before(),
+                    other.q_before(),
+                    other.v_before(),
+                    other.a_before()
+                ),
+                "{name}"
+            );
+            assert_eq!(one.work(), other.work(), "{name}");
             one.set_inputs(inputs.clone());
             other.set_inputs(inputs.clone());
         }
@@ -387,4 +412,201 @@ fn held_and_default_inputs_are_one() {
         (one.q(), one.v(), one.work()),
         (other.q(), other.v(), other.work())
     );
+}
+
+/// The eccentric anomaly `u` at a time since the pericentre, `u − e sin u = t`, by Newton's method.
+fn anomaly<N: Scalar>(e: N, t: N) -> N {
+    let mut u = t;
+    for _ in 0..12 {
+        u = u - (u - e * u.sin() - t) / (N::ONE - e * u.cos());
+    }
+    u
+}
+
+/// Dense output in 32 digits: in the middle of a step it is off by no more than the order of the step allows, and by what its own
+/// order does, far below what `f64` can tell.
+#[test]
+fn dense_output_has_its_order_beyond_the_digits_of_f64() {
+    let e = 0.125;
+    let number = DoubleDouble::from_f64;
+    // Errors within a step are of order `dense_order + 1`, those at its ends of the order of the method.
+    for (method, order, [from, to]) in [
+        (Method::DOP853, 8.0, [6, 9]),
+        (Method::DOPRI5, 5.0, [8, 11]),
+        (Method::BS32, 3.0, [9, 12]),
+    ] {
+        let error = |halvings: i32| {
+            let h = 2.0_f64.powi(-halvings);
+            let (machine, start) = orbit::<DoubleDouble>(e);
+            let builder = ExplicitStepper::builder(MachineIn::prepare(&machine)).method(method);
+            let builder = builder.tolerance(1e30).first_step(h).longest_step(h);
+            let mut stepper = builder.start(start).expect("accelerations");
+            stepper.advance_to(number(0.25)).expect("a run");
+            stepper.advance_to(number(0.25 + h)).expect("a step");
+            assert_eq!(stepper.t_before(), number(0.25));
+            let t = number(0.25 + 0.5 * h);
+            let (_, place) = kepler(number(e), anomaly(number(e), t));
+            let state = stepper.state_at(t).expect("it is in the step");
+            let q = state.q.to_array();
+            let off = [0, 1].map(|i| (q[i] - place[i]).abs().to_f64());
+            off[0].max(off[1])
+        };
+        let errors = [error(from), error(to)];
+        let found = (errors[0] / errors[1]).log2() / f64::from(to - from);
+        let name = method.tableau.name;
+        assert!((found - order).abs() < 0.3, "{name}: {found}, {errors:?}");
+    }
+}
+
+/// The state at a fixed time within the last step knows its derivatives: by a parameter as the variational equations have it, and by
+/// the time at which the run ends not at all, although the length of that step depends on it.
+#[test]
+fn dense_output_of_dual_numbers_is_the_derivative_at_a_time() {
+    let tolerance = 1e-11;
+    let swing = Swing::default();
+    let sensitive = Sensitive::new(&swing).by("l").expect("a parameter");
+    let run = Simulation::new(&sensitive)
+        .tolerance(tolerance)
+        .until(2.0)
+        .run(sensitive.start())
+        .expect("a run");
+    let stepper = |machine: &Swing<Dual<f64>>, end: Dual<f64>| {
+        let mut stepper = ExplicitStepper::builder(MachineIn::prepare(machine))
+            .tolerance(tolerance)
+            .start(MachineIn::start(machine))
+            .expect("accelerations");
+        stepper.advance_to(end).expect("a run");
+        stepper
+    };
+    let mut machine = swing.map(Dual::constant);
+    let mut fixed = stepper(&machine, Dual::variable(2.0));
+    machine.l = Dual::variable(swing.l);
+    let mut varied = stepper(&machine, Dual::constant(2.0));
+    let from = varied.t_before().value.max(fixed.t_before().value);
+    // Both runs are off by their steps; dense output of order 7 by some ten times the error of a step.
+    let limit = 1e3 * tolerance * varied.work().steps as f64;
+    for part in [0.2, 0.5, 0.9] {
+        let t = from + part * (2.0 - from);
+        let exact = run.at(t).expect("it is in the run").q.by[0].theta;
+        let found = varied
+            .state_at(Dual::constant(t))
+            .expect("in the step")
+            .q
+            .theta;
+        assert!(
+            (found.derivative - exact).abs() < limit,
+            "{found:?} {exact}"
+        );
+        let by_end = fixed.state_at(Dual::constant(t)).expect("in the step");
+        assert!(by_end.q.theta.derivative.abs() < limit, "{by_end:?}");
+        // Of a time that moves, the derivative is the rate.
+        let moving = fixed.state_at(Dual::variable(t)).expect("in the step");
+        let rate = by_end.v.theta.value;
+        assert!(
+            (moving.q.theta.derivative - rate).abs() < limit,
+            "{moving:?} {rate}"
+        );
+    }
+}
+
+#[test]
+fn the_motion_within_a_step_is_told_or_refused() {
+    let machine = CartPole::default();
+    let mut stepper = ExplicitStepper::builder(Machine::prepare(&machine))
+        .start(Machine::start(&machine))
+        .expect("accelerations");
+    assert!(matches!(
+        stepper.interpolant(),
+        Err(StepError::OutsideStep { .. })
+    ));
+    assert_eq!(stepper.state_at(0.0).expect("now"), stepper.state());
+    stepper.advance_to(1.0).expect("a run");
+    assert!(matches!(
+        stepper.state_at(1.5),
+        Err(StepError::OutsideStep { to: 1.0, .. })
+    ));
+    stepper.set_inputs(cart_pole::Inputs { push: 1.0 });
+    assert_eq!(
+        stepper.interpolant().err(),
+        Some(StepError::Changed { t: 1.0 })
+    );
+}
+
+/// A law of the inputs in the numbers of the run: with the bits of the stepper in `f64`, and in dual numbers with the derivative of
+/// machine and controller together.
+#[test]
+fn a_law_sets_the_inputs_in_every_number() {
+    fn gains<N: Real>(
+        gain: N,
+    ) -> impl Fn(N, &cart_pole::Coordinates<N>, &cart_pole::Coordinates<N>, &mut cart_pole::Inputs<N>)
+    {
+        move |_t, q, v, u| {
+            let number = N::from_f64;
+            u.push = gain * q.theta + number(8.0) * v.theta + number(1.5) * q.x + number(3.0) * v.x;
+        }
+    }
+    let machine = CartPole::default();
+    let mut start = Machine::start(&machine);
+    start.q.theta = 0.2;
+    let system = Machine::prepare(&machine);
+    let tolerance = Tolerance {
+        relative: 1e-11,
+        absolute: [1e-11; 2],
+    };
+    let at = (0.0, start.q.to_array(), start.v.to_array());
+    let law = InputFunction(gains(40.0));
+    let mut one =
+        Stepper::new(&system, law, NoBalance, Method::DOP853, tolerance, at, 2.0).expect("a start");
+    one.advance_to(2.0).expect("a run");
+    let controlled = |gain: f64| {
+        let mut stepper = ExplicitStepper::builder(Machine::prepare(&machine))
+            .tolerance(1e-11)
+            .input_law(InputFunction(gains(gain)))
+            .start(start)
+            .expect("accelerations");
+        stepper.advance_to(2.0).expect("a run");
+        stepper
+    };
+    let other = controlled(40.0);
+    assert_eq!(
+        (one.q(), one.v(), one.work()),
+        (other.q(), other.v(), other.work())
+    );
+    let [q, v] = [other.q(), other.v()];
+    let push = 40.0 * q[1] + 8.0 * v[1] + 1.5 * q[0] + 3.0 * v[0];
+    assert_eq!(other.inputs().push, push);
+
+    let in_duals = machine.map(Dual::constant);
+    let mut from = MachineIn::start(&in_duals);
+    from.q.theta = Dual::constant(0.2);
+    let mut dual = ExplicitStepper::builder(MachineIn::prepare(&in_duals))
+        .tolerance(1e-11)
+        .input_law(InputFunction(gains(Dual::variable(40.0))))
+        .start(from)
+        .expect("accelerations");
+    dual.advance_to(Dual::constant(2.0)).expect("a run");
+    // A central difference of step 0.01 is off by 1e-4/6 of the third derivative, which a gain of 40 makes small.
+    let quotient = (controlled(40.01).q()[1] - controlled(39.99).q()[1]) / 0.02;
+    let found = dual.q()[1].derivative;
+    assert!(
+        (found - quotient).abs() < 1e-6 * (1.0 + quotient.abs()),
+        "{found} {quotient}"
+    );
+}
+
+#[test]
+fn the_way_to_a_time_has_so_many_steps() {
+    let machine = CartPole::default();
+    let mut start = Machine::start(&machine);
+    start.v.x = 1e300;
+    let mut stepper = ExplicitStepper::builder(Machine::prepare(&machine))
+        .max_steps(100)
+        .start(start)
+        .expect("accelerations");
+    let error = stepper.advance_to(1.0).expect_err("steps are short");
+    assert!(
+        matches!(error, StepError::TooManySteps { steps: 100, .. }),
+        "{error}"
+    );
+    assert_eq!(stepper.work().steps, 100);
 }

@@ -6,8 +6,8 @@ use crate::by_hand::double_pendulum::DoublePendulum;
 use crate::by_hand::tampered::{Slip, Tampered};
 use crate::by_hand::toy::{Toy, ball, oscillator, pendulum};
 use lagrangian::{
-    Error, METHODS, Machine, Method, Pivot, Simulation, Solution, State, System, Warning,
-    check_equations,
+    Error, METHODS, Machine, Method, Pivot, Simulation, Solution, State, StepError, Stepper,
+    System, UnknownName, Warning, check_equations,
 };
 
 fn error_of<const N: usize>(toy: &Toy<N>, until: f64) -> Error {
@@ -32,6 +32,15 @@ fn parameters_must_be_finite() {
         assert!(matches!(&error, Error::ParameterNotFinite { parameter, .. } if parameter == "l2"));
         assert!(error.to_string().contains("`l2`"));
     }
+}
+
+#[test]
+fn of_two_near_names_the_one_in_the_same_case_is_meant() {
+    let meant = |name: &str| UnknownName::new(name, ["M", "m", "length", "g"]).near;
+    assert_eq!(meant("mm").as_deref(), Some("m"));
+    assert_eq!(meant("MM").as_deref(), Some("M"));
+    assert_eq!(meant("Lenght").as_deref(), Some("length"));
+    assert_eq!(meant("G").as_deref(), Some("g"));
 }
 
 #[test]
@@ -257,6 +266,72 @@ fn absurd_tolerances_neither_hang_nor_panic() {
             .absolute(tolerance)
             .until(1.0);
         assert!(run.run(toy.start()).is_ok(), "{tolerance}");
+    }
+}
+
+/// A motion that leaves the range of numbers ends there, whether or not its accelerations say so: x = v t is beyond 1.8e308 after
+/// 1.8 s.
+#[test]
+fn a_motion_beyond_all_numbers_ends_with_an_error() {
+    let free = Toy::new(([0.0], [1e308]), |_, _, _, _, _| [0.0]);
+    for method in Method::all().filter(|method| method.tableau.name != "taylor") {
+        let run = Simulation::new(&free).method(method).until(10.0);
+        let error = run.run(free.start()).map(|_| ());
+        let name = method.tableau.name;
+        let Err(Error::NotFinite { t, .. }) = error else {
+            panic!("{name}: {error:?}")
+        };
+        assert!(t <= 2.0, "{name}: {t}");
+        let mut stepper = Stepper::builder(free)
+            .method(method)
+            .start(free.start())
+            .unwrap();
+        let error = stepper.advance_to(10.0).unwrap_err();
+        assert!(
+            matches!(error, StepError::NotFinite { .. }),
+            "{name}: {error}"
+        );
+        // Now is where the last good step ended.
+        let (t, x) = (stepper.t(), stepper.q()[0]);
+        assert!(
+            (x - 1e308 * t).abs() <= 1e-12 * x && t <= 1.8,
+            "{name}: {t} {x}"
+        );
+    }
+}
+
+/// Steps of 1e-150 s lead nowhere: whoever follows them stops after so many.
+#[test]
+fn a_stepper_takes_no_more_steps_than_it_may() {
+    let fast = Toy::new(([1.0], [0.0]), |_, q, _, _, _| [-1e300 * q[0]]);
+    for method in [Method::DOP853, Method::DOPRI5, Method::BS32] {
+        let builder = Stepper::builder(fast).method(method).max_steps(50);
+        let mut stepper = builder.start(fast.start()).unwrap();
+        for times in 1..3 {
+            let error = stepper.advance_to(1.0).unwrap_err();
+            assert!(
+                matches!(error, StepError::TooManySteps { steps: 50, .. }),
+                "{error}"
+            );
+            assert_eq!(stepper.work().steps, 50 * times);
+        }
+    }
+}
+
+/// What is no length of a step bounds none.
+#[test]
+fn lengths_of_steps_that_are_none_are_passed_over() {
+    let toy = oscillator();
+    for length in [f64::NAN, -1.0, 0.0, f64::INFINITY] {
+        let mut stepper = Stepper::builder(toy)
+            .longest_step(length)
+            .first_step(length)
+            .start(toy.start())
+            .unwrap();
+        stepper.advance_to(0.5).unwrap();
+        stepper.set_longest_step(length);
+        stepper.advance_to(1.0).unwrap();
+        assert!((stepper.q()[0] - 1.0_f64.cos()).abs() < 1e-8, "{length}");
     }
 }
 

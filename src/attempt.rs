@@ -1,0 +1,164 @@
+//! One try of an explicit step, in numbers of any kind: what every stepper does between two decisions.
+
+use crate::control;
+use crate::methods::{MAX_STAGES, Method};
+use crate::stages::{Point, advance_state, squared_errors, stage_state, weigh};
+use crate::step_number::StepNumber;
+use crate::tolerance::Tolerance;
+use crate::{Vector, math};
+
+/// Goes through the stages of a step of length `h` from `before`. `evaluate(stage, (t, q, v), a)` finds the accelerations of each;
+/// where it fails, the stages after it are left out. `q` and `v` are room for the states.
+#[inline(always)]
+pub(crate) fn go_through_stages<N: StepNumber, V: Vector<N>, E>(
+    method: &Method,
+    (before, h): (&Point<V, N>, N),
+    k: &mut [V; MAX_STAGES],
+    [q, v]: [&mut V; 2],
+    mut evaluate: impl FnMut(usize, (N, &V, &V), &mut V) -> Result<(), E>,
+) -> Result<(), E> {
+    let (tableau, scheme) = (&method.tableau, &method.scheme);
+    for i in 1..tableau.stages {
+        let ch = h.weighted(tableau.c[i], scheme.c_beyond[i]);
+        let t = before.t + (before.t_low + ch);
+        let from = [&before.q, &before.v];
+        stage_state((&scheme.rows[i], ch, h), from, k, [&mut *q, &mut *v]);
+        evaluate(i, (t, &*q, &*v), &mut k[i])?;
+    }
+    Ok(())
+}
+
+/// The new point of a step of length `h` from `before`, which is at `end` where `is_last` holds.
+#[inline(always)]
+pub(crate) fn arrive<N: StepNumber, V: Vector<N>>(
+    method: &Method,
+    (before, h): (&Point<V, N>, N),
+    k: &[V; MAX_STAGES],
+    now: &mut Point<V, N>,
+    to: (N, &N::Each<bool>),
+) {
+    let new_point = &method.scheme.rows[method.tableau.stages];
+    advance_state((new_point, h), before, k, now);
+    now.set_time(before, h, to);
+}
+
+/// The errors of a step of length `h` in the root mean square over coordinates and rates, 1 being just tolerable.
+///
+/// With a coarser estimate: *Solving Ordinary Differential Equations I*, eq. (II.10.17).
+#[inline(always)]
+pub(crate) fn errors<N: StepNumber, V: Vector<N>>(
+    method: &Method,
+    h: N,
+    ends: [&Point<V, N>; 2],
+    k: &[V; MAX_STAGES],
+    tolerance: &Tolerance<V>,
+) -> N::Each<f64> {
+    let scheme = &method.scheme;
+    let of = (tolerance.relative, &tolerance.absolute);
+    let fine = squared_errors((&scheme.error, h), ends, k, of);
+    let coarse = match method.tableau.coarse_error {
+        Some(_) => squared_errors((&scheme.coarse_error, h), ends, k, of),
+        None => N::each(|_| 0.0),
+    };
+    let numbers = 2 * N::PARTS * ends[0].q.as_slice().len();
+    N::each(|lane| {
+        let [fine, coarse] = [&fine, &coarse].map(|sums| sums.as_ref()[lane]);
+        control::combined(fine, coarse, numbers)
+    })
+}
+
+/// The coordinate with the greatest error in a step of one trajectory.
+pub(crate) fn worst<N: StepNumber, V: Vector<N>>(
+    method: &Method,
+    h: N,
+    [before, now]: [&Point<V, N>; 2],
+    k: &[V; MAX_STAGES],
+    (tolerance, lane): (&Tolerance<V>, usize),
+) -> usize {
+    let Tolerance { relative, absolute } = tolerance;
+    let mut worst = (0, 0.0);
+    for (i, absolute) in absolute.as_slice().iter().enumerate() {
+        let [[position], [velocity]] = weigh::<1, N, V>(&method.scheme.error, k, i);
+        let sizes = |[before, now]: [&V; 2]| [before.as_slice()[i], now.as_slice()[i]];
+        let squares = [
+            (h * h * position).squared_error(sizes([&before.q, &now.q]), *absolute, *relative),
+            (h * velocity).squared_error(sizes([&before.v, &now.v]), *absolute, *relative),
+        ];
+        for square in squares {
+            if square.as_ref()[lane] > worst.1 {
+                worst = (i, square.as_ref()[lane]);
+            }
+        }
+    }
+    worst.0
+}
+
+/// A length for the first step of one trajectory from `now`, whose end is `left` away: from the size of the first two
+/// derivatives, *Solving Ordinary Differential Equations I*, section II.4, "Starting Step Size".
+///
+/// `k[0]` is the acceleration now. `evaluate((t, q, v), a)` finds the acceleration a little ahead, and says whether there is one;
+/// where there is none, the guess is tried and will be shortened.
+pub(crate) fn first_step<N: StepNumber, V: Vector<N>>(
+    (method, tolerance): (&Method, &Tolerance<V>),
+    now: &Point<V, N>,
+    k: &mut [V; MAX_STAGES],
+    [q, v]: [&mut V; 2],
+    [left, longest]: [f64; 2],
+    evaluate: impl FnOnce((N, &V, &V), &mut V) -> bool,
+) -> f64 {
+    let (relative, absolute) = (tolerance.relative, tolerance.absolute.as_slice());
+    let norm = |of: &dyn Fn(usize) -> [N; 2]| {
+        let mut sum = 0.0;
+        for (i, absolute) in absolute.iter().enumerate() {
+            let sizes = [now.q.as_slice()[i], now.v.as_slice()[i]];
+            let squares = [0, 1].map(|level| {
+                let size = [sizes[level]; 2];
+                let square = of(i)[level].squared_error(size, *absolute, relative);
+                square.as_ref()[0]
+            });
+            sum += squares[0] + squares[1];
+        }
+        math::sqrt(sum)
+    };
+
+    let (first, rest) = k.split_at_mut(1);
+    let (a, ahead) = (first[0].as_slice(), &mut rest[0]);
+    let size = norm(&|i| [now.q.as_slice()[i], now.v.as_slice()[i]]);
+    let rate = norm(&|i| [now.v.as_slice()[i], a[i]]);
+    let guess = control::first_guess([size, rate], left, longest);
+    let ahead_by = N::gather(N::each(|_| guess));
+    for (i, a) in a.iter().enumerate() {
+        q.as_mut_slice()[i] = now.q.as_slice()[i] + ahead_by * now.v.as_slice()[i];
+        v.as_mut_slice()[i] = now.v.as_slice()[i] + ahead_by * *a;
+    }
+    if !evaluate((now.t + ahead_by, &*q, &*v), ahead) {
+        return guess;
+    }
+    let ahead = ahead.as_slice();
+    let change = norm(&|i| [ahead_by * a[i], ahead[i] - a[i]]) / guess.abs();
+    control::first_step(method, guess, [rate, change], left, longest)
+}
+
+/// The first coordinate for which one of two vectors is not finite in a trajectory.
+pub(crate) fn not_finite<N: StepNumber, V: Vector<N>>(
+    one: &V,
+    other: &V,
+    lane: usize,
+) -> Option<usize> {
+    let pairs = one.as_slice().iter().zip(other.as_slice());
+    pairs
+        .map(|pair| <[&N; 2]>::from(pair).map(|number| number.are_finite().as_ref()[lane]))
+        .position(|finite| finite != [true; 2])
+}
+
+/// For each trajectory, whether all numbers of two vectors are finite.
+#[inline(always)]
+pub(crate) fn are_finite<N: StepNumber, V: Vector<N>>(one: &V, other: &V) -> N::Each<bool> {
+    // The sum of what is not finite is not finite, and one test is cheaper than many.
+    let numbers = one.as_slice().iter().chain(other.as_slice());
+    let fine = numbers.fold(N::NOTHING, |sum, x| sum + *x).are_finite();
+    if !fine.as_ref().contains(&false) {
+        return fine;
+    }
+    N::each(|lane| fine.as_ref()[lane] || not_finite(one, other, lane).is_none())
+}
