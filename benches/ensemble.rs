@@ -4,8 +4,9 @@
 //! cargo bench --bench ensemble
 //! ```
 
+mod timing;
+
 use std::hint::black_box;
-use std::time::Instant;
 
 use lagrangian::{Batched, Ensemble, Machine, Method, Stepper, System, Trajectory};
 use lagrangian_machines::{CartPole, DoublePendulum, VibratingCrusher};
@@ -29,13 +30,9 @@ where
         .collect()
 }
 
-/// Trajectories a second, the best of five times.
+/// Trajectories a second of the processor's time, the best of twenty times.
 fn rate(count: usize, mut run: impl FnMut()) -> f64 {
-    let seconds = (0..5).map(|_| {
-        let start = Instant::now();
-        run();
-        start.elapsed().as_secs_f64()
-    });
+    let seconds = (0..20).map(|_| timing::seconds(&mut run).0);
     count as f64 / seconds.fold(f64::INFINITY, f64::min)
 }
 
