@@ -28,6 +28,8 @@ pub enum Command {
     Derive(Derive),
     /// Make a shared library that C, Python and others can call.
     Library(Library),
+    /// Make a functional mock-up unit, for whatever imports FMI 3.0 or 2.0.
+    Fmu(Fmu),
     /// Print numbers at given states, as JSON.
     Evaluate(Evaluate),
     /// Integrate the equations of motion.
@@ -51,6 +53,7 @@ impl Command {
             Command::Check(call) => &call.spec,
             Command::Derive(call) => &call.spec,
             Command::Library(call) => &call.spec,
+            Command::Fmu(call) => &call.spec,
             Command::Evaluate(call) => &call.spec,
             Command::Simulate(call) => &call.spec,
             Command::Sweep(call) => &call.spec,
@@ -75,6 +78,11 @@ impl Command {
         match self {
             Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
             Command::Map(call) => add("--only", &call.only),
+            Command::Fmu(call) => {
+                add("--set", &call.parameters);
+                add("--start", &call.coordinates);
+                add("--rate", &call.rates);
+            }
             Command::Evaluate(Evaluate { start, .. })
             | Command::Simulate(Simulate { start, .. }) => {
                 add("--set", &start.parameters);
@@ -271,6 +279,101 @@ pub struct Library {
     /// Write out what repeats itself, which is otherwise a loop: the same bits, from longer code.
     #[arg(long)]
     pub straight: bool,
+}
+
+/// Arguments of `fmu`.
+#[derive(Debug, Args)]
+pub struct Fmu {
+    #[command(flatten)]
+    pub spec: Spec,
+    /// Where to write the unit.
+    #[arg(long, value_name = "FILE.fmu")]
+    pub out: PathBuf,
+    /// Which version of the interface: 3 or 2.
+    #[arg(long, value_name = "VERSION", default_value = "3", value_parser = clap::value_parser!(u8).range(2..=3))]
+    pub fmi: u8,
+    /// For which importers: those that integrate by themselves (`me`), those that let the unit integrate (`cs`), or both.
+    #[arg(long, value_name = "KIND,…", value_enum, value_delimiter = ',', default_values_t = [UnitKind::ModelExchange, UnitKind::CoSimulation])]
+    pub kind: Vec<UnitKind>,
+    /// Which variables are outputs, as in `--outputs theta1,energy.kinetic`: in place of those of the spec, or of the coordinates.
+    #[arg(long, value_name = "NAME,…", value_parser = names)]
+    pub outputs: Option<Names>,
+    /// Relative and absolute tolerance of co-simulation, unless the importer gives one.
+    #[arg(long, default_value_t = 1e-9, value_parser = tolerance, allow_hyphen_values = true)]
+    pub tolerance: f64,
+    /// Change the default of a parameter or an input, as in `--set omega=120`.
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    pub parameters: Vec<Assignment>,
+    /// Change the start of a coordinate.
+    #[arg(long = "start", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    pub coordinates: Vec<Assignment>,
+    /// Change the velocity of a coordinate at the start.
+    #[arg(long = "rate", value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
+    pub rates: Vec<Assignment>,
+    /// The C compiler, in place of `cc` or what the variable CC names.
+    #[arg(long, value_name = "COMMAND")]
+    pub cc: Option<String>,
+    /// Leave out the library: for importers that compile.
+    #[arg(long, conflicts_with = "cc")]
+    pub sources_only: bool,
+}
+
+/// Names with commas between them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Names(pub Vec<String>);
+
+/// Reads names with commas between them; `der(q,2)` and what is quoted are one name.
+fn names(text: &str) -> Result<Names, String> {
+    let (mut names, mut depth, mut quoted) = (vec![String::new()], 0, false);
+    for c in text.chars() {
+        match c {
+            '(' if !quoted => depth += 1,
+            ')' if !quoted => depth -= 1,
+            '\'' => quoted = !quoted,
+            ',' if !quoted && depth == 0 => {
+                names.push(String::new());
+                continue;
+            }
+            _ => {}
+        }
+        if let Some(name) = names.last_mut() {
+            name.push(c);
+        }
+    }
+    let names: Vec<String> = names.iter().map(|name| name.trim().to_owned()).collect();
+    match names.iter().any(String::is_empty) {
+        true => Err("expected names, with commas between them".into()),
+        false => Ok(Names(names)),
+    }
+}
+
+/// Who integrates a functional mock-up unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitKind {
+    /// The importer.
+    #[value(name = "me")]
+    ModelExchange,
+    /// The unit.
+    #[value(name = "cs")]
+    CoSimulation,
+}
+
+impl UnitKind {
+    /// As `--kind` has it.
+    pub fn name(self) -> &'static str {
+        match self {
+            UnitKind::ModelExchange => "me",
+            UnitKind::CoSimulation => "cs",
+        }
+    }
+
+    /// As the standard calls it.
+    pub fn words(self) -> &'static str {
+        match self {
+            UnitKind::ModelExchange => "model exchange",
+            UnitKind::CoSimulation => "co-simulation",
+        }
+    }
 }
 
 /// Arguments of `evaluate`.
@@ -906,6 +1009,17 @@ mod tests {
         }
         let library = ["library", "a.machine", "--out", "a.so", "--lanes", "2,4,2"];
         assert!(checked(&library).is_err());
+    }
+
+    #[test]
+    fn a_comma_between_brackets_is_part_of_a_name() {
+        let list = |text: &str| names(text).map(|Names(names)| names);
+        let three = ["q", "der(q,2)", "'assume(max(a, b) > 0)'"].map(str::to_owned);
+        assert_eq!(
+            list("q, der(q,2),'assume(max(a, b) > 0)'"),
+            Ok(three.to_vec())
+        );
+        assert!(list("q,,v").is_err());
     }
 
     #[test]

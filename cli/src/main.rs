@@ -13,6 +13,7 @@ mod diagnostics;
 mod evaluate;
 mod exit;
 mod failure;
+mod fmu;
 mod inputs;
 mod interrupt;
 mod library;
@@ -82,6 +83,7 @@ fn answer(call: &Call) -> u8 {
         Command::Check(call) => check::run(call),
         Command::Derive(call) => derive::run(call),
         Command::Library(call) => library::run(call),
+        Command::Fmu(call) => fmu::run(call),
         Command::Evaluate(call) => evaluate::run(call),
         Command::Simulate(call) => simulate::run(call),
         Command::Sweep(call) => sweep::run(call),

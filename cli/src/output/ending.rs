@@ -29,6 +29,9 @@ pub const RUST: Endings = &["rs"];
 /// A shared library, as systems call it.
 pub const LIBRARY: Endings = &["so", "dylib", "dll"];
 
+/// A functional mock-up unit.
+pub const UNIT: Endings = &["fmu"];
+
 /// The ending of a path as it stands in the list, whatever its case.
 pub fn known(path: &Path, endings: Endings) -> Option<&'static str> {
     let ending = path.extension()?.to_str()?.to_ascii_lowercase();

@@ -1,5 +1,7 @@
 //! C: one file for one machine, plain C99 over `double`, the same operations in the same order as the Rust.
 
+pub mod uniform;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
@@ -313,11 +315,16 @@ impl<'a> Emitter<'a> {
         writer.close("}");
     }
 
-    fn function(&self, writer: &mut Writer, function: &Function, formulas: Option<&Vec<String>>) {
+    /// Whether there is a function in the text: of zeros there is none, but for some.
+    fn is_written(&self, function: &Function) -> bool {
         let is_zero =
             |value: &_| matches!(function.op(*value), Op::Constant(rational) if rational.is_zero());
         let keeps = function.role == Role::Start || function.role.is_kept();
-        if !keeps && function.results.iter().all(is_zero) {
+        keeps || !function.results.iter().all(is_zero)
+    }
+
+    fn function(&self, writer: &mut Writer, function: &Function, formulas: Option<&Vec<String>>) {
+        if !self.is_written(function) {
             return;
         }
         let name = format!("{}_{}", self.prefix, self.function_name(function.role));

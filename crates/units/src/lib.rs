@@ -245,6 +245,11 @@ impl Unit {
         self.over(Unit::SECOND)
     }
 
+    /// Twice the power of each base unit, by its name.
+    pub fn twice_the_powers(self) -> [(&'static str, i16); BASES.len()] {
+        std::array::from_fn(|k| (BASES[k], self.twice[k]))
+    }
+
     /// Whether it is the unit of a pure number or an angle.
     pub fn is_one(self) -> bool {
         self == Unit::ONE

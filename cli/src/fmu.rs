@@ -1,0 +1,365 @@
+//! `lagrangian fmu`: a machine as a functional mock-up unit, for whatever imports FMI 3.0 or 2.0.
+//!
+//! The machine's own file of C is that of `derive --as c` with uniform names behind it; the interface and the integrator are
+//! texts that know no machine (`fmu/c`). All of it is compiled as one unit by the C compiler, and packed with its description.
+
+mod archive;
+mod compile;
+mod description;
+mod tables;
+mod units;
+mod variables;
+mod xml;
+
+use std::path::Path;
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Machine, System};
+use lagrangian_emit as emit;
+use lagrangian_mechanics::Compiled;
+use lagrangian_program::Program;
+use lagrangian_spec::diagnostic::nearest;
+use lagrangian_symbolic::Dag;
+use serde_json::json;
+
+use crate::call::{self, Engine, Running, UnitKind};
+use crate::evaluate::set_start;
+use crate::failure::Failure;
+use crate::output::{self, Destination, UNIT, keep_apart, keep_document_apart};
+use crate::progress;
+use crate::reading::{self, Reading};
+use archive::Entry;
+use variables::Variables;
+
+/// A version of the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Version {
+    Two,
+    Three,
+}
+
+impl Version {
+    fn name(self) -> &'static str {
+        match self {
+            Version::Two => "2.0",
+            Version::Three => "3.0",
+        }
+    }
+
+    /// The file that is compiled; the others are parts of it.
+    fn source(self) -> &'static str {
+        match self {
+            Version::Two => "fmi2.c",
+            Version::Three => "fmi3.c",
+        }
+    }
+
+    /// What this version adds to the machine's own file: the interface, and the headers of the standard.
+    fn files(self) -> Vec<(&'static str, &'static str)> {
+        let own: [(&str, &str); 4] = match self {
+            Version::Two => [
+                ("fmi2.c", include_str!("fmu/c/fmi2.c")),
+                (
+                    "fmi2Functions.h",
+                    include_str!("fmu/headers/fmi2Functions.h"),
+                ),
+                (
+                    "fmi2FunctionTypes.h",
+                    include_str!("fmu/headers/fmi2FunctionTypes.h"),
+                ),
+                (
+                    "fmi2TypesPlatform.h",
+                    include_str!("fmu/headers/fmi2TypesPlatform.h"),
+                ),
+            ],
+            Version::Three => [
+                ("fmi3.c", include_str!("fmu/c/fmi3.c")),
+                (
+                    "fmi3Functions.h",
+                    include_str!("fmu/headers/fmi3Functions.h"),
+                ),
+                (
+                    "fmi3FunctionTypes.h",
+                    include_str!("fmu/headers/fmi3FunctionTypes.h"),
+                ),
+                (
+                    "fmi3PlatformTypes.h",
+                    include_str!("fmu/headers/fmi3PlatformTypes.h"),
+                ),
+            ],
+        };
+        let runtime = ("runtime.c", include_str!("fmu/c/runtime.c"));
+        own.into_iter().chain([runtime]).collect()
+    }
+}
+
+/// What the unit is made of.
+struct Unit<'a> {
+    version: Version,
+    kinds: &'a [UnitKind],
+    program: &'a Program,
+    /// The machine with the parameters of the call.
+    machine: &'a InterpretedMachine,
+    /// The inputs with the values of the call.
+    inputs: Vec<f64>,
+    /// For each state, behind the coordinates the rates, where it starts, and whether the call says so.
+    start: Vec<(f64, bool)>,
+    tolerance: f64,
+    /// What the library and the archive are called, as an identifier of C.
+    identifier: String,
+    variables: Variables,
+    /// Another machine, another token.
+    token: String,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// If the spec is wrong or has what a unit cannot have, a file cannot be written, or there is no C compiler.
+pub fn run(call: &call::Fmu) -> Result<(), Failure> {
+    let out = Destination::new("--out", &call.out, UNIT)?;
+    keep_document_apart([&out], call.spec.json)?;
+    keep_apart([&out], &[(&call.spec.path, "the spec")])?;
+    let version = match call.fmi {
+        2 => Version::Two,
+        _ => Version::Three,
+    };
+    let dag = Dag::new();
+    let compiled = Reading::open(&call.spec)?.compile_beside(&dag, [&out])?;
+    check_sections(&compiled.program)?;
+    let given = call::Start {
+        parameters: call.parameters.clone(),
+        coordinates: call.coordinates.clone(),
+        rates: call.rates.clone(),
+        running: Running {
+            engine: Engine::Interpreter,
+        },
+    };
+    let machine = reading::machine(&compiled, &given)?;
+    let start = start(&machine, &given)?;
+    check_defaults(&compiled.program, &machine)?;
+    let variables = Variables::new(&compiled.program);
+    let variables = match &call.outputs {
+        None => variables,
+        Some(call::Names(names)) => variables.with_outputs(names, unknown_output)?,
+    };
+    let text = machine_text(&compiled, call);
+    let mut unit = Unit {
+        version,
+        kinds: &call.kind,
+        program: &compiled.program,
+        machine: &machine,
+        inputs: machine.prepare().default_inputs().values,
+        start,
+        tolerance: call.tolerance,
+        identifier: identifier(&call.out),
+        variables,
+        token: String::new(),
+    };
+    let tables = tables::text(&unit);
+    unit.token = tables::token(&[&text, &tables]);
+    let sources = sources(&unit, &format!("{text}{tables}"));
+    let platform = match call.sources_only {
+        true => None,
+        false => {
+            progress::now("compiling the unit");
+            Some(compile::library(&unit, &sources, call.cc.as_deref())?)
+        }
+    };
+    let mut entries = vec![Entry::text(
+        "modelDescription.xml",
+        description::text(&unit),
+    )];
+    for (name, content) in &sources {
+        entries.push(Entry::text(&format!("sources/{name}"), content.clone()));
+    }
+    if version == Version::Three {
+        entries.push(Entry::text(
+            "sources/buildDescription.xml",
+            description::of_build(&unit),
+        ));
+    }
+    if let Some((platform, library)) = &platform {
+        let name = format!(
+            "binaries/{}/{}.{}",
+            platform.folder, unit.identifier, platform.ending
+        );
+        entries.push(Entry {
+            name,
+            content: library.clone(),
+        });
+    }
+    let bytes = archive::bytes(&entries).map_err(Failure::run)?;
+    out.write(|to| to.write_all(&bytes))?;
+    say(call, &unit, platform.as_ref().map(|(p, _)| p.folder));
+    Ok(())
+}
+
+/// What is printed of a unit.
+fn say(call: &call::Fmu, unit: &Unit<'_>, platform: Option<&str>) {
+    let Program {
+        coordinates,
+        parameters,
+        inputs,
+        ..
+    } = unit.program;
+    let outputs = unit.variables.outputs().count();
+    if call.spec.json {
+        output::line(format_args!(
+            "{:#}",
+            json!({
+                "unit": call.out.to_string_lossy(),
+                "fmi": unit.version.name(),
+                "kinds": unit.kinds.iter().map(|kind| kind.name()).collect::<Vec<_>>(),
+                "platform": platform,
+                "token": unit.token,
+                "states": 2 * coordinates.len(),
+                "parameters": parameters.len(),
+                "inputs": inputs.len(),
+                "outputs": outputs,
+            })
+        ));
+        return;
+    }
+    let kinds: Vec<&str> = unit.kinds.iter().map(|kind| kind.words()).collect();
+    output::line(format_args!(
+        "{}: FMI {}, {}, {}; {}, {}, {}, {}",
+        call.out.display(),
+        unit.version.name(),
+        kinds.join(" and "),
+        platform.unwrap_or("sources only"),
+        count(2 * coordinates.len(), "state"),
+        count(parameters.len(), "parameter"),
+        count(inputs.len(), "input"),
+        count(outputs, "output"),
+    ));
+}
+
+fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+/// Refuses machines whose motion is more than what a state and its derivatives say.
+fn check_sections(program: &Program) -> Result<(), Failure> {
+    let why = if let Some(contact) = program.contacts.first() {
+        format!(
+            "`{contact}` of `sliding` sticks or slides, which is a state of the run and no number of a unit"
+        )
+    } else if let Some(contact) = program.unilateral.first() {
+        format!(
+            "whether `{}` of `contacts` is closed is a state of the run and no number of a unit",
+            contact.name
+        )
+    } else if let Some(constraint) = program.constraints.first() {
+        format!(
+            "`{}` is a constraint, on which a unit does not hold its states; write the machine with as many coordinates as it \
+             has degrees of freedom",
+            constraint.name
+        )
+    } else {
+        return Ok(());
+    };
+    Err(Failure::run(format!(
+        "there is no unit of this machine: {why}"
+    )))
+}
+
+/// Refuses parameters and inputs without values: in a unit everything has a start value.
+fn check_defaults(program: &Program, machine: &InterpretedMachine) -> Result<(), Failure> {
+    let inputs = machine.prepare().default_inputs().values;
+    let slots = program.parameters.iter().zip(machine.parameter_values());
+    let slots = slots.chain(program.inputs.iter().zip(&inputs));
+    let mut missing = slots.filter(|(_, value)| !value.is_finite());
+    match missing.next() {
+        None => Ok(()),
+        Some((slot, _)) => Err(Failure::Call(format!(
+            "`{0}` has no default, which a unit needs: give it by --set {0}=VALUE",
+            slot.name
+        ))),
+    }
+}
+
+/// Where the states start, and which of them the call says.
+fn start(machine: &InterpretedMachine, given: &call::Start) -> Result<Vec<(f64, bool)>, Failure> {
+    let usual = machine.start();
+    let mut start = usual.clone();
+    set_start(&mut start, given)?;
+    // What is given is not known by its value, which may be the usual one: so it is set to something else.
+    let mut marked = usual;
+    for numbers in [&mut marked.q, &mut marked.v] {
+        numbers.values.fill(f64::NAN);
+    }
+    set_start(&mut marked, given)?;
+    let values = start.q.values.iter().chain(&start.v.values);
+    let marks = marked.q.values.iter().chain(&marked.v.values);
+    let states = values.zip(marks);
+    let states: Vec<(f64, bool)> = states.map(|(x, mark)| (*x, !mark.is_nan())).collect();
+    match states.iter().all(|(x, _)| x.is_finite()) {
+        true => Ok(states),
+        false => Err(Failure::Call(
+            "the start is not finite for these parameters: give it by --start".into(),
+        )),
+    }
+}
+
+fn unknown_output(name: &str, known: &[&str]) -> Failure {
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there are: {}", known.join(", ")),
+    };
+    Failure::Call(format!(
+        "--outputs {name}: no variable has this name; {help}"
+    ))
+}
+
+/// The machine's own file.
+fn machine_text(compiled: &Compiled<'_>, call: &call::Fmu) -> String {
+    let file = call.spec.path.file_name().unwrap_or_default();
+    let origin = format!(
+        "@generated from {} by `lagrangian fmu`.",
+        file.to_string_lossy()
+    );
+    emit::c::uniform::file(&compiled.program, &[origin], &compiled.formulas())
+}
+
+/// Every file of C, by name.
+fn sources(unit: &Unit<'_>, machine: &str) -> Vec<(&'static str, String)> {
+    let own = format!(
+        "{machine}\n/* Which machine this is. */\n#define TOKEN \"{}\"\n",
+        unit.token
+    );
+    let files = unit.version.files().into_iter();
+    let files = files.map(|(name, text)| (name, text.to_owned()));
+    [("machine.c", own)].into_iter().chain(files).collect()
+}
+
+/// The name of a file as an identifier of C.
+fn identifier(path: &Path) -> String {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let letters = stem.chars().map(|c| match c.is_ascii_alphanumeric() {
+        true => c,
+        false => '_',
+    });
+    let letters: String = letters.collect();
+    match letters.starts_with(|c: char| c.is_ascii_digit()) || letters.is_empty() {
+        true => format!("_{letters}"),
+        false => letters,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_name_becomes_an_identifier() {
+        for (path, name) in [
+            ("DoublePendulum.fmu", "DoublePendulum"),
+            ("a/b-c 2.fmu", "b_c_2"),
+            ("2nd.fmu", "_2nd"),
+            ("größe.fmu", "gr__e"),
+        ] {
+            assert_eq!(identifier(Path::new(path)), name);
+        }
+    }
+}

@@ -1,0 +1,501 @@
+/*
+ * What a unit is, whatever the version of the interface: its state, its values by reference, its derivatives, and the
+ * integrator of co-simulation. This text stands behind the machine's own file, which says how many there are of each, and what
+ * they are called. No globals that change, no threads, no files; no allocation but that of units and of saved states.
+ */
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    STATES = 2 * COORDINATES,
+    STAGES = 12,
+    /* References of values: a number for each, in this order. */
+    AT_TIME = 0,
+    AT_STATES = 1,
+    AT_ACCELERATIONS = AT_STATES + STATES,
+    AT_PARAMETERS = AT_ACCELERATIONS + COORDINATES,
+    AT_INPUTS = AT_PARAMETERS + PARAMETERS,
+    AT_OUTPUTS = AT_INPUTS + INPUTS,
+    AT_KINETIC_ENERGY = AT_OUTPUTS + OUTPUTS,
+    AT_POTENTIAL_ENERGY,
+    AT_FACTS,
+    REFERENCES = AT_FACTS + FACTS
+};
+
+/* How a call ends; both versions of the interface count so. */
+typedef enum { WELL, WARNED, DISCARDED, FAILED } Outcome;
+
+typedef enum { INSTANTIATED, INITIALIZING, EVENT, CONTINUOUS, STEPPING, TERMINATED } Mode;
+
+/* All that changes while a unit runs, and that a saved state holds; the rest follows from it. */
+typedef struct {
+    double time;
+    double states[STATES + 1];
+    double parameters[PARAMETERS + 1];
+    double inputs[INPUTS + 1];
+    /* Of each step, relative and absolute. */
+    double tolerance;
+    /* How long the next step of co-simulation would be, in s; 0 where nobody knows. */
+    double step;
+    /* Which states the importer has set: the others start where the machine says, which may depend on parameters. */
+    unsigned char is_set[STATES + 1];
+    /* Whether the states are those of the start by now. */
+    unsigned char is_started;
+    /* Which facts were broken when it was looked last. */
+    unsigned char is_broken[FACTS + 1];
+    Mode mode;
+} State;
+
+typedef struct Unit Unit;
+
+/* How a message leaves; each version of the interface has its own. */
+typedef void Report(const Unit *unit, Outcome outcome, const char *message);
+
+struct Unit {
+    State now;
+    /* What follows from parameters, and from all of the state. */
+    UnitPrepared prepared;
+    double accelerations[COORDINATES + 1];
+    int singular;
+    int is_prepared, is_evaluated;
+    /* A step of co-simulation. */
+    double slopes[STAGES][STATES + 1];
+    double point[STATES + 1], fine[STATES + 1], coarse[STATES + 1];
+    /* For whom it runs. */
+    int is_co_simulation, is_logging;
+    Report *report;
+    void *environment;
+    void *callback;
+    char name[64];
+    char message[256];
+};
+
+/* A saved state: which machine it is of, and the bytes. */
+typedef struct {
+    char token[sizeof TOKEN];
+    State state;
+} Saved;
+
+static void restart(Unit *unit) {
+    State *now = &unit->now;
+    memset(now, 0, sizeof *now);
+    for (int i = 0; i < PARAMETERS; ++i) now->parameters[i] = PARAMETER_DEFAULTS[i];
+    for (int i = 0; i < INPUTS; ++i) now->inputs[i] = INPUT_DEFAULTS[i];
+    for (int i = 0; i < STATES; ++i) {
+        now->is_set[i] = START_IS_SET[i];
+        now->states[i] = START[i];
+    }
+    now->tolerance = TOLERANCE;
+    now->mode = INSTANTIATED;
+    unit->is_prepared = 0;
+    unit->is_evaluated = 0;
+}
+
+static Outcome say(Unit *unit, Outcome outcome, const char *message) {
+    if (unit->report && (unit->is_logging || outcome >= DISCARDED)) unit->report(unit, outcome, message);
+    return outcome;
+}
+
+/* Whether a number is one; comparisons of what is none are false. */
+static int isFinite(double x) { return x - x == 0.0; }
+
+/* The states of the start, as far as nobody has set others, and what depends on parameters. */
+static void prepare(Unit *unit) {
+    if (unit->is_prepared && unit->now.is_started) return;
+    unitPrepare(unit->now.parameters, &unit->prepared);
+    unit->is_prepared = 1;
+    unit->is_evaluated = 0;
+    if (unit->now.is_started) return;
+    double start[STATES + 1];
+    unitStart(unit->now.parameters, start);
+    for (int i = 0; i < STATES; ++i)
+        if (!unit->now.is_set[i]) unit->now.states[i] = start[i];
+    unit->now.is_started = 1;
+}
+
+/* The derivatives of states; 0 where the mass matrix can be inverted and all are numbers. */
+static int differentiate(Unit *unit, double t, const double *states, double *to) {
+    const double *v = states + COORDINATES;
+    const int singular = unitAccelerations(&unit->prepared, t, states, v, unit->now.inputs, to + COORDINATES);
+    for (int i = 0; i < COORDINATES; ++i) to[i] = v[i];
+    if (singular) return singular;
+    for (int i = COORDINATES; i < STATES; ++i)
+        if (!isFinite(to[i])) return i - COORDINATES + 1;
+    return 0;
+}
+
+/* Accelerations of the state as it is; 0 if there are. */
+static int evaluate(Unit *unit) {
+    prepare(unit);
+    if (unit->is_evaluated) return unit->singular;
+    double to[STATES + 1];
+    unit->singular = differentiate(unit, unit->now.time, unit->now.states, to);
+    memcpy(unit->accelerations, to + COORDINATES, COORDINATES * sizeof *to);
+    unit->is_evaluated = 1;
+    return unit->singular;
+}
+
+static Outcome withoutAccelerations(Unit *unit, Outcome outcome) {
+    const int i = unit->singular - 1;
+    snprintf(unit->message, sizeof unit->message, "at t = %.17g s there is no acceleration of %s: its inertia vanishes, or a "
+             "number is not finite", unit->now.time, i >= 0 && i < COORDINATES ? COORDINATE_NAMES[i] : "the machine");
+    return say(unit, outcome, unit->message);
+}
+
+static Outcome unknown(Unit *unit, unsigned reference) {
+    snprintf(unit->message, sizeof unit->message, "there is no number with the reference %u for this call", reference);
+    return say(unit, FAILED, unit->message);
+}
+
+/* Numbers by reference. */
+static Outcome get(Unit *unit, const unsigned *references, size_t count, double *to) {
+    State *now = &unit->now;
+    const double *q = now->states, *v = q + COORDINATES, *u = now->inputs, *a = unit->accelerations;
+    double several[OUTPUTS + FACTS + 1];
+    prepare(unit);
+    for (size_t k = 0; k < count; ++k) {
+        const unsigned i = references[k];
+        if (i == AT_TIME) {
+            to[k] = now->time;
+        } else if (i < AT_ACCELERATIONS) {
+            to[k] = now->states[i - AT_STATES];
+        } else if (i < AT_PARAMETERS) {
+            if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+            to[k] = a[i - AT_ACCELERATIONS];
+        } else if (i < AT_INPUTS) {
+            to[k] = now->parameters[i - AT_PARAMETERS];
+        } else if (i < AT_OUTPUTS) {
+            to[k] = now->inputs[i - AT_INPUTS];
+        } else if (i < AT_KINETIC_ENERGY) {
+            if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+            unitOutputs(&unit->prepared, now->time, q, v, u, a, several);
+            to[k] = several[i - AT_OUTPUTS];
+        } else if (i == AT_KINETIC_ENERGY) {
+            to[k] = unitKineticEnergy(&unit->prepared, now->time, q, v, u);
+        } else if (i == AT_POTENTIAL_ENERGY) {
+            to[k] = unitPotentialEnergy(&unit->prepared, now->time, q, v, u);
+        } else if (i < REFERENCES) {
+            unitFacts(&unit->prepared, now->time, q, v, u, a, several);
+            to[k] = several[i - AT_FACTS];
+        } else {
+            return unknown(unit, i);
+        }
+    }
+    return WELL;
+}
+
+/* Sets numbers by reference: states until the run begins, parameters and inputs at any time. */
+static Outcome set(Unit *unit, const unsigned *references, size_t count, const double *values) {
+    State *now = &unit->now;
+    for (size_t k = 0; k < count; ++k) {
+        const unsigned i = references[k];
+        const int is_state = i >= AT_STATES && i < AT_ACCELERATIONS && now->mode <= INITIALIZING;
+        if (!is_state && (i < AT_PARAMETERS || i >= AT_OUTPUTS)) return unknown(unit, i);
+        if (!isFinite(values[k])) {
+            snprintf(unit->message, sizeof unit->message, "the number with the reference %u is not finite", i);
+            return say(unit, FAILED, unit->message);
+        }
+        if (is_state) {
+            now->states[i - AT_STATES] = values[k];
+            now->is_set[i - AT_STATES] = 1;
+        } else if (i < AT_INPUTS) {
+            now->parameters[i - AT_PARAMETERS] = values[k];
+            unit->is_prepared = 0;
+            if (now->mode <= INITIALIZING) now->is_started = 0;
+        } else {
+            now->inputs[i - AT_INPUTS] = values[k];
+        }
+        unit->is_evaluated = 0;
+    }
+    return WELL;
+}
+
+static void setTime(Unit *unit, double time) {
+    unit->now.time = time;
+    unit->is_evaluated = 0;
+}
+
+static void setStates(Unit *unit, const double *states) {
+    prepare(unit); /* So that no start takes their place later. */
+    memcpy(unit->now.states, states, STATES * sizeof *states);
+    unit->is_evaluated = 0;
+}
+
+/* The derivatives of all states. */
+static Outcome getDerivatives(Unit *unit, double *to) {
+    if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+    memcpy(to, unit->now.states + COORDINATES, COORDINATES * sizeof *to);
+    memcpy(to + COORDINATES, unit->accelerations, COORDINATES * sizeof *to);
+    return WELL;
+}
+
+/* What facts say is positive: where one changes its sign, an event. */
+static void getFacts(Unit *unit, double *to) {
+    const State *now = &unit->now;
+    double all[FACTS + 1];
+    (void)evaluate(unit);
+    const double *v = now->states + COORDINATES;
+    unitFacts(&unit->prepared, now->time, now->states, v, now->inputs, unit->accelerations, all);
+    memcpy(to, all, FACTS * sizeof *to);
+}
+
+/* Warns of each fact that does not hold any more. */
+static void checkFacts(Unit *unit) {
+    double all[FACTS + 1];
+    if (FACTS == 0) return;
+    getFacts(unit, all);
+    for (int i = 0; i < FACTS; ++i) {
+        const int is_broken = !(FACT_IS_STRICT[i] ? all[i] > 0.0 : all[i] >= 0.0);
+        if (is_broken && !unit->now.is_broken[i]) {
+            snprintf(unit->message, sizeof unit->message, "at t = %.17g s it does not hold any more that %s",
+                     unit->now.time, FACT_TEXTS[i]);
+            say(unit, WARNED, unit->message);
+        }
+        unit->now.is_broken[i] = (unsigned char)is_broken;
+    }
+}
+
+/*
+ * What unknowns change by where knowns change by a seed: coordinates, rates and outputs, and their derivatives by each other, by
+ * parameters and by inputs.
+ */
+static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
+                                   size_t known_count, const double *seed, double *to) {
+#define COUNT (HAS_DERIVATIVES ? (STATES + PARAMETERS + INPUTS + PREPARED + COORDINATES + OUTPUTS) : 0)
+    double all[COUNT + 1];
+    memset(all, 0, sizeof all);
+    double *dq = all, *dv = dq + COORDINATES, *dx = dv + COORDINATES, *du = dx + PARAMETERS, *dp = du + INPUTS;
+    double *da = dp + PREPARED, *dy = da + COORDINATES;
+    if (!HAS_DERIVATIVES) return say(unit, FAILED, "this machine is too large for derivatives in a direction");
+    if (evaluate(unit)) return withoutAccelerations(unit, DISCARDED);
+    for (size_t k = 0; k < known_count; ++k) {
+        const unsigned i = knowns[k];
+        if (i >= AT_STATES && i < AT_ACCELERATIONS) dq[i - AT_STATES] += seed[k];
+        else if (i >= AT_PARAMETERS && i < AT_INPUTS) dx[i - AT_PARAMETERS] += seed[k];
+        else if (i >= AT_INPUTS && i < AT_OUTPUTS) du[i - AT_INPUTS] += seed[k];
+        else return unknown(unit, i);
+    }
+    const State *now = &unit->now;
+    unitAlong(now->parameters, &unit->prepared, now->time, now->states, now->states + COORDINATES, now->inputs,
+              unit->accelerations, dx, dq, dv, du, dp, da, dy);
+    for (size_t k = 0; k < unknown_count; ++k) {
+        const unsigned i = unknowns[k];
+        if (i >= AT_STATES && i < AT_ACCELERATIONS) to[k] = dq[i - AT_STATES];
+        else if (i >= AT_ACCELERATIONS && i < AT_PARAMETERS) to[k] = da[i - AT_ACCELERATIONS];
+        else if (i >= AT_OUTPUTS && i < AT_KINETIC_ENERGY) to[k] = dy[i - AT_OUTPUTS];
+        else return unknown(unit, i);
+    }
+    return WELL;
+}
+
+static void save(const Unit *unit, Saved *to) {
+    memset(to, 0, sizeof *to);
+    memcpy(to->token, TOKEN, sizeof TOKEN);
+    memcpy(&to->state, &unit->now, sizeof to->state);
+}
+
+static Outcome restore(Unit *unit, const Saved *from) {
+    if (memcmp(from->token, TOKEN, sizeof TOKEN)) return say(unit, FAILED, "the state is that of another machine");
+    memcpy(&unit->now, &from->state, sizeof from->state);
+    unit->is_prepared = 0;
+    unit->is_evaluated = 0;
+    return WELL;
+}
+
+/* A unit as new; none where there is no memory, or where the token is another machine's. */
+static Unit *instantiate(const char *name, const char *token, Report *report, void *environment, void *callback, int is_logging,
+                         int is_co_simulation) {
+    Unit *unit = calloc(1, sizeof *unit);
+    if (!unit) return NULL;
+    unit->report = report;
+    unit->environment = environment;
+    unit->callback = callback;
+    unit->is_logging = is_logging;
+    unit->is_co_simulation = is_co_simulation;
+    strncpy(unit->name, name ? name : "", sizeof unit->name - 1);
+    if (!token || strcmp(token, TOKEN)) {
+        say(unit, FAILED, "the token is that of another machine");
+        free(unit);
+        return NULL;
+    }
+    restart(unit);
+    return unit;
+}
+
+static Outcome begin(Unit *unit, int has_tolerance, double tolerance, double start) {
+    if (has_tolerance) {
+        if (!(tolerance >= 1e-14 && tolerance < 1.0))
+            return say(unit, FAILED, "a tolerance is at least 1e-14, and less than 1");
+        unit->now.tolerance = tolerance;
+    }
+    if (!isFinite(start)) return say(unit, FAILED, "the start time is not finite");
+    setTime(unit, start);
+    return WELL;
+}
+
+/*
+ * Dormand and Prince's method of order 8 with errors of orders 5 and 3: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
+ * Differential Equations I, 2nd ed., 1993, section II.10, and the authors' program of the name DOP853.
+ */
+static const double NODES[STAGES] = {
+        0.0, 0.0526001519587677318785587544488, 0.0789002279381515978178381316732, 0.11835034190722739672675719751,
+        0.28164965809277260327324280249, 0.333333333333333333333333333333, 0.25, 0.307692307692307692307692307692,
+        0.651282051282051282051282051282, 0.6, 0.857142857142857142857142857142, 1.0,
+};
+
+/* A row for each stage, and one for the new point. */
+static const double COEFFICIENTS[STAGES + 1][STAGES] = {
+    {0.0},
+    {0.0526001519587677318785587544488},
+    {0.0197250569845378994544595329183, 0.0591751709536136983633785987549},
+    {0.0295875854768068491816892993775, 0.0, 0.0887627564304205475450678981324},
+    {0.241365134159266685502369798665, 0.0, -0.884549479328286085344864962717, 0.924834003261792003115737966543},
+    {0.037037037037037037037037037037, 0.0, 0.0, 0.170828608729473871279604482173, 0.125467687566822425016691814123},
+    {0.037109375, 0.0, 0.0, 0.170252211019544039314978060272, 0.0602165389804559606850219397283, -0.017578125},
+    {
+        0.0370920001185047927108779319836, 0.0, 0.0, 0.170383925712239993810214054705,
+        0.107262030446373284651809199168, -0.0153194377486244017527936158236, 0.00827378916381402288758473766002,
+    },
+    {
+        0.624110958716075717114429577812, 0.0, 0.0, -3.36089262944694129406857109825,
+        -0.868219346841726006818189891453, 27.5920996994467083049415600797, 20.1540675504778934086186788979,
+        -43.4898841810699588477366255144,
+    },
+    {
+        0.477662536438264365890433908527, 0.0, 0.0, -2.48811461997166764192642586468,
+        -0.590290826836842996371446475743, 21.2300514481811942347288949897, 15.2792336328824235832596922938,
+        -33.2882109689848629194453265587, -0.0203312017085086261358222928593,
+    },
+    {
+        -0.93714243008598732571704021658, 0.0, 0.0, 5.18637242884406370830023853209, 1.09143734899672957818500254654,
+        -8.14978701074692612513997267357, -18.5200656599969598641566180701, 22.7394870993505042818970056734,
+        2.49360555267965238987089396762, -3.0467644718982195003823669022,
+    },
+    {
+        2.27331014751653820792359768449, 0.0, 0.0, -10.5344954667372501984066689879, -2.00087205822486249909675718444,
+        -17.9589318631187989172765950534, 27.9488845294199600508499808837, -2.85899827713502369474065508674,
+        -8.87285693353062954433549289258, 12.3605671757943030647266201528, 0.643392746015763530355970484046,
+    },
+    {
+        0.0542937341165687622380535766363, 0.0, 0.0, 0.0, 0.0, 4.45031289275240888144113950566,
+        1.89151789931450038304281599044, -5.8012039600105847814672114227, 0.31116436695781989440891606237,
+        -0.152160949662516078556178806805, 0.201365400804030348374776537501, 0.0447106157277725905176885569043,
+    },
+};
+
+static const double ERROR_WEIGHTS[STAGES] = {
+        0.01312004499419488073250102996, 0.0, 0.0, 0.0, 0.0, -1.225156446376204440720569753,
+        -0.4957589496572501915214079952, 1.664377182454986536961530415, -0.350328848749973681688648729,
+        0.3341791187130174790297318841, 0.08192320648511571246570742613, -0.02235530786388629525884427845,
+};
+
+static const double COARSE_ERROR_WEIGHTS[STAGES] = {
+        -0.1898007540724076157147023288757, 0.0, 0.0, 0.0, 0.0, 4.45031289275240888144113950566,
+        1.89151789931450038304281599044, -5.8012039600105847814672114227, -0.422682321323791962932445679177,
+        -0.152160949662516078556178806805, 0.201365400804030348374776537501, 0.0226517921983608258118062039631,
+};
+
+/* So many tries of a step may be between two communication points. */
+#define MOST_TRIES 10000000L
+
+static double sizeOf(double x) { return x < 0.0 ? -x : x; }
+
+/* What an error in a state is measured by. */
+static double scaleOf(const Unit *unit, double before, double after) {
+    const double a = sizeOf(before), b = sizeOf(after);
+    return unit->now.tolerance * (1.0 + (a > b ? a : b));
+}
+
+/* The first step, in s: such that one of Euler's method changes the state by a hundredth of what is tolerated at 1. */
+static double firstStep(const Unit *unit, double most) {
+    double size = 0.0, rate = 0.0;
+    for (int i = 0; i < STATES; ++i) {
+        const double scale = scaleOf(unit, unit->now.states[i], 0.0) / unit->now.tolerance;
+        const double x = unit->now.states[i] / scale, dx = unit->slopes[0][i] / scale;
+        size += x * x;
+        rate += dx * dx;
+    }
+    const double step = size > 1e-10 && rate > 1e-10 ? 0.01 * sqrt(size / rate) : 1e-6;
+    return step < most ? step : most;
+}
+
+/* Tries a step of the length h from the state as it is; the new state stands in `point`. Its error, 1 being just tolerable; less
+   than 0 where there are no accelerations on the way. */
+static double tryStep(Unit *unit, double h) {
+    const State *now = &unit->now;
+    for (int stage = 1; stage <= STAGES; ++stage) {
+        for (int i = 0; i < STATES; ++i) {
+            double sum = 0.0;
+            for (int k = 0; k < stage && k < STAGES; ++k) sum += COEFFICIENTS[stage][k] * unit->slopes[k][i];
+            unit->point[i] = now->states[i] + h * sum;
+        }
+        if (stage == STAGES) break;
+        unit->singular = differentiate(unit, now->time + NODES[stage] * h, unit->point, unit->slopes[stage]);
+        if (unit->singular) return -1.0;
+    }
+    double fine = 0.0, coarse = 0.0;
+    for (int i = 0; i < STATES; ++i) {
+        double of_fine = 0.0, of_coarse = 0.0;
+        for (int k = 0; k < STAGES; ++k) {
+            of_fine += ERROR_WEIGHTS[k] * unit->slopes[k][i];
+            of_coarse += COARSE_ERROR_WEIGHTS[k] * unit->slopes[k][i];
+        }
+        const double scale = scaleOf(unit, now->states[i], unit->point[i]);
+        fine += (of_fine / scale) * (of_fine / scale);
+        coarse += (of_coarse / scale) * (of_coarse / scale);
+    }
+    const double denominator = fine + 0.01 * coarse;
+    if (denominator == 0.0) return 0.0;
+    const double error = sizeOf(h) * fine / sqrt(denominator * (STATES > 0 ? STATES : 1));
+    return isFinite(error) ? error : -1.0;
+}
+
+/*
+ * Integrates to a time, which is hit exactly by a shortened step; the step after that is as long as it would have been. Where it
+ * ends before, the state is that of the last good step.
+ */
+static Outcome integrate(Unit *unit, double until) {
+    State *now = &unit->now;
+    long tries = 0;
+    if (!isFinite(until)) return say(unit, FAILED, "the end of the step is not finite");
+    if (until < now->time) return say(unit, FAILED, "a step ends before it begins");
+    prepare(unit);
+    unit->is_evaluated = 0;
+    int is_new = 1;
+    while (now->time < until) {
+        const double left = until - now->time;
+        if (is_new) {
+            unit->singular = differentiate(unit, now->time, now->states, unit->slopes[0]);
+            if (unit->singular) return withoutAccelerations(unit, FAILED);
+            if (!(now->step > 0.0)) now->step = firstStep(unit, left);
+            is_new = 0;
+        }
+        /* No sliver is left for a step of its own. */
+        const int is_last = 1.01 * now->step >= left;
+        const double h = is_last ? left : now->step;
+        const double error = tryStep(unit, h);
+        if (error >= 0.0 && error <= 1.0) {
+            memcpy(now->states, unit->point, STATES * sizeof *now->states);
+            now->time = is_last ? until : now->time + h;
+            unit->is_evaluated = 0;
+            const double factor = error > 0.0 ? 0.9 * pow(error, -0.125) : 6.0;
+            const double next = h * (factor > 6.0 ? 6.0 : factor < 0.333 ? 0.333 : factor);
+            if (!is_last || next > now->step) now->step = next;
+            is_new = 1;
+            checkFacts(unit);
+        } else {
+            const double factor = error > 0.0 ? 0.9 * pow(error, -0.125) : 0.25;
+            now->step = h * (factor > 0.333 ? factor < 0.9 ? factor : 0.9 : factor > 0.1 ? factor : 0.1);
+            if (now->step <= 1e-15 * (sizeOf(now->time) + 1e-3)) {
+                if (unit->singular) return withoutAccelerations(unit, FAILED);
+                snprintf(unit->message, sizeof unit->message, "at t = %.17g s steps become too short for the tolerance %g",
+                         now->time, now->tolerance);
+                return say(unit, FAILED, unit->message);
+            }
+        }
+        if (++tries > MOST_TRIES) return say(unit, FAILED, "one step of communication takes more than 1e7 steps");
+    }
+    return WELL;
+}

@@ -1,0 +1,331 @@
+//! `modelDescription.xml`, in both versions, and `buildDescription.xml`.
+
+use lagrangian_emit::c::uniform;
+use lagrangian_units::Unit as PhysicalUnit;
+
+use super::units::Units;
+use super::variables::{Kind, Variable};
+use super::xml::Document;
+use super::{Unit, Version};
+use crate::call::UnitKind;
+
+/// Where the default experiment ends, in s.
+const STOP: &str = "5";
+
+/// What the description says of one variable.
+struct Row {
+    causality: &'static str,
+    variability: &'static str,
+    initial: &'static str,
+    start: String,
+    /// The reference of what it is the derivative of.
+    derivative: Option<usize>,
+    unit: String,
+    docs: String,
+}
+
+/// The description of a unit.
+pub fn text(unit: &Unit<'_>) -> String {
+    let program = unit.program;
+    let mut units = Units::default();
+    let variables = &unit.variables.all;
+    let rows = variables
+        .iter()
+        .map(|variable| row(unit, variable, &mut units));
+    let rows: Vec<Row> = rows.collect();
+    let mut document = Document::new();
+    let docs = words(&program.docs);
+    let convention = match unit.variables.is_structured {
+        true => "structured",
+        false => "flat",
+    };
+    let indicators = program.assumptions.len().to_string();
+    let (token, count) = match unit.version {
+        Version::Two => ("guid", indicators.as_str()),
+        Version::Three => ("instantiationToken", ""),
+    };
+    let tool = format!("lagrangian {}", env!("CARGO_PKG_VERSION"));
+    document.open(
+        "fmiModelDescription",
+        &[
+            ("fmiVersion", unit.version.name()),
+            ("modelName", &program.name),
+            (token, &unit.token),
+            ("description", &docs),
+            ("generationTool", &tool),
+            ("variableNamingConvention", convention),
+            ("numberOfEventIndicators", count),
+        ],
+    );
+    for kind in [UnitKind::ModelExchange, UnitKind::CoSimulation] {
+        if unit.kinds.contains(&kind) {
+            of_kind(&mut document, unit, kind);
+        }
+    }
+    units.write(&mut document);
+    document.open("LogCategories", &[]);
+    for name in ["logStatusWarning", "logStatusDiscard", "logStatusError"] {
+        document.leaf("Category", &[("name", name)]);
+    }
+    document.close();
+    let tolerance = format!("{:?}", unit.tolerance);
+    document.leaf(
+        "DefaultExperiment",
+        &[
+            ("startTime", "0"),
+            ("stopTime", STOP),
+            ("tolerance", &tolerance),
+        ],
+    );
+    document.open("ModelVariables", &[]);
+    for (reference, (variable, row)) in variables.iter().zip(&rows).enumerate() {
+        match unit.version {
+            Version::Three => of_three(&mut document, reference, variable, row),
+            Version::Two => of_two(&mut document, reference, variable, row),
+        }
+    }
+    document.close();
+    structure(&mut document, unit);
+    document.finish()
+}
+
+fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
+    let derivatives = match uniform::has_derivatives(unit.program) {
+        true => "true",
+        false => "false",
+    };
+    let (name, steps) = match kind {
+        UnitKind::ModelExchange => ("ModelExchange", ""),
+        UnitKind::CoSimulation => ("CoSimulation", "true"),
+    };
+    let (get, serialize, provides) = match unit.version {
+        Version::Three => (
+            "canGetAndSetFMUState",
+            "canSerializeFMUState",
+            "providesDirectionalDerivatives",
+        ),
+        Version::Two => (
+            "canGetAndSetFMUstate",
+            "canSerializeFMUstate",
+            "providesDirectionalDerivative",
+        ),
+    };
+    let attributes = [
+        ("modelIdentifier", unit.identifier.as_str()),
+        (get, "true"),
+        (serialize, "true"),
+        (provides, derivatives),
+        ("canHandleVariableCommunicationStepSize", steps),
+    ];
+    match unit.version {
+        Version::Three => document.leaf(name, &attributes),
+        Version::Two => {
+            document.open(name, &attributes);
+            document.open("SourceFiles", &[]);
+            document.leaf("File", &[("name", unit.version.source())]);
+            document.close();
+            document.close();
+        }
+    }
+}
+
+/// What is to be said of a variable.
+fn row(unit: &Unit<'_>, variable: &Variable, units: &mut Units) -> Row {
+    let program = unit.program;
+    let n = program.coordinates.len();
+    let state = |i: usize| unit.start.get(i).map_or(0.0, |(x, _)| *x);
+    let shown = match variable.is_output {
+        true => "output",
+        false => "local",
+    };
+    let calculated = |unit: String, docs: String| Row {
+        causality: shown,
+        variability: "continuous",
+        initial: "calculated",
+        start: String::new(),
+        derivative: None,
+        unit,
+        docs,
+    };
+    let exact = |start: f64, unit: String, docs: String| Row {
+        initial: "exact",
+        start: format!("{start:?}"),
+        ..calculated(unit, docs)
+    };
+    match variable.kind {
+        Kind::Time => Row {
+            causality: "independent",
+            initial: "",
+            ..calculated(units.of(PhysicalUnit::SECOND), "Time".into())
+        },
+        Kind::Coordinate(i) => {
+            let slot = &program.coordinates[i];
+            exact(state(i), units.of(slot.unit), words(&slot.docs))
+        }
+        Kind::Rate(i) => {
+            let slot = &program.coordinates[i];
+            Row {
+                derivative: Some(1 + i),
+                ..exact(state(n + i), units.of(slot.unit.rate()), String::new())
+            }
+        }
+        Kind::Acceleration(i) => {
+            let slot = &program.coordinates[i];
+            Row {
+                derivative: Some(1 + n + i),
+                ..calculated(units.of(slot.unit.rate().rate()), String::new())
+            }
+        }
+        Kind::Parameter(i) => {
+            let slot = &program.parameters[i];
+            let value = unit.machine.parameter_values()[i];
+            Row {
+                causality: "parameter",
+                variability: "tunable",
+                ..exact(value, units.of_slot(slot), words(&slot.docs))
+            }
+        }
+        Kind::Input(i) => {
+            let slot = &program.inputs[i];
+            let value = unit.inputs[i];
+            Row {
+                causality: "input",
+                // Said by the causality alone.
+                initial: "",
+                ..exact(value, units.of_slot(slot), words(&slot.docs))
+            }
+        }
+        Kind::Output(i) => {
+            let slot = &program.outputs[i];
+            calculated(units.of_slot(slot), words(&slot.docs))
+        }
+        Kind::KineticEnergy => calculated(units.of(PhysicalUnit::JOULE), "Kinetic energy".into()),
+        Kind::PotentialEnergy => {
+            calculated(units.of(PhysicalUnit::JOULE), "Potential energy".into())
+        }
+        Kind::Fact(i) => {
+            let text = &program.assumptions[i].text;
+            calculated(String::new(), format!("Positive as long as {text}"))
+        }
+    }
+}
+
+fn of_three(document: &mut Document, reference: usize, variable: &Variable, row: &Row) {
+    let reference = reference.to_string();
+    let derivative = row.derivative.map(|k| k.to_string()).unwrap_or_default();
+    document.leaf(
+        "Float64",
+        &[
+            ("name", variable.name.as_str()),
+            ("valueReference", &reference),
+            ("description", &row.docs),
+            ("causality", row.causality),
+            ("variability", row.variability),
+            ("initial", row.initial),
+            ("unit", &row.unit),
+            ("start", &row.start),
+            ("derivative", &derivative),
+        ],
+    );
+}
+
+fn of_two(document: &mut Document, reference: usize, variable: &Variable, row: &Row) {
+    let number = reference.to_string();
+    document.open(
+        "ScalarVariable",
+        &[
+            ("name", variable.name.as_str()),
+            ("valueReference", &number),
+            ("description", &row.docs),
+            ("causality", row.causality),
+            ("variability", row.variability),
+            ("initial", row.initial),
+        ],
+    );
+    // Variables are counted from 1, in their order.
+    let derivative = row.derivative.map(|k| (k + 1).to_string());
+    let derivative = derivative.unwrap_or_default();
+    document.leaf(
+        "Real",
+        &[
+            ("unit", row.unit.as_str()),
+            ("start", &row.start),
+            ("derivative", &derivative),
+        ],
+    );
+    document.close();
+}
+
+/// Which variables are outputs, derivatives of states, unknown at the start, and indicators of events. What each depends on is
+/// left out, which means on everything.
+fn structure(document: &mut Document, unit: &Unit<'_>) {
+    let outputs: Vec<usize> = unit.variables.outputs().map(|(k, _)| k).collect();
+    let of = |is_wanted| unit.variables.of(is_wanted).map(|(k, _)| k);
+    let derivatives: Vec<usize> = of(|kind| matches!(kind, Kind::Rate(_)))
+        .chain(of(|kind| matches!(kind, Kind::Acceleration(_))))
+        .collect();
+    let is_calculated = |k: &usize| {
+        !matches!(
+            unit.variables.all[*k].kind,
+            Kind::Coordinate(_) | Kind::Rate(_)
+        )
+    };
+    let unknown = outputs.iter().chain(&derivatives).copied();
+    let mut unknown: Vec<usize> = unknown.filter(is_calculated).collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    let facts: Vec<usize> = of(|kind| matches!(kind, Kind::Fact(_))).collect();
+    document.open("ModelStructure", &[]);
+    match unit.version {
+        Version::Three => {
+            for (name, references) in [
+                ("Output", &outputs),
+                ("ContinuousStateDerivative", &derivatives),
+                ("InitialUnknown", &unknown),
+                ("EventIndicator", &facts),
+            ] {
+                for reference in references {
+                    document.leaf(name, &[("valueReference", &reference.to_string())]);
+                }
+            }
+        }
+        Version::Two => {
+            for (name, references) in [
+                ("Outputs", &outputs),
+                ("Derivatives", &derivatives),
+                ("InitialUnknowns", &unknown),
+            ] {
+                if references.is_empty() {
+                    continue;
+                }
+                document.open(name, &[]);
+                for reference in references {
+                    document.leaf("Unknown", &[("index", &(reference + 1).to_string())]);
+                }
+                document.close();
+            }
+        }
+    }
+    document.close();
+}
+
+/// How an importer of 3.0 compiles the sources.
+pub fn of_build(unit: &Unit<'_>) -> String {
+    let mut document = Document::new();
+    document.open(
+        "fmiBuildDescription",
+        &[("fmiVersion", unit.version.name())],
+    );
+    document.open(
+        "BuildConfiguration",
+        &[("modelIdentifier", unit.identifier.as_str())],
+    );
+    document.open("SourceFileSet", &[("language", "C99")]);
+    document.leaf("SourceFile", &[("name", unit.version.source())]);
+    document.finish()
+}
+
+/// A text on one line.
+fn words(docs: &str) -> String {
+    docs.split_whitespace().collect::<Vec<_>>().join(" ")
+}

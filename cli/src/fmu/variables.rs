@@ -1,0 +1,183 @@
+//! The variables of a unit, in the order of their references: `fmu/c/runtime.c` counts them the same way.
+
+use std::collections::BTreeSet;
+
+use lagrangian_program::Program;
+
+use crate::failure::Failure;
+
+/// What a variable is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Time,
+    Coordinate(usize),
+    Rate(usize),
+    Acceleration(usize),
+    Parameter(usize),
+    Input(usize),
+    Output(usize),
+    KineticEnergy,
+    PotentialEnergy,
+    Fact(usize),
+}
+
+/// A variable; its reference is its place.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub kind: Kind,
+    /// In the letters of the convention.
+    pub name: String,
+    /// Whether the unit shows it to what it is connected with.
+    pub is_output: bool,
+}
+
+/// All of them.
+pub struct Variables {
+    pub all: Vec<Variable>,
+    /// Whether every name is one of the structured convention.
+    pub is_structured: bool,
+}
+
+impl Variables {
+    /// Those of a machine; outputs are those of its spec, or its coordinates.
+    pub fn new(program: &Program) -> Variables {
+        let names = |slots: &[lagrangian_program::Slot]| -> Vec<String> {
+            let names = slots.iter().map(|slot| slot.name.to_string());
+            names.map(|name| structured(&name)).collect()
+        };
+        let coordinates = names(&program.coordinates);
+        let has_outputs = !program.outputs.is_empty();
+        let mut all = vec![(Kind::Time, "time".to_owned())];
+        let each = |names: &[String], kind: fn(usize) -> Kind, form: fn(&str) -> String| {
+            let names = names.iter().enumerate();
+            names
+                .map(|(i, name)| (kind(i), form(name)))
+                .collect::<Vec<_>>()
+        };
+        all.extend(each(&coordinates, Kind::Coordinate, str::to_owned));
+        all.extend(each(&coordinates, Kind::Rate, |name| {
+            format!("der({name})")
+        }));
+        all.extend(each(&coordinates, Kind::Acceleration, |name| {
+            format!("der({name},2)")
+        }));
+        all.extend(each(
+            &names(&program.parameters),
+            Kind::Parameter,
+            str::to_owned,
+        ));
+        all.extend(each(&names(&program.inputs), Kind::Input, str::to_owned));
+        all.extend(each(&names(&program.outputs), Kind::Output, str::to_owned));
+        all.push((Kind::KineticEnergy, "energy.kinetic".to_owned()));
+        all.push((Kind::PotentialEnergy, "energy.potential".to_owned()));
+        let facts = program.assumptions.iter().enumerate();
+        all.extend(facts.map(|(i, fact)| {
+            let text = fact.text.replace(['\'', '\\', '"'], "");
+            (Kind::Fact(i), format!("'assume({text})'"))
+        }));
+        let mut taken = BTreeSet::new();
+        let all: Vec<Variable> = all
+            .into_iter()
+            .map(|(kind, name)| Variable {
+                kind,
+                name: free(name, &mut taken),
+                is_output: match kind {
+                    Kind::Output(_) => true,
+                    Kind::Coordinate(_) => !has_outputs,
+                    _ => false,
+                },
+            })
+            .collect();
+        let is_structured = all.iter().all(|variable| variable.name.is_ascii());
+        Variables { all, is_structured }
+    }
+
+    /// The same with others as outputs.
+    ///
+    /// # Errors
+    /// What `unknown` makes of a name that there is not, beside those there are.
+    pub fn with_outputs(
+        mut self,
+        names: &[String],
+        unknown: fn(&str, &[&str]) -> Failure,
+    ) -> Result<Variables, Failure> {
+        let may_be = |variable: &Variable| {
+            !matches!(
+                variable.kind,
+                Kind::Time | Kind::Parameter(_) | Kind::Input(_)
+            )
+        };
+        for name in names {
+            let mut known = self.all.iter().filter(|variable| may_be(variable));
+            if !known.any(|variable| variable.name == *name) {
+                let known = self.all.iter().filter(|variable| may_be(variable));
+                let known: Vec<&str> = known.map(|variable| variable.name.as_str()).collect();
+                return Err(unknown(name, &known));
+            }
+        }
+        for variable in &mut self.all {
+            variable.is_output = may_be(variable) && names.contains(&variable.name);
+        }
+        Ok(self)
+    }
+
+    /// Those that are outputs, with their references.
+    pub fn outputs(&self) -> impl Iterator<Item = (usize, &Variable)> {
+        let all = self.all.iter().enumerate();
+        all.filter(|(_, variable)| variable.is_output)
+    }
+
+    /// Those of a kind, with their references.
+    pub fn of(&self, is_wanted: fn(&Kind) -> bool) -> impl Iterator<Item = (usize, &Variable)> {
+        let all = self.all.iter().enumerate();
+        all.filter(move |(_, variable)| is_wanted(&variable.kind))
+    }
+}
+
+/// A name as the structured convention takes it: an identifier with an index, or what is quoted.
+fn structured(name: &str) -> String {
+    let (base, index) = match name.split_once('[') {
+        Some((base, rest)) => (base, rest.strip_suffix(']')),
+        None => (name, Some("1")),
+    };
+    let is_word = base.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && base.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let is_count =
+        index.is_some_and(|index| !index.is_empty() && index.chars().all(|c| c.is_ascii_digit()));
+    match is_word && is_count || !name.is_ascii() {
+        true => name.to_owned(),
+        false => format!("'{name}'"),
+    }
+}
+
+/// A name that nobody has yet.
+fn free(name: String, taken: &mut BTreeSet<String>) -> String {
+    let mut found = name.clone();
+    let mut count = 2;
+    while !taken.insert(found.clone()) {
+        found = format!("'{} ({count})'", name.trim_matches('\''));
+        count += 1;
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_structured_or_quoted() {
+        for (name, known) in [
+            ("theta1", "theta1"),
+            ("q[3]", "q[3]"),
+            ("q[-1]", "'q[-1]'"),
+            ("rod.gap", "'rod.gap'"),
+            ("θ", "θ"),
+        ] {
+            assert_eq!(structured(name), known);
+        }
+        let mut taken = BTreeSet::new();
+        let names = ["a", "a", "'b c'", "'b c'", "a"].map(|name| free(name.into(), &mut taken));
+        assert_eq!(names, ["a", "'a (2)'", "'b c'", "'b c (2)'", "'a (3)'"]);
+    }
+}

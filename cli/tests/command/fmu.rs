@@ -1,0 +1,483 @@
+//! `lagrangian fmu`: importers in C, and FMPy where it is, get from a unit what `evaluate` and `simulate` print.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{Read as _, Write as _};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use serde_json::{Value, json};
+
+use super::support::{Scratch, lagrangian, root};
+
+/// The files of a unit.
+fn files(unit: &Path) -> BTreeMap<String, Vec<u8>> {
+    let file = fs::File::open(unit).expect("a unit");
+    let mut archive = zip::ZipArchive::new(file).expect("an archive");
+    let mut files = BTreeMap::new();
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index).expect("a file");
+        let mut content = Vec::new();
+        file.read_to_end(&mut content).expect("its bytes");
+        let name = file.name().expect("a name").into_owned();
+        files.insert(name, content);
+    }
+    files
+}
+
+fn text(files: &BTreeMap<String, Vec<u8>>, name: &str) -> String {
+    String::from_utf8(files[name].clone()).expect("text")
+}
+
+/// Makes a unit; what the command prints as JSON.
+fn unit(spec: &str, at: &Scratch, options: &[&str]) -> Value {
+    let arguments = [&["fmu", spec, "--out", at.path(), "--json"], options].concat();
+    let output = lagrangian(&arguments);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{spec}: {said}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// The value of an attribute in the line of a variable with a reference.
+fn attribute(description: &str, reference: usize, name: &str) -> Option<String> {
+    let mark = format!("valueReference=\"{reference}\"");
+    let mut lines = description.lines();
+    let line = lines.find(|line| line.contains(&mark))?;
+    let (_, rest) = line.split_once(&format!(" {name}=\""))?;
+    Some(rest.split('"').next()?.to_owned())
+}
+
+fn run(command: &mut Command, input: &str) -> String {
+    let pipes = command.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = pipes.stderr(Stdio::piped()).spawn().expect("it runs");
+    let mut pipe = child.stdin.take().expect("a pipe");
+    pipe.write_all(input.as_bytes()).expect("a reader");
+    drop(pipe);
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success(),
+        "{command:?}: {} {said}",
+        output.status
+    );
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// What an importer asks of a machine: values off the defaults, a state, and the end of a run from it.
+struct Case {
+    machine: &'static str,
+    constants: &'static [&'static str],
+    until: f64,
+}
+
+const CASES: &[Case] = &[
+    Case {
+        machine: "double_pendulum",
+        constants: &[],
+        until: 1.0,
+    },
+    // Driven at 100 rad/s, with facts.
+    Case {
+        machine: "crusher9",
+        constants: &[],
+        until: 0.2,
+    },
+    Case {
+        machine: "heavy_top",
+        constants: &[],
+        until: 1.0,
+    },
+    Case {
+        machine: "chain",
+        constants: &["--const", "N=4"],
+        until: 1.0,
+    },
+    // An input and outputs, one of them of accelerations.
+    Case {
+        machine: "cart_pole",
+        constants: &[],
+        until: 1.0,
+    },
+];
+
+/// By an importer in C.
+fn check(case: &Case, version: &str, driver: &str, header: &str) {
+    let spec = format!("machines/{}.machine", case.machine);
+    let at = Scratch::new("Machine.fmu", "");
+    let folder = at.0.parent().expect("a folder");
+    let made = unit(&spec, &at, &[&["--fmi", version], case.constants].concat());
+    let files = files(&at.0);
+    let description = text(&files, "modelDescription.xml");
+    for (name, content) in &files {
+        let name = name.rsplit('/').next().expect("a name");
+        fs::write(folder.join(name), content).expect("a file");
+    }
+    fs::write(folder.join("driver.c"), driver).expect("a file");
+    // Every function of the standard is there: else this is not linked.
+    let declared = text(&files, &format!("sources/{header}"));
+    let declared = declared
+        .lines()
+        .filter(|line| line.contains("_Export fmi") && line.trim_end().ends_with(';'));
+    let names = declared.filter_map(|line| line.trim_end_matches([';', ' ']).rsplit(' ').next());
+    let names: Vec<&str> = names.collect();
+    assert_eq!(names.len(), if version == "3" { 75 } else { 44 });
+    let all: String = names
+        .iter()
+        .map(|name| format!("(void (*)(void)){name},"))
+        .collect();
+    let all = format!("#include \"{header}\"\nvoid (*const all[])(void) = {{{all}}};\n");
+    fs::write(folder.join("all.c"), all).expect("a file");
+    let token = made["token"].as_str().expect("a token");
+    let mut cc = Command::new("cc");
+    cc.current_dir(folder)
+        .args(["-std=gnu11", "-Wall", "-Werror"]);
+    cc.arg(format!("-DTOKEN=\"{token}\""));
+    cc.args(["driver.c", "all.c", "./Machine.so", "-o", "driver", "-lm"]);
+    run(cc.arg("-Wl,-rpath,."), "");
+
+    let count = |name: &str| usize::try_from(made[name].as_u64().expect("a count")).expect("few");
+    let n = count("states") / 2;
+    let (parameters, inputs) = (count("parameters"), count("inputs"));
+    let evaluated = |options: &[&str], input: &str| -> Value {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+        command.current_dir(root()).args(["evaluate", &spec]);
+        command.args(options).args(case.constants);
+        serde_json::from_str(&run(&mut command, input)).expect("JSON")
+    };
+    let outputs = evaluated(&[], "")[0]["outputs"]
+        .as_object()
+        .map_or(0, |outputs| outputs.len());
+    // Everything a little off its default, in no pattern.
+    let off = |k: usize| 1.0 + 0.1 * ((k * 37 + 11) % 101) as f64 / 101.0;
+    let line_of = |reference: usize, name: &str| match version {
+        "3" => attribute(&description, reference, name),
+        // The start stands in the line below.
+        _ => {
+            let mark = format!("valueReference=\"{reference}\"");
+            let mut lines = description.lines().skip_while(|line| !line.contains(&mark));
+            let line = lines.nth(usize::from(name == "start"))?;
+            let (_, rest) = line.split_once(&format!(" {name}=\""))?;
+            Some(rest.split('"').next()?.to_owned())
+        }
+    };
+    let start = |k: usize| -> f64 {
+        let start = line_of(k, "start").expect("a start");
+        start.parse().expect("a number")
+    };
+    let name = |k: usize| line_of(k, "name").expect("a name");
+    let value = |k: usize| start(k) * off(k);
+    let range = |from: usize, count: usize| from..from + count;
+    let given = range(1 + 3 * n, parameters);
+    let driven = range(1 + 3 * n + parameters, inputs);
+    let p: Vec<f64> = given.clone().map(value).collect();
+    let u: Vec<f64> = driven.clone().map(|k| 0.3 * off(k)).collect();
+    let q: Vec<f64> = range(1, n).map(|k| value(k) + 0.01 * off(k)).collect();
+    let v: Vec<f64> = range(1 + n, n).map(|k| value(k) + 0.1 * off(k)).collect();
+    let t = 0.25;
+    let map = |names: std::ops::Range<usize>, values: &[f64]| -> Value {
+        let entries = names.map(name).zip(values.iter().map(|x| json!(x)));
+        entries.collect::<serde_json::Map<_, _>>().into()
+    };
+    let point = json!([{
+        "t": t, "q": q, "v": v,
+        "parameters": map(given.clone(), &p), "inputs": map(driven.clone(), &u),
+    }]);
+    let at_point = &evaluated(&["--at", "-"], &point.to_string())[0];
+    let numbers = |value: &Value| -> Vec<f64> {
+        let values: Vec<&Value> = match value {
+            Value::Array(values) => values.iter().collect(),
+            Value::Object(values) => values.values().collect(),
+            value => vec![value],
+        };
+        let values = values.into_iter();
+        values.map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let mut expected = numbers(&at_point["accelerations"]);
+    expected.extend(numbers(&at_point["outputs"]));
+    expected.extend(numbers(&at_point["kinetic_energy"]));
+    expected.extend(numbers(&at_point["potential_energy"]));
+    let evaluations = expected.len();
+
+    // The run of the command starts at 0: machines that time drives are compared from there.
+    let words = |values: &mut dyn Iterator<Item = f64>| -> String {
+        values.map(|x| format!("{x:?} ")).collect()
+    };
+    let sizes = format!("{n} {parameters} {inputs} {outputs} ");
+    let given_to = |t: f64| {
+        let mut all = p.iter().chain(&u).chain(&q).chain(&v).copied();
+        format!("{sizes}{} {t:?} {:?}\n", words(&mut all), t + case.until)
+    };
+    let driver = || {
+        let mut command = Command::new("./driver");
+        command.current_dir(folder);
+        command
+    };
+    let read = |text: String| -> Vec<f64> {
+        text.lines()
+            .map(|line| line.parse().expect("a number"))
+            .collect()
+    };
+    let found = read(run(&mut driver(), &given_to(t)));
+    assert_eq!(found.len(), evaluations + 2 * n, "{}", case.machine);
+    for (k, (x, known)) in found.iter().zip(&expected).enumerate() {
+        // Code of C rounds each operation, the interpreter fuses some: 1e-12 of the largest is thousands of roundings.
+        let largest = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let bound = 1e-12 * largest;
+        assert!(
+            (x - known).abs() <= bound,
+            "{} {k}: {x} {known}",
+            case.machine
+        );
+    }
+    let found = read(run(&mut driver(), &given_to(0.0)));
+    let mut options = vec!["simulate".to_owned(), spec.clone()];
+    for (option, names, values) in [
+        ("--set", given, &p),
+        ("--set", driven, &u),
+        ("--start", range(1, n), &q),
+        ("--rate", range(1, n), &v),
+    ] {
+        for (name, value) in names.map(name).zip(values) {
+            options.extend([option.to_owned(), format!("{name}={value:?}")]);
+        }
+    }
+    let until = format!("{:?}", case.until);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+    command
+        .current_dir(root())
+        .args(options)
+        .args(case.constants);
+    command.args(["--until", &until, "--tolerance", "1e-12", "--json"]);
+    let end: Value = serde_json::from_str(&run(&mut command, "")).expect("JSON");
+    let end = [numbers(&end["q"]), numbers(&end["v"])].concat();
+    let largest = end.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+    for (x, known) in found[evaluations..].iter().zip(&end) {
+        assert!(
+            (x - known).abs() <= 1e-7 * largest,
+            "{}: {x} {known}",
+            case.machine
+        );
+    }
+}
+
+#[test]
+fn an_importer_of_3_gets_what_the_command_prints() {
+    // A driven machine with facts, a family of coordinates, an input with outputs of accelerations.
+    for case in [&CASES[1], &CASES[3], &CASES[4]] {
+        check(case, "3", include_str!("fmu/driver3.c"), "fmi3Functions.h");
+    }
+}
+
+#[test]
+fn an_importer_of_2_gets_what_the_command_prints() {
+    check(
+        &CASES[4],
+        "2",
+        include_str!("fmu/driver2.c"),
+        "fmi2Functions.h",
+    );
+}
+
+/// The archive: its files, the same bytes from the same spec, another token from another machine, and nothing but text without a
+/// compiler.
+#[test]
+fn the_same_machine_is_the_same_unit() {
+    let spec = "machines/double_pendulum.machine";
+    let units = [(), ()].map(|()| Scratch::new("Pendulum.fmu", ""));
+    let tokens = units
+        .each_ref()
+        .map(|at| unit(spec, at, &[])["token"].to_string());
+    assert_eq!(tokens[0], tokens[1]);
+    let bytes = units.each_ref().map(|at| fs::read(&at.0).expect("a unit"));
+    assert!(bytes[0] == bytes[1], "other bytes");
+    let names: Vec<String> = files(&units[0].0).into_keys().collect();
+    let sources = [
+        "buildDescription.xml",
+        "fmi3.c",
+        "fmi3FunctionTypes.h",
+        "fmi3Functions.h",
+        "fmi3PlatformTypes.h",
+        "machine.c",
+        "runtime.c",
+    ];
+    let sources = sources.map(|name| format!("sources/{name}"));
+    assert_eq!(
+        names[1..],
+        [&["modelDescription.xml".to_owned()], &sources[..]].concat()
+    );
+    assert!(names[0].starts_with("binaries/") && names[0].contains("/Pendulum."));
+    let other = Scratch::new("Pendulum.fmu", "");
+    let said = unit(spec, &other, &["--set", "m1=2", "--sources-only"]);
+    assert_ne!(said["token"].to_string(), tokens[0]);
+    assert_eq!(said["platform"], Value::Null);
+    let files = files(&other.0);
+    assert!(files.keys().all(|name| !name.starts_with("binaries")));
+    let description = text(&files, "modelDescription.xml");
+    // q, v and a of two angles, then the parameters: references are the places.
+    assert_eq!(attribute(&description, 7, "name").as_deref(), Some("m1"));
+    assert_eq!(attribute(&description, 7, "start").as_deref(), Some("2.0"));
+    assert_eq!(
+        attribute(&description, 7, "variability").as_deref(),
+        Some("tunable")
+    );
+    assert_eq!(
+        attribute(&description, 6, "name").as_deref(),
+        Some("der(theta2,2)")
+    );
+    assert_eq!(
+        attribute(&description, 6, "derivative").as_deref(),
+        Some("4")
+    );
+    assert_eq!(
+        attribute(&description, 1, "causality").as_deref(),
+        Some("output")
+    );
+}
+
+/// Starts by formulas of parameters follow these until somebody sets them; units, factors and outputs are those asked for.
+#[test]
+fn a_description_says_what_was_asked_for() {
+    let spec = "machine Mm in plane {
+        parameters { l: mm = 500, w: rpm = 30, m: kg = 1, g: m/s^2 = 9.81, a: rad = 0.5 }
+        coordinates { phi: rad = 2*a, 's': m = l }
+        inputs { torque: N*m = 0 }
+        bodies {
+            b { mass: m, at: l*(sin(phi), -cos(phi)) },
+            c { mass: m, at: (s, 0) },
+        }
+        gravity (0, -g);
+        forces { motor { on: phi, value: torque*sin(w*t) } }
+        outputs { h: mm = -l*cos(phi) }
+    }"
+    .replace("'s'", "s");
+    let spec = Scratch::new("mm.machine", &spec);
+    let at = Scratch::new("mm.fmu", "");
+    let options = [
+        "--sources-only",
+        "--outputs",
+        "phi,der(s,2)",
+        "--start",
+        "s=0.25",
+    ];
+    unit(spec.path(), &at, &options);
+    let description = text(&files(&at.0), "modelDescription.xml");
+    let of = |reference, name| attribute(&description, reference, name);
+    assert_eq!(of(1, "start").as_deref(), Some("1.0"));
+    assert_eq!(of(2, "start").as_deref(), Some("0.25"));
+    let outputs = (1..=13).filter(|k| of(*k, "causality").as_deref() == Some("output"));
+    assert_eq!(outputs.collect::<Vec<_>>(), [1, 6]);
+    assert_eq!(of(7, "unit").as_deref(), Some("mm"));
+    assert!(description.contains("<Unit name=\"mm\">\n      <BaseUnit m=\"1\" factor=\"0.001\"/>"));
+    assert!(description.contains("<BaseUnit m=\"1\" s=\"-2\"/>"));
+    assert!(description.contains("name=\"rad/s\""));
+    let machine = text(&files(&at.0), "sources/machine.c");
+    assert!(machine.contains("START_IS_SET[] = {0, 1, 0, 0, 0};"));
+}
+
+#[test]
+fn what_no_unit_can_be_is_refused() {
+    let at = Scratch::new("machine.fmu", "older");
+    for (spec, options, status, words) in [
+        (
+            "block_on_incline",
+            &[][..],
+            1,
+            "of `sliding` sticks or slides",
+        ),
+        (
+            "contacts/colliding_crusher",
+            &[],
+            1,
+            "of `contacts` is closed",
+        ),
+        (
+            "four_bar",
+            &[],
+            1,
+            "is a constraint, on which a unit does not hold its states",
+        ),
+        (
+            "double_pendulum",
+            &["--outputs", "theta3"],
+            2,
+            "did you mean `theta1`?",
+        ),
+        ("double_pendulum", &["--fmi", "1"], 2, "1 is not in 2..=3"),
+        (
+            "double_pendulum",
+            &["--cc", "/no/compiler"],
+            1,
+            "--sources-only makes a unit without a library",
+        ),
+        (
+            "double_pendulum",
+            &["--set", "m1=1", "--set", "m1=2"],
+            2,
+            "more than once",
+        ),
+    ] {
+        let spec = format!("machines/{spec}.machine");
+        let output = lagrangian(&[&["fmu", &spec, "--out", at.path()], options].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(status), "{spec}: {said}");
+        assert!(said.contains(words), "{spec}: {said}");
+        assert_eq!(fs::read_to_string(&at.0).expect("a file"), "older");
+    }
+}
+
+/// What there is no default for is asked for; and given, it is the default.
+#[test]
+fn everything_in_a_unit_has_a_start_value() {
+    let spec = "machine M in plane {
+        parameters { m: kg, k: N/m = 1 }
+        coordinates { x: m = 1 }
+        bodies { b { mass: m, at: (x, 0) } }
+        springs { s { stiffness: k, stretch: x } }
+    }";
+    let spec = Scratch::new("m.machine", spec);
+    let at = Scratch::new("m.fmu", "");
+    let arguments = ["fmu", spec.path(), "--out", at.path(), "--sources-only"];
+    let output = lagrangian(&arguments);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("give it by --set m=VALUE"), "{said}");
+    let output = lagrangian(&[&arguments[..], &["--set", "m=2"]].concat());
+    assert!(output.status.success());
+}
+
+/// By FMPy, in the Python that the variable LAGRANGIAN_PYTHON names, or `python3`.
+#[test]
+fn fmpy_validates_and_simulates() {
+    let python = std::env::var("LAGRANGIAN_PYTHON").unwrap_or_else(|_| "python3".into());
+    let mut probe = Command::new(&python);
+    let found = probe.args(["-c", "import fmpy"]).output();
+    if !found.is_ok_and(|output| output.status.success()) {
+        println!("skipped: {python} has no FMPy");
+        return;
+    }
+    for case in CASES {
+        let spec = format!("machines/{}.machine", case.machine);
+        let arguments = [
+            "simulate",
+            &spec,
+            "--tolerance",
+            "1e-12",
+            "--json",
+            "--until",
+        ];
+        let until = case.until.to_string();
+        let output = lagrangian(&[&arguments, &[until.as_str()][..], case.constants].concat());
+        let end: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let q = end["q"].as_object().expect("coordinates");
+        let ends: serde_json::Map<String, Value> = q.clone();
+        let wanted = json!({"until": case.until, "start": {}, "end": ends});
+        for version in ["2", "3"] {
+            let at = Scratch::new("Machine.fmu", "");
+            unit(&spec, &at, &[&["--fmi", version], case.constants].concat());
+            let mut command = Command::new(&python);
+            command.args(["-c", include_str!("fmu/fmpy.py"), at.path()]);
+            let said = run(command.arg(wanted.to_string()), "");
+            assert!(said.contains("valid"), "{} {version}: {said}", case.machine);
+        }
+    }
+}

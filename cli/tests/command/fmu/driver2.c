@@ -1,0 +1,75 @@
+/* An importer of FMI 2.0 for one unit. Reads how many there are of each, values, a state, the time and the end; prints
+   accelerations, outputs, energies, and the state at the end of a co-simulation. */
+#include "fmi2Functions.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST 256
+
+static int n, parameters, inputs, outputs;
+static double p[MOST], u[MOST], y[MOST], t, until;
+
+static void hear(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status, fmi2String category,
+                 fmi2String message, ...) {
+    (void)environment, (void)name, (void)status, (void)category;
+    fprintf(stderr, "%s\n", message);
+}
+
+static void must(int holds, int rule) {
+    if (holds) return;
+    fprintf(stderr, "rule %d is broken\n", rule);
+    exit(rule);
+}
+
+static void read_all(fmi2Component unit, unsigned first, int count, double *values) {
+    unsigned references[2 * MOST];
+    for (int i = 0; i < count; ++i) references[i] = first + i;
+    must(fmi2GetReal(unit, references, count, values) == fmi2OK, 11);
+}
+
+static void write_all(fmi2Component unit, unsigned first, int count, const double *values) {
+    unsigned references[2 * MOST];
+    for (int i = 0; i < count; ++i) references[i] = first + i;
+    must(fmi2SetReal(unit, references, count, values) == fmi2OK, 10);
+}
+
+static fmi2Component unit_of(fmi2Type kind) {
+    static const fmi2CallbackFunctions callbacks = {hear, calloc, free, NULL, NULL};
+    fmi2Component unit = fmi2Instantiate("one", kind, TOKEN, "", &callbacks, fmi2False, fmi2False);
+    must(unit != NULL, 5);
+    must(fmi2SetupExperiment(unit, fmi2True, 1e-11, t, fmi2False, 0.0) == fmi2OK, 6);
+    must(fmi2EnterInitializationMode(unit) == fmi2OK, 7);
+    write_all(unit, 1 + 3 * n, parameters, p);
+    write_all(unit, 1 + 3 * n + parameters, inputs, u);
+    write_all(unit, 1, 2 * n, y);
+    must(fmi2ExitInitializationMode(unit) == fmi2OK, 8);
+    return unit;
+}
+
+int main(void) {
+    if (scanf("%d %d %d %d", &n, &parameters, &inputs, &outputs) != 4) return 2;
+    for (int i = 0; i < parameters; ++i)
+        if (scanf("%lf", &p[i]) != 1) return 2;
+    for (int i = 0; i < inputs; ++i)
+        if (scanf("%lf", &u[i]) != 1) return 2;
+    for (int i = 0; i < 2 * n; ++i)
+        if (scanf("%lf", &y[i]) != 1) return 2;
+    if (scanf("%lf %lf", &t, &until) != 2) return 2;
+    fmi2Component unit = unit_of(fmi2ModelExchange);
+    double numbers[2 * MOST];
+    must(fmi2EnterContinuousTimeMode(unit) == fmi2OK, 9);
+    must(fmi2GetDerivatives(unit, numbers, 2 * n) == fmi2OK, 9);
+    must(!memcmp(numbers, y + n, n * sizeof *y), 9);
+    for (int i = 0; i < n; ++i) printf("%.17g\n", numbers[n + i]);
+    read_all(unit, 1 + 3 * n + parameters + inputs, outputs + 2, numbers);
+    for (int i = 0; i < outputs + 2; ++i) printf("%.17g\n", numbers[i]);
+    fmi2FreeInstance(unit);
+    unit = unit_of(fmi2CoSimulation);
+    for (int k = 0; k < 20; ++k)
+        must(fmi2DoStep(unit, t + (until - t) * k / 20, (until - t) / 20, fmi2True) == fmi2OK, 15);
+    read_all(unit, 1, 2 * n, numbers);
+    for (int i = 0; i < 2 * n; ++i) printf("%.17g\n", numbers[i]);
+    fmi2FreeInstance(unit);
+    return 0;
+}

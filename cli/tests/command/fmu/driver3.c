@@ -1,0 +1,213 @@
+/* An importer of FMI 3.0 for one unit: what it computes is printed, and what a unit must obey is checked, with a number for each
+   rule that is broken. Reads how many there are of each, values, a state, the time and the end. */
+#include "fmi3Functions.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST 256
+
+/* Every allocation of the process passes here. */
+static long allocations;
+#ifdef __GLIBC__
+void *__libc_malloc(size_t);
+void *__libc_calloc(size_t, size_t);
+void *malloc(size_t size) { return ++allocations, __libc_malloc(size); }
+void *calloc(size_t count, size_t size) { return ++allocations, __libc_calloc(count, size); }
+#endif
+
+static int n, parameters, inputs, outputs;
+static double p[MOST], u[MOST], y[MOST], t, until;
+static long messages;
+
+static void hear(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category, fmi3String message) {
+    (void)environment, (void)category;
+    ++messages;
+    if (status > fmi3Discard) fprintf(stderr, "%s\n", message);
+}
+
+static void must(int holds, int rule) {
+    if (holds) return;
+    fprintf(stderr, "rule %d is broken\n", rule);
+    exit(rule);
+}
+
+static void well(fmi3Status status, int rule) { must(status == fmi3OK, rule); }
+
+/* Numbers in a row, by the reference of the first. */
+static void write_all(fmi3Instance unit, unsigned first, int count, const double *values) {
+    for (int i = 0; i < count; ++i) {
+        const unsigned reference = first + i;
+        well(fmi3SetFloat64(unit, &reference, 1, &values[i], 1), 10);
+    }
+}
+
+static void read_all(fmi3Instance unit, unsigned first, int count, double *values) {
+    unsigned references[2 * MOST];
+    for (int i = 0; i < count; ++i) references[i] = first + i;
+    well(fmi3GetFloat64(unit, references, count, values, count), 11);
+}
+
+static unsigned at_parameters(void) { return 1 + 3 * n; }
+static unsigned at_inputs(void) { return at_parameters() + parameters; }
+static unsigned at_outputs(void) { return at_inputs() + inputs; }
+
+static void initialize(fmi3Instance unit, double tolerance) {
+    well(fmi3EnterInitializationMode(unit, true, tolerance, t, false, 0.0), 12);
+    write_all(unit, at_parameters(), parameters, p);
+    write_all(unit, at_inputs(), inputs, u);
+    write_all(unit, 1, 2 * n, y);
+    well(fmi3ExitInitializationMode(unit), 13);
+}
+
+static fmi3Instance slave(void) {
+    fmi3Instance unit = fmi3InstantiateCoSimulation("two", TOKEN, NULL, false, false, false, false, NULL, 0, NULL, hear, NULL);
+    must(unit != NULL, 14);
+    return unit;
+}
+
+static void step(fmi3Instance unit, int k, int of) {
+    bool event, terminate, early;
+    double last;
+    const double from = t + (until - t) * k / of, to = t + (until - t) * (k + 1) / of;
+    well(fmi3DoStep(unit, from, to - from, true, &event, &terminate, &early, &last), 15);
+    must(last == from + (to - from), 16);
+}
+
+static double largest_of(const double *one, const double *other, int count) {
+    double largest = 0.0;
+    for (int i = 0; i < count; ++i) largest = fmax(largest, fmax(fabs(one[i]), fabs(other[i])));
+    return largest;
+}
+
+/* Derivatives of accelerations and outputs in a direction, beside differences of these. */
+static void check_derivatives(fmi3Instance unit) {
+    unsigned unknowns[2 * MOST];
+    const int count = n + outputs;
+    for (int i = 0; i < n; ++i) unknowns[i] = 1 + 2 * n + i;
+    for (int i = 0; i < outputs; ++i) unknowns[n + i] = at_outputs() + i;
+    for (unsigned known = 1; known < at_outputs(); ++known) {
+        if (known > 2u * n && known < at_parameters()) continue;
+        const double seed = 1.0;
+        double exact[2 * MOST], up[2 * MOST], down[2 * MOST], value, states[2 * MOST];
+        well(fmi3GetDirectionalDerivative(unit, unknowns, count, &known, 1, &seed, 1, exact, count), 20);
+        well(fmi3GetFloat64(unit, &known, 1, &value, 1), 21);
+        read_all(unit, 1, 2 * n, states);
+        /* The error of a central difference is some (h/x)^2 = 1e-10 of it, and rounding over h: 1e-13 are hundreds. */
+        const double h = 1e-5 * (value != 0.0 ? fabs(value) : 1.0);
+        for (int side = 0; side < 2; ++side) {
+            const double moved = side ? value - h : value + h;
+            if (known <= 2u * n) {
+                const double before = states[known - 1];
+                states[known - 1] = moved;
+                well(fmi3SetContinuousStates(unit, states, 2 * n), 22);
+                states[known - 1] = before;
+            } else {
+                well(fmi3SetFloat64(unit, &known, 1, &moved, 1), 22);
+            }
+            well(fmi3GetFloat64(unit, unknowns, count, side ? down : up, count), 23);
+        }
+        well(fmi3SetContinuousStates(unit, states, 2 * n), 24);
+        if (known > 2u * n) well(fmi3SetFloat64(unit, &known, 1, &value, 1), 24);
+        for (int i = 0; i < count; ++i) {
+            const double difference = (up[i] - down[i]) / (2.0 * h);
+            const double size = largest_of(up, down, count);
+            if (!(fabs(exact[i] - difference) <= 1e-6 * fabs(difference) + 1e-13 * size / h)) {
+                fprintf(stderr, "of %u by %u: %.17g, by differences %.17g\n", unknowns[i], known, exact[i], difference);
+                exit(25);
+            }
+        }
+    }
+}
+
+int main(void) {
+    if (scanf("%d %d %d %d", &n, &parameters, &inputs, &outputs) != 4) return 2;
+    for (int i = 0; i < parameters; ++i)
+        if (scanf("%lf", &p[i]) != 1) return 2;
+    for (int i = 0; i < inputs; ++i)
+        if (scanf("%lf", &u[i]) != 1) return 2;
+    for (int i = 0; i < 2 * n; ++i)
+        if (scanf("%lf", &y[i]) != 1) return 2;
+    if (scanf("%lf %lf", &t, &until) != 2) return 2;
+    must(!strcmp(fmi3GetVersion(), "3.0"), 3);
+
+    /* Model exchange. */
+    must(!fmi3InstantiateModelExchange("x", "another", NULL, false, false, NULL, hear), 4);
+    fmi3Instance unit = fmi3InstantiateModelExchange("one", TOKEN, NULL, false, false, NULL, hear);
+    must(unit != NULL, 5);
+    initialize(unit, 1e-9);
+    double a[MOST], derivatives[2 * MOST], numbers[MOST];
+    read_all(unit, 1 + 2 * n, n, a);
+    for (int i = 0; i < n; ++i) printf("%.17g\n", a[i]);
+    read_all(unit, at_outputs(), outputs + 2, numbers);
+    for (int i = 0; i < outputs + 2; ++i) printf("%.17g\n", numbers[i]);
+    well(fmi3EnterContinuousTimeMode(unit), 6);
+    well(fmi3SetTime(unit, t), 6);
+    well(fmi3SetContinuousStates(unit, y, 2 * n), 6);
+    well(fmi3GetContinuousStateDerivatives(unit, derivatives, 2 * n), 7);
+    must(!memcmp(derivatives, y + n, n * sizeof *y) && !memcmp(derivatives + n, a, n * sizeof *a), 7);
+    check_derivatives(unit);
+    /* What there is not is an error, and no end. */
+    long heard = messages;
+    const unsigned beyond = 100000;
+    double none;
+    must(fmi3GetFloat64(unit, &beyond, 1, &none, 1) == fmi3Error && messages == heard + 1, 8);
+    must(fmi3SetFloat64(unit, &(unsigned){1 + 2 * n}, 1, &(double){0.0}, 1) == fmi3Error, 8);
+    must(fmi3SetFloat64(unit, &(unsigned){at_parameters()}, 1, &(double){NAN}, 1) == fmi3Error, 8);
+    fmi3FreeInstance(unit);
+
+    /* Co-simulation: two units side by side, one of which is saved, goes on, and is brought back. */
+    enum { STEPS = 20 };
+    fmi3Instance one = slave(), two = slave();
+    initialize(one, 1e-11);
+    initialize(two, 1e-11);
+    fmi3FMUState saved = NULL, copied = NULL;
+    double first[2 * MOST], other[2 * MOST];
+    static unsigned char bytes[1 << 16];
+    size_t size = 0;
+    const long before = allocations;
+    long by_states = 0;
+    for (int k = 0; k < STEPS; ++k) {
+        if (k == STEPS / 2) {
+            const long now = allocations;
+            well(fmi3GetFMUState(one, &saved), 30);
+            by_states = allocations - now;
+        }
+        step(one, k, STEPS);
+        step(two, k, STEPS);
+    }
+    must(allocations == before + by_states && by_states <= 1, 31);
+    read_all(one, 1, 2 * n, first);
+    for (int i = 0; i < 2 * n; ++i) printf("%.17g\n", first[i]);
+    read_all(two, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 32);
+    well(fmi3SetFMUState(one, saved), 33);
+    for (int k = STEPS / 2; k < STEPS; ++k) step(one, k, STEPS);
+    read_all(one, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 34);
+    well(fmi3SerializedFMUStateSize(one, saved, &size), 35);
+    must(size <= sizeof bytes, 35);
+    well(fmi3SerializeFMUState(one, saved, bytes, size), 35);
+    fmi3Instance three = slave();
+    well(fmi3DeserializeFMUState(three, bytes, size, &copied), 36);
+    well(fmi3SetFMUState(three, copied), 36);
+    for (int k = STEPS / 2; k < STEPS; ++k) step(three, k, STEPS);
+    read_all(three, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 37);
+    bytes[3] ^= 1;
+    must(fmi3DeserializeFMUState(three, bytes, size, &copied) == fmi3Error, 38);
+    /* As new. */
+    well(fmi3Reset(two), 39);
+    initialize(two, 1e-11);
+    for (int k = 0; k < STEPS; ++k) step(two, k, STEPS);
+    read_all(two, 1, 2 * n, other);
+    must(!memcmp(first, other, 2 * n * sizeof *first), 40);
+    well(fmi3FreeFMUState(one, &saved), 41);
+    well(fmi3FreeFMUState(one, &copied), 41);
+    must(!saved && !copied, 41);
+    fmi3FreeInstance(one);
+    fmi3FreeInstance(two);
+    fmi3FreeInstance(three);
+    return 0;
+}
