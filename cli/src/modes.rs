@@ -8,11 +8,11 @@ use std::fmt::Write as _;
 
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::{Machine, Simulation, System};
-use lagrangian_linear::Complex;
 use lagrangian_linear::motion::Motion;
 use lagrangian_linear::search::{self, Wanted};
 use lagrangian_linear::spectrum::{Mode, Modes, damping};
 use lagrangian_linear::steady::{self, Options};
+use lagrangian_linear::{Complex, model};
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Dag;
 use serde_json::{Map, Value, json};
@@ -138,7 +138,12 @@ fn on_constraints(
 /// The steady motion that is reached from `q`, and the motions near it.
 pub fn motion(machine: &InterpretedMachine, q: &[f64], wanted: &Wanted) -> Result<Motion, Failure> {
     let motion = steady::motion(machine, q, wanted);
-    motion.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), wanted, OPTIONS)))
+    let motion =
+        motion.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), wanted, OPTIONS)))?;
+    // At a corner dual numbers take some slope between those of its sides.
+    let smooth = model::check_smooth(machine, &motion);
+    smooth.map_err(|none| Failure::Run(none.in_words(&machine.prepare(), OPTIONS)))?;
+    Ok(motion)
 }
 
 /// The program, of a machine that has what is asked for: `modes`, or a `linear model`.

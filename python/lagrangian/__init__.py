@@ -9,6 +9,7 @@
 
 from . import errors
 from ._equations import Equations, Program
+from ._linear import Linear, Mode, Modes
 from ._machine import Evaluation, Machine, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
@@ -43,9 +44,12 @@ __all__ = [
     "Event",
     "ExportError",
     "LagrangianError",
+    "Linear",
     "LogUniform",
     "Machine",
     "MissingParameters",
+    "Mode",
+    "Modes",
     "Named",
     "Normal",
     "Program",

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _batch, _native, _simulate, _sweep
+from . import _batch, _linear, _native, _simulate, _sweep
 from ._equations import Equations, Program
 from ._named import Named, State
 from .errors import Diagnostic, SingularError, unknown
@@ -398,6 +398,9 @@ class Machine(_native.Machine):
 
         return f
 
+    linearize = _linear.linearize
+    modes = _linear.modes
+    equilibrium = _linear.equilibrium
     simulate = _simulate.simulate
     sweep = _sweep.sweep
 

@@ -106,6 +106,19 @@ def linearize(
     v: Sequence[float],
     u: Sequence[float],
 ) -> Tuple[_Array, _Array]: ...
+def modes(
+    machine: Machine,
+    start: Tuple[float, Sequence[float], Sequence[float]],
+    inputs: Sequence[float],
+    steady: Tuple[Sequence[bool], Sequence[bool]],
+) -> Dict[str, Any]: ...
+def linear_model(
+    machine: Machine,
+    start: Tuple[float, Sequence[float], Sequence[float]],
+    inputs: Sequence[float],
+    steady: Optional[Tuple[Sequence[bool], Sequence[bool]]],
+    wanted: Tuple[Sequence[int], Sequence[Tuple[str, int]]],
+) -> Dict[str, Any]: ...
 def simulate(of: Machine, settings: Dict[str, Any]) -> Tuple[Run, Optional[str]]: ...
 def written(text: str, input: str, unit: str) -> str: ...
 def plan(text: str) -> Tuple[str, int, int, Optional[str]]: ...

@@ -400,7 +400,8 @@ def _written_beside(path: str, write: Callable[[Any], None]) -> None:
     file = tempfile.NamedTemporaryFile(dir=folder, prefix=".", suffix=os.path.splitext(path)[1], delete=False)
     try:
         with file:
-            write(file)
+            # The file itself: SciPy looks for methods that the wrapper around it does not list.
+            write(file.file)
         mode = os.stat(path).st_mode & 0o777 if os.path.exists(path) else 0o666 & ~_umask()
         os.chmod(file.name, mode)
         os.replace(file.name, path)
@@ -583,7 +584,7 @@ def simulate(
         program = machine._program.with_formulas(formulas)
         runs = type(machine)._with(program, *machine._values)
         outputs = program.formulas
-        rules = [(i, n, None if k is None else outputs[k], *rest) for i, n, k, *rest in rules]  # type: ignore[misc]
+        rules = [(i, n, None if k is None else outputs[k], *rest) for i, n, k, *rest in rules]
         watched = [(n, None if k is None else outputs[k], f, d, e) for n, k, f, d, e in watched]
         if stops is not None and stops[0] is not None:
             stops = (outputs[stops[0]], None)

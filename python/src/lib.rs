@@ -4,6 +4,7 @@
 mod errors;
 mod evaluate;
 mod inputs;
+mod linear;
 mod machine;
 mod program;
 mod run;
@@ -26,6 +27,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::linearize, module)?)?;
     module.add_function(wrap_pyfunction!(inputs::written, module)?)?;
+    module.add_function(wrap_pyfunction!(linear::modes, module)?)?;
+    module.add_function(wrap_pyfunction!(linear::linear_model, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::methods, module)?)?;
     module.add_class::<sweep::Stop>()?;

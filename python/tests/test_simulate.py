@@ -263,6 +263,9 @@ def test_tables(oscillator, tmp_path):
     assert pyarrow.parquet.read_table(tmp_path / "run.parquet") == table
     run.save(tmp_path / "run.npz")
     assert np.load(tmp_path / "run.npz")["x"].tolist() == run["x"].tolist()
+    io = pytest.importorskip("scipy.io")
+    run.save(tmp_path / "run.mat")
+    assert io.loadmat(tmp_path / "run.mat")["x"].ravel().tolist() == run["x"].tolist()
     run.save(tmp_path / "run.csv")
     read = pandas.read_csv(tmp_path / "run.csv")
     assert read["pull [N]"].tolist() == run["pull"].tolist()

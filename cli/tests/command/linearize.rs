@@ -378,6 +378,11 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
             status == 1 && said.contains("corner or a jump in `der(x)`"),
             "{force}: {said}"
         );
+        // It has no modes there either.
+        let modes = lagrangian(&["modes", spec.path()]);
+        assert_eq!(modes.status.code(), Some(1), "{force}");
+        let said = String::from_utf8_lossy(&modes.stderr).into_owned();
+        assert!(said.contains("corner or a jump in `der(x)`"), "{said}");
         // Beside the corner all is well.
         let found = linearize(&[spec.path(), "--here", "--rate", "x=0.5"]);
         assert_eq!(rows(&found["A"])[1][0], -4.0);

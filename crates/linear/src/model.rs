@@ -264,6 +264,33 @@ pub fn along(
     Ok(asked.model(&at, here, bounds, (q, v, inputs)))
 }
 
+/// Whether the equations of motion have a linearization along a motion, and so modes.
+///
+/// # Errors
+/// If something in them has a corner or a jump there.
+pub fn check_smooth(machine: &InterpretedMachine, motion: &Motion) -> Result<(), NoModel> {
+    let system = machine.prepare();
+    let inputs = system.default_inputs().values;
+    let found = &motion.found;
+    let mut reduced = Reduced::new(
+        machine,
+        &system,
+        &inputs,
+        &states(&found.place.q(), &motion.v),
+    );
+    let at = At {
+        choice: &found.choice,
+        place: &found.place,
+        records: &motion.records,
+    };
+    let nothing = Request {
+        inputs: Vec::new(),
+        outputs: Vec::new(),
+    };
+    let asked = Asked::new(machine, &system, &nothing, at.choice)?;
+    smooth(&mut reduced, &asked, &at)
+}
+
 /// The model about a state at a time, whatever the machine does there. With constraints the coordinates are moved onto them.
 ///
 /// # Errors

@@ -1,0 +1,243 @@
+//! Equilibria, steady motions, modes and linear models.
+
+use lagrangian::interpreted::InterpretedMachine;
+use lagrangian::{Machine as _, Simulation, System};
+use lagrangian_linear::model::{self, Label, Model, NoModel, Observed, Request};
+use lagrangian_linear::motion::Motion;
+use lagrangian_linear::poles::poles;
+use lagrangian_linear::search::{MOST_STEPS, Wanted};
+use lagrangian_linear::spectrum::damping;
+use lagrangian_linear::steady::{self, Options};
+use lagrangian_linear::zeros::zeros;
+use lagrangian_linear::{Complex, DMatrix};
+use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::machine::Machine;
+
+/// What callers call where to look.
+const OPTIONS: Options = Options {
+    start: "start",
+    steady: "steady",
+};
+
+/// A start, and which coordinates are to move steadily, which of them at rates that are sought; none of a model about the
+/// start as it is.
+type Start = (f64, Vec<f64>, Vec<f64>);
+type Steady = (Vec<bool>, Vec<bool>);
+
+/// Names with their units.
+type Labels = Vec<(String, String)>;
+
+impl Machine {
+    /// The machine with other values of its inputs; friction and contacts are refused, which have no linearization.
+    fn linear(&self, py: Python<'_>, inputs: &[f64]) -> PyResult<InterpretedMachine> {
+        self.check_parameters(py)?;
+        let system = self.system();
+        for (count, what) in [
+            (
+                system.contacts().len(),
+                "what sticks has no linearization: a machine with `sliding`",
+            ),
+            (
+                system.unilateral_contacts().len(),
+                "what collides has no linearization: a machine with `contacts`",
+            ),
+        ] {
+            if count > 0 {
+                return Err(PyValueError::new_err(format!(
+                    "{what} has no modes and no linear model"
+                )));
+            }
+        }
+        let mut machine = self.machine.clone();
+        for (slot, value) in self.machine.program().inputs.iter().zip(inputs) {
+            let set = machine.set(&slot.name.to_string(), *value);
+            set.map_err(|unknown| PyValueError::new_err(unknown.to_string()))?;
+        }
+        Ok(machine)
+    }
+}
+
+/// The start on the constraints, as a run would begin.
+fn on_constraints(
+    machine: &InterpretedMachine,
+    (t, q, v): Start,
+) -> Result<(Vec<f64>, Vec<f64>), String> {
+    if machine.prepare().constraints().len() == 0 {
+        return Ok((q, v));
+    }
+    let mut start = machine.start();
+    start.t = t;
+    start.q.values = q;
+    start.v.values = v;
+    let run = Simulation::new(machine).until(t).run(start);
+    let run = run.map_err(|error| error.to_string())?;
+    let start = run.start();
+    Ok((start.q.values.clone(), start.v.values.clone()))
+}
+
+/// The steady motion near a start.
+fn found(
+    machine: &InterpretedMachine,
+    (_, q, v): Start,
+    (steady, solved): Steady,
+) -> Result<Motion, String> {
+    let wanted = Wanted {
+        steady,
+        solved,
+        rates: v,
+        steps: MOST_STEPS,
+    };
+    if let Err(names) = steady::drives(machine, &q, &wanted) {
+        let help = match names.is_empty() {
+            true => String::new(),
+            false => format!("; it stands still with {} = 0", names.join(" = 0, or ")),
+        };
+        return Err(format!(
+            "the machine is driven: its equations change with time, so that it is at rest nowhere{help}"
+        ));
+    }
+    let motion = steady::motion(machine, &q, &wanted);
+    let motion = motion.map_err(|none| none.in_words(&machine.prepare(), &wanted, OPTIONS))?;
+    let smooth = model::check_smooth(machine, &motion);
+    smooth.map_err(|none| none.in_words(&machine.prepare(), OPTIONS))?;
+    Ok(motion)
+}
+
+fn array<'py>(py: Python<'py>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
+    PyArray1::from_slice(py, values)
+}
+
+/// Row after row.
+fn flat(matrix: &DMatrix<f64>) -> Vec<f64> {
+    matrix.transpose().iter().copied().collect()
+}
+
+fn parts(values: &[Complex<f64>]) -> [Vec<f64>; 2] {
+    [
+        values.iter().map(|x| x.re).collect(),
+        values.iter().map(|x| x.im).collect(),
+    ]
+}
+
+/// The modes about the equilibrium or the steady motion near a start, by name.
+#[pyfunction]
+pub fn modes<'py>(
+    machine: &Machine,
+    py: Python<'py>,
+    start: Start,
+    inputs: Vec<f64>,
+    steady: Steady,
+) -> PyResult<Bound<'py, PyDict>> {
+    let machine = machine.linear(py, &inputs)?;
+    let motion = py.detach(|| found(&machine, start, steady));
+    let motion = motion.map_err(PyValueError::new_err)?;
+    let all = PyDict::new(py);
+    let modes = &motion.modes.modes;
+    let lambdas: Vec<Complex<f64>> = modes.iter().map(|mode| mode.lambda).collect();
+    let shapes: Vec<Complex<f64>> = modes.iter().flat_map(|mode| mode.shape.clone()).collect();
+    let ratios = lambdas.iter().map(|x| damping(*x).unwrap_or(f64::NAN));
+    let errors: Vec<f64> = modes.iter().map(|mode| mode.error).collect();
+    let kinds: Vec<&str> = modes.iter().map(|mode| mode.kind()).collect();
+    let [re, im] = parts(&lambdas);
+    all.set_item("re", array(py, &re))?;
+    all.set_item("im", array(py, &im))?;
+    let [re, im] = parts(&shapes);
+    all.set_item("shapes_re", array(py, &re))?;
+    all.set_item("shapes_im", array(py, &im))?;
+    all.set_item("damping", array(py, &ratios.collect::<Vec<f64>>()))?;
+    all.set_item("error", array(py, &errors))?;
+    all.set_item("kinds", kinds)?;
+    all.set_item("q", array(py, &motion.found.place.q()))?;
+    all.set_item("v", array(py, &motion.v))?;
+    all.set_item("free", motion.modes.free)?;
+    Ok(all)
+}
+
+/// The linear model about the start as it is, or about the equilibrium or the steady motion near it, by name. Outputs are kinds
+/// with numbers.
+#[pyfunction]
+pub fn linear_model<'py>(
+    machine: &Machine,
+    py: Python<'py>,
+    start: Start,
+    inputs: Vec<f64>,
+    steady: Option<Steady>,
+    wanted: (Vec<usize>, Vec<(String, usize)>),
+) -> PyResult<Bound<'py, PyDict>> {
+    let machine = machine.linear(py, &inputs)?;
+    let outputs = wanted.1.iter().map(|(kind, k)| match kind.as_str() {
+        "coordinate" => Ok(Observed::Coordinate(*k)),
+        "rate" => Ok(Observed::Rate(*k)),
+        "acceleration" => Ok(Observed::Acceleration(*k)),
+        "multiplier" => Ok(Observed::Multiplier(*k)),
+        "output" => Ok(Observed::Output(*k)),
+        kind => Err(PyValueError::new_err(format!("no kind of output {kind:?}"))),
+    });
+    let request = Request {
+        outputs: outputs.collect::<PyResult<_>>()?,
+        inputs: wanted.0,
+    };
+    let made = py.detach(|| -> Result<_, String> {
+        let why = |none: NoModel| none.in_words(&machine.prepare(), OPTIONS);
+        let model = match steady {
+            Some(steady) => {
+                let motion = found(&machine, start, steady)?;
+                model::along(&machine, &motion, &request).map_err(why)?
+            }
+            None => {
+                let t = start.0;
+                let (q, v) = on_constraints(&machine, start)?;
+                model::about(&machine, (t, &q, &v), &request).map_err(why)?
+            }
+        };
+        let none = || "the eigenvalues cannot be found".to_owned();
+        let poles = poles(&model.a, &model.a_bounds).ok_or_else(none)?;
+        let zeros = zeros(&model).ok_or_else(none)?;
+        Ok((model, poles, zeros))
+    });
+    let (model, poles, zeros) = made.map_err(PyValueError::new_err)?;
+    let poles: Vec<Complex<f64>> = poles.iter().map(|pole| pole.lambda).collect();
+    let Model {
+        a,
+        b,
+        c,
+        d,
+        basis,
+        drift,
+        q,
+        v,
+        u,
+        y,
+        states,
+        inputs,
+        outputs,
+        records,
+        ..
+    } = &model;
+    let all = PyDict::new(py);
+    for (name, matrix) in [("A", a), ("B", b), ("C", c), ("D", d), ("basis", basis)] {
+        all.set_item(name, array(py, &flat(matrix)))?;
+    }
+    for (name, values) in [("drift", drift), ("q", q), ("v", v), ("u", u), ("y", y)] {
+        all.set_item(name, array(py, values))?;
+    }
+    for (name, values) in [("poles", &poles), ("zeros", &zeros)] {
+        let [re, im] = parts(values);
+        all.set_item(format!("{name}_re"), array(py, &re))?;
+        all.set_item(format!("{name}_im"), array(py, &im))?;
+    }
+    let labels = |labels: &[Label]| -> Labels {
+        let labels = labels.iter().cloned();
+        labels.map(|label| (label.name, label.unit)).collect()
+    };
+    all.set_item("states", labels(states))?;
+    all.set_item("inputs", labels(inputs))?;
+    all.set_item("outputs", labels(outputs))?;
+    all.set_item("left_out", records)?;
+    all.set_item("is_reduced", model.is_reduced)?;
+    Ok(all)
+}
