@@ -110,11 +110,17 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
             "providesDirectionalDerivative",
         ),
     };
+    // In 2.0 there is no function for these.
+    let adjoint = match unit.version {
+        Version::Three => derivatives,
+        Version::Two => "",
+    };
     let attributes = [
         ("modelIdentifier", unit.identifier.as_str()),
         (get, "true"),
         (serialize, "true"),
         (provides, derivatives),
+        ("providesAdjointDerivatives", adjoint),
         ("canHandleVariableCommunicationStepSize", steps),
     ];
     match unit.version {

@@ -224,8 +224,8 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[], size_t nUnknowns,
                                     const fmi3ValueReference knowns[], size_t nKnowns, const fmi3Float64 seed[], size_t nSeed,
                                     fmi3Float64 sensitivity[], size_t nSensitivity) {
-    (void)unknowns, (void)nUnknowns, (void)knowns, (void)nKnowns, (void)seed, (void)nSeed, (void)sensitivity, (void)nSensitivity;
-    return absent(instance, "fmi3GetAdjointDerivative");
+    if (nSeed != nUnknowns || nSensitivity != nKnowns) return absent(instance, "arrays");
+    return (fmi3Status)differentiateBack(instance, unknowns, nUnknowns, knowns, nKnowns, seed, sensitivity);
 }
 
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance instance) { return absent(instance, "fmi3EnterConfigurationMode"); }

@@ -290,6 +290,24 @@ static Outcome differentiateAlong(Unit *unit, const unsigned *unknowns, size_t u
     return WELL;
 }
 
+/* For each known the change of all unknowns with it, weighed by a seed: the same derivatives, of one known after the other. */
+static Outcome differentiateBack(Unit *unit, const unsigned *unknowns, size_t unknown_count, const unsigned *knowns,
+                                 size_t known_count, const double *seed, double *to) {
+    enum { MOST = 16 };
+    const double one = 1.0;
+    double column[MOST];
+    for (size_t k = 0; k < known_count; ++k) {
+        to[k] = 0.0;
+        for (size_t first = 0; first < unknown_count; first += MOST) {
+            const size_t left = unknown_count - first, count = left < MOST ? left : MOST;
+            const Outcome outcome = differentiateAlong(unit, unknowns + first, count, knowns + k, 1, &one, column);
+            if (outcome != WELL) return outcome;
+            for (size_t i = 0; i < count; ++i) to[k] += seed[first + i] * column[i];
+        }
+    }
+    return WELL;
+}
+
 static void save(const Unit *unit, Saved *to) {
     memset(to, 0, sizeof *to);
     memcpy(to->token, TOKEN, sizeof TOKEN);

@@ -121,6 +121,24 @@ static void check_derivatives(fmi3Instance unit) {
     }
 }
 
+/* Adjoint derivatives weigh the same: w (J s) = (w J) s, for weights and seeds in no pattern. */
+static void check_adjoint(fmi3Instance unit) {
+    unsigned unknowns[3 * MOST], knowns[3 * MOST];
+    double w[3 * MOST], s[3 * MOST], along[3 * MOST], back[3 * MOST], one = 0.0, other = 0.0, size = 0.0;
+    int count = 0, by = 0;
+    for (int i = 0; i < 2 * n; ++i) unknowns[count++] = 1 + n + i;
+    for (int i = 0; i < outputs; ++i) unknowns[count++] = at_outputs() + i;
+    for (int i = 0; i < 2 * n; ++i) knowns[by++] = 1 + i;
+    for (int i = 0; i < parameters + inputs; ++i) knowns[by++] = at_parameters() + i;
+    for (int i = 0; i < count; ++i) w[i] = 0.5 + (i * 37 + 11) % 101 / 101.0;
+    for (int i = 0; i < by; ++i) s[i] = 0.5 + (i * 53 + 29) % 103 / 103.0;
+    well(fmi3GetDirectionalDerivative(unit, unknowns, count, knowns, by, s, by, along, count), 26);
+    well(fmi3GetAdjointDerivative(unit, unknowns, count, knowns, by, w, count, back, by), 26);
+    for (int i = 0; i < count; ++i) one += w[i] * along[i], size += fabs(w[i] * along[i]);
+    for (int i = 0; i < by; ++i) other += back[i] * s[i], size += fabs(back[i] * s[i]);
+    must(size > 0.0 && fabs(one - other) <= 1e-12 * size, 27);
+}
+
 int main(void) {
     if (scanf("%d %d %d %d", &n, &parameters, &inputs, &outputs) != 4) return 2;
     for (int i = 0; i < parameters; ++i)
@@ -148,6 +166,7 @@ int main(void) {
     well(fmi3GetContinuousStateDerivatives(unit, derivatives, 2 * n), 7);
     must(!memcmp(derivatives, y + n, n * sizeof *y) && !memcmp(derivatives + n, a, n * sizeof *a), 7);
     check_derivatives(unit);
+    check_adjoint(unit);
     /* What there is not is an error, and no end. */
     long heard = messages;
     const unsigned beyond = 100000;
