@@ -115,6 +115,10 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         Version::Three => derivatives,
         Version::Two => "",
     };
+    let interpolates = match (unit.version, kind) {
+        (Version::Two, UnitKind::CoSimulation) if !unit.program.inputs.is_empty() => "true",
+        _ => "",
+    };
     let attributes = [
         ("modelIdentifier", unit.identifier.as_str()),
         (get, "true"),
@@ -122,6 +126,7 @@ fn of_kind(document: &mut Document, unit: &Unit<'_>, kind: UnitKind) {
         (provides, derivatives),
         ("providesAdjointDerivatives", adjoint),
         ("canHandleVariableCommunicationStepSize", steps),
+        ("canInterpolateInputs", interpolates),
     ];
     match unit.version {
         Version::Three => document.leaf(name, &attributes),

@@ -131,7 +131,7 @@ fn check(case: &Case, version: &str, driver: &str, header: &str) {
     let mut cc = Command::new("cc");
     cc.current_dir(folder)
         .args(["-std=gnu11", "-Wall", "-Werror"]);
-    cc.arg(format!("-DTOKEN=\"{token}\""));
+    cc.arg(format!("-DTOKEN=\"{token}\"")).arg("-DRATE=0.5");
     cc.args(["driver.c", "all.c", "./Machine.so", "-o", "driver", "-lm"]);
     run(cc.arg("-Wl,-rpath,."), "");
 
@@ -151,11 +151,11 @@ fn check(case: &Case, version: &str, driver: &str, header: &str) {
     let off = |k: usize| 1.0 + 0.1 * ((k * 37 + 11) % 101) as f64 / 101.0;
     let line_of = |reference: usize, name: &str| match version {
         "3" => attribute(&description, reference, name),
-        // The start stands in the line below.
+        // Start and unit stand in the line below.
         _ => {
             let mark = format!("valueReference=\"{reference}\"");
             let mut lines = description.lines().skip_while(|line| !line.contains(&mark));
-            let line = lines.nth(usize::from(name == "start"))?;
+            let line = lines.nth(usize::from(name != "name"))?;
             let (_, rest) = line.split_once(&format!(" {name}=\""))?;
             Some(rest.split('"').next()?.to_owned())
         }
@@ -218,7 +218,6 @@ fn check(case: &Case, version: &str, driver: &str, header: &str) {
             .collect()
     };
     let found = read(run(&mut driver(), &given_to(t)));
-    assert_eq!(found.len(), evaluations + 2 * n, "{}", case.machine);
     for (k, (x, known)) in found.iter().zip(&expected).enumerate() {
         // Code of C rounds each operation, the interpreter fuses some: 1e-12 of the largest is thousands of roundings.
         let largest = expected.iter().fold(0.0f64, |most, x| most.max(x.abs()));
@@ -230,33 +229,45 @@ fn check(case: &Case, version: &str, driver: &str, header: &str) {
         );
     }
     let found = read(run(&mut driver(), &given_to(0.0)));
-    let mut options = vec!["simulate".to_owned(), spec.clone()];
-    for (option, names, values) in [
-        ("--set", given, &p),
-        ("--set", driven, &u),
-        ("--start", range(1, n), &q),
-        ("--rate", range(1, n), &v),
-    ] {
-        for (name, value) in names.map(name).zip(values) {
-            options.extend([option.to_owned(), format!("{name}={value:?}")]);
-        }
-    }
+    let set = |option: &str, names: std::ops::Range<usize>, values: &[f64]| -> Vec<String> {
+        let values = names.map(name).zip(values);
+        let words = values.flat_map(|(name, x)| [option.to_owned(), format!("{name}={x:?}")]);
+        words.collect()
+    };
+    let mut options = [
+        set("--set", given, &p),
+        set("--start", range(1, n), &q),
+        set("--rate", range(1, n), &v),
+    ]
+    .concat();
     let until = format!("{:?}", case.until);
-    let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
-    command
-        .current_dir(root())
-        .args(options)
-        .args(case.constants);
-    command.args(["--until", &until, "--tolerance", "1e-12", "--json"]);
-    let end: Value = serde_json::from_str(&run(&mut command, "")).expect("JSON");
-    let end = [numbers(&end["q"]), numbers(&end["v"])].concat();
-    let largest = end.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-    for (x, known) in found[evaluations..].iter().zip(&end) {
-        assert!(
-            (x - known).abs() <= 1e-7 * largest,
-            "{}: {x} {known}",
-            case.machine
-        );
+    options.extend(["--until", &until, "--tolerance", "1e-12", "--json"].map(str::to_owned));
+    // Inputs that are held; and in 2.0 those that grow by 0.5 in each second.
+    let grow = driven.clone().zip(&u).flat_map(|(k, x)| {
+        let unit = line_of(k, "unit").expect("a unit");
+        let formula = format!("{}={x:?}*({unit})+0.5*({unit})/s*t", name(k));
+        ["--input".to_owned(), formula]
+    });
+    let mut ways = vec![set("--set", driven.clone(), &u)];
+    if version == "2" {
+        ways.push(grow.collect());
+    }
+    assert_eq!(found.len(), evaluations + ways.len() * 2 * n);
+    for (way, found) in ways.iter().zip(found[evaluations..].chunks(2 * n)) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lagrangian"));
+        command.current_dir(root()).args(["simulate", &spec]);
+        command.args(&options).args(way).args(case.constants);
+        let end: Value = serde_json::from_str(&run(&mut command, "")).expect("JSON");
+        let end = [numbers(&end["q"]), numbers(&end["v"])].concat();
+        let largest = end.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        for (x, known) in found.iter().zip(&end) {
+            let bound = 1e-7 * largest;
+            assert!(
+                (x - known).abs() <= bound,
+                "{}: {x} {known} {way:?}",
+                case.machine
+            );
+        }
     }
 }
 

@@ -20,6 +20,18 @@ static fmi2Status absent(fmi2Component c, const char *what) {
     return (fmi2Status)say(unit, FAILED, unit->message);
 }
 
+/* How fast inputs change until the next communication point. */
+static Outcome setInputRates(Unit *unit, const unsigned *references, size_t count, const int *orders, const double *values) {
+    for (size_t k = 0; k < count; ++k) {
+        const unsigned i = references[k];
+        if (i < AT_INPUTS || i >= AT_OUTPUTS) return unknown(unit, i);
+        if (!unit->is_co_simulation || orders[k] != 1 || !isFinite(values[k]))
+            return say(unit, FAILED, "of inputs the first derivative in time can be set, in co-simulation, to a finite number");
+        unit->now.input_rates[i - AT_INPUTS] = values[k];
+    }
+    return WELL;
+}
+
 const char *fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
 
 const char *fmi2GetVersion(void) { return fmi2Version; }
@@ -205,8 +217,7 @@ fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer order[],
                                        const fmi2Real value[]) {
-    (void)vr, (void)order, (void)value;
-    return nvr ? absent(c, "fmi2SetRealInputDerivatives") : fmi2OK;
+    return (fmi2Status)setInputRates(c, vr, nvr, order, value);
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t nvr, const fmi2Integer order[],

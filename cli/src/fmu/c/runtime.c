@@ -35,6 +35,8 @@ typedef struct {
     double states[STATES + 1];
     double parameters[PARAMETERS + 1];
     double inputs[INPUTS + 1];
+    /* How fast these change until the next communication point, per s. */
+    double input_rates[INPUTS + 1];
     /* Of each step, relative and absolute. */
     double tolerance;
     /* How long the next step of co-simulation would be, in s; 0 where nobody knows. */
@@ -118,7 +120,9 @@ static void prepare(Unit *unit) {
 /* The derivatives of states; 0 where the mass matrix can be inverted and all are numbers. */
 static int differentiate(Unit *unit, double t, const double *states, double *to) {
     const double *v = states + COORDINATES;
-    const int singular = unitAccelerations(&unit->prepared, t, states, v, unit->now.inputs, to + COORDINATES);
+    double inputs[INPUTS + 1];
+    for (int i = 0; i < INPUTS; ++i) inputs[i] = unit->now.inputs[i] + (t - unit->now.time) * unit->now.input_rates[i];
+    const int singular = unitAccelerations(&unit->prepared, t, states, v, inputs, to + COORDINATES);
     for (int i = 0; i < COORDINATES; ++i) to[i] = v[i];
     if (singular) return singular;
     for (int i = COORDINATES; i < STATES; ++i)
@@ -496,6 +500,7 @@ static Outcome integrate(Unit *unit, double until) {
         const double error = tryStep(unit, h);
         if (error >= 0.0 && error <= 1.0) {
             memcpy(now->states, unit->point, STATES * sizeof *now->states);
+            for (int i = 0; i < INPUTS; ++i) now->inputs[i] += h * now->input_rates[i];
             now->time = is_last ? until : now->time + h;
             unit->is_evaluated = 0;
             const double factor = error > 0.0 ? 0.9 * pow(error, -0.125) : 6.0;
@@ -515,5 +520,6 @@ static Outcome integrate(Unit *unit, double until) {
         }
         if (++tries > MOST_TRIES) return say(unit, FAILED, "one step of communication takes more than 1e7 steps");
     }
+    for (int i = 0; i < INPUTS; ++i) now->input_rates[i] = 0.0;
     return WELL;
 }

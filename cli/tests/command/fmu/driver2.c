@@ -1,5 +1,6 @@
 /* An importer of FMI 2.0 for one unit. Reads how many there are of each, values, a state, the time and the end; prints
-   accelerations, outputs, energies, and the state at the end of a co-simulation. */
+   accelerations, outputs, energies, and the state at the end of a co-simulation, with inputs that are held and with some that grow
+   by RATE in each second. */
 #include "fmi2Functions.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,11 +66,22 @@ int main(void) {
     read_all(unit, 1 + 3 * n + parameters + inputs, outputs + 2, numbers);
     for (int i = 0; i < outputs + 2; ++i) printf("%.17g\n", numbers[i]);
     fmi2FreeInstance(unit);
-    unit = unit_of(fmi2CoSimulation);
-    for (int k = 0; k < 20; ++k)
-        must(fmi2DoStep(unit, t + (until - t) * k / 20, (until - t) / 20, fmi2True) == fmi2OK, 15);
-    read_all(unit, 1, 2 * n, numbers);
-    for (int i = 0; i < 2 * n; ++i) printf("%.17g\n", numbers[i]);
-    fmi2FreeInstance(unit);
+    for (int grows = 0; grows < 2; ++grows) {
+        unit = unit_of(fmi2CoSimulation);
+        for (int k = 0; k < 20; ++k) {
+            const double from = t + (until - t) * k / 20;
+            for (int i = 0; i < inputs && grows; ++i) {
+                const unsigned reference = 1 + 3 * n + parameters + i;
+                const double rate = RATE, value = u[i] + rate * (from - t);
+                must(fmi2SetReal(unit, &reference, 1, &value) == fmi2OK, 12);
+                must(fmi2SetRealInputDerivatives(unit, &reference, 1, &(int){1}, &rate) == fmi2OK, 13);
+                must(fmi2SetRealInputDerivatives(unit, &reference, 1, &(int){2}, &rate) == fmi2Error, 14);
+            }
+            must(fmi2DoStep(unit, from, (until - t) / 20, fmi2True) == fmi2OK, 15);
+        }
+        read_all(unit, 1, 2 * n, numbers);
+        for (int i = 0; i < 2 * n; ++i) printf("%.17g\n", numbers[i]);
+        fmi2FreeInstance(unit);
+    }
     return 0;
 }
