@@ -385,6 +385,45 @@ fn a_description_says_what_was_asked_for() {
     assert!(machine.contains("START_IS_SET[] = {0, 1, 0, 0, 0};"));
 }
 
+/// Starts follow parameters until somebody sets them; a fact that breaks is told once, and where there is no acceleration, of what.
+#[test]
+fn a_unit_says_what_is_wrong() {
+    let spec = "machine Pole in plane {
+        parameters { l: m = 1 }
+        coordinates { s: m = 2*l, phi: rad = 0.5 }
+        assume { s > 0 }
+        bodies { b { mass: 2*kg, at: polar(s, phi) } }
+    }";
+    let spec = Scratch::new("pole.machine", spec);
+    let at = Scratch::new("Machine.fmu", "");
+    let made = unit(spec.path(), &at, &["--rate", "s=-1"]);
+    let folder = at.0.parent().expect("a folder");
+    for (name, content) in &files(&at.0) {
+        let name = name.rsplit('/').next().expect("a name");
+        fs::write(folder.join(name), content).expect("a file");
+    }
+    fs::write(folder.join("driver.c"), include_str!("fmu/messages.c")).expect("a file");
+    let mut cc = Command::new("cc");
+    cc.current_dir(folder)
+        .args(["-std=c99", "-Wall", "-Werror"]);
+    cc.arg(format!("-DTOKEN={}", made["token"]));
+    run(
+        cc.args(["driver.c", "./Machine.so", "-o", "driver", "-Wl,-rpath,."]),
+        "",
+    );
+    let said = run(Command::new("./driver").current_dir(folder), "");
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines.len(), 4, "{said}");
+    for (line, words) in lines.iter().zip([
+        &["3 logStatusError", "the reference 1"][..],
+        &["1 logStatusWarning", "does not hold any more that s > 0"],
+        &["2 logStatusDiscard", "no acceleration of phi"],
+        &["3 logStatusError", "for co-simulation"],
+    ]) {
+        assert!(words.iter().all(|words| line.contains(words)), "{line}");
+    }
+}
+
 #[test]
 fn what_no_unit_can_be_is_refused() {
     let at = Scratch::new("machine.fmu", "older");
