@@ -44,6 +44,8 @@ pub enum Command {
     Linearize(Box<Linearize>),
     /// Find the fastest motion from rest at one place to another, under control forces that do no work.
     Brachistochrone(Brachistochrone),
+    /// Write the spec of a robot from its file of URDF.
+    Import(Import),
 }
 
 impl Command {
@@ -57,7 +59,7 @@ impl Command {
             Command::Evaluate(call) => &call.spec,
             Command::Simulate(call) => &call.spec,
             Command::Sweep(call) => &call.spec,
-            Command::Map(_) => return None,
+            Command::Map(_) | Command::Import(_) => return None,
             Command::Modes(call) => &call.spec,
             Command::Linearize(call) => &call.spec,
             Command::Brachistochrone(call) => &call.spec,
@@ -66,7 +68,10 @@ impl Command {
 
     /// Whether its result is to be JSON.
     pub fn json(&self) -> bool {
-        self.spec().is_some_and(|spec| spec.json)
+        match self {
+            Command::Import(call) => call.json,
+            _ => self.spec().is_some_and(|spec| spec.json),
+        }
     }
 
     /// Every name that the call gives a value, with the option that does it.
@@ -76,7 +81,7 @@ impl Command {
             named.extend(list.iter().map(|set| (option, set.name.as_str())));
         };
         match self {
-            Command::Check(_) | Command::Derive(_) | Command::Library(_) => {}
+            Command::Check(_) | Command::Derive(_) | Command::Library(_) | Command::Import(_) => {}
             Command::Map(call) => add("--only", &call.only),
             Command::Fmu(call) => {
                 add("--set", &call.parameters);
@@ -388,6 +393,88 @@ pub struct Evaluate {
     /// A JSON list of points {"t", "q", "v", "parameters", "inputs"}, or `-` for standard input; without it, the start.
     #[arg(long, value_name = "POINTS.json")]
     pub at: Option<PathBuf>,
+}
+
+/// Arguments of `import`.
+#[derive(Debug, Args)]
+pub struct Import {
+    /// The robot, a file of URDF with the ending `.urdf`.
+    #[arg(value_name = "ROBOT")]
+    pub path: PathBuf,
+    /// Write the spec to a file instead of standard output.
+    #[arg(long, value_name = "FILE.machine")]
+    pub out: Option<PathBuf>,
+    /// Whether the link that hangs on no other stands on the ground, or moves with six coordinates.
+    #[arg(long, value_enum, default_value_t = Base::Fixed)]
+    pub base: Base,
+    /// The angles of spherical and floating joints, by the axes about which they turn; xyz and zyx where left out.
+    #[arg(long, value_enum)]
+    pub ball: Option<Ball>,
+    /// What becomes of Coulomb friction, which is refused where left out: `none` leaves it out, `smooth=1e-3` makes it smooth
+    /// below that rate, in rad/s or m/s.
+    #[arg(long, value_name = "none|smooth=RATE", value_parser = friction)]
+    pub friction: Option<Friction>,
+    /// What becomes of the limits of joints: they stand in comments, a run says when it leaves them, or they stop the joint.
+    #[arg(long, value_enum, default_value_t = Limits::None)]
+    pub limits: Limits,
+    /// Leave out joints that move no mass, with what hangs on them.
+    #[arg(long)]
+    pub drop_massless: bool,
+    /// Leave out elements and attributes that are not known, or may change the motion, by name.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub ignore: Vec<String>,
+    /// Print the result as one JSON document on standard output, and nothing else there.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What the root of a robot does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Base {
+    /// It stands on the ground.
+    Fixed,
+    /// It moves with six coordinates.
+    Floating,
+}
+
+/// Three angles, by the axes about which they turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Ball {
+    /// About x, y and z: Cardan angles.
+    Xyz,
+    /// Yaw, pitch and roll.
+    Zyx,
+    /// Precession, nutation and spin: Euler's angles.
+    Zxz,
+}
+
+/// What becomes of Coulomb friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction {
+    /// It is left out.
+    None,
+    /// It is smooth below a rate.
+    Smooth(f64),
+}
+
+fn friction(text: &str) -> Result<Friction, String> {
+    let rate = text.strip_prefix("smooth=").map(str::parse::<f64>);
+    match (text, rate) {
+        ("none", _) => Ok(Friction::None),
+        (_, Some(Ok(rate))) if rate.is_normal() && rate > 0.0 => Ok(Friction::Smooth(rate)),
+        _ => Err("expected `none`, or `smooth=` and a rate above 0, as in `smooth=1e-3`".into()),
+    }
+}
+
+/// What becomes of the limits of joints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Limits {
+    /// They stand in comments.
+    None,
+    /// A run says when it leaves them.
+    Assume,
+    /// Stops: unilateral contacts at both ends.
+    Stop,
 }
 
 /// Arguments of `simulate`.

@@ -14,6 +14,7 @@ mod evaluate;
 mod exit;
 mod failure;
 mod fmu;
+mod import;
 mod inputs;
 mod interrupt;
 mod library;
@@ -91,6 +92,7 @@ fn answer(call: &Call) -> u8 {
         Command::Modes(call) => modes::run(call),
         Command::Linearize(call) => linearize::run(call),
         Command::Brachistochrone(call) => brachistochrone::run(call),
+        Command::Import(call) => import::run(call),
     });
     match result {
         Ok(()) => 0,

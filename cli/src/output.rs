@@ -15,7 +15,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::progress;
 
 pub use destination::{Destination, keep_apart, keep_document_apart};
-pub use ending::{Endings, LIBRARY, MODEL, PAGE, RUST, SVG, TABLE, UNIT, ending_is_one_of};
+pub use ending::{
+    Endings, LIBRARY, MACHINE, MODEL, PAGE, RUST, SVG, TABLE, UNIT, ending_is_one_of,
+};
 
 /// What went wrong first with standard output.
 static FAILED: OnceLock<io::Error> = OnceLock::new();

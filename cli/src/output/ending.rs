@@ -17,6 +17,9 @@ pub const TABLE: Endings = &["csv"];
 /// A linear model.
 pub const MODEL: Endings = &["json", "npz", "mat", "csv"];
 
+/// A spec.
+pub const MACHINE: Endings = &["machine"];
+
 /// A drawing.
 pub const SVG: Endings = &["svg"];
 

@@ -9,6 +9,7 @@ mod constraints;
 mod contacts;
 mod fmu;
 mod impacts;
+mod import;
 mod library;
 mod linearize;
 mod map;

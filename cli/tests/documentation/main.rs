@@ -7,7 +7,7 @@
 //! | --- | --- |
 //! | `machine` | a whole spec: saved under the name in its first line, `// NAME.machine`, or else under the name of its machine in snake case; it can be derived, unless the next block shows what is wrong with it, or the words after it say that it is `not-supported` |
 //! | `console` | commands after `$ `, and beneath each everything that it prints; `…` stands for what changes from run to run, and alone on a line for any number of lines |
-//! | `c`, `python`, `csv` | a program or a table, saved under the name in its first line |
+//! | `c`, `python`, `csv`, `xml` | a program, a table or a robot, saved under the name in its first line |
 //! | `sh` | commands that must succeed, whatever they print |
 //! | `rust` | compiled and run as documentation tests of the library, see the end of `src/lib.rs` |
 //! | `text`, `json`, `toml` | forms and excerpts: nothing is done with them |
@@ -67,7 +67,7 @@ fn follow(path: &str) {
             }
             "console" => reader.compare(block, &at),
             "sh" => reader.run(block, &at),
-            "c" | "python" | "csv" => reader.save_program(block, &at),
+            "c" | "python" | "csv" | "xml" => reader.save_program(block, &at),
             "rust" | "json" | "toml" => {}
             "text" => {
                 let spec = |line: &str| line.starts_with("machine ") && line.ends_with('{');

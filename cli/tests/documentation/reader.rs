@@ -71,7 +71,8 @@ impl Reader {
     /// Saves a program under the name in its first line.
     pub fn save_program(&self, block: &Block, at: &str) {
         let first = block.text.lines().next().unwrap_or_default();
-        let name = first.trim_start_matches(['/', '#', ' ']);
+        let name = first.trim_start_matches(['/', '#', ' ', '<', '!', '-']);
+        let name = name.trim_end_matches(" -->");
         let is_name = name.contains('.') && !name.contains(['/', ' ']);
         assert!(is_name, "{at}: the first line names the file");
         std::fs::write(self.folder.join(name), &block.text).expect("a temporary file");

@@ -1,0 +1,140 @@
+//! `lagrangian import`: a robot's file as a spec.
+
+mod machine;
+mod names;
+mod number;
+mod steps;
+mod tensor;
+mod text;
+mod tree;
+mod urdf;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use lagrangian_spec::diagnostic::Report;
+use lagrangian_spec::model::Model;
+use lagrangian_spec::source::{Disk, Sources};
+use lagrangian_symbolic::Dag;
+use serde_json::json;
+
+use crate::call;
+use crate::diagnostics::{self, counted};
+use crate::failure::Failure;
+use crate::output::{
+    self, Destination, Endings, MACHINE, ending_is_one_of, keep_apart, keep_document_apart,
+};
+use crate::progress;
+use machine::Machine;
+use urdf::Faults;
+
+/// What is read.
+const ROBOT: Endings = &["urdf"];
+
+/// The largest file that is read, in bytes.
+const LARGEST: u64 = 16 << 20;
+
+/// Runs the command.
+///
+/// # Errors
+/// If the call is at fault, or the file, or nothing can be written.
+pub fn run(call: &call::Import) -> Result<(), Failure> {
+    progress::now("reading the robot");
+    let out = Destination::of("--out", call.out.as_ref(), MACHINE)?;
+    keep_document_apart(&out, call.json)?;
+    keep_apart(&out, &[(&call.path, "the robot's file")])?;
+    let text = read(&call.path)?;
+    let shown = call.path.display().to_string();
+    let file = call.path.file_name().unwrap_or_default().to_string_lossy();
+    let mut faults = Faults::new(&shown, &text);
+    let machine = urdf::read(&text, &call.ignore, &mut faults)
+        .and_then(|robot| machine::written(&robot, &file, call, &mut faults));
+    let Some(machine) = machine.filter(|_| faults.is_empty()) else {
+        return Err(Failure::Run(faults.told()));
+    };
+    check(&machine, out.as_ref())?;
+    for warning in &machine.warnings {
+        output::complain(format_args!("warning: {warning}"));
+    }
+    if let Some(file) = &out {
+        file.write_text(&machine.text)?;
+    }
+    show(call, &machine);
+    Ok(())
+}
+
+/// The text of a file.
+fn read(path: &Path) -> Result<String, Failure> {
+    let shown = path.display();
+    if !ending_is_one_of(path, ROBOT) {
+        return Err(Failure::Call(format!(
+            "{shown}: what is read are robots of URDF, with the ending `.urdf`"
+        )));
+    }
+    let cannot =
+        |error: &dyn std::fmt::Display| Failure::Call(format!("cannot read {shown}: {error}"));
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(|error| cannot(&error))?;
+    file.take(LARGEST + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| cannot(&error))?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!(
+            "{shown} has more than {} MiB, which no robot has",
+            LARGEST >> 20
+        );
+        return Err(Failure::Run(message));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        Failure::Run(format!("{shown}:{line}: the text is not UTF-8"))
+    })
+}
+
+/// Whether the text is a spec in which nothing is wrong, as every other command will read it.
+fn check(machine: &Machine, out: Option<&Destination>) -> Result<(), Failure> {
+    let mut sources = Sources::new();
+    let mut report = Report::new();
+    let file = out.and_then(Destination::file).and_then(Path::to_str);
+    let name = file.unwrap_or("the imported machine");
+    let dag = Dag::new();
+    let spec = lagrangian_spec::parse(&mut sources, name, &machine.text, &mut report);
+    let model = Model::resolve_with(spec, &dag, &[], &[], &mut Disk, &mut sources, &mut report);
+    match model {
+        Some(_) => {
+            diagnostics::print(&report, &sources);
+            Ok(())
+        }
+        None => Err(Failure::Spec(Box::new((report, sources)))),
+    }
+}
+
+fn show(call: &call::Import, machine: &Machine) {
+    let [coordinates, bodies, parameters] = machine.counts;
+    if call.json {
+        output::line(format_args!(
+            "{:#}",
+            json!({
+                "machine": machine.name,
+                "coordinates": coordinates,
+                "bodies": bodies,
+                "parameters": parameters,
+                "warnings": machine.warnings,
+                "text": machine.text,
+            })
+        ));
+    } else if let Some(out) = &call.out {
+        output::line(format_args!(
+            "{}: {}, {}, {}, {}",
+            out.display(),
+            machine.name,
+            counted(coordinates, "coordinate", "coordinates"),
+            counted(bodies, "body", "bodies"),
+            counted(parameters, "parameter", "parameters"),
+        ));
+    } else {
+        output::text(&machine.text);
+    }
+}

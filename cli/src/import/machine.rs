@@ -1,0 +1,772 @@
+//! A robot as a machine: coordinates for joints, frames and bodies for links.
+
+use super::names::{self, Names, quoted};
+use super::number::{Angle, Number};
+use super::steps::{AXES, conjugated, slide, straightened, turn};
+use super::tensor;
+use super::text::{self, Text};
+use super::tree::{self, Tree};
+use super::urdf::{Faults, Inertial, Joint, Kind, Robot};
+use crate::call::{Ball, Base, Friction, Import, Limits};
+use crate::diagnostics::counted;
+
+/// The sections in the order in which a reader wants them. Gravity stands behind the bodies.
+const SECTIONS: [&str; 9] = [
+    "parameters",
+    "coordinates",
+    "define",
+    "assume",
+    "frames",
+    "bodies",
+    "dampers",
+    "dissipations",
+    "contacts",
+];
+
+/// A spec, and what is to be said of it.
+pub struct Machine {
+    pub name: String,
+    pub text: String,
+    /// How many coordinates, bodies and parameters it has.
+    pub counts: [usize; 3],
+    pub warnings: Vec<String>,
+}
+
+/// Writes the machine of a robot, unless something is wrong.
+pub fn written(
+    robot: &Robot,
+    file: &str,
+    call: &Import,
+    faults: &mut Faults<'_>,
+) -> Option<Machine> {
+    let tree = tree::plant(robot, faults)?;
+    let mut writer = Writer::new(robot, &tree, call);
+    writer.drop_massless(faults);
+    writer.find_moving();
+    writer.check_friction(faults);
+    if !faults.is_empty() {
+        return None;
+    }
+    writer.coordinates(faults);
+    writer.frames();
+    writer.bodies();
+    writer.along_joints(faults);
+    if faults.is_empty() && writer.text.count("coordinates") == 0 {
+        faults.add(
+            0,
+            "nothing moves: no joint of the robot has a link with mass behind it",
+        );
+    }
+    faults.is_empty().then(|| writer.finish(file))
+}
+
+struct Writer<'a> {
+    robot: &'a Robot,
+    tree: &'a Tree,
+    call: &'a Import,
+    text: Text,
+    /// Parameters, coordinates and definitions.
+    values: Names,
+    gravity: String,
+    /// What each joint with one coordinate is called in formulas: the coordinate, or what follows it.
+    value_of: Vec<String>,
+    /// How a joint moves its link: steps from frame to frame, the origin not among them.
+    motion: Vec<Vec<String>>,
+    /// How the root moves.
+    root_motion: Vec<String>,
+    /// The links, by what they are called here.
+    link_names: Vec<String>,
+    /// The frame in which each link is at rest, by name.
+    frame_of: Vec<String>,
+    /// Joints that are left out, with all that hangs on them.
+    is_dropped: Vec<bool>,
+    /// Whether a link moves.
+    is_moving: Vec<bool>,
+    warnings: Vec<String>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(robot: &'a Robot, tree: &'a Tree, call: &'a Import) -> Writer<'a> {
+        let mut values = Names::default();
+        Writer {
+            gravity: values.keep("g"),
+            robot,
+            tree,
+            call,
+            text: Text::new(&SECTIONS),
+            values,
+            value_of: vec![String::new(); robot.joints.len()],
+            motion: vec![Vec::new(); robot.joints.len()],
+            root_motion: Vec::new(),
+            link_names: vec![String::new(); robot.links.len()],
+            frame_of: vec![String::new(); robot.links.len()],
+            is_dropped: vec![false; robot.joints.len()],
+            is_moving: vec![false; robot.links.len()],
+            warnings: Vec::new(),
+        }
+    }
+
+    /// The joints that are written, each behind the one that it hangs on.
+    fn joints(&self) -> impl Iterator<Item = (usize, &'a Joint)> + use<'a> {
+        let (order, joints) = (&self.tree.order, &self.robot.joints);
+        let is_kept = |joint: &&usize| !self.is_dropped[**joint];
+        let kept: Vec<usize> = order.iter().filter(is_kept).copied().collect();
+        kept.into_iter().map(move |joint| (joint, &joints[joint]))
+    }
+
+    /// Coordinates that move no mass have no acceleration: they are refused, or left out with what hangs on them.
+    fn drop_massless(&mut self, faults: &mut Faults<'_>) {
+        let (robot, tree) = (self.robot, self.tree);
+        let heavy = tree.is_heavy(&robot.links);
+        if self.call.base == Base::Floating && !heavy[tree.root] {
+            faults.add(0, "no link of the robot has mass");
+        }
+        // What moves with a coordinate: the joint's own links, and those of joints that follow it.
+        let mut moves_mass = vec![false; robot.joints.len()];
+        for &joint in &tree.order {
+            moves_mass[tree.first_leader(joint)] |= heavy[tree.child[joint]];
+        }
+        for &joint in &tree.order {
+            let is_fixed = robot.joints[joint].kind == Kind::Fixed;
+            if is_fixed || moves_mass[tree.first_leader(joint)] {
+                continue;
+            }
+            let name = quoted(&robot.joints[joint].name);
+            if self.call.drop_massless {
+                self.is_dropped[joint] = true;
+                let hangs = quoted(&robot.links[tree.child[joint]].name);
+                self.warnings.push(format!(
+                    "joint {name} moves no mass: it is left out, with link {hangs} and all that hangs on it"
+                ));
+            } else if tree.leader[joint].is_none() {
+                let link = quoted(&robot.links[tree.child[joint]].name);
+                faults.add(
+                    robot.joints[joint].at,
+                    format!(
+                        "joint {name} moves no mass, so nothing says how it accelerates: give link {link} an `inertial`, make the \
+                         joint `fixed`, or leave it out with --drop-massless"
+                    ),
+                );
+            }
+        }
+        // What hangs on what is left out is left out.
+        let mut is_gone = vec![false; robot.links.len()];
+        for &joint in &tree.order {
+            self.is_dropped[joint] |= is_gone[tree.parent[joint]];
+            is_gone[tree.child[joint]] = self.is_dropped[joint];
+        }
+        for (index, joint) in self.joints() {
+            if let (Some(mimic), Some(leader)) = (&joint.mimic, tree.leader[index])
+                && self.is_dropped[leader]
+            {
+                let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));
+                let message = format!(
+                    "joint {follower} mimics {leader}, which hangs on a joint that moves no mass and is left out"
+                );
+                faults.add(mimic.at, message);
+            }
+        }
+    }
+
+    fn find_moving(&mut self) {
+        self.is_moving[self.tree.root] = self.call.base == Base::Floating;
+        for (index, joint) in self.joints() {
+            let is_carried = self.is_moving[self.tree.parent[index]];
+            self.is_moving[self.tree.child[index]] = is_carried || joint.kind != Kind::Fixed;
+        }
+    }
+
+    /// Stick does not follow from coordinates and rates alone, so Coulomb friction is not left out without a word.
+    fn check_friction(&self, faults: &mut Faults<'_>) {
+        if self.call.friction.is_some() {
+            return;
+        }
+        for (_, joint) in self.joints() {
+            if joint.kind.is_single() && !joint.friction.is_zero() {
+                let name = quoted(&joint.name);
+                faults.add(
+                    joint.at,
+                    format!(
+                        "joint {name} has friction, and no normal force is known from which it would follow when it sticks: `--friction \
+                         none` leaves it out, `--friction smooth=1e-3` makes it f·q̇/√(q̇² + ε²)"
+                    ),
+                );
+            }
+        }
+    }
+
+    /// A parameter; its name in formulas.
+    fn parameter(
+        &mut self,
+        entries: &mut Vec<String>,
+        name: &str,
+        unit: &str,
+        value: &str,
+    ) -> String {
+        let name = self.values.take(name, "value");
+        entries.push(format!("{name}: {unit} = {value}"));
+        name
+    }
+
+    /// A vector of lengths: parameters where they are not 0.
+    fn lengths(&mut self, entries: &mut Vec<String>, name: &str, xyz: &[Number; 3]) -> [String; 3] {
+        std::array::from_fn(|axis| match xyz[axis].is_zero() {
+            true => "0".to_owned(),
+            false => {
+                let name = format!("{name}_{}", AXES[axis]);
+                self.parameter(entries, &name, "m", &xyz[axis].to_string())
+            }
+        })
+    }
+
+    /// Coordinates and definitions, and the motions that they make.
+    fn coordinates(&mut self, faults: &mut Faults<'_>) {
+        if self.call.base == Base::Floating {
+            let link = &self.robot.links[self.tree.root].name;
+            let comment = format!("Link {}, which hangs on nothing.", quoted(link));
+            self.root_motion = self.floating(link, comment, "link");
+        }
+        for (index, joint) in self.joints() {
+            let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
+            let [parent, child] = [parent, child].map(|link| quoted(&self.robot.links[link].name));
+            let kind = joint.kind.name();
+            let name = quoted(&joint.name);
+            let mut comment = format!("Joint {name}, {kind}, link {child} on link {parent}");
+            comment.push_str(&said(joint));
+            comment.push('.');
+            self.motion[index] = match joint.kind {
+                Kind::Fixed => Vec::new(),
+                Kind::Floating => self.floating(&joint.name, comment, "joint"),
+                Kind::Spherical => {
+                    self.ball(&joint.name, comment, self.call.ball.unwrap_or(Ball::Xyz))
+                }
+                Kind::Planar => self.planar(joint, comment),
+                Kind::Revolute | Kind::Continuous | Kind::Prismatic => {
+                    self.single(index, joint, comment, faults);
+                    continue;
+                }
+            };
+        }
+        self.followers();
+        for (index, joint) in self.joints() {
+            if joint.kind.is_single() {
+                let value = &self.value_of[index];
+                self.motion[index] = match joint.kind {
+                    Kind::Prismatic => vec![slide(&joint.axis, value)],
+                    _ => turn(&joint.axis, value),
+                };
+            }
+        }
+    }
+
+    /// Adds coordinates of a joint.
+    fn several(
+        &mut self,
+        name: &str,
+        comment: String,
+        kind: &str,
+        list: &[(&str, &str)],
+    ) -> Vec<String> {
+        let mut taken = Vec::new();
+        let mut entries = Vec::new();
+        for (suffix, unit) in list {
+            let coordinate = self.values.take(&format!("{name}_{suffix}"), kind);
+            entries.push(format!("{coordinate}: {unit}"));
+            taken.push(coordinate);
+        }
+        self.text.add("coordinates", Some(comment), entries);
+        taken
+    }
+
+    fn floating(&mut self, name: &str, comment: String, kind: &str) -> Vec<String> {
+        let place = [("x", "m"), ("y", "m"), ("z", "m")];
+        let q = self.several(name, comment, kind, &place);
+        let mut steps = vec![format!(".shift({}, {}, {})", q[0], q[1], q[2])];
+        let angles = format!("The angles of {kind} {}.", quoted(name));
+        steps.extend(self.ball(name, angles, self.call.ball.unwrap_or(Ball::Zyx)));
+        steps
+    }
+
+    /// Three angles about axes of which the second and third are turned by those before.
+    fn ball(&mut self, name: &str, comment: String, ball: Ball) -> Vec<String> {
+        let list = match ball {
+            Ball::Xyz => [("about_x", "x"), ("about_y", "y"), ("about_z", "z")],
+            Ball::Zyx => [("yaw", "z"), ("pitch", "y"), ("roll", "x")],
+            Ball::Zxz => [("precession", "z"), ("nutation", "x"), ("spin", "z")],
+        };
+        let angles = list.map(|(suffix, _)| (suffix, "rad"));
+        let q = self.several(name, comment, "joint", &angles);
+        self.warnings.push(match ball {
+            Ball::Xyz | Ball::Zyx => {
+                format!("`{}` is singular at 90° to either side; --ball chooses other angles", q[1])
+            }
+            Ball::Zxz => format!(
+                "`{}` is singular at 0, where it starts, and at 180°: give it a start, or --ball other angles",
+                q[1]
+            ),
+        });
+        let step = |((_, axis), q): (&(&str, &str), &String)| format!(".turn({axis}, {q})");
+        list.iter().zip(&q).map(step).collect()
+    }
+
+    /// Two shifts in the plane across the axis, and the turn about it.
+    fn planar(&mut self, joint: &Joint, comment: String) -> Vec<String> {
+        let (there, axis, sign) = straightened(&joint.axis);
+        let across = match axis {
+            0 => [1, 2],
+            1 => [0, 2],
+            _ => [0, 1],
+        };
+        let [first, second] = match there.is_empty() {
+            true => across.map(|axis| AXES[axis]),
+            // Along axes of a frame that is turned towards the plane.
+            false => ["u", "v"],
+        };
+        let list = [(first, "m"), (second, "m"), ("angle", "rad")];
+        let q = self.several(&joint.name, comment, "joint", &list);
+        let mut shift = ["0"; 3];
+        shift[across[0]] = &q[0];
+        shift[across[1]] = &q[1];
+        let shift = format!(".shift({}, {}, {})", shift[0], shift[1], shift[2]);
+        let turn = format!(".turn({}, {sign}{})", AXES[axis], q[2]);
+        conjugated(&there, vec![shift, turn])
+    }
+
+    /// The coordinate of a joint that has one, unless it follows another.
+    fn single(&mut self, index: usize, joint: &Joint, comment: String, faults: &mut Faults<'_>) {
+        let unit = unit_of(joint);
+        self.value_of[index] = self.values.take(&joint.name, "joint");
+        if self.tree.leader[index].is_some() {
+            return;
+        }
+        let name = &self.value_of[index];
+        let start = match (&joint.range, self.call.limits) {
+            (Some([lower, upper]), Limits::Assume | Limits::Stop) => {
+                if lower.value >= upper.value {
+                    let name = quoted(&joint.name);
+                    faults.add(
+                        joint.at,
+                        format!("the limits of joint {name} leave it no room"),
+                    );
+                }
+                let bound = match () {
+                    () if lower.value > 0.0 => Some(lower),
+                    () if upper.value < 0.0 => Some(upper),
+                    () => None,
+                };
+                bound.map(|bound| format!(" = {}", measured(joint, bound)))
+            }
+            _ => None,
+        };
+        let entry = format!("{name}: {unit}{}", start.unwrap_or_default());
+        self.text.add("coordinates", Some(comment), vec![entry]);
+    }
+
+    /// What follows a coordinate.
+    fn followers(&mut self) {
+        for (index, joint) in self.joints() {
+            let (Some(mimic), Some(leader)) = (&joint.mimic, self.tree.leader[index]) else {
+                continue;
+            };
+            let name = self.value_of[index].clone();
+            let mut entries = Vec::new();
+            let [own, of_leader] = [joint, &self.robot.joints[leader]].map(unit_of);
+            let mut value = self.value_of[leader].clone();
+            let is_alike = own == of_leader;
+            if is_alike && mimic.multiplier.value == -1.0 {
+                value = format!("-{value}");
+            } else if !is_alike || mimic.multiplier.value != 1.0 {
+                let unit = match is_alike {
+                    true => "1".to_owned(),
+                    false => format!("{own}/{of_leader}"),
+                };
+                let text = mimic.multiplier.to_string();
+                let factor =
+                    self.parameter(&mut entries, &format!("{name}_multiplier"), &unit, &text);
+                value = format!("{factor}*{value}");
+            }
+            if !mimic.offset.is_zero() {
+                let offset = measured(joint, &mimic.offset);
+                let offset = self.parameter(&mut entries, &format!("{name}_offset"), own, &offset);
+                value = format!("{value} + {offset}");
+            }
+            let comment = format!(
+                "Joint {}: how it follows {}.",
+                quoted(&joint.name),
+                quoted(&mimic.joint)
+            );
+            self.text.add("parameters", Some(comment), entries);
+            let comment = format!(
+                "Joint {}, {}, follows {}{}.",
+                quoted(&joint.name),
+                joint.kind.name(),
+                quoted(&mimic.joint),
+                said(joint)
+            );
+            self.text
+                .add("define", Some(comment), vec![format!("{name} = {value}")]);
+        }
+    }
+
+    /// A frame for each link that is turned or shifted against its parent.
+    fn frames(&mut self) {
+        let links = &self.robot.links;
+        let mut names = Names::default();
+        // What other frames and bodies stand on; what nothing stands on is marked by an underscore.
+        let mut own = vec![false; links.len()];
+        let mut stands_on: Vec<usize> = (0..links.len()).collect();
+        let mut is_used = vec![false; links.len()];
+        let is_body = |writer: &Writer<'_>, link: usize| {
+            writer.is_moving[link] && links[link].inertial.is_some()
+        };
+        let root = self.tree.root;
+        own[root] = !self.root_motion.is_empty();
+        is_used[root] = is_body(self, root);
+        for (index, joint) in self.joints() {
+            let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
+            let is_there = joint.xyz.iter().chain(&joint.rpy).all(Number::is_zero);
+            own[child] = !is_there || !self.motion[index].is_empty();
+            if !own[child] {
+                stands_on[child] = stands_on[parent];
+            } else {
+                is_used[stands_on[parent]] = true;
+            }
+            is_used[stands_on[child]] |= is_body(self, child);
+        }
+        let name = |names: &mut Names, link: usize| {
+            let is_marked = own[link] && !is_used[link];
+            let mark = if is_marked { "_" } else { "" };
+            names.take(&format!("{mark}{}", links[link].name), "link")
+        };
+        self.link_names[root] = name(&mut names, root);
+        self.frame_of[root] = match own[root] {
+            true => self.link_names[root].clone(),
+            false => "ground".to_owned(),
+        };
+        if own[root] {
+            let frame = text::frame(&self.link_names[root], "ground", &self.root_motion);
+            self.text.add("frames", None, vec![frame]);
+        }
+        for (index, joint) in self.joints() {
+            let (parent, child) = (self.tree.parent[index], self.tree.child[index]);
+            self.link_names[child] = name(&mut names, child);
+            let base = self.frame_of[parent].clone();
+            if !own[child] {
+                self.frame_of[child] = base;
+                continue;
+            }
+            let mut entries = Vec::new();
+            let origin = format!("{}_origin", joint.name);
+            let [x, y, z] = self.lengths(&mut entries, &origin, &joint.xyz);
+            let mut steps = Vec::new();
+            if !entries.is_empty() {
+                steps.push(format!(".shift({x}, {y}, {z})"));
+            }
+            let comment = format!("Joint {}: where its origin is.", quoted(&joint.name));
+            self.text.add("parameters", Some(comment), entries);
+            for axis in [2, 1, 0] {
+                let angle = Angle::of(&joint.rpy[axis]);
+                if !angle.is_zero() {
+                    steps.push(format!(".turn({}, {angle})", AXES[axis]));
+                }
+            }
+            steps.extend(std::mem::take(&mut self.motion[index]));
+            let frame = text::frame(&self.link_names[child], &base, &steps);
+            self.text.add("frames", None, vec![frame]);
+            self.frame_of[child] = self.link_names[child].clone();
+        }
+    }
+
+    /// What has mass and moves.
+    fn bodies(&mut self) {
+        let mut links = vec![(self.tree.root, None)];
+        links.extend(
+            self.joints()
+                .map(|(index, joint)| (self.tree.child[index], Some(joint))),
+        );
+        let mut resting = Vec::new();
+        for (link, joint) in links {
+            let Some(inertial) = &self.robot.links[link].inertial else {
+                continue;
+            };
+            match self.is_moving[link] {
+                true => self.body(link, inertial, joint),
+                false => resting.push(quoted(&self.robot.links[link].name)),
+            }
+        }
+        if !resting.is_empty() {
+            let many = resting.len() > 1;
+            let (link, stand, masses) = match many {
+                true => ("links", "stand", "their masses are"),
+                false => ("link", "stands", "its mass is"),
+            };
+            self.warnings.push(format!(
+                "{link} {} {stand} on the ground, so {masses} left out; with --base floating the robot hangs on nothing",
+                resting.join(", ")
+            ));
+        }
+    }
+
+    fn body(&mut self, link: usize, inertial: &Inertial, joint: Option<&Joint>) {
+        let Inertial {
+            mass,
+            xyz,
+            rpy,
+            tensor,
+        } = inertial;
+        let name = self.link_names[link].clone();
+        let frame = self.frame_of[link].clone();
+        let mut entries = Vec::new();
+        let mass = self.parameter(
+            &mut entries,
+            &format!("{name}_mass"),
+            "kg",
+            &mass.to_string(),
+        );
+        let has_tensor = tensor.iter().any(|entry| !entry.is_zero());
+        let [x, y, z] = self.lengths(&mut entries, &format!("{name}_com"), xyz);
+        let is_centred = xyz.iter().all(Number::is_zero);
+        let place = match is_centred {
+            true => format!("{frame}.origin"),
+            false => format!("{frame}.point({x}, {y}, {z})"),
+        };
+        let mut parts = vec![format!("mass: {mass}")];
+        if has_tensor {
+            let turned = tensor::turned(tensor, rpy);
+            let labels = ["Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz"];
+            let inertia: Vec<String> = labels
+                .iter()
+                .zip(&turned)
+                .map(|(label, entry)| match entry.is_zero() {
+                    true => "0".to_owned(),
+                    false => {
+                        let name = format!("{name}_{label}");
+                        self.parameter(&mut entries, &name, "kg*m^2", &entry.to_string())
+                    }
+                })
+                .collect();
+            let has_products = inertia[3..].iter().any(|entry| entry != "0");
+            let shown = if has_products { 6 } else { 3 };
+            parts.push(format!("inertia: ({})", inertia[..shown].join(", ")));
+            parts.push(format!("frame: {frame}"));
+        }
+        if !has_tensor || !is_centred {
+            parts.push(format!("at: {place}"));
+        }
+        let comment = match has_tensor {
+            true => "mass, mass centre, and tensor of inertia about it in the link's axes",
+            false => "mass and mass centre",
+        };
+        let label = quoted(&self.robot.links[link].name);
+        let is_turned = has_tensor && !rpy.iter().all(Number::is_zero);
+        let file = if is_turned {
+            "; the file gives it in axes turned by `rpy`"
+        } else {
+            ""
+        };
+        let comment = format!("Link {label}: {comment}{file}.");
+        self.text.add("parameters", Some(comment), entries);
+        let comment = match joint {
+            Some(joint) => format!("Link {label}, held by joint {}.", quoted(&joint.name)),
+            None => format!("Link {label}."),
+        };
+        self.text
+            .add("bodies", Some(comment), vec![text::body(&name, &parts)]);
+    }
+
+    /// Dampers, friction and stops.
+    fn along_joints(&mut self, faults: &mut Faults<'_>) {
+        let mut left_out = Vec::new();
+        let mut limited = 0;
+        let [mut smoothing, mut restitution] = [None, None].map(|none: Option<String>| none);
+        let mut smoothing_of_slides = None;
+        for (index, joint) in self.joints().filter(|(_, joint)| joint.kind.is_single()) {
+            let value = self.value_of[index].clone();
+            let is_turning = joint.kind != Kind::Prismatic;
+            let mut entries = Vec::new();
+            if !joint.damping.is_zero() {
+                let unit = if is_turning { "N*m*s" } else { "N*s/m" };
+                let text = joint.damping.to_string();
+                let damping =
+                    self.parameter(&mut entries, &format!("{value}_damping"), unit, &text);
+                let damper = format!("{value} {{ damping: {damping}, stretch: {value} }}");
+                self.text.add("dampers", None, vec![damper]);
+            }
+            match self.call.friction {
+                Some(Friction::Smooth(rate)) if !joint.friction.is_zero() => {
+                    let unit = if is_turning { "N*m" } else { "N" };
+                    let text = joint.friction.to_string();
+                    let friction =
+                        self.parameter(&mut entries, &format!("{value}_friction"), unit, &text);
+                    let (smoothing, name, unit) = match is_turning {
+                        true => (&mut smoothing, "smoothing", "rad/s"),
+                        false => (&mut smoothing_of_slides, "smoothing_of_slides", "m/s"),
+                    };
+                    if smoothing.is_none() {
+                        let mut entry = Vec::new();
+                        let rate = Number::computed(rate).to_string();
+                        *smoothing = Some(self.parameter(&mut entry, name, unit, &rate));
+                        let comment = "Below this rate friction falls to zero instead of sticking.";
+                        self.text.add("parameters", Some(comment.to_owned()), entry);
+                    }
+                    let rate = smoothing.clone().unwrap_or_default();
+                    let formula = format!("{value}: {friction}*sqrt(der({value})^2 + {rate}^2)");
+                    self.text.add("dissipations", None, vec![formula]);
+                }
+                Some(Friction::None) if !joint.friction.is_zero() => {
+                    left_out.push(quoted(&joint.name));
+                }
+                _ => {}
+            }
+            if let Some([lower, upper]) = &joint.range {
+                limited += 1;
+                if self.call.limits != Limits::None {
+                    self.range(
+                        joint,
+                        &value,
+                        [lower, upper],
+                        &mut entries,
+                        &mut restitution,
+                        faults,
+                    );
+                }
+            }
+            let comment = format!("Joint {}: what acts along it.", quoted(&joint.name));
+            self.text.add("parameters", Some(comment), entries);
+        }
+        if !left_out.is_empty() {
+            let count = counted(left_out.len(), "joint", "joints");
+            self.warnings.push(format!(
+                "friction is left out of {count}: {}",
+                left_out.join(", ")
+            ));
+        }
+        if limited > 0 && self.call.limits == Limits::None {
+            let count = counted(limited, "joint", "joints");
+            self.warnings.push(format!(
+                "limits of {count} stand in comments only; with --limits assume a run says when it leaves them, with --limits stop \
+                 they stop it"
+            ));
+        }
+    }
+
+    /// What becomes of the limits of a joint.
+    fn range(
+        &mut self,
+        joint: &Joint,
+        value: &str,
+        range: [&Number; 2],
+        entries: &mut Vec<String>,
+        restitution: &mut Option<String>,
+        faults: &mut Faults<'_>,
+    ) {
+        if range[0].value >= range[1].value && joint.mimic.is_some() {
+            let name = quoted(&joint.name);
+            faults.add(
+                joint.at,
+                format!("the limits of joint {name} leave it no room"),
+            );
+        }
+        let unit = unit_of(joint);
+        let [lower, upper] = [("lower", range[0]), ("upper", range[1])].map(|(end, bound)| {
+            let text = measured(joint, bound);
+            self.parameter(entries, &format!("{value}_{end}"), unit, &text)
+        });
+        if self.call.limits == Limits::Assume {
+            let facts = vec![format!("{value} >= {lower}"), format!("{value} <= {upper}")];
+            return self.text.add("assume", None, facts);
+        }
+        if restitution.is_none() {
+            let mut entry = Vec::new();
+            *restitution = Some(self.parameter(&mut entry, "stop_restitution", "1", "0"));
+            let comment =
+                "How much of its rate a joint keeps when it comes back from the end of its range.";
+            self.text.add("parameters", Some(comment.to_owned()), entry);
+        }
+        let restitution = restitution.clone().unwrap_or_default();
+        let gaps = [
+            ("lower", format!("{value} - {lower}")),
+            ("upper", format!("{upper} - {value}")),
+        ];
+        for (end, gap) in gaps {
+            // A gap is a length: that of the arc at a radius of 1 m, on which nothing depends where nothing yields.
+            let gap = match joint.kind {
+                Kind::Prismatic => gap,
+                _ => format!("1*m*({gap})"),
+            };
+            let contact = format!("{value}_{end} {{ gap: {gap}, restitution: {restitution} }}");
+            self.text.add("contacts", None, vec![contact]);
+        }
+    }
+
+    fn finish(mut self, file: &str) -> Machine {
+        let gravity = &self.gravity;
+        let entry = vec![format!("{gravity}: m/s^2 = 9.81")];
+        let comment = "The acceleration of gravity, against z; the file has none.";
+        self.text.add("parameters", Some(comment.to_owned()), entry);
+        let mut comment = vec![format!(
+            "Robot {}, imported from the URDF file {}. Angles are in radians, lengths in metres.",
+            quoted(&self.robot.name),
+            quoted(file)
+        )];
+        if !self.robot.left_out.is_empty() {
+            let list = self.robot.left_out.join(", ");
+            comment.push(format!("Not carried over: {list}."));
+            self.warnings.push(format!("not carried over: {list}"));
+        }
+        for name in &self.robot.unneeded {
+            let message = format!("--ignore {name}: there is nothing of that name to leave out");
+            self.warnings.push(message);
+        }
+        let name = names::machine(&self.robot.name);
+        let text = self
+            .text
+            .written(&name, &comment, &format!("(0, 0, -{gravity})"));
+        Machine {
+            counts: ["coordinates", "bodies", "parameters"].map(|section| self.text.count(section)),
+            name,
+            text,
+            warnings: self.warnings,
+        }
+    }
+}
+
+/// The unit of what a joint moves by.
+fn unit_of(joint: &Joint) -> &'static str {
+    match joint.kind {
+        Kind::Prismatic => "m",
+        _ => "rad",
+    }
+}
+
+/// A value of a joint as a spec has it.
+fn measured(joint: &Joint, value: &Number) -> String {
+    match joint.kind {
+        Kind::Prismatic => value.to_string(),
+        _ => value.in_radians(),
+    }
+}
+
+/// What a comment says of a joint: its range, and bounds of velocity and effort.
+fn said(joint: &Joint) -> String {
+    let (angle, force) = match joint.kind {
+        Kind::Prismatic => ("m", "N"),
+        _ => ("rad", "N*m"),
+    };
+    let mut said = String::new();
+    if let Some([lower, upper]) = &joint.range {
+        said = format!("; between {lower} and {upper} {angle}");
+    }
+    for (name, number) in &joint.remarks {
+        said.push_str(&match *name {
+            "velocity" => format!("; velocity up to {number} {angle}/s"),
+            "effort" => format!("; effort up to {number} {force}"),
+            "acceleration" | "deceleration" => format!("; {name} up to {number} {angle}/s^2"),
+            "jerk" => format!("; jerk up to {number} {angle}/s^3"),
+            "soft_lower_limit" => format!("; the safety controller begins at {number} {angle}"),
+            "soft_upper_limit" => format!("; the safety controller ends at {number} {angle}"),
+            name => format!("; {name} of the safety controller {number}"),
+        });
+    }
+    said
+}

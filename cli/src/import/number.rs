@@ -1,0 +1,283 @@
+//! Numbers with the digits that a file gives them.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+/// An angle is looked for among the multiples of π/12.
+const TWELFTH: f64 = PI / 12.0;
+
+/// Beyond this many of them there is no name for an angle.
+const MOST_TWELFTHS: f64 = 24.0;
+
+/// Fewer digits than these may be those of π by chance, or rounded where the rest is missed.
+const DIGITS_OF_PI: i32 = 13;
+
+/// The longest number that keeps its digits.
+const LONGEST: usize = 40;
+
+/// A number as a spec writes it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// Its value, rounded once.
+    pub value: f64,
+    text: String,
+    /// How many digits count, and the power of ten of the last of them.
+    digits: i32,
+    last: i32,
+}
+
+impl Number {
+    /// Nothing.
+    pub fn zero() -> Number {
+        Number {
+            value: 0.0,
+            text: "0".to_owned(),
+            digits: 0,
+            last: 0,
+        }
+    }
+
+    /// A number that was computed, with the fewest digits that read back to it.
+    pub fn computed(value: f64) -> Number {
+        let text = format!("{value:?}");
+        let short = text.strip_suffix(".0").unwrap_or(&text);
+        Number::read(short).unwrap_or_else(|_| Number::zero())
+    }
+
+    /// Reads what files of XML write: a sign, decimal digits with a point among them or none, and an exponent.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read(text: &str) -> Result<Number, String> {
+        let malformed = || format!("`{text}` is no number: write it like -0.25 or 2.5e-3");
+        let (is_negative, unsigned) = match text.as_bytes().first() {
+            Some(b'-') => (true, &text[1..]),
+            Some(b'+') => (false, &text[1..]),
+            _ => (false, text),
+        };
+        let (mantissa, exponent) = match unsigned.split_once(['e', 'E']) {
+            Some((mantissa, exponent)) => (mantissa, Some(exponent)),
+            None => (unsigned, None),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let is_decimal = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+        if !is_decimal(whole) || !is_decimal(fraction) || whole.len() + fraction.len() == 0 {
+            return Err(malformed());
+        }
+        let exponent: i32 = match exponent {
+            None => 0,
+            Some(exponent) => exponent.parse().map_err(|_| malformed())?,
+        };
+        let value: f64 = text.parse().map_err(|_| malformed())?;
+        let has_digits = mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
+        if !has_digits {
+            return Ok(Number::zero());
+        }
+        if !value.is_normal() {
+            return Err(format!(
+                "`{text}` is beyond what a floating-point number can hold: 2.2e-308 to 1.8e308"
+            ));
+        }
+        let whole = whole.trim_start_matches('0');
+        let kept = match fraction.is_empty() {
+            true => whole.to_owned(),
+            false if whole.is_empty() => format!("0.{fraction}"),
+            false => format!("{whole}.{fraction}"),
+        };
+        let kept = match exponent {
+            0 => kept,
+            _ => format!("{kept}e{exponent}"),
+        };
+        let sign = if is_negative { "-" } else { "" };
+        let text = match kept.len() <= LONGEST {
+            true => format!("{sign}{kept}"),
+            false => format!("{value:?}"),
+        };
+        let all = [whole, fraction].concat();
+        let counted = all.trim_start_matches('0').len();
+        let length = |text: &str| i32::try_from(text.len()).unwrap_or(i32::MAX);
+        Ok(Number {
+            value,
+            text,
+            digits: i32::try_from(counted).unwrap_or(i32::MAX),
+            last: exponent.saturating_sub(length(fraction)),
+        })
+    }
+
+    /// Whether it is nothing.
+    pub fn is_zero(&self) -> bool {
+        self.value == 0.0
+    }
+
+    /// How it is written as an angle that a coordinate, a limit or an offset has: beyond a turn with its unit, since a bare
+    /// number of that size may be meant in degrees.
+    pub fn in_radians(&self) -> String {
+        match self.value.abs() > 2.0 * PI {
+            true => format!("{}*rad", self.text),
+            false => self.text.clone(),
+        }
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// A constant angle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Angle {
+    /// So many twelfths of π, exactly.
+    Twelfths(i32),
+    /// Any other.
+    Radians(Number),
+}
+
+impl Angle {
+    /// The angle that a file gives. One with 13 digits or more, which are those of a multiple of 15°, is that multiple.
+    pub fn of(number: &Number) -> Angle {
+        let unit = 10_f64.powi(number.last);
+        // The last digit may be rounded or cut off; the double that stands for it is rounded, too.
+        let tolerance = unit.max(2.0 * f64::EPSILON * number.value.abs());
+        match number.digits >= DIGITS_OF_PI || number.is_zero() {
+            true => Angle::named(number, tolerance),
+            false => Angle::Radians(number.clone()),
+        }
+    }
+
+    /// An angle that was computed in a few roundings.
+    pub fn computed(value: f64) -> Angle {
+        Angle::named(&Number::computed(value), 4.0 * f64::EPSILON * value.abs())
+    }
+
+    fn named(number: &Number, tolerance: f64) -> Angle {
+        let twelfths = (number.value / TWELFTH).round();
+        let is_close = (number.value - twelfths * TWELFTH).abs() <= tolerance;
+        let is_other_than_zero = twelfths != 0.0 || number.is_zero();
+        match is_close && is_other_than_zero && twelfths.abs() <= MOST_TWELFTHS {
+            true => Angle::Twelfths(twelfths as i32),
+            false => Angle::Radians(number.clone()),
+        }
+    }
+
+    /// Whether it turns nothing.
+    pub fn is_zero(&self) -> bool {
+        *self == Angle::Twelfths(0)
+    }
+
+    /// The angle back.
+    pub fn negated(&self) -> Angle {
+        match self {
+            Angle::Twelfths(k) => Angle::Twelfths(-k),
+            Angle::Radians(number) => {
+                let text = match number.text.strip_prefix('-') {
+                    Some(text) => text.to_owned(),
+                    None => format!("-{}", number.text),
+                };
+                Angle::Radians(Number {
+                    value: -number.value,
+                    text,
+                    ..*number
+                })
+            }
+        }
+    }
+}
+
+impl fmt::Display for Angle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let k = match self {
+            Angle::Radians(number) => return f.write_str(&number.in_radians()),
+            Angle::Twelfths(k) => *k,
+        };
+        let mut common = 12;
+        while 12 % common != 0 || k % common != 0 {
+            common -= 1;
+        }
+        let sign = if k < 0 { "-" } else { "" };
+        match (k.abs() / common, 12 / common) {
+            (0, _) => f.write_str("0"),
+            (1, 1) => write!(f, "{sign}pi"),
+            (1, below) => write!(f, "{sign}pi/{below}"),
+            (above, 1) => write!(f, "{sign}{above}*pi"),
+            (above, below) => write!(f, "{sign}{above}*pi/{below}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_stay_as_they_are() {
+        for (text, written) in [
+            ("0.50", "0.50"),
+            (".5", "0.5"),
+            ("5.", "5"),
+            ("+1E-3", "1e-3"),
+            ("-007.250", "-7.250"),
+            ("-0.0", "0"),
+            ("0e99", "0"),
+            ("1e+05", "1e5"),
+            ("2.5e0", "2.5"),
+        ] {
+            let number = Number::read(text).expect(text);
+            assert_eq!(number.to_string(), written);
+            assert_eq!(number.value, text.parse::<f64>().expect(text));
+            let again = Number::read(written).expect(written);
+            assert_eq!(
+                (again.to_string(), again.value),
+                (written.into(), number.value)
+            );
+        }
+        for text in [
+            "",
+            "-",
+            ".",
+            "1,5",
+            "nan",
+            "inf",
+            "1e",
+            "e5",
+            "0x10",
+            "1e999",
+            "1e-999",
+            "--1",
+            "1 2",
+            "٣",
+            "1e99999999999",
+        ] {
+            assert!(Number::read(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn digits_of_pi_are_pi() {
+        for (text, written) in [
+            ("1.5707963267948966", "pi/2"),
+            ("-1.570796326794", "-pi/2"),
+            ("-1.570796326795", "-pi/2"),
+            ("3.141592653589793", "pi"),
+            ("0.78539816339744830961", "pi/4"),
+            ("-2.0943951023931953", "-2*pi/3"),
+            ("6.283185307179586", "2*pi"),
+            // Too few digits, or other ones.
+            ("1.5708", "1.5708"),
+            ("1.570796327", "1.570796327"),
+            ("1.57079632679", "1.57079632679"),
+            ("1.570796326797", "1.570796326797"),
+            ("7.5", "7.5*rad"),
+            ("0", "0"),
+            ("1e-12", "1e-12"),
+        ] {
+            let number = Number::read(text).expect(text);
+            let angle = Angle::of(&number);
+            assert_eq!(angle.to_string(), written);
+            assert_eq!(angle.negated().negated(), angle);
+        }
+        assert_eq!(Angle::computed(1_f64.atan2(-1.0)).to_string(), "3*pi/4");
+        assert_eq!(Angle::computed(1e-300).to_string(), "1e-300");
+    }
+}

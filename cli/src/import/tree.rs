@@ -1,0 +1,206 @@
+//! How links hang on each other, which joints follow which, and what has mass.
+
+use std::collections::HashMap;
+
+use super::names::quoted;
+use super::urdf::{Faults, Joint, Link, Robot};
+
+/// The joints of a robot as a tree.
+#[derive(Debug)]
+pub struct Tree {
+    /// The link that hangs on no other.
+    pub root: usize,
+    /// The joints, each behind the one that it hangs on; otherwise in the order of the file.
+    pub order: Vec<usize>,
+    /// The links at both ends of each joint.
+    pub parent: Vec<usize>,
+    pub child: Vec<usize>,
+    /// The joint that each joint mimics.
+    pub leader: Vec<Option<usize>>,
+}
+
+/// Where each name stands; names that stand twice are faults.
+fn index<'r>(
+    names: impl Iterator<Item = (&'r str, usize)>,
+    kind: &str,
+    faults: &mut Faults<'_>,
+) -> HashMap<&'r str, usize> {
+    let mut places = HashMap::new();
+    for (index, (name, at)) in names.enumerate() {
+        if places.insert(name, index).is_some() {
+            faults.add(at, format!("there are two {kind}s {}", quoted(name)));
+        }
+    }
+    places
+}
+
+/// Finds the tree.
+pub fn plant(robot: &Robot, faults: &mut Faults<'_>) -> Option<Tree> {
+    let Robot { links, joints, .. } = robot;
+    let of_link = |link: &'_ Link| link.at;
+    let places = index(
+        links.iter().map(|link| (link.name.as_str(), of_link(link))),
+        "link",
+        faults,
+    );
+    let by_name = index(
+        joints.iter().map(|joint| (joint.name.as_str(), joint.at)),
+        "joint",
+        faults,
+    );
+    let leader = leaders(joints, &by_name, faults);
+    let mut end = |joint: &Joint, name: &str, what: &str| {
+        let found = places.get(name).copied();
+        if found.is_none() {
+            let message = format!(
+                "the {what} of joint {} is {}, and there is no such link",
+                quoted(&joint.name),
+                quoted(name)
+            );
+            faults.add(joint.at, message);
+        }
+        found
+    };
+    let ends: Vec<_> = joints
+        .iter()
+        .map(|joint| {
+            Some((
+                end(joint, &joint.parent, "parent")?,
+                end(joint, &joint.child, "child")?,
+            ))
+        })
+        .collect();
+    let ends = ends.into_iter().collect::<Option<Vec<_>>>()?;
+    let (parent, child): (Vec<usize>, Vec<usize>) = ends.into_iter().unzip();
+    let mut above = vec![None; links.len()];
+    let mut below = vec![Vec::new(); links.len()];
+    for (joint, (&upper, &lower)) in parent.iter().zip(&child).enumerate() {
+        below[upper].push(joint);
+        if let Some(other) = above[lower].replace(joint) {
+            let other: &Joint = &joints[other];
+            let message = format!(
+                "link {} hangs on two joints, {} and {}: URDF has trees only",
+                quoted(&links[lower].name),
+                quoted(&other.name),
+                quoted(&joints[joint].name)
+            );
+            faults.add(joints[joint].at, message);
+        }
+    }
+    if !faults.is_empty() {
+        return None;
+    }
+    let mut roots = (0..links.len()).filter(|link| above[*link].is_none());
+    let Some(root) = roots.next() else {
+        let message = match links.is_empty() {
+            true => "the robot has no links",
+            false => "every link hangs on another, in a circle: one must stand on the ground",
+        };
+        faults.add(0, message);
+        return None;
+    };
+    for other in roots {
+        let message = format!(
+            "links {} and {} both hang on nothing: a robot has one root; join them",
+            quoted(&links[root].name),
+            quoted(&links[other].name)
+        );
+        faults.add(links[other].at, message);
+    }
+    let mut order = Vec::with_capacity(joints.len());
+    let mut waiting: Vec<usize> = below[root].iter().rev().copied().collect();
+    while let Some(joint) = waiting.pop() {
+        order.push(joint);
+        waiting.extend(below[child[joint]].iter().rev());
+    }
+    if order.len() < joints.len() && faults.is_empty() {
+        let mut is_reached = vec![false; joints.len()];
+        order.iter().for_each(|joint| is_reached[*joint] = true);
+        for joint in (0..joints.len()).filter(|joint| !is_reached[*joint]) {
+            let message = format!(
+                "joint {} is one of a circle that hangs on nothing",
+                quoted(&joints[joint].name)
+            );
+            faults.add(joints[joint].at, message);
+        }
+    }
+    faults.is_empty().then_some(Tree {
+        root,
+        order,
+        parent,
+        child,
+        leader,
+    })
+}
+
+/// Which joint each joint follows.
+fn leaders(
+    joints: &[Joint],
+    by_name: &HashMap<&str, usize>,
+    faults: &mut Faults<'_>,
+) -> Vec<Option<usize>> {
+    let mut leaders = vec![None; joints.len()];
+    for (index, joint) in joints.iter().enumerate() {
+        let Some(mimic) = &joint.mimic else {
+            continue;
+        };
+        let told = match by_name.get(mimic.joint.as_str()) {
+            None => "there is no such joint".to_owned(),
+            Some(leader) if joints[*leader].kind.is_single() => {
+                leaders[index] = Some(*leader);
+                continue;
+            }
+            Some(leader) => format!(
+                "that is {}, without a value of its own",
+                joints[*leader].kind.name()
+            ),
+        };
+        let (follower, leader) = (quoted(&joint.name), quoted(&mimic.joint));
+        faults.add(
+            mimic.at,
+            format!("joint {follower} mimics {leader}, and {told}"),
+        );
+    }
+    // A walk along leaders that is longer than there are joints goes in a circle; each joint is walked once.
+    let mut is_led = vec![false; joints.len()];
+    for start in 0..joints.len() {
+        let mut walked = Vec::new();
+        let mut at = start;
+        while let (false, Some(next)) = (is_led[at], leaders[at]) {
+            walked.push(at);
+            if walked.len() > joints.len() {
+                let mimic_at = joints[start]
+                    .mimic
+                    .as_ref()
+                    .map_or(joints[start].at, |mimic| mimic.at);
+                let name = quoted(&joints[start].name);
+                faults.add(mimic_at, format!("joint {name} mimics others in a circle"));
+                return leaders;
+            }
+            at = next;
+        }
+        walked.iter().for_each(|joint| is_led[*joint] = true);
+        is_led[at] = true;
+    }
+    leaders
+}
+
+impl Tree {
+    /// The joint whose coordinate a joint has, at the end of what it mimics.
+    pub fn first_leader(&self, joint: usize) -> usize {
+        let mut at = joint;
+        while let Some(next) = self.leader[at] {
+            at = next;
+        }
+        at
+    }
+
+    /// Whether each link, with all that hangs on it, has mass.
+    pub fn is_heavy(&self, links: &[Link]) -> Vec<bool> {
+        let mut heavy: Vec<bool> = links.iter().map(|link| link.inertial.is_some()).collect();
+        for &joint in self.order.iter().rev() {
+            heavy[self.parent[joint]] |= heavy[self.child[joint]];
+        }
+        heavy
+    }
+}

@@ -1,0 +1,749 @@
+//! `lagrangian import` against Pinocchio, whose numbers are stored, and against a recursive Newton–Euler typed from a book.
+
+use std::collections::hash_map::RandomState;
+use std::f64::consts::PI;
+use std::fmt::Write as _;
+use std::hash::BuildHasher;
+use std::path::Path;
+
+use crate::support::{Scratch, lagrangian, root};
+use nalgebra::{DMatrix, DVector, Matrix3, Matrix6, Vector3, Vector6};
+use serde_json::{Value, json};
+
+/// What the two may differ by, as a share of the largest number of a kind: some thousand roundings.
+const CLOSE: f64 = 1e-11;
+
+const ROBOTS: [&str; 6] = ["arm", "leg", "hand", "slider", "floating", "planar"];
+
+fn robot(name: &str) -> String {
+    format!("cli/tests/command/import/{name}.urdf")
+}
+
+/// A spec from a file.
+fn imported(path: &str, options: &[&str]) -> Scratch {
+    let machine = Scratch::new("robot.machine", "");
+    let output = lagrangian(&[&["import", path, "--out", machine.path()], options].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{path}: {said}");
+    machine
+}
+
+/// A spec from a text.
+fn imported_text(text: &str, options: &[&str]) -> Scratch {
+    imported(Scratch::new("robot.urdf", text).path(), options)
+}
+
+/// The results of `evaluate` at some points.
+fn evaluated(machine: &Scratch, points: &Value) -> Vec<Value> {
+    let at = Scratch::new("points.json", &points.to_string());
+    let output = lagrangian(&["evaluate", machine.path(), "--at", at.path()]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// All numbers of a vector or a matrix.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value {
+        Value::Array(parts) => parts.iter().flat_map(numbers).collect(),
+        value => vec![
+            value
+                .as_f64()
+                .unwrap_or_else(|| panic!("no number: {value}")),
+        ],
+    }
+}
+
+fn assert_close(found: &[f64], truth: &[f64], scale: f64, what: &str) {
+    assert_eq!(found.len(), truth.len(), "{what}");
+    for (found, truth) in found.iter().zip(truth) {
+        let off = (found - truth).abs();
+        assert!(off <= CLOSE * scale, "{what}: {found:?}, not {truth:?}");
+    }
+}
+
+fn largest(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// `import/by_pinocchio.py` says how the numbers were made, by Pinocchio 4.1.0.
+#[test]
+fn robots_move_as_pinocchio_moves_them() {
+    let path = root().join("cli/tests/command/import/pinocchio.json");
+    let stored = std::fs::read_to_string(path).expect("a file");
+    let stored: Value = serde_json::from_str(&stored).expect("JSON");
+    for name in ROBOTS {
+        let machine = imported(&robot(name), &[]);
+        let states = stored[name].as_array().expect("states");
+        let points: Vec<Value> = states
+            .iter()
+            .map(|state| json!({ "q": state["q"], "v": state["v"] }))
+            .collect();
+        let found = evaluated(&machine, &json!(points));
+        assert_eq!(found.len(), 4, "{name}");
+        for (found, truth) in found.iter().zip(states) {
+            for quantity in ["mass_matrix", "bias", "applied", "accelerations"] {
+                let truth = numbers(&truth[quantity]);
+                let what = format!("{quantity} of {name}");
+                assert_close(&numbers(&found[quantity]), &truth, largest(&truth), &what);
+            }
+        }
+    }
+}
+
+#[test]
+fn specs_are_whole_and_always_the_same() {
+    for name in ROBOTS {
+        for options in [&[][..], &["--limits", "assume"], &["--limits", "stop"]] {
+            let machine = imported(&robot(name), options);
+            let check = lagrangian(&["check", machine.path(), "--deny-warnings"]);
+            let said = String::from_utf8_lossy(&check.stderr);
+            assert!(check.status.success(), "{name} {options:?}: {said}");
+            let text = std::fs::read(&machine.0).expect("a file");
+            let printed = lagrangian(&[&["import", &robot(name)], options].concat());
+            assert_eq!(printed.stdout, text, "{name}");
+        }
+    }
+}
+
+/// Splitmix64.
+struct Draw(u64);
+
+impl Draw {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, bound: usize) -> usize {
+        (self.bits() % bound as u64) as usize
+    }
+
+    /// Between two numbers, in as many decimals as a file gives.
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
+        let text = format!("{:.3}", low + unit * (high - low));
+        text.parse().expect("a number")
+    }
+
+    fn vector(&mut self, size: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.between(-size, size))
+    }
+}
+
+fn about(u: &Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    // Rodrigues.
+    let k = u.cross_matrix();
+    Matrix3::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
+}
+
+fn of_rpy(rpy: &Vector3<f64>) -> Matrix3<f64> {
+    let about = |axis: usize| about(&Vector3::ith(axis, 1.0), rpy[axis]);
+    about(2) * about(1) * about(0)
+}
+
+/// A link on a joint with one coordinate at most, and where the joint's frame is in that of the parent.
+struct Link {
+    parent: Option<usize>,
+    turned: Matrix3<f64>,
+    at: Vector3<f64>,
+    motion: Motion,
+    coordinate: String,
+    damping: f64,
+    inertia: Matrix6<f64>,
+}
+
+#[derive(Clone, Copy)]
+enum Motion {
+    None,
+    Turn(Vector3<f64>),
+    Slide(Vector3<f64>),
+}
+
+impl Link {
+    /// Featherstone, *Rigid Body Dynamics Algorithms* (2008), eq. 2.24: what takes motions from the parent's axes to the link's.
+    fn transform(&self, q: f64) -> Matrix6<f64> {
+        let (turn, slide) = match self.motion {
+            Motion::None => (Matrix3::identity(), Vector3::zeros()),
+            Motion::Turn(u) => (about(&u, q), Vector3::zeros()),
+            Motion::Slide(u) => (Matrix3::identity(), u * q),
+        };
+        let e = (self.turned * turn).transpose();
+        let at = self.at + self.turned * slide;
+        blocks(e, Matrix3::zeros(), -e * at.cross_matrix(), e)
+    }
+
+    /// The motion that the coordinate's rate makes.
+    fn subspace(&self) -> Vector6<f64> {
+        match self.motion {
+            Motion::None => Vector6::zeros(),
+            Motion::Turn(u) => Vector6::new(u[0], u[1], u[2], 0.0, 0.0, 0.0),
+            Motion::Slide(u) => Vector6::new(0.0, 0.0, 0.0, u[0], u[1], u[2]),
+        }
+    }
+}
+
+fn blocks(a: Matrix3<f64>, b: Matrix3<f64>, c: Matrix3<f64>, d: Matrix3<f64>) -> Matrix6<f64> {
+    let parts = [[a, b], [c, d]];
+    Matrix6::from_fn(|i, j| parts[i / 3][j / 3][(i % 3, j % 3)])
+}
+
+/// The same, eq. 2.63: mass, mass centre, and the tensor about it.
+fn spatial_inertia(mass: f64, centre: &Vector3<f64>, tensor: &Matrix3<f64>) -> Matrix6<f64> {
+    let c = centre.cross_matrix();
+    blocks(
+        tensor + mass * c * c.transpose(),
+        mass * c,
+        mass * c.transpose(),
+        Matrix3::identity() * mass,
+    )
+}
+
+/// The same, eq. 2.31: v ×; v ×* is minus its transpose.
+fn cross(v: &Vector6<f64>) -> Matrix6<f64> {
+    let (angular, linear) = (
+        Vector3::new(v[0], v[1], v[2]),
+        Vector3::new(v[3], v[4], v[5]),
+    );
+    let (w, l) = (angular.cross_matrix(), linear.cross_matrix());
+    blocks(w, Matrix3::zeros(), l, w)
+}
+
+/// The same, table 5.1: the forces along the coordinates that give these accelerations under gravity `g`. A number for each link.
+fn newton_euler(links: &[Link], q: &[f64], v: &[f64], a: &[f64], g: f64) -> Vec<f64> {
+    let ground = Vector6::new(0.0, 0.0, 0.0, 0.0, 0.0, g);
+    let mut velocity: Vec<Vector6<f64>> = Vec::new();
+    let mut acceleration: Vec<Vector6<f64>> = Vec::new();
+    let mut force: Vec<Vector6<f64>> = Vec::new();
+    for (i, link) in links.iter().enumerate() {
+        let (x, s) = (link.transform(q[i]), link.subspace());
+        let above = link
+            .parent
+            .map_or(Vector6::zeros(), |parent| velocity[parent]);
+        let pulled = link.parent.map_or(ground, |parent| acceleration[parent]);
+        let own = x * above + s * v[i];
+        let gained = x * pulled + s * a[i] + cross(&own) * s * v[i];
+        force.push(link.inertia * gained - cross(&own).transpose() * link.inertia * own);
+        velocity.push(own);
+        acceleration.push(gained);
+    }
+    let mut along = vec![0.0; links.len()];
+    for (i, link) in links.iter().enumerate().rev() {
+        along[i] = link.subspace().dot(&force[i]);
+        if let Some(parent) = link.parent {
+            let passed = link.transform(q[i]).transpose() * force[i];
+            force[parent] += passed;
+        }
+    }
+    along
+}
+
+fn spoken(v: &Vector3<f64>) -> String {
+    format!("{} {} {}", v[0], v[1], v[2])
+}
+
+/// A robot as a file, and what it means.
+fn tree(draw: &mut Draw) -> (String, Vec<Link>) {
+    let mut text = "<robot name=\"tree\"><link name=\"ground\"/>\n".to_owned();
+    // The last link of each joint of the file, and its name.
+    let mut ends: Vec<(Option<usize>, String)> = vec![(None, "ground".to_owned())];
+    let mut links = Vec::new();
+    for number in 0..2 + draw.below(3) {
+        let (parent, parent_name) = ends[draw.below(ends.len())].clone();
+        let kind = match draw.below(10) {
+            _ if number == 0 => "continuous",
+            0..=4 => "continuous",
+            5..=7 => "prismatic",
+            8 => "fixed",
+            _ => "spherical",
+        };
+        let axis = match draw.below(3) {
+            // One of the frame's own, or in one of its planes.
+            0 => Vector3::ith(draw.below(3), if draw.below(2) == 0 { 2.0 } else { -1.0 }),
+            1 => {
+                let mut axis = draw.vector(1.0);
+                axis[draw.below(3)] = 0.0;
+                axis
+            }
+            _ => draw.vector(1.0),
+        };
+        let axis = if axis.norm() < 0.1 {
+            Vector3::z()
+        } else {
+            axis
+        };
+        let (at, rpy) = (draw.vector(0.5), draw.vector(3.0));
+        let (mass, centre, turned) = (draw.between(0.2, 3.0), draw.vector(0.2), draw.vector(2.0));
+        // Any tensor is one of second moments: trace 1 - S, with S from three points.
+        let spread = draw.vector(0.3);
+        let cross_spread = draw.vector(0.1);
+        let s = Matrix3::from_diagonal(&spread.map(|x| x * x + 0.01))
+            + cross_spread * cross_spread.transpose();
+        let tensor = (Matrix3::identity() * s.trace() - s).map(|entry| {
+            let text = format!("{entry:.6}");
+            text.parse::<f64>().expect("a number")
+        });
+        let damping = if kind == "continuous" {
+            draw.between(0.0, 0.5)
+        } else {
+            0.0
+        };
+        let _ = writeln!(
+            text,
+            "<link name=\"l{number}\"><inertial><origin xyz=\"{}\" rpy=\"{}\"/><mass value=\"{mass}\"/><inertia ixx=\"{}\" iyy=\"{}\" \
+             izz=\"{}\" ixy=\"{}\" ixz=\"{}\" iyz=\"{}\"/></inertial></link>\n<joint name=\"j{number}\" type=\"{kind}\"><origin \
+             xyz=\"{}\" rpy=\"{}\"/><parent link=\"{parent_name}\"/><child link=\"l{number}\"/><axis xyz=\"{}\"/>{}</joint>",
+            spoken(&centre),
+            spoken(&turned),
+            tensor[(0, 0)],
+            tensor[(1, 1)],
+            tensor[(2, 2)],
+            tensor[(0, 1)],
+            tensor[(0, 2)],
+            tensor[(1, 2)],
+            spoken(&at),
+            spoken(&rpy),
+            spoken(&axis),
+            if damping == 0.0 {
+                String::new()
+            } else {
+                format!("<dynamics damping=\"{damping}\"/>")
+            },
+        );
+        let u = axis.normalize();
+        let own = |suffix: &str| format!("j{number}{suffix}");
+        let motions = match kind {
+            "continuous" => vec![(Motion::Turn(u), own(""))],
+            "prismatic" => vec![(Motion::Slide(u), own(""))],
+            "fixed" => vec![(Motion::None, String::new())],
+            _ => ["x", "y", "z"]
+                .into_iter()
+                .enumerate()
+                .map(|(axis, name)| {
+                    (
+                        Motion::Turn(Vector3::ith(axis, 1.0)),
+                        own(&format!("_about_{name}")),
+                    )
+                })
+                .collect(),
+        };
+        let count = motions.len();
+        let axes = of_rpy(&turned);
+        let inertia = spatial_inertia(mass, &centre, &(axes * tensor * axes.transpose()));
+        for (place, (motion, coordinate)) in motions.into_iter().enumerate() {
+            links.push(Link {
+                parent: if place == 0 {
+                    parent
+                } else {
+                    Some(links.len() - 1)
+                },
+                turned: if place == 0 {
+                    of_rpy(&rpy)
+                } else {
+                    Matrix3::identity()
+                },
+                at: if place == 0 { at } else { Vector3::zeros() },
+                motion,
+                coordinate,
+                damping,
+                inertia: if place + 1 == count {
+                    inertia
+                } else {
+                    Matrix6::zeros()
+                },
+            });
+        }
+        ends.push((Some(links.len() - 1), format!("l{number}")));
+    }
+    text.push_str("</robot>\n");
+    (text, links)
+}
+
+/// The coordinates in the order of the spec: depth first, in the order of the file.
+fn in_order(links: &[Link], parent: Option<usize>, order: &mut Vec<usize>) {
+    for (index, link) in links
+        .iter()
+        .enumerate()
+        .filter(|(_, link)| link.parent == parent)
+    {
+        if !link.coordinate.is_empty() {
+            order.push(index);
+        }
+        in_order(links, Some(index), order);
+    }
+}
+
+#[test]
+fn random_trees_move_as_newton_and_euler_say() {
+    let seed = std::env::var("IMPORT_SEED")
+        .ok()
+        .and_then(|seed| seed.parse().ok());
+    let seed = seed.unwrap_or_else(|| RandomState::new().hash_one(0));
+    println!("IMPORT_SEED={seed}");
+    let mut draw = Draw(seed);
+    for number in 0..30 {
+        let (text, links) = tree(&mut draw);
+        let mut order = Vec::new();
+        in_order(&links, None, &mut order);
+        let [q, v] = [(); 2]
+            .map(|()| -> Vec<f64> { links.iter().map(|_| draw.between(-1.2, 1.2)).collect() });
+        let named = |values: &[f64]| -> Value {
+            order
+                .iter()
+                .map(|i| (links[*i].coordinate.clone(), json!(values[*i])))
+                .collect()
+        };
+        let machine = imported_text(&text, &[]);
+        let found = evaluated(&machine, &json!([{ "q": named(&q), "v": named(&v) }])).remove(0);
+        let along = |values: Vec<f64>| -> Vec<f64> { order.iter().map(|i| values[*i]).collect() };
+        let zero = vec![0.0; links.len()];
+        let n = order.len();
+        let columns: Vec<f64> = order
+            .iter()
+            .flat_map(|i| {
+                let mut unit = zero.clone();
+                unit[*i] = 1.0;
+                along(newton_euler(&links, &q, &zero, &unit, 0.0))
+            })
+            .collect();
+        let bias = along(newton_euler(&links, &q, &v, &zero, 0.0));
+        let weight = along(newton_euler(&links, &q, &zero, &zero, 9.81));
+        let applied: Vec<f64> = order
+            .iter()
+            .zip(weight)
+            .map(|(i, weight)| -weight - links[*i].damping * v[*i])
+            .collect();
+        let what = |quantity: &str| format!("{quantity} of tree {number} of seed {seed}\n{text}");
+        let mass = numbers(&found["mass_matrix"]);
+        assert_close(&mass, &columns, largest(&columns), &what("mass matrix"));
+        assert_close(
+            &numbers(&found["bias"]),
+            &bias,
+            largest(&bias).max(1.0),
+            &what("bias"),
+        );
+        let forces = largest(&applied).max(1.0);
+        assert_close(
+            &numbers(&found["applied"]),
+            &applied,
+            forces,
+            &what("applied"),
+        );
+        // Not solved for, so that no condition number enters.
+        let a = numbers(&found["accelerations"]);
+        let needed = DMatrix::from_vec(n, n, columns.clone()) * DVector::from_vec(a.clone());
+        let given: Vec<f64> = applied.iter().zip(&bias).map(|(f, h)| f - h).collect();
+        let scale = largest(&columns) * largest(&a) + forces + largest(&bias);
+        assert_close(needed.as_slice(), &given, scale, &what("accelerations"));
+    }
+}
+
+/// A pendulum of mass 2 at 0.5 below its joint, with what stands in its joint besides.
+fn pendulum(kind: &str, inner: &str) -> String {
+    format!(
+        "<robot name=\"pendulum\">\n<link name=\"base\"/>\n<link name=\"bob\"><inertial><origin xyz=\"0 0 -0.5\"/><mass \
+         value=\"2\"/><inertia ixx=\"0\" iyy=\"0\" izz=\"0\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\n<joint \
+         name=\"pivot\" type=\"{kind}\"><parent link=\"base\"/><child link=\"bob\"/>\n{inner}</joint>\n</robot>\n"
+    )
+}
+
+/// What is said of a text that is refused; no file is written.
+fn refused(text: &str, options: &[&str]) -> String {
+    let file = Scratch::new("robot.urdf", text);
+    let machine = file.0.with_file_name("robot.machine");
+    let out = machine.to_str().expect("text");
+    let output = lagrangian(&[&["import", file.path(), "--out", out], options].concat());
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(1), "{text}\n{said}");
+    assert!(!machine.exists(), "{text}");
+    said
+}
+
+#[test]
+fn friction_is_refused_left_out_or_smooth() {
+    let text = pendulum(
+        "continuous",
+        "<axis xyz=\"0 1 0\"/><dynamics friction=\"0.3\"/>",
+    );
+    let said = refused(&text, &[]);
+    assert!(
+        said.contains("robot.urdf:4:1: joint \"pivot\" has friction"),
+        "{said}"
+    );
+    let points = json!([{ "q": [0.4], "v": [0.002] }, { "q": [0.4], "v": [-7.0] }]);
+    let weight = -2.0 * 9.81 * 0.5 * 0.4_f64.sin();
+    for (option, friction) in [("none", 0.0), ("smooth=2e-3", 0.3)] {
+        let machine = imported_text(&text, &["--friction", option]);
+        for (found, v) in evaluated(&machine, &points).iter().zip([0.002, -7.0_f64]) {
+            let exact = weight - friction * v / v.hypot(2e-3);
+            assert_close(&numbers(&found["applied"]), &[exact], 10.0, option);
+        }
+    }
+    let slides = pendulum("prismatic", "<dynamics friction=\"0.3\"/>");
+    let machine = imported_text(&slides, &["--friction", "smooth=0.5"]);
+    let found = evaluated(&machine, &json!([{ "v": [0.5] }])).remove(0);
+    assert_close(
+        &numbers(&found["applied"]),
+        &[-0.3 / 2_f64.sqrt()],
+        1.0,
+        "a slide",
+    );
+}
+
+#[test]
+fn limits_are_comments_facts_or_stops() {
+    let inner =
+        "<axis xyz=\"0 1 0\"/><limit lower=\"0.5\" upper=\"2\" effort=\"3\" velocity=\"4\"/>";
+    let text = pendulum("revolute", inner);
+    let run = |options: &[&str], start: &[&str]| {
+        let machine = imported_text(&text, options);
+        let call = [
+            &["simulate", machine.path(), "--until", "3", "--json"],
+            start,
+        ]
+        .concat();
+        let output = lagrangian(&call);
+        let result: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        (result, std::fs::read_to_string(&machine.0).expect("a file"))
+    };
+    let start = ["--start", "pivot=1.5"];
+    let (result, spec) = run(&[], &start);
+    assert!(
+        spec.contains("between 0.5 and 2 rad; velocity up to 4"),
+        "{spec}"
+    );
+    assert_eq!(result["events"], json!([]));
+    let (result, spec) = run(&["--limits", "assume"], &start);
+    assert!(spec.contains("pivot: rad = 0.5,"), "{spec}");
+    assert!(
+        result.to_string().contains("pivot >= pivot_lower"),
+        "{result}"
+    );
+    // What it had of energy is lost at the stop, against which its weight holds it.
+    let (result, _) = run(&["--limits", "stop"], &start);
+    let pivot = result["q"]["pivot"].as_f64().expect("a number");
+    assert!((pivot - 0.5).abs() <= 1e-9, "{result}");
+}
+
+#[test]
+fn what_moves_no_mass_is_refused_or_dropped() {
+    let joint = "<link name=\"end\"/><link name=\"tip\"/><joint name=\"flap\" type=\"continuous\"><parent link=\"bob\"/><child \
+                 link=\"end\"/></joint><joint name=\"fix\" type=\"fixed\"><parent link=\"end\"/><child link=\"tip\"/></joint></robot>";
+    let text = pendulum("continuous", "<axis xyz=\"0 1 0\"/>").replace("</robot>", joint);
+    let said = refused(&text, &[]);
+    assert!(said.contains("joint \"flap\" moves no mass"), "{said}");
+    let machine = imported_text(&text, &["--drop-massless"]);
+    let found = evaluated(&machine, &json!([{ "q": [PI / 2.0] }])).remove(0);
+    // m l² and m g l.
+    assert_close(&numbers(&found["mass_matrix"]), &[0.5], 0.5, "inertia");
+    assert_close(
+        &numbers(&found["accelerations"]),
+        &[-9.81 / 0.5],
+        20.0,
+        "acceleration",
+    );
+}
+
+/// A root that floats is a root on a joint that does.
+#[test]
+fn a_base_may_float() {
+    let body = "<link name=\"box\"><inertial><origin xyz=\"0.1 0 0\"/><mass value=\"2\"/><inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.25\" \
+                ixy=\"0\" ixz=\"0\" iyz=\"0.01\"/></inertial></link>";
+    let alone = format!("<robot name=\"r\">{body}</robot>");
+    let joined = format!(
+        "<robot name=\"r\"><link name=\"w\"/>{body}<joint name=\"box\" type=\"floating\"><parent link=\"w\"/><child \
+         link=\"box\"/></joint></robot>"
+    );
+    assert!(refused(&alone, &[]).contains("nothing moves"));
+    let points = json!([{ "q": [0.1, 0.2, 0.3, 0.4, 0.5, 0.6], "v": [1, 2, 3, 4, 5, 6] }]);
+    let energy =
+        |text: &str, options: &[&str]| evaluated(&imported_text(text, options), &points).remove(0);
+    for ball in ["xyz", "zyx", "zxz"] {
+        let found = energy(&alone, &["--base", "floating", "--ball", ball]);
+        assert_eq!(found, energy(&joined, &["--ball", ball]));
+        // The centre falls as everything does, however the body turns.
+        let mass = numbers(&found["mass_matrix"]);
+        let weight = numbers(&found["applied"]);
+        assert_close(
+            &[mass[0], mass[7], mass[14], weight[2]],
+            &[2.0, 2.0, 2.0, -19.62],
+            1.0,
+            ball,
+        );
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    let base = pendulum("continuous", "<axis xyz=\"0 1 0\"/>");
+    let with = |from: &str, to: &str| base.replacen(from, to, 1);
+    for (text, words) in [
+        (with("\"2\"", "\"2,5\""), "3:65: `value` of link \"bob\": `2,5` is no number"),
+        (with("\"2\"", "\"-2\""), "the mass of link \"bob\" is negative"),
+        (with("\"2\"", "\"nan\""), "is no number"),
+        (with("0 0 -0.5", "0 -0.5"), "three numbers are expected, and there are 2"),
+        (with("izz=\"0\"", "izz=\"0.1\""), "of no body is one greater than the sum of the others"),
+        (with("izz=\"0\" ", ""), "`inertia` of link \"bob\" lacks `izz`"),
+        (with("<mass value=\"2\"/>", ""), "`inertial` of link \"bob\" lacks `mass`"),
+        (with("continuous", "hinge"), "4:27: the type \"hinge\" of joint \"pivot\" is not known: there are revolute"),
+        (with("<child link=\"bob\"/>", ""), "joint \"pivot\" has no child"),
+        (with("<child link=\"bob\"/>", "<child link=\"b\"/>"), "there is no such link"),
+        (with("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"bob\"/>"), "there are two links \"bob\""),
+        (with("<link name=\"base\"/>", "<link name=\"base\"/><link name=\"c\"/>"), "both hang on nothing"),
+        (with("0 1 0", "0 0 0"), "has no direction"),
+        (with("0 1 0\"/>", "0 1 0\"/><spring k=\"1\"/>"), "5:20: `spring` of joint \"pivot\" is not known"),
+        (with("0 1 0\"/>", "0 1 0\"/><dynamics armature=\"1\"/>"), "`armature` of `dynamics` of joint \"pivot\""),
+        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"p\"/>"), "mimics \"p\", and there is no such joint"),
+        (with("0 1 0\"/>", "0 1 0\"/><mimic joint=\"pivot\"/>"), "in a circle"),
+        (with("<robot", "<mujoco"), "no XML"),
+        ("<mujoco/>".to_owned(), "this is MJCF"),
+        ("<robot name=\"r\"><link name=\"a\"".to_owned(), "1:"),
+        (String::new(), "no XML"),
+        (
+            format!("<robot name=\"r\">\n<link{}/></robot>", " a='1'".repeat(1001)),
+            "2:1: an element has more than 1000 attributes",
+        ),
+        ("<robot name=\"r\"/>".to_owned(), "the robot has no links"),
+        (
+            "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\"><xacro:include filename=\"a\"/></robot>".to_owned(),
+            "macros",
+        ),
+        ("<!DOCTYPE a [<!ENTITY b \"c\">]><robot/>".to_owned(), "no XML"),
+        (
+            "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child \
+             link=\"b\"/></joint><joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint></robot>"
+                .to_owned(),
+            "in a circle",
+        ),
+    ] {
+        let said = refused(&text, &[]);
+        assert!(said.contains(words), "{words:?} is not in {said:?}");
+    }
+    let spring = with("0 1 0\"/>", "0 1 0\"/><spring k=\"1\"/>");
+    // A joint that mimics one that is left out, and has mass.
+    let hanging = |name: &str, parent: &str, inner: &str| {
+        format!(
+            "<link name=\"{name}\"/><joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child \
+             link=\"{name}\"/>{inner}</joint>"
+        )
+    };
+    let led = with("<axis xyz=\"0 1 0\"/>", "<mimic joint=\"second\"/>");
+    let led = led.replace(
+        "</robot>",
+        &format!(
+            "{}{}</robot>",
+            hanging("first", "base", ""),
+            hanging("second", "first", "")
+        ),
+    );
+    let said = refused(&led, &["--drop-massless"]);
+    assert!(
+        said.contains("\"pivot\" mimics \"second\", which hangs on"),
+        "{said}"
+    );
+    for (gazebo, is_refused) in [
+        ("<gravity>true</gravity>", false),
+        ("<gravity>0</gravity>", true),
+        ("<turnGravityOff>false</turnGravityOff>", false),
+        ("<springStiffness>2</springStiffness>", true),
+        ("<plugin name=\"p\"><rate>5</rate></plugin>", false),
+    ] {
+        let text = base.replace("</robot>", &format!("<gazebo>{gazebo}</gazebo></robot>"));
+        if is_refused {
+            assert!(
+                refused(&text, &[]).contains("--ignore gazebo leaves it out"),
+                "{gazebo}"
+            );
+        }
+        let options = if is_refused {
+            &["--ignore", "gazebo"][..]
+        } else {
+            &[]
+        };
+        let spec = std::fs::read_to_string(&imported_text(&text, options).0).expect("a file");
+        assert!(
+            spec.contains("/// Not carried over: 1 element `gazebo`."),
+            "{spec}"
+        );
+    }
+    let machine = imported_text(&spring, &["--ignore", "spring"]);
+    let spec = std::fs::read_to_string(&machine.0).expect("a file");
+    assert!(
+        spec.contains("/// Not carried over: 1 element `spring`."),
+        "{spec}"
+    );
+}
+
+#[test]
+fn calls_are_told_what_they_lack() {
+    for (arguments, words) in [
+        (&["scene.xml"][..], "with the ending `.urdf`"),
+        (&["missing.urdf"], "cannot read missing.urdf"),
+        (&["a.urdf", "--out", "a.txt"], "writes `.machine`"),
+        (&["a.urdf", "--friction", "smooth=0"], "a rate above 0"),
+        (
+            &["a.urdf", "--limits", "hard"],
+            "[possible values: none, assume, stop]",
+        ),
+    ] {
+        let output = lagrangian(&[&["import"], arguments].concat());
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(words), "{said}");
+    }
+}
+
+/// Names of links and joints that mean something else in a spec, or nothing.
+#[test]
+fn any_name_becomes_one() {
+    let words = [
+        "t",
+        "pi",
+        "g",
+        "x",
+        "rad",
+        "m",
+        "ground",
+        "self",
+        "sin",
+        "in",
+        "remove",
+        "bodies",
+        "machine",
+        "type",
+        "1st",
+        "a-b",
+        "a b",
+        "--",
+        "é",
+        "b_mass",
+        "b",
+        "z_origin_x",
+        "extends",
+        "f32",
+        "true",
+        "name&#10;line",
+        "der",
+        "gravity",
+    ];
+    let mut text = "<robot name=\"self\"><link name=\"root\"/>".to_owned();
+    let mut parent = "root";
+    for word in words {
+        let _ = write!(
+            text,
+            "<link name=\"{word}\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" \
+             iyz=\"0\"/></inertial></link><joint name=\"{word}\" type=\"prismatic\"><origin xyz=\"1 0 0\"/><parent \
+             link=\"{parent}\"/><child link=\"{word}\"/></joint>"
+        );
+        parent = word;
+    }
+    text.push_str("</robot>");
+    let machine = imported_text(&text, &["--limits", "assume"]);
+    let check = lagrangian(&["check", machine.path(), "--deny-warnings"]);
+    let said = String::from_utf8_lossy(&check.stderr);
+    assert!(check.status.success(), "{said}");
+    assert!(Path::new(machine.path()).exists());
+}
