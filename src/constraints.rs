@@ -40,7 +40,7 @@ pub(crate) const RESIDUAL: f64 = 1e-13;
 /// Residuals above this are reduced: so what depends on several rows keeps the bound as well.
 const WORKED_OFF: f64 = 0.25 * RESIDUAL;
 
-/// The same bound where rows depend on others: which of them are chosen changes on the way, and the residual of
+/// The same bound where rows depend on others, or nearly so: which of them are chosen changes on the way, and the residual of
 /// those that are not must be as small. Newton's method goes on until rounding stops it.
 const WORKED_OFF_REDUNDANT: f64 = 4.0 * f64::EPSILON;
 
@@ -115,6 +115,8 @@ pub(crate) struct Constraints<V> {
     pub redundant: bool,
     /// Whether the motion passes a pose in which rows come to depend on each other.
     pub at_fork: bool,
+    /// Whether rows hold so little where the state is that residuals are worked off to rounding.
+    tight: bool,
     /// Coordinates, and rates, that stay as they are while the start is projected onto the constraints:
     /// those that are not 0.
     kept: Option<[V; 2]>,
@@ -149,6 +151,7 @@ impl<V: Vector> Constraints<V> {
             choice: Choice::none(zeros.clone()),
             redundant: false,
             at_fork: false,
+            tight: false,
             kept: None,
             moved: [zeros.clone(), zeros],
             left: [0.0; 2],
@@ -253,6 +256,7 @@ impl<V: Vector> Constraints<V> {
         levels: &[Level],
     ) -> Result<bool, StepError> {
         let t = place.t;
+        self.tight = false;
         for moved in &mut self.moved {
             moved.as_mut_slice().fill(0.0);
         }
@@ -276,7 +280,9 @@ impl<V: Vector> Constraints<V> {
         let all = self.choice.clone();
         let first = levels.first().copied().unwrap_or(Level::Positions);
         let prepared = self.prepare(system, workspace, (t, place.q[0]), first);
-        if self.kept.is_none() && self.is_weak(&prepared, workspace, place.q[0]) {
+        let hold = self.hold_of(&prepared, workspace, place.q[0]);
+        self.tight = hold < fork::TIGHT;
+        if self.kept.is_none() && hold < fork::WEAK {
             // What holds so little would turn rounding of positions into a move.
             let by = (&self.scales, None);
             let holding = Rank::Holding(fork::WEAK);
@@ -299,7 +305,7 @@ impl<V: Vector> Constraints<V> {
     }
 
     fn worked_off(&self) -> f64 {
-        if self.redundant {
+        if self.redundant || self.tight {
             WORKED_OFF_REDUNDANT
         } else {
             WORKED_OFF

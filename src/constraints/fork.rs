@@ -25,6 +25,10 @@ use crate::{Singular, StepError, System, Vector};
 /// Below this, rows no longer move a state.
 pub(super) const WEAK: f64 = 1e-4;
 
+/// Below this, residuals are worked off to rounding: a residual `r` is an error `r/ε²` of the rates across the rows, and the next
+/// move, whose rows have turned by then, leaves a part of that along the motion.
+pub(super) const TIGHT: f64 = 1e-2;
+
 /// Below this, accelerations are taken from beside the pose.
 pub(super) const PASSED_OVER: f64 = 3e-4;
 
@@ -60,19 +64,21 @@ impl<V: Vector> Constraints<V> {
         least
     }
 
-    /// Whether the chosen rows hold too little to move a state.
-    pub(super) fn is_weak<M: Vector>(
+    /// The same where rows may have been factorized; 1 where something else stood in the way of that.
+    pub(super) fn hold_of<M: Vector>(
         &self,
         prepared: &Result<(), StepError>,
         workspace: &Workspace<'_, M>,
         q: &V,
-    ) -> bool {
+    ) -> f64 {
         match prepared {
-            Ok(()) => self.held(workspace, q) < WEAK,
-            Err(StepError::Singular { singular, .. }) => {
-                matches!(singular.at, crate::Pivot::Constraint(_))
+            Ok(()) => self.held(workspace, q),
+            Err(StepError::Singular { singular, .. })
+                if matches!(singular.at, crate::Pivot::Constraint(_)) =>
+            {
+                0.0
             }
-            Err(_) => false,
+            Err(_) => 1.0,
         }
     }
 
@@ -164,6 +170,7 @@ impl<V: Vector> Constraints<V> {
         v: &mut V,
     ) -> Result<(), StepError> {
         let mut own = self.clone();
+        own.tight = true;
         let mut low = [q.zeros_like(), v.zeros_like()];
         let [q_low, v_low] = &mut low;
         let place = &mut Place {

@@ -477,6 +477,57 @@ fn coarse_steps_over_forks_are_as_exact_as_in_one_coordinate() {
     }
 }
 
+/// Steps that end next to a fork begin and end with accelerations and moves that next to nothing holds. What rounding makes of
+/// them is not to become a change of the motion: each fork adds 1e-9 to the rates at most, which time makes a change of places.
+#[test]
+fn steps_that_end_next_to_a_fork_lose_nothing() {
+    let mut random = SplitMix::new(11);
+    // A run through three windows that has such steps; and others at random.
+    let machines = [2, 3].map(|windows| {
+        let program = crate::support::library::program("four_bars", &[("N", windows)]);
+        let cranks = usize::try_from(windows).expect("two or three") + 1;
+        (
+            InterpretedMachine::new(program),
+            in_one_coordinate(cranks - 1),
+            cranks,
+        )
+    });
+    let known = [(3, -4.703, 15.22)];
+    let others = (0..40).map(|_| (2, random.uniform(-6.0, 6.0), random.uniform(1.0, 15.0)));
+    for (windows, rate, until) in known.into_iter().chain(others) {
+        let (row, pendulum, cranks) = &machines[windows - 2];
+        let cranks = *cranks;
+        let list = |of_crank: f64| {
+            let of = |i| if i < cranks { of_crank } else { 0.0 };
+            (0..cranks + windows).map(of).collect::<Vec<f64>>()
+        };
+        let run = Simulation::new(row)
+            .tolerance(1e-11)
+            .until(until)
+            .run(state(row, 0.0, &list(FRAC_PI_2), &list(-rate)))
+            .unwrap_or_else(|error| panic!("{windows}, {rate}, {until}: {error}"));
+        let alone = |tolerance: f64| {
+            let run = Simulation::new(pendulum).tolerance(tolerance).until(until);
+            let run = run.run(state(pendulum, 0.0, &[FRAC_PI_2], &[-rate]));
+            run.expect("a pendulum swings").end().q.values[0]
+        };
+        let place = alone(1e-14);
+        // Level twice in each turn.
+        let forks = ((place - FRAC_PI_2).abs() / std::f64::consts::PI).ceil();
+        let limit = 10.0 * (alone(1e-11) - place).abs() + 1e-9 * forks * (1.0 + until);
+        let off = list(place)
+            .iter()
+            .zip(&run.end().q.values)
+            .fold(0.0, |off: f64, (known, found)| {
+                off.max((known - found).abs())
+            });
+        assert!(
+            off <= limit,
+            "{windows}, {rate}, {until}: {off:e} > {limit:e}"
+        );
+    }
+}
+
 /// A motion that comes to rest where two branches cross turns back on its own: inertia has nothing that
 /// pushes across. With just enough to reach the level pose from below.
 #[test]
