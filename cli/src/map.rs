@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::call;
 use crate::failure::Failure;
 use crate::output::{self, Destination, SVG, keep_apart};
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
 /// More cells than this no drawing shows apart, and no viewer opens.
 const MOST_CELLS: usize = 160_000;
@@ -41,14 +41,7 @@ const MISSING: RGBColor = RGBColor(190, 190, 190);
 /// Axes with labels, as in the drawings of runs.
 macro_rules! mesh {
     ($chart:expr, $x:expr, $y:expr) => {
-        $chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
-            .axis_style(BLACK.stroke_width(UNIT))
-            .set_all_tick_mark_size(4 * UNIT)
-            .label_style(font(12))
-            .axis_desc_style(font(13))
+        axes!($chart)
             .x_desc($x.as_str())
             .y_desc($y)
             .x_label_formatter(&|x| short(*x))

@@ -32,6 +32,21 @@ pub const COLOURS: [RGBColor; 8] = [
     RGBColor(140, 140, 60),
 ];
 
+/// The axes of a chart in the style of all drawings, as an expression: what stands beside them is for the caller to add.
+macro_rules! axes {
+    ($chart:expr) => {
+        $chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
+            .axis_style(BLACK.stroke_width(UNIT))
+            .set_all_tick_mark_size(4 * UNIT)
+            .label_style(font(12))
+            .axis_desc_style(font(13))
+    };
+}
+pub(crate) use axes;
+
 /// What is drawn, from top to bottom.
 const KINDS: [Kind; 7] = [
     Kind::Coordinate,
@@ -112,14 +127,7 @@ fn draw_panel(
         .x_label_area_size(34 * UNIT)
         .y_label_area_size(72 * UNIT)
         .build_cartesian_2d(times, values)?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
-        .axis_style(BLACK.stroke_width(UNIT))
-        .set_all_tick_mark_size(4 * UNIT)
-        .label_style(font(12))
-        .axis_desc_style(font(13))
+    axes!(chart)
         .x_desc("t [s]")
         .y_desc(panel.label())
         .y_labels(5)

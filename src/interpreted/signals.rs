@@ -324,7 +324,7 @@ fn names_of_circle(open: &[(Rule, Reads)], name: impl Fn(usize) -> String) -> Ve
         open.iter()
             .position(|(other, _)| reads.contains(&other.input))
     };
-    // Whoever waits leads into a circle.
+    // Every open rule reads an input of another open rule, so following them from any one ends in a circle.
     let mut way: Vec<usize> = Vec::new();
     let mut at = 0;
     loop {

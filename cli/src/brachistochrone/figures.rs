@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::found::Found;
-use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, font, range, short};
+use crate::plot::{COLOURS, PANEL, UNIT, WIDTH, axes, font, range, short};
 
 /// One figure.
 struct Figure {
@@ -104,14 +104,7 @@ fn draw_figure(
         .x_label_area_size(34 * UNIT)
         .y_label_area_size(72 * UNIT)
         .build_cartesian_2d(across, along)?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
-        .axis_style(BLACK.stroke_width(UNIT))
-        .set_all_tick_mark_size(4 * UNIT)
-        .label_style(font(12))
-        .axis_desc_style(font(13))
+    axes!(chart)
         .x_desc(figure.across.as_str())
         .y_desc(figure.along.as_str())
         .y_labels(5)

@@ -149,7 +149,7 @@ impl<'a> Writer<'a> {
                 );
             }
         }
-        // What hangs on what is left out is left out.
+        // Without a joint everything beyond it is left out as well.
         let mut is_gone = vec![false; robot.links.len()];
         for &joint in &tree.order {
             self.is_dropped[joint] |= is_gone[tree.parent[joint]];

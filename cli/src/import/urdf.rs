@@ -685,7 +685,7 @@ impl Reader<'_, '_, '_> {
         let has_range = matches!(kind, Kind::Revolute | Kind::Prismatic);
         let range = match bounds {
             [None, None] => None,
-            // What is left out of two is 0.
+            // Where a file gives one bound only, URDF takes 0 as the other.
             bounds => Some(bounds.map(|bound| bound.unwrap_or_else(Number::zero))),
         };
         (range.filter(|_| has_range), remarks)

@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::Linearization;
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
 /// Width of the names beside a panel, and how many fit.
 const LEGEND: u32 = 170 * UNIT;
@@ -235,14 +235,7 @@ fn panel(
         .x_label_area_size(34 * UNIT)
         .y_label_area_size(72 * UNIT)
         .build_cartesian_2d(axes.across, axes.upwards)?;
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
-        .axis_style(BLACK.stroke_width(UNIT))
-        .set_all_tick_mark_size(4 * UNIT)
-        .label_style(font(12))
-        .axis_desc_style(font(13))
+    axes!(chart)
         .x_desc(axes.names[0])
         .y_desc(axes.names[1])
         .x_labels(axes.marks)

@@ -3,7 +3,7 @@
 use plotters::prelude::*;
 
 use super::vary::Trace;
-use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, font, range, short, svg_of};
+use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
 
 /// Radius of a point.
 const POINT: u32 = UNIT * 5 / 4;
@@ -103,14 +103,7 @@ fn draw(title: &str, figures: &[Figure], backend: SVGBackend<'_>) -> Drawing<()>
             .x_label_area_size(34 * UNIT)
             .y_label_area_size(72 * UNIT)
             .build_cartesian_2d(across, along)?;
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(225, 225, 225).stroke_width(UNIT))
-            .axis_style(BLACK.stroke_width(UNIT))
-            .set_all_tick_mark_size(4 * UNIT)
-            .label_style(font(12))
-            .axis_desc_style(font(13))
+        axes!(chart)
             .x_desc(figure.across.as_str())
             .y_desc(figure.along)
             .y_labels(5)

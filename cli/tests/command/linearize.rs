@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::support::{Scratch, lagrangian, root};
 use serde_json::Value;
 
-/// Derivatives are exact, and the equilibrium is known in 20 digits: what is left are some roundings of the numbers typed here.
+/// Derivatives are exact, and the equilibrium is known in 20 digits: errors are some roundings of the numbers typed here.
 const CLOSE: f64 = 1e-14;
 
 fn linearize(arguments: &[&str]) -> Value {

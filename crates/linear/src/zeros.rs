@@ -8,8 +8,8 @@
 //! ```
 //!
 //! is less than elsewhere. Outputs and inputs are taken away by orthogonal transformations until D is regular (A. Emami-Naeini and
-//! P. Van Dooren, *Computation of zeros of linear multivariable systems*, Automatica 18 (1982) 415–430); what is left are the
-//! eigenvalues of `A − B D⁻¹ C`. Those of a model all of whose modes inputs reach and outputs show are its transmission zeros.
+//! P. Van Dooren, *Computation of zeros of linear multivariable systems*, Automatica 18 (1982) 415–430); of the reduced model the
+//! zeros are the eigenvalues of `A − B D⁻¹ C`. Those of a model all of whose modes inputs reach and outputs show are its transmission zeros.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix};

@@ -102,7 +102,7 @@ pub fn contradictions<'d>(model: &Model<'d>, equations: &Equations<'d>, report: 
 /// What cannot be met together.
 struct Contradiction {
     of_rates: bool,
-    /// Constraints, those of places first, and what is left of each, in its unit.
+    /// Constraints, those of places first, and their residuals, each in its unit.
     misses: Vec<(usize, f64)>,
 }
 
