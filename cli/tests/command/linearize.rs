@@ -387,6 +387,21 @@ fn what_has_no_linearization_is_refused_with_the_reason() {
         let found = linearize(&[spec.path(), "--here", "--rate", "x=0.5"]);
         assert_eq!(rows(&found["A"])[1][0], -4.0);
     }
+    // In polar coordinates the angle has no inertia at the origin, whichever coordinate is written first.
+    for coordinates in ["r: m, phi: rad", "phi: rad, r: m"] {
+        let polar = Scratch::new(
+            "polar.machine",
+            &format!(
+                "machine Polar in plane {{
+                    coordinates {{ {coordinates} }}
+                    bodies {{ p {{ mass: 1*kg, at: r*(cos(phi), sin(phi)) }} }}
+                }}"
+            ),
+        );
+        let (status, said) = refused(&[polar.path(), "--here"]);
+        assert_eq!(status, 1);
+        assert!(said.contains("singular in `phi`"), "{coordinates}: {said}");
+    }
     // The square is smooth enough: v |v| has the slope 0 there. And so is a steep bend.
     let smooth = linearize(&[block("-mu*abs(der(x))*der(x)/eps^2").path()]);
     assert_matrix(&smooth["A"], &[&[0.0, 1.0], &[-4.0, 0.0]]);

@@ -493,8 +493,8 @@ fn respond(
         (0..count).map(entry).collect()
     });
     let forces = here.forces.iter().map(|force| vec![*force]).collect();
-    let singular = || Fault::Singular(choice.independent.first().copied().unwrap_or(0));
-    let solved = solve(mass.collect(), forces).ok_or_else(singular)?;
+    let solved = solve(mass.collect(), forces);
+    let solved = solved.map_err(|k| Fault::Singular(choice.independent[k]))?;
     let accelerations: Vec<Number> = solved.into_iter().map(|row| row[0]).collect();
     let finite = |x: &Number| x.value.is_finite() && x.derivative.is_finite();
     if let Some(c) = accelerations.iter().position(|x| !finite(x)) {
@@ -522,7 +522,8 @@ fn respond(
             let inertia = sum(&mut (0..n).map(|i| here.mass[j * n + i] * all[i]));
             vec![inertia - here.applied[j]]
         });
-        let solved = solve(matrix.collect(), left.collect()).ok_or_else(singular)?;
+        let solved = solve(matrix.collect(), left.collect());
+        let solved = solved.map_err(|_| Fault::Singular(dependent[0]))?;
         multipliers = vec![Number::ZERO; choice.rows.len()];
         for (k, row) in choice.rows.iter().zip(solved) {
             multipliers[*k] = row[0];

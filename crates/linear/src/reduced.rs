@@ -547,7 +547,7 @@ impl<'a> Reduced<'a> {
             row.push(sum);
         }
         let singular = || Fault::Singular(dependent.first().copied().unwrap_or(0));
-        let solved = solve(square.clone(), right).ok_or_else(singular)?;
+        let solved = solve(square.clone(), right).map_err(|_| singular())?;
         let mut along = vec![vec![Number::ZERO; count]; n];
         let mut v = zero;
         for (c, &j) in choice.independent.iter().enumerate() {
@@ -560,7 +560,7 @@ impl<'a> Reduced<'a> {
         }
         let drift = self.call(Role::ConstraintDrift, (q, &v), m, self.time);
         let right = choice.rows.iter().map(|&k| vec![drift[k]]).collect();
-        let solved = solve(square, right).ok_or_else(singular)?;
+        let solved = solve(square, right).map_err(|_| singular())?;
         let lower = self.call(
             Role::MassMatrix,
             (q, &v),
@@ -626,7 +626,7 @@ impl<'a> Reduced<'a> {
                 choice.rows[..held].iter().map(row).collect()
             };
             let solved = solve(pick(&choice.tied, Number::ONE), pick(&places, -Number::ONE));
-            let solved = solved.ok_or(Fault::Singular(choice.tied[0]))?;
+            let solved = solved.map_err(|_| Fault::Singular(choice.tied[0]))?;
             for (row, &j) in solved.into_iter().zip(&choice.tied) {
                 for (column, x) in tangent.iter_mut().zip(row) {
                     column[j] = x.value;
@@ -783,18 +783,26 @@ pub(crate) struct Evaluated {
     pub held: Vec<Number>,
 }
 
-/// `Aᵢⱼ⁻¹ B` by elimination with pivots; nothing where A is singular.
-pub(crate) fn solve(mut a: Vec<Vec<Number>>, mut b: Vec<Vec<Number>>) -> Option<Vec<Vec<Number>>> {
+/// `A⁻¹ B` by elimination with pivots.
+///
+/// # Errors
+/// Where A is singular: the first column that depends on those before it.
+pub(crate) fn solve(
+    mut a: Vec<Vec<Number>>,
+    mut b: Vec<Vec<Number>>,
+) -> Result<Vec<Vec<Number>>, usize> {
     let n = a.len();
     for k in 0..n {
         let size = |i: &usize| a[*i][k].value.hi().abs();
-        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)))?;
+        let pivot = (k..n)
+            .max_by(|i, j| size(i).total_cmp(&size(j)))
+            .unwrap_or(k);
         a.swap(k, pivot);
         b.swap(k, pivot);
         let (above, below) = a.split_at_mut(k + 1);
         let pivot = above[k][k];
         if pivot.value.hi() == 0.0 || !pivot.value.is_finite() {
-            return None;
+            return Err(k);
         }
         let (above_b, below_b) = b.split_at_mut(k + 1);
         for (row, row_b) in below.iter_mut().zip(below_b) {
@@ -813,7 +821,7 @@ pub(crate) fn solve(mut a: Vec<Vec<Number>>, mut b: Vec<Vec<Number>>) -> Option<
             b[k][c] = known / a[k][k];
         }
     }
-    Some(b)
+    Ok(b)
 }
 
 /// Numbers between −ε and ε, always the same.
