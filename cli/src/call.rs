@@ -571,8 +571,9 @@ pub struct Sweep {
     /// The same, and end the run there.
     #[arg(long = "until-event", value_name = "NAME=FORMULA", value_parser = assignment, allow_hyphen_values = true)]
     pub ends: Vec<Assignment>,
-    /// What of the motion is recorded beside its end: `at=0.5,1` states at these times, `every=0.01` samples in a second file.
-    #[arg(long, value_name = "end|at=T,…|every=T")]
+    /// What of the motion is recorded beside its end: `at=0.5,1` states at these times; `every=0.01` samples in a second file, or
+    /// `event=NAME` a sample at every event of that name.
+    #[arg(long, value_name = "end|at=T,…|every=T|event=NAME,…")]
     pub record: Vec<String>,
     /// Make a number of each motion, as in `--reduce 'peak = max(abs(x))'`: max, min, range, mean, rms, integral, first, last,
     /// when_max, when_min of a formula; count, first, last of an event.
@@ -619,9 +620,15 @@ pub struct Map {
     /// Leave out all rows with another value, as in `--only m2=0.5`.
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment, allow_hyphen_values = true)]
     pub only: Vec<Assignment>,
+    /// Draw the samples beside the table, a dot for each: a bifurcation diagram where they were recorded at events.
+    #[arg(long)]
+    pub samples: bool,
     /// The drawing.
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: PathBuf,
+    #[arg(long, value_name = "FILE.svg", required_unless_present = "report")]
+    pub plot: Option<PathBuf>,
+    /// A page that tells the numbers under the pointer, and shows parts of the drawing larger.
+    #[arg(long, value_name = "FILE.html")]
+    pub report: Option<PathBuf>,
 }
 
 /// How values are sampled.

@@ -256,10 +256,10 @@ fn slipping(contact: &str) -> String {
 
 /// The events of a run that are not of its contacts.
 pub fn other_events<'r>(
-    run: &'r Run,
+    events: &'r [Event<Named>],
     contacts: &'r [Found],
 ) -> impl Iterator<Item = &'r Event<Named>> {
-    run.events().iter().filter(|event| {
+    events.iter().filter(|event| {
         let mut names = contacts.iter().map(|contact| &contact.name);
         !names.any(|name| event.name == pulling(name) || event.name == slipping(name))
     })

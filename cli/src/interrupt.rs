@@ -6,6 +6,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use signal_hook::consts::SIGINT;
 use signal_hook::flag;
 
+use crate::host;
+
 /// The exit status of a command that was interrupted: 128 and the number of the signal.
 pub const STATUS: u8 = 128 + SIGINT as u8;
 
@@ -18,8 +20,11 @@ pub fn flag() -> Arc<AtomicBool> {
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Begins to watch. Where that cannot be done, Ctrl-C quits as ever.
+    /// Begins to watch. Where that cannot be done, Ctrl-C quits as ever; within another program it is that program's.
     pub fn watch() -> Interrupt {
+        if let Some(stop) = host::stop() {
+            return Interrupt(stop);
+        }
         let pressed = Arc::new(AtomicBool::new(false));
         // In this order: the second time, not the first.
         let quits = flag::register_conditional_shutdown(SIGINT, STATUS.into(), pressed.clone());

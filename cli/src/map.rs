@@ -1,21 +1,35 @@
 //! `lagrangian map`: a sweep as a drawing.
 
-use std::path::Path;
+mod page;
 
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use lagrangian_sweep::samples_beside;
 use lagrangian_sweep::table::{cells, csv_cells};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::call;
 use crate::failure::Failure;
-use crate::output::{self, Destination, SVG, keep_apart};
+use crate::output::{self, Destination, PAGE, SVG, keep_apart};
 use crate::plot::{COLOURS, Drawing, PANEL, UNIT, WIDTH, axes, font, range, short, svg_of};
+use crate::report::base64;
 
-/// More cells than this no drawing shows apart, and no viewer opens.
-const MOST_CELLS: usize = 160_000;
+/// More cells than this would be an image of more than 16 MB.
+const MOST_CELLS: usize = 1 << 24;
+
+/// Up to so many cells are rectangles, more are an image: viewers of drawings take seconds for some ten thousand shapes.
+const MOST_RECTANGLES: usize = 20_000;
+
+/// Cells of an image that are not equally wide are shown by so many pixels.
+const PIXELS: usize = 2000;
 
 /// The most curves of one quantity.
 const MOST_CURVES: usize = 12;
+
+/// The most dots of a drawing, and of a page.
+const MOST_DOTS: [usize; 2] = [200_000, 4_000_000];
 
 /// The height of a heat map, and the width of its scale.
 const HEAT: u32 = 480 * UNIT;
@@ -62,9 +76,20 @@ struct Rows {
 /// # Errors
 /// If the table or the call is at fault, or the drawing cannot be written.
 pub fn run(call: &call::Map) -> Result<(), Failure> {
-    let to = Destination::new("--plot", &call.plot, SVG)?;
-    keep_apart([&to], &[(&call.table, "the table")])?;
+    let files = [
+        Destination::of("--plot", call.plot.as_ref(), SVG)?,
+        Destination::of("--report", call.report.as_ref(), PAGE)?,
+    ];
+    let samples = samples_beside(&call.table);
+    let mut read = vec![(call.table.as_path(), "the table")];
+    if call.samples {
+        read.push((&samples, "the samples beside the table"));
+    }
+    keep_apart(files.iter().flatten(), &read)?;
     let mut rows = Rows::read(&call.table)?;
+    if call.samples {
+        rows = rows.with_samples(&samples)?;
+    }
     for only in &call.only {
         rows.keep_only(&only.name, &only.value)?;
     }
@@ -80,15 +105,20 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
         .iter()
         .map(|name| Ok((name.as_str(), rows.numbers(name)?)));
     let quantities = quantities.collect::<Result<Vec<_>, Failure>>()?;
-    let text = match over.as_slice() {
-        [x] => curves(&rows, x, &quantities)?,
+    let drawing = match over.as_slice() {
+        [x] => Picture::Curves(Curves::new(&rows, x, &quantities, call.samples)?),
+        [x, y] if call.samples => {
+            return Err(Failure::Call(format!(
+                "samples are drawn over one parameter, --over {x} or --over {y}: many are at one place"
+            )));
+        }
         [x, y] => {
             let [(name, values)] = quantities.as_slice() else {
                 return Err(Failure::Call(
                     "a map over two parameters shows one quantity: --of NAME".into(),
                 ));
             };
-            heat(&rows, [x, y], (name, values))?
+            Picture::Heat(Heat::new(&rows, [x, y], (name, values))?)
         }
         _ => {
             return Err(Failure::Call(format!(
@@ -98,29 +128,55 @@ pub fn run(call: &call::Map) -> Result<(), Failure> {
             )));
         }
     };
-    to.write_text(&text)?;
+    let [plot, report] = &files;
+    if let Some(plot) = plot {
+        let text = match &drawing {
+            Picture::Curves(curves) => curves.svg()?,
+            Picture::Heat(heat) => heat.svg()?,
+        };
+        plot.write_text(&text)?;
+    }
+    if let Some(report) = report {
+        let name = call.table.file_name().unwrap_or_default();
+        let title = format!("{} over {}", call.of.join(", "), over.join(" and "));
+        report.write_text(&page::text(&title, &name.to_string_lossy(), &drawing))?;
+    }
+    let written: Vec<String> = [&call.plot, &call.report]
+        .into_iter()
+        .flatten()
+        .map(|path: &PathBuf| path.display().to_string())
+        .collect();
     output::line(format_args!(
-        "{} of {} rows over {}, {}",
+        "{} of {} {} over {}, {}",
         call.of.join(", "),
         rows.rows.len(),
+        if call.samples { "samples" } else { "rows" },
         over.join(" and "),
-        call.plot.display()
+        written.join(", ")
     ));
     Ok(())
+}
+
+/// What is drawn.
+enum Picture<'a> {
+    Curves(Curves<'a>),
+    Heat(Heat<'a>),
+}
+
+/// The cells of a table, its names first.
+fn table(path: &Path) -> Result<Vec<Vec<String>>, Failure> {
+    let wrong = |why: String| Failure::Call(format!("{}: {why}", path.display()));
+    if path.extension().is_some_and(|ending| ending == "parquet") {
+        return cells(path).map_err(|error| wrong(error.to_string()));
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
+    csv_cells(&text).map_err(wrong)
 }
 
 impl Rows {
     fn read(path: &Path) -> Result<Rows, Failure> {
         let wrong = |why: String| Failure::Call(format!("{}: {why}", path.display()));
-        let all = match path.extension().is_some_and(|ending| ending == "parquet") {
-            true => cells(path).map_err(|error| wrong(error.to_string()))?,
-            false => {
-                let text =
-                    std::fs::read_to_string(path).map_err(|error| wrong(error.to_string()))?;
-                csv_cells(&text).map_err(wrong)?
-            }
-        };
-        let mut all = all.into_iter();
+        let mut all = table(path)?.into_iter();
         let names = all.next().unwrap_or_default();
         let varied = names.iter().position(|name| name == "status");
         let varied = varied.filter(|_| names.first().is_some_and(|name| name == "run"));
@@ -139,6 +195,46 @@ impl Rows {
             varied: varied - 1,
             names,
             rows,
+        })
+    }
+
+    /// The samples beside these rows, with what was varied in front of each.
+    fn with_samples(self, path: &Path) -> Result<Rows, Failure> {
+        let wrong = |why: &str| Failure::Call(format!("{}: {why}", path.display()));
+        let missing = |failure: Failure| match path.exists() {
+            true => failure,
+            false => Failure::Call(format!(
+                "there are no samples beside the table, {}: a sweep writes them with --record every=T or --record event=NAME",
+                path.display()
+            )),
+        };
+        let mut all = table(path).map_err(missing)?.into_iter();
+        let names = all.next().unwrap_or_default();
+        if names.first().is_none_or(|name| name != "run") {
+            return Err(wrong(
+                "these are no samples of a sweep: the first column is not `run`",
+            ));
+        }
+        let of_run: std::collections::HashMap<&str, &[String]> = self
+            .rows
+            .iter()
+            .map(|row| (row[0].as_str(), &row[1..=self.varied]))
+            .collect();
+        let joined = all.map(|sample| {
+            let varied = sample.first().and_then(|run| of_run.get(run.as_str()));
+            let varied =
+                varied.ok_or_else(|| wrong("a sample is of a run that the table does not have"))?;
+            match sample.len() == names.len() {
+                true => Ok([&sample[..1], varied, &sample[1..]].concat()),
+                false => Err(wrong(
+                    "a row has another number of cells than there are columns",
+                )),
+            }
+        });
+        Ok(Rows {
+            rows: joined.collect::<Result<_, _>>()?,
+            varied: self.varied,
+            names: [&names[..1], &self.names[1..=self.varied], &names[1..]].concat(),
         })
     }
 
@@ -195,148 +291,306 @@ impl Rows {
     }
 }
 
-/// Curves over one parameter, a panel for each quantity, a curve for each set of the other parameters.
-fn curves(rows: &Rows, x: &String, quantities: &[(&str, Vec<f64>)]) -> Result<String, Failure> {
-    let along = rows.numbers(x)?;
-    let others = rows.others(&[x]);
-    let mut sets: Vec<Vec<&str>> = Vec::new();
-    let mut set_of = Vec::with_capacity(rows.rows.len());
-    for row in &rows.rows {
-        let set: Vec<&str> = others.iter().map(|place| row[*place].as_str()).collect();
-        let place = sets
-            .iter()
-            .position(|known| *known == set)
-            .unwrap_or_else(|| {
+/// Curves over one parameter, a panel for each quantity, a curve for each set of the other parameters; dots where they are samples.
+struct Curves<'a> {
+    x: &'a str,
+    along: Vec<f64>,
+    quantities: &'a [(&'a str, Vec<f64>)],
+    /// What the curves are called, and which each row belongs to.
+    legends: Vec<String>,
+    set_of: Vec<usize>,
+    are_dots: bool,
+}
+
+impl<'a> Curves<'a> {
+    fn new(
+        rows: &Rows,
+        x: &'a String,
+        quantities: &'a [(&'a str, Vec<f64>)],
+        are_dots: bool,
+    ) -> Result<Curves<'a>, Failure> {
+        let along = rows.numbers(x)?;
+        if along.len() * quantities.len() > MOST_DOTS[1] {
+            return Err(Failure::Call(format!(
+                "more than {} values are to be drawn: choose some by --only NAME=VALUE",
+                MOST_DOTS[1]
+            )));
+        }
+        let others = rows.others(&[x]);
+        let mut sets: Vec<Vec<&str>> = Vec::new();
+        let mut set_of = Vec::with_capacity(rows.rows.len());
+        for row in &rows.rows {
+            let set: Vec<&str> = others.iter().map(|place| row[*place].as_str()).collect();
+            let place = sets.iter().position(|known| *known == set);
+            let place = place.unwrap_or_else(|| {
                 sets.push(set);
                 sets.len() - 1
             });
-        if sets.len() > MOST_CURVES {
-            let names: Vec<&str> = others
-                .iter()
-                .map(|place| rows.names[*place].as_str())
-                .collect();
+            if sets.len() > MOST_CURVES {
+                let names = others.iter().map(|place| rows.names[*place].as_str());
+                let names: Vec<&str> = names.collect();
+                return Err(Failure::Call(format!(
+                    "more than {MOST_CURVES} curves over {x}, one for each value of {}: choose some by --only {}=VALUE",
+                    names.join(", "),
+                    names[0]
+                )));
+            }
+            set_of.push(place);
+        }
+        let legend = |set: &Vec<&str>| {
+            let named = others.iter().zip(set);
+            let named = named.map(|(place, value)| {
+                let value = value.parse().map_or((*value).to_owned(), short);
+                format!("{} = {value}", rows.names[*place])
+            });
+            named.collect::<Vec<_>>().join(", ")
+        };
+        Ok(Curves {
+            x,
+            along,
+            quantities,
+            legends: sets.iter().map(legend).collect(),
+            set_of,
+            are_dots,
+        })
+    }
+
+    /// The points of a set, those of curves in order.
+    fn points(&self, set: usize, values: &[f64]) -> Vec<(f64, f64)> {
+        let mut points: Vec<(f64, f64)> = (0..self.along.len())
+            .filter(|row| self.set_of[*row] == set)
+            .map(|row| (self.along[row], values[row]))
+            .filter(|(x, y)| x.is_finite() && y.is_finite())
+            .collect();
+        if !self.are_dots {
+            points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        }
+        points
+    }
+
+    fn svg(&self) -> Result<String, Failure> {
+        let Curves {
+            x,
+            along,
+            quantities,
+            ..
+        } = self;
+        if along.len() * quantities.len() > MOST_DOTS[0] {
             return Err(Failure::Call(format!(
-                "more than {MOST_CURVES} curves over {x}, one for each value of {}: choose some by --only {}=VALUE",
-                names.join(", "),
-                names[0]
+                "more than {} dots no viewer of drawings opens: --report FILE.html shows them",
+                MOST_DOTS[0]
             )));
         }
-        set_of.push(place);
-    }
-    let legend = |set: &[&str]| {
-        let named = others.iter().zip(set);
-        let named = named.map(|(place, value)| {
-            let value = value.parse().map_or((*value).to_owned(), short);
-            format!("{} = {value}", rows.names[*place])
-        });
-        named.collect::<Vec<_>>().join(", ")
-    };
-    let height = PANEL * quantities.len() as u32 + 8 * UNIT;
-    let draw = |backend: SVGBackend<'_>| -> Drawing<()> {
-        let sheet = backend.into_drawing_area();
-        sheet.fill(&WHITE)?;
-        let areas = sheet.split_evenly((quantities.len(), 1));
-        for (area, (name, values)) in areas.iter().zip(quantities) {
-            let (left, beside) = area.split_horizontally(WIDTH - 2 * SCALE);
-            let mut chart = ChartBuilder::on(&left)
-                .margin(6 * UNIT)
-                .x_label_area_size(34 * UNIT)
-                .y_label_area_size(72 * UNIT)
-                .build_cartesian_2d(range(along.iter().copied()), range(values.iter().copied()))?;
-            mesh!(chart, x, *name);
-            for (number, set) in sets.iter().enumerate() {
-                let colour = COLOURS[number % COLOURS.len()];
-                let mut points: Vec<(f64, f64)> = (0..along.len())
-                    .filter(|row| set_of[*row] == number)
-                    .map(|row| (along[row], values[row]))
-                    .filter(|(x, y)| x.is_finite() && y.is_finite())
-                    .collect();
-                points.sort_by(|one, other| one.0.total_cmp(&other.0));
-                chart.draw_series(LineSeries::new(
-                    points.iter().copied(),
-                    colour.stroke_width(UNIT),
-                ))?;
-                let dots = points
-                    .iter()
-                    .map(|point| Circle::new(*point, UNIT as i32, colour.filled()));
-                chart.draw_series(dots)?;
-                if others.is_empty() {
-                    continue;
+        let x = (*x).to_owned();
+        let height = PANEL * quantities.len() as u32 + 8 * UNIT;
+        let draw = |backend: SVGBackend<'_>| -> Drawing<()> {
+            let sheet = backend.into_drawing_area();
+            sheet.fill(&WHITE)?;
+            let areas = sheet.split_evenly((quantities.len(), 1));
+            for (area, (name, values)) in areas.iter().zip(*quantities) {
+                let (left, beside) = area.split_horizontally(WIDTH - 2 * SCALE);
+                let mut chart = ChartBuilder::on(&left)
+                    .margin(6 * UNIT)
+                    .x_label_area_size(34 * UNIT)
+                    .y_label_area_size(72 * UNIT)
+                    .build_cartesian_2d(
+                        range(along.iter().copied()),
+                        range(values.iter().copied()),
+                    )?;
+                mesh!(chart, x, *name);
+                for (number, legend) in self.legends.iter().enumerate() {
+                    let colour = COLOURS[number % COLOURS.len()];
+                    let points = self.points(number, values);
+                    if !self.are_dots {
+                        chart.draw_series(LineSeries::new(
+                            points.iter().copied(),
+                            colour.stroke_width(UNIT),
+                        ))?;
+                    }
+                    // Many samples are seen by where they are dense.
+                    let radius = if self.are_dots { UNIT / 2 } else { UNIT };
+                    let dots = points
+                        .iter()
+                        .map(|point| Circle::new(*point, radius as i32, colour.filled()));
+                    chart.draw_series(dots)?;
+                    if legend.is_empty() {
+                        continue;
+                    }
+                    let y = (number as i32 * 15 + 16) * UNIT as i32;
+                    let line = [(4 * UNIT as i32, y), (20 * UNIT as i32, y)];
+                    beside.draw(&PathElement::new(line, colour.stroke_width(2 * UNIT)))?;
+                    let style = font(11).pos(Pos::new(HPos::Left, VPos::Center));
+                    let at = (26 * UNIT as i32, y);
+                    beside.draw(&Text::new(legend.clone(), at, style))?;
                 }
-                let y = (number as i32 * 15 + 16) * UNIT as i32;
-                let line = [(4 * UNIT as i32, y), (20 * UNIT as i32, y)];
-                beside.draw(&PathElement::new(line, colour.stroke_width(2 * UNIT)))?;
-                let style = font(11).pos(Pos::new(HPos::Left, VPos::Center));
-                beside.draw(&Text::new(legend(set), (26 * UNIT as i32, y), style))?;
             }
-        }
-        sheet.present()?;
-        Ok(())
-    };
-    svg_of(height, draw).map_err(Failure::Run)
+            sheet.present()?;
+            Ok(())
+        };
+        svg_of(height, draw).map_err(Failure::Run)
+    }
 }
 
 /// A quantity as colours over two parameters.
-fn heat(
-    rows: &Rows,
-    [x, y]: [&String; 2],
-    (name, values): (&str, &[f64]),
-) -> Result<String, Failure> {
-    let [across, up] = [rows.numbers(x)?, rows.numbers(y)?];
-    let [columns, lines] = [&across, &up].map(|values| distinct(values));
-    if columns.len() * lines.len() > MOST_CELLS {
-        return Err(Failure::Call(format!(
-            "{} times {} cells are more than {MOST_CELLS}",
-            columns.len(),
-            lines.len()
-        )));
-    }
-    let others = rows.others(&[x, y]);
-    if let Some(place) = others.first() {
-        return Err(Failure::Call(format!(
-            "several runs are at one place, with other values of {}: choose one by --only {}=VALUE",
-            rows.names[*place], rows.names[*place]
-        )));
-    }
-    let place = |all: &[f64], value: f64| all.partition_point(|known| *known < value);
-    let mut cells = vec![f64::NAN; columns.len() * lines.len()];
-    for ((x, y), value) in across.iter().zip(&up).zip(values) {
-        if x.is_finite() && y.is_finite() {
-            cells[place(&lines, *y) * columns.len() + place(&columns, *x)] = *value;
+struct Heat<'a> {
+    names: [&'a str; 2],
+    name: &'a str,
+    /// The values that the parameters take, in order.
+    columns: Vec<f64>,
+    lines: Vec<f64>,
+    /// Line by line; what is no number is a run that failed.
+    cells: Vec<f64>,
+}
+
+impl<'a> Heat<'a> {
+    fn new(
+        rows: &Rows,
+        [x, y]: [&'a String; 2],
+        (name, values): (&'a str, &[f64]),
+    ) -> Result<Heat<'a>, Failure> {
+        let [across, up] = [rows.numbers(x)?, rows.numbers(y)?];
+        let [columns, lines] = [&across, &up].map(|values| distinct(values));
+        if columns.len().saturating_mul(lines.len()) > MOST_CELLS {
+            return Err(Failure::Call(format!(
+                "{} times {} cells are more than {MOST_CELLS}",
+                columns.len(),
+                lines.len()
+            )));
         }
+        if let Some(place) = rows.others(&[x, y]).first() {
+            return Err(Failure::Call(format!(
+                "several runs are at one place, with other values of {}: choose one by --only {}=VALUE",
+                rows.names[*place], rows.names[*place]
+            )));
+        }
+        let place = |all: &[f64], value: f64| all.partition_point(|known| *known < value);
+        let mut cells = vec![f64::NAN; columns.len() * lines.len()];
+        for ((x, y), value) in across.iter().zip(&up).zip(values) {
+            if x.is_finite() && y.is_finite() {
+                cells[place(&lines, *y) * columns.len() + place(&columns, *x)] = *value;
+            }
+        }
+        Ok(Heat {
+            names: [x, y],
+            name,
+            columns,
+            lines,
+            cells,
+        })
     }
-    let scale = {
-        let finite = values.iter().copied().filter(|value| value.is_finite());
+
+    /// The least value and the greatest.
+    fn scale(&self) -> [f64; 2] {
+        let finite = self.cells.iter().copied().filter(|value| value.is_finite());
         let low = finite.clone().fold(f64::INFINITY, f64::min);
-        let high = finite.fold(f64::NEG_INFINITY, f64::max);
-        [low, high]
-    };
-    let [x_edges, y_edges] = [&columns, &lines].map(|values| edges(values));
-    let draw = |backend: SVGBackend<'_>| -> Drawing<()> {
-        let sheet = backend.into_drawing_area();
-        sheet.fill(&WHITE)?;
-        let (left, beside) = sheet.split_horizontally(WIDTH - SCALE);
-        let ends = |edges: &[f64]| edges[0]..edges[edges.len() - 1];
-        let mut chart = ChartBuilder::on(&left)
-            .margin(8 * UNIT)
-            .x_label_area_size(34 * UNIT)
-            .y_label_area_size(72 * UNIT)
-            .build_cartesian_2d(ends(&x_edges), ends(&y_edges))?;
-        mesh!(chart, x, y.as_str());
-        let rectangles = cells.iter().enumerate().map(|(cell, value)| {
-            let (column, line) = (cell % columns.len(), cell / columns.len());
-            let corners = [
-                (x_edges[column], y_edges[line]),
-                (x_edges[column + 1], y_edges[line + 1]),
-            ];
-            Rectangle::new(corners, colour(*value, scale).filled())
+        [low, finite.fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    fn svg(&self) -> Result<String, Failure> {
+        let Heat {
+            columns,
+            lines,
+            cells,
+            ..
+        } = self;
+        let (x, scale) = (self.names[0].to_owned(), self.scale());
+        let [x_edges, y_edges] = [columns, lines].map(|values| edges(values));
+        let is_image = cells.len() > MOST_RECTANGLES;
+        let placed = RefCell::new([0_i32; 4]);
+        let draw = |backend: SVGBackend<'_>| -> Drawing<()> {
+            let sheet = backend.into_drawing_area();
+            sheet.fill(&WHITE)?;
+            let (left, beside) = sheet.split_horizontally(WIDTH - SCALE);
+            let ends = |edges: &[f64]| edges[0]..edges[edges.len() - 1];
+            let mut chart = ChartBuilder::on(&left)
+                .margin(8 * UNIT)
+                .x_label_area_size(34 * UNIT)
+                .y_label_area_size(72 * UNIT)
+                .build_cartesian_2d(ends(&x_edges), ends(&y_edges))?;
+            mesh!(chart, x, self.names[1]);
+            if is_image {
+                let (across, down) = chart.plotting_area().get_pixel_range();
+                *placed.borrow_mut() = [
+                    across.start,
+                    down.start,
+                    across.end - across.start,
+                    down.end - down.start,
+                ];
+            } else {
+                let rectangles = cells.iter().enumerate().map(|(cell, value)| {
+                    let (column, line) = (cell % columns.len(), cell / columns.len());
+                    let corners = [
+                        (x_edges[column], y_edges[line]),
+                        (x_edges[column + 1], y_edges[line + 1]),
+                    ];
+                    Rectangle::new(corners, colour(*value, scale).filled())
+                });
+                chart.draw_series(rectangles)?;
+            }
+            legend(&beside, self.name, scale)?;
+            sheet.present()?;
+            Ok(())
+        };
+        let svg = svg_of(HEAT, draw).map_err(Failure::Run)?;
+        if !is_image {
+            return Ok(svg);
+        }
+        let [left, top, width, height] = placed.into_inner();
+        let png = self.png([&x_edges, &y_edges]).map_err(Failure::run)?;
+        let image = format!(
+            "<image x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
+             style=\"image-rendering:pixelated\" href=\"data:image/png;base64,{}\"/>\n</svg>",
+            base64(&png)
+        );
+        Ok(svg.replace("</svg>", &image))
+    }
+
+    /// The cells as an image: a pixel for each where all are equally wide, the highest line first.
+    fn png(&self, edges: [&[f64]; 2]) -> Result<Vec<u8>, png::EncodingError> {
+        let [across, up] = edges.map(pixels);
+        let [low, high] = self.scale();
+        // The last colour is that of what is no number.
+        const MISSING_INDEX: u8 = 255;
+        let index = |value: f64| match value.is_finite() {
+            true if high > low => ((value - low) / (high - low) * 254.0).round() as u8,
+            true => 127,
+            false => MISSING_INDEX,
+        };
+        let mut image = Vec::with_capacity(across.len() * up.len());
+        for line in up.iter().rev() {
+            let row = &self.cells[line * self.columns.len()..][..self.columns.len()];
+            image.extend(across.iter().map(|column| index(row[*column])));
+        }
+        let palette = (0..=255_u8).flat_map(|index| {
+            let RGBColor(r, g, b) = match index {
+                MISSING_INDEX => MISSING,
+                index => colour(f64::from(index) / 254.0, [0.0, 1.0]),
+            };
+            [r, g, b]
         });
-        chart.draw_series(rectangles)?;
-        legend(&beside, name, scale)?;
-        sheet.present()?;
-        Ok(())
-    };
-    svg_of(HEAT, draw).map_err(Failure::Run)
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, across.len() as u32, up.len() as u32);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_palette(palette.collect::<Vec<u8>>());
+        encoder.write_header()?.write_image_data(&image)?;
+        Ok(bytes)
+    }
+}
+
+/// Which cell each pixel shows: one pixel a cell where all are equally wide.
+fn pixels(edges: &[f64]) -> Vec<usize> {
+    let cells = edges.len() - 1;
+    let (first, length) = (edges[0], edges[cells] - edges[0]);
+    let even = |k: usize| first + length * k as f64 / cells as f64;
+    let width = length / cells as f64;
+    if (0..=cells).all(|k| (edges[k] - even(k)).abs() < 0.01 * width) {
+        return (0..cells).collect();
+    }
+    let pixels = PIXELS.max(cells);
+    let centre = |k: usize| first + length * (k as f64 + 0.5) / pixels as f64;
+    let cell = |k: usize| edges.partition_point(|edge| *edge <= centre(k)) - 1;
+    (0..pixels).map(|k| cell(k).min(cells - 1)).collect()
 }
 
 /// The colours with the values that they stand for.
@@ -426,6 +680,39 @@ mod tests {
         assert_eq!(edges(&[1.0, 2.0, 4.0]), [0.5, 1.5, 3.0, 5.0]);
         assert_eq!(edges(&[2.0]), [1.0, 3.0]);
         assert_eq!(edges(&[0.0]), [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn pixels_show_the_cell_that_they_lie_in() {
+        assert_eq!(pixels(&[0.0, 1.0, 2.0, 3.0]), [0, 1, 2]);
+        let shown = pixels(&[0.0, 1.0, 4.0]);
+        assert_eq!(shown.len(), PIXELS);
+        // A quarter of the width is the first cell's.
+        assert_eq!(shown.iter().filter(|cell| **cell == 0).count(), PIXELS / 4);
+    }
+
+    #[test]
+    fn an_image_has_the_colours_of_its_cells() {
+        let heat = Heat {
+            names: ["x", "y"],
+            name: "z",
+            columns: vec![0.0, 1.0],
+            lines: vec![0.0, 1.0],
+            cells: vec![0.0, 1.0, f64::NAN, 1.0],
+        };
+        let png = heat.png([&[-0.5, 0.5, 1.5]; 2]).expect("an image");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(&png))
+            .read_info()
+            .expect("an image");
+        let palette = reader.info().palette.clone().expect("colours");
+        let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+        reader.next_frame(&mut pixels).expect("an image");
+        let shown = |pixel: usize| &palette[3 * usize::from(pixels[pixel])..][..3];
+        // The upper line first.
+        assert_eq!(shown(0), [190, 190, 190]);
+        assert_eq!(shown(1), [253, 231, 37]);
+        assert_eq!(shown(2), [68, 1, 84]);
+        assert_eq!(shown(3), [253, 231, 37]);
     }
 
     #[test]

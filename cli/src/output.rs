@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::progress;
+use crate::{host, progress};
 
 pub use destination::{Destination, keep_apart, keep_document_apart};
 pub use ending::{
@@ -34,6 +34,7 @@ pub fn line(line: impl Display) {
 /// that was asked for.
 pub fn text(text: &str) {
     match IS_TAKEN.load(Ordering::Relaxed) {
+        _ if host::keeps(text, false) => {}
         true => complain_as_is(text),
         false => {
             // Why it fails is told once, at the end.
@@ -48,6 +49,9 @@ pub fn complain(line: impl Display) {
 }
 
 fn complain_as_is(text: &str) {
+    if host::keeps(text, true) {
+        return;
+    }
     progress::end();
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }

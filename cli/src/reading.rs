@@ -8,7 +8,7 @@ use lagrangian_mechanics::Compiled;
 use lagrangian_spec::diagnostic::Report;
 use lagrangian_spec::model::{Coordinate, Model};
 use lagrangian_spec::resolve::Formula;
-use lagrangian_spec::source::{Disk, Files, SourceId, Sources};
+use lagrangian_spec::source::{Files, SourceId, Sources};
 use lagrangian_spec::unit::Unit;
 use lagrangian_sweep::plan::Law;
 use lagrangian_sweep::signals::Written;
@@ -17,6 +17,7 @@ use lagrangian_symbolic::{Dag, Rational};
 use crate::call::{self, Assignment};
 use crate::diagnostics;
 use crate::failure::Failure;
+use crate::host::Specs;
 use crate::inputs;
 use crate::output::{Destination, keep_apart};
 
@@ -42,7 +43,7 @@ impl Reading {
     /// The call is at fault if there is no such file.
     pub fn open(spec: &call::Spec) -> Result<Reading, Failure> {
         let path = spec.path.to_string_lossy();
-        let read = Disk.read(&path, None);
+        let read = Specs.read(&path, None);
         let (_, text) =
             read.map_err(|error| Failure::Call(format!("cannot read {path}: {error}")))?;
         Ok(Reading {
@@ -105,7 +106,7 @@ impl Reading {
         });
         let asked: Vec<Formula<'_>> = asked.collect();
         let spec = lagrangian_spec::parse(sources, name, text, report);
-        Model::resolve_with(spec, dag, constants, &asked, &mut Disk, sources, report)
+        Model::resolve_with(spec, dag, constants, &asked, &mut Specs, sources, report)
     }
 
     /// Puts the formulas that drive inputs beside those of the spec, as outputs behind its own.

@@ -5,28 +5,27 @@
 //! coordinates, explicit time included, and the size of the file does not depend on how much is drawn. What draws and plays
 //! is hand-written and stands in the files beside this one, as a browser gets it.
 
-pub mod html;
+pub(crate) mod html;
 mod page;
 mod places;
 mod samples;
 mod scene;
-pub mod script;
+pub(crate) mod script;
 
-use lagrangian::interpreted::{InterpretedMachine, Named};
+use lagrangian::interpreted::{InterpretedMachine, InterpretedSystem, Named};
 use lagrangian::methods::Method;
-use lagrangian::{Error, State};
+use lagrangian::{EnergyBalance, Event, Solution, State, Statistics, Warning};
 use lagrangian_mechanics::Compiled;
 use lagrangian_symbolic::Symbol;
 use serde_json::{Value, json};
 
-use crate::call;
 use crate::contacts::Found;
-use crate::recording::Run;
 use crate::recording::{Column, Kind, Recording, panels, thin};
 
-pub use page::{DRAWING, STYLE};
-pub use samples::{Samples, encoded, finer};
-pub use scene::Scene;
+pub(crate) use page::{DRAWING, STYLE};
+pub use samples::finer;
+pub(crate) use samples::{Samples, base64, encoded};
+pub(crate) use scene::Scene;
 
 /// What the curves may fill that are stored as such, in bytes before they are encoded; and the most points of one.
 const CURVE_BYTES: usize = 320_000;
@@ -34,17 +33,61 @@ const CURVE_POINTS: usize = 1600;
 
 /// A run, and everything that a page says about it.
 pub struct Report<'a, 'd> {
-    pub call: &'a call::Simulate,
+    /// What the caller has asked for.
+    pub asked: &'a Asked,
+    /// The machine, derived.
     pub compiled: &'a Compiled<'d>,
+    /// With its parameters.
     pub machine: &'a InterpretedMachine,
+    /// How it was integrated.
     pub method: &'a Method,
-    pub run: &'a Run,
+    /// How it went.
+    pub run: Outcome<'a>,
     /// The run, recorded as closely as [`finer`] says.
     pub recording: &'a Recording,
     /// What it has shown of rolling contacts.
     pub contacts: &'a [Found],
     /// What ended it early.
-    pub error: Option<&'a Error>,
+    pub error: Option<String>,
+    /// Whether its user did.
+    pub is_interrupted: bool,
+}
+
+/// What a caller has asked for, in words.
+pub struct Asked {
+    /// The name of the spec's file.
+    pub file: String,
+    /// The tolerance of a step, relative and absolute.
+    pub tolerance: String,
+    /// The names of constants that have other values than the spec gives them.
+    pub constants: Vec<String>,
+    /// What drives inputs, by their names.
+    pub inputs: Vec<(String, String)>,
+}
+
+/// How a run went, whatever drove it.
+pub struct Outcome<'a> {
+    system: &'a InterpretedSystem,
+    start: &'a State<Named>,
+    end: &'a State<Named>,
+    events: &'a [Event<Named>],
+    warnings: &'a [Warning],
+    statistics: Statistics,
+    energy: Option<EnergyBalance>,
+}
+
+impl<'a, L> From<&'a Solution<InterpretedMachine, L>> for Outcome<'a> {
+    fn from(run: &'a Solution<InterpretedMachine, L>) -> Outcome<'a> {
+        Outcome {
+            system: run.system(),
+            start: run.start(),
+            end: run.end(),
+            events: run.events(),
+            warnings: run.warnings(),
+            statistics: run.statistics(),
+            energy: run.energy_balance(),
+        }
+    }
 }
 
 impl Report<'_, '_> {
@@ -58,7 +101,7 @@ impl Report<'_, '_> {
     }
 
     fn scene(&self) -> Scene<'_> {
-        scene(self.compiled, self.machine, self.run.start())
+        scene(self.compiled, self.machine, self.run.start)
     }
 
     /// What the scripts read.
@@ -116,7 +159,7 @@ impl Report<'_, '_> {
 }
 
 /// What a machine looks like, that starts in this state.
-pub fn scene<'d>(
+pub(crate) fn scene<'d>(
     compiled: &Compiled<'d>,
     machine: &InterpretedMachine,
     start: &State<Named>,
@@ -140,7 +183,7 @@ pub fn scene<'d>(
 }
 
 /// A motion as the scripts read it: its states, and what places are computed from beside them.
-pub fn motion(
+pub(crate) fn motion(
     recording: &Recording,
     samples: &Samples,
     machine: &InterpretedMachine,

@@ -24,7 +24,7 @@ use crate::output::{self, Destination, PAGE, SVG, TABLE, keep_apart};
 use crate::progress;
 use crate::reading::{self, Reading};
 use crate::recording::{Recording, Run};
-use crate::report::{self, Report};
+use crate::report::{self, Asked, Report};
 use crate::{plot, table};
 
 /// How often a run is recorded where the call does not say.
@@ -197,14 +197,15 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         trouble.other.extend(written);
         if let Some(file) = &files.report {
             let report = Report {
-                call,
+                asked: &asked(call),
                 compiled: &compiled,
                 contacts: &contacts,
                 machine: &machine,
                 method,
-                run: &run,
+                run: (&run).into(),
                 recording: &recording,
-                error: error.as_ref(),
+                error: error.as_ref().map(ToString::to_string),
+                is_interrupted: trouble.is_interrupted,
             };
             let written = file.write_text(&report.page());
             trouble.other.extend(written.err().map(Failure::message));
@@ -228,6 +229,25 @@ pub fn run(call: &call::Simulate) -> Result<(), Failure> {
         (false, _) => Err(Failure::Said),
         (true, Some(_)) => Err(Failure::Interrupted),
         (true, None) => Ok(()),
+    }
+}
+
+/// What the page of a run says about the call.
+fn asked(call: &call::Simulate) -> Asked {
+    let file = call.spec.path.file_name();
+    let inputs = call.inputs.iter();
+    Asked {
+        file: file.map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
+        tolerance: shortest(call.tolerance),
+        constants: call
+            .spec
+            .constants
+            .iter()
+            .map(|(name, _)| name.clone())
+            .collect(),
+        inputs: inputs
+            .map(|input| (input.name.clone(), input.value.clone()))
+            .collect(),
     }
 }
 
@@ -297,7 +317,7 @@ fn document(
 ) -> Value {
     let statistics = run.statistics();
     let end = run.end();
-    let events: Vec<Value> = contacts::other_events(run, contacts)
+    let events: Vec<Value> = contacts::other_events(run.events(), contacts)
         .map(|event| json!({ "t": event.state.t, "name": event.name }))
         .collect();
     let warnings = run.warnings().iter().map(ToString::to_string);
@@ -416,7 +436,7 @@ fn print_summary(
     for line in collisions {
         output::line(format_args!("    {line}"));
     }
-    let events = contacts::other_events(run, contacts);
+    let events = contacts::other_events(run.events(), contacts);
     for event in events.filter(|event| !collisions::is_of_contact(run, event)) {
         output::line(format_args!(
             "  event {} at t = {} s",

@@ -271,9 +271,9 @@ impl Out {
             )));
         }
         let to = Destination::new("--out", path, TABLE)?;
-        let samples = match plan.every {
-            Some(_) => Some(Destination::new("--out", &samples_beside(path), TABLE)?),
-            None => None,
+        let samples = match plan.has_samples() {
+            true => Some(Destination::new("--out", &samples_beside(path), TABLE)?),
+            false => None,
         };
         keep_from(call, plan, [&to].into_iter().chain(&samples))?;
         let Some(file) = to.file() else {
@@ -427,7 +427,7 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         })
     });
     let events: Vec<Watch> = events.collect();
-    let (at, every) = reductions::recorded(&call.record)?;
+    let recorded = reductions::recorded(&call.record)?;
     Ok(Plan {
         version: VERSION,
         spec: SpecText {
@@ -447,8 +447,9 @@ fn plan(call: &call::Sweep) -> Result<Plan, Failure> {
         inputs: inputs::laws(&inputs::written(&call.inputs)?, &model)?,
         reduce: reductions::reductions(&call.reductions, &events)?,
         events,
-        at,
-        every,
+        at: recorded.at,
+        every: recorded.every,
+        at_events: recorded.events,
         after: call.after,
         design: design::factors(call, &model)?,
         chunk: 1,

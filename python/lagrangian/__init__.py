@@ -8,14 +8,17 @@
 """
 
 from . import errors
+from ._command import Brachistochrone, Campbell, Check, Published
 from ._equations import Equations, Program
 from ._linear import Linear, Mode, Modes
 from ._machine import Evaluation, Machine, load, loads
 from ._named import Named, State
 from ._native import __version__, set_engine, set_threads
+from ._sensitive import Sensitivities
 from ._signals import Sampled, Table
-from ._simulate import Energy, Event, Run
+from ._simulate import Energy, Event, Report, Run
 from ._sweep import LogUniform, Normal, Sweep, Triangular, Uniform, run_chunk
+from ._sympy import Symbolic
 from .errors import (
     Diagnostic,
     ExportError,
@@ -37,6 +40,9 @@ def __getattr__(name: str) -> object:
 
 
 __all__ = [
+    "Brachistochrone",
+    "Campbell",
+    "Check",
     "Diagnostic",
     "Energy",
     "Equations",
@@ -53,13 +59,17 @@ __all__ = [
     "Named",
     "Normal",
     "Program",
+    "Published",
+    "Report",
     "Run",
     "RunError",
     "Sampled",
+    "Sensitivities",
     "SingularError",
     "SpecError",
     "State",
     "Sweep",
+    "Symbolic",
     "Table",
     "Triangular",
     "Uniform",

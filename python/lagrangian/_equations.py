@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+import re
+from types import MappingProxyType
+from typing import Any, Mapping, Optional
+
+#: Longer formulas no page typesets in reasonable time.
+_LONGEST = 3000
 
 
 class Equations:
@@ -23,6 +28,12 @@ class Equations:
         """As a page of its own."""
         return str(self._program.derive("html"))
 
+    def _repr_latex_(self) -> str:
+        """The formulas of the derivation, for what shows LaTeX and no Markdown; one of more than 3000 characters is left out."""
+        formulas = re.findall(r"\$\$.*?\$\$", self.markdown(), re.S)
+        shown = (f if len(f) <= _LONGEST else rf"$$\text{{(a formula of {len(f)} characters)}}$$" for f in formulas)
+        return "\n\n".join(shown)
+
     def _repr_markdown_(self) -> str:
         return self.markdown()
 
@@ -33,9 +44,33 @@ class Equations:
 class Program:
     """The straight-line arithmetic of a machine."""
 
-    def __init__(self, program: Any) -> None:
-        self.text: str = program.derive("program")
+    def __init__(self, machine: Any) -> None:
+        self._machine = machine
+        self._found: Optional[Mapping[str, Any]] = None
+
+    @property
+    def text(self) -> str:
         """The listing."""
+        return str(self._told["text"])
+
+    @property
+    def counts(self) -> Mapping[str, Mapping[str, int]]:
+        """For each function its operations by kind: ``multiplications``, ``additions``, ``divisions``, ``sincos``, …"""
+        return MappingProxyType(self._told["counts"])
+
+    @property
+    def cycles(self) -> Mapping[str, float]:
+        """For each function that could be made in several ways, about how many cycles of a processor it takes among others."""
+        choices = self._told["choices"]
+        return MappingProxyType({name: ways[0]["cycles_among_others"] for name, ways in choices.items()})
+
+    @property
+    def _told(self) -> Mapping[str, Any]:
+        from ._command import answer
+
+        if self._found is None:
+            self._found = answer(self._machine, "derive", ["--as=program"])
+        return self._found
 
     def __repr__(self) -> str:
         return self.text

@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, Optional, Sequence, Tuple
 
 import numpy as np
 
-from . import _batch, _linear, _native, _simulate, _sweep
+from . import _batch, _command, _linear, _native, _sensitive, _simulate, _sweep, _sympy
 from ._equations import Equations, Program
 from ._named import Named, State
 from .errors import Diagnostic, SingularError, unknown
@@ -301,7 +301,7 @@ class Machine(_native.Machine):
     @property
     def program(self) -> Program:
         """The arithmetic that was derived."""
-        return self._once("program", lambda: Program(self._program))
+        return self._once("program", lambda: Program(self))
 
     def derive(self, form: str) -> str:
         """What ``lagrangian derive`` prints: ``markdown``, ``latex``, ``html``, ``rust``, ``c`` or ``program``."""
@@ -403,6 +403,11 @@ class Machine(_native.Machine):
     equilibrium = _linear.equilibrium
     simulate = _simulate.simulate
     sweep = _sweep.sweep
+    check = _command.check
+    campbell = _command.campbell
+    brachistochrone = _command.brachistochrone
+    sympy = _sympy.symbolic
+    sensitivities = _sensitive.sensitivities
 
     def _key(self) -> Tuple[Any, ...]:
         parameters, inputs = self._values

@@ -269,8 +269,8 @@ class Run:
         return pyarrow.table([pyarrow.array(np.asarray(a)) for a in arrays], schema=pyarrow.schema(fields))
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Writes t and all columns: ``.csv``, ``.npz``, ``.parquet`` or ``.mat``. The file is written beside its place and
-        renamed when it is complete."""
+        """Writes t and all columns: ``.csv``, ``.npz``, ``.parquet`` or ``.mat``; or the page, ``.html``. The file is written
+        beside its place and renamed when it is complete."""
         path = os.fspath(path)
         ending = os.path.splitext(path)[1].lower()
         headers = {name: name if self.units[name] == "1" else f"{name} [{self.units[name]}]" for name in self.columns}
@@ -299,7 +299,10 @@ class Run:
                 raise ValueError("two columns would have one name in MATLAB")
             scipy.io.savemat(file, {names[name]: values for name, values in data.items()})
 
-        writers = {".csv": csv, ".npz": npz, ".parquet": parquet, ".mat": mat}
+        def html(file: Any) -> None:
+            file.write(self.report().html.encode())
+
+        writers = {".csv": csv, ".npz": npz, ".parquet": parquet, ".mat": mat, ".html": html}
         if ending not in writers:
             raise ValueError(f"{path}: the ending must be one of {', '.join(writers)}")
         _written_beside(path, writers[ending])
@@ -348,6 +351,24 @@ class Run:
         amplitudes = 2.0 * np.abs(transformed) / weights.sum()
         return np.fft.rfftfreq(count, abs(float(steps[0]))), amplitudes
 
+    def report(self) -> "Report":
+        """The page that shows the machine move, beside curves, parameters and equations; in a notebook the page itself."""
+        if not self._keywords["dense"]:
+            raise ValueError("the steps of this run were forgotten, and its page needs them: dense=False")
+        return Report(self)
+
+    def _repr_html_(self) -> Optional[str]:
+        """The page in a notebook, in a frame that can reach nothing around it; a run without steps is told in words."""
+        return self.report()._repr_html_() if self._keywords["dense"] else None
+
+    def _page(self) -> str:
+        relative, absolute = self._keywords["tolerance"]
+        tolerance = f"{relative:g}" if relative == absolute else f"{relative:g}, {absolute:g}"
+        file = os.path.basename(self.machine._program.file)
+        asked = (file, tolerance, self._keywords["driven"])
+        page: str = self._native.page(self.machine, asked, self._keywords["method"], self.error)
+        return page
+
     def plot(self, *names: str) -> Any:
         """A matplotlib figure of columns over t; of all coordinates if none is named."""
         import matplotlib.pyplot as plt
@@ -376,6 +397,40 @@ class Run:
     def __repr__(self) -> str:
         steps = self.statistics["steps"]
         return f"<Run of {self.machine.name}: t = {self._start_t:g} … {float(self.end.t):g} s, {steps} steps, ended by {self.ending}>"
+
+
+class Report:
+    """The page of a run: one HTML file that needs nothing else."""
+
+    def __init__(self, run: Run) -> None:
+        self._run = run
+        self._made: Optional[str] = None
+
+    @property
+    def html(self) -> str:
+        """Its text."""
+        if self._made is None:
+            self._made = self._run._page()
+        return self._made
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes it, ``.html``; beside its place, and renamed when it is complete."""
+        path = os.fspath(path)
+        if os.path.splitext(path)[1].lower() not in (".html", ".htm"):
+            raise ValueError(f"{path}: the ending must be .html")
+        _written_beside(path, lambda file: file.write(self.html.encode()))
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        # Its scripts run, but cannot reach the notebook.
+        return (
+            f'<iframe sandbox="allow-scripts allow-downloads" srcdoc="{escape(self.html)}" '
+            'style="width:100%;height:44em;border:1px solid #ccc"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<Report of {self._run!r}: .html, .save(path)>"
 
 
 #: Columns of formulas that were asked for beside the spec.
@@ -416,6 +471,13 @@ def _umask() -> int:
     return mask
 
 
+def in_notebook() -> bool:
+    """Whether a notebook shows what is written."""
+    shell = sys.modules.get("IPython")
+    kernel = shell.get_ipython() if shell is not None else None
+    return kernel is not None and hasattr(kernel, "kernel")
+
+
 def _progress(asked: Any, until: float) -> Optional[Callable[[float, float, int], None]]:
     if asked is False or asked is None:
         return None
@@ -423,7 +485,7 @@ def _progress(asked: Any, until: float) -> Optional[Callable[[float, float, int]
         return asked  # type: ignore[no-any-return]
     if asked != "auto":
         raise ValueError(f"progress={asked!r}: must be 'auto', False or a function")
-    if not sys.stderr.isatty():
+    if not (sys.stderr.isatty() or in_notebook()):
         return None
     began = time.monotonic()
 
@@ -623,12 +685,31 @@ def simulate(
         "dense": bool(dense),
         "event_names": event_names,
         "engine": _native.engine(),
+        "method": method,
+        "tolerance": (float(relative), float(absolute)),
+        "driven": _driven(inputs, known_inputs),
         "arguments": (until, given),
     }
     run = Run(machine, native, keywords, error or objection)
     if run.error is not None and on_error == "raise":
         raise RunError(run.error, float(run.end.t), run)
     return run
+
+
+def _driven(inputs: Any, names: Tuple[str, ...]) -> List[Tuple[str, str]]:
+    """What drives inputs, as a page says it; those that are held at a number are said there anyway."""
+
+    def said(what: Any) -> str:
+        if callable(what):
+            return f"{getattr(what, '__name__', 'a function')}(t, q, v)"
+        if isinstance(what, tuple):
+            return "a table"
+        return what if isinstance(what, str) else str(what)
+
+    if callable(inputs):
+        return [(name, said(inputs)) for name in names]
+    given = (inputs or {}).items()
+    return [(name, said(what)) for name, what in given if not isinstance(what, (int, float, np.number))]
 
 
 def _named_arguments(function: Callable[..., Any], names: Tuple[str, ...]) -> Callable[[float, Any, Any], Any]:

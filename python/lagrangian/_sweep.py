@@ -15,6 +15,7 @@ import numpy as np
 
 from . import _batch, _native, _signals
 from ._named import State
+from ._simulate import in_notebook
 from .errors import unknown
 
 
@@ -114,6 +115,11 @@ class Sweep:
     def failed(self) -> np.ndarray:
         """The numbers of runs that failed; ``["error"]`` says why."""
         return np.flatnonzero(self["status"] == "failed")
+
+    @property
+    def path(self) -> Optional[str]:
+        """Where the rows are kept, if they are."""
+        return self._keywords["path"]  # type: ignore[no-any-return]
 
     def grid(self, name: str) -> np.ndarray:
         """A column in the shape of the design: an axis for each thing that is varied, in order."""
@@ -298,6 +304,8 @@ def sweep(
     tolerance: float = 1e-9,
     method: str = "dop853",
     max_steps: int = 10_000_000,
+    out: Optional[Union[str, "os.PathLike[str]"]] = None,
+    fresh: bool = False,
     engine: Any = None,
     threads: Optional[int] = None,
     progress: Any = "auto",
@@ -314,6 +322,9 @@ def sweep(
       from ``after`` on, in s.
     * ``inputs``, ``events``: numbers, formulas, tables and sampled formulas, as ``simulate`` has them. Functions in Python are
       refused: they are not portable.
+    * ``out``: a ``.csv``, a ``.parquet``, or a folder, to which the rows go as they come: what interrupts the sweep, Ctrl-C, a full
+      disk, a power cut, costs no more than the chunks under way, and the same call goes on. ``fresh`` begins again. Without
+      ``out`` rows are in memory alone.
     * ``engine``: None for the cores of this machine, ``"ray"``, ``"dask"``, or a client of ``dask.distributed``. All give the same
       bits.
 
@@ -388,8 +399,16 @@ def sweep(
         import warnings
 
         warnings.warn(warning, stacklevel=3)
-    made = _run_all(text, chunks, runs, engine, threads, progress)
+    if out is not None:
+        kept = _Place(out).kept(text, fresh)
+        _keep_all(kept, runs, engine, threads, progress)
+        text = kept.plan
+        rows, samples = kept.end()
+        made = [(rows, samples)]
+    else:
+        made = _run_all(text, chunks, runs, engine, threads, progress)
     keywords = {
+        "path": None if out is None else os.fspath(out),
         "shape": shape,
         "varied": varied,
         "until": until,
@@ -406,6 +425,48 @@ def sweep(
     rows = _joined([rows for rows, _ in made])
     kept = [own for _, own in made if own is not None]
     return Sweep(machine, text, rows, _joined(kept) if kept else None, keywords)
+
+
+class _Place:
+    """Where the rows of a sweep go: as the command says it."""
+
+    def __init__(self, out: Any) -> None:
+        path = os.fspath(out)
+        ending = os.path.splitext(path)[1].lower().lstrip(".")
+        self.file: Optional[str] = None
+        if path.endswith("/") or os.path.isdir(path) or (not ending and not os.path.exists(path)):
+            self.folder, self.ending = path, "parquet"
+            return
+        if ending not in ("csv", "parquet"):
+            raise ValueError(
+                f"out={path!r}: rows go to a `.csv`, a `.parquet` or a folder; the name of a new folder with a dot in it ends with `/`"
+            )
+        self.folder, self.file, self.ending = path + ".part", path, ending
+
+    def kept(self, plan: str, fresh: bool) -> _native.Kept:
+        spec = json.loads(plan)["spec"]
+        for name in (spec["name"], *(file["name"] for file in spec["files"])):
+            if self.file is not None and os.path.exists(self.file) and os.path.exists(name) and os.path.samefile(self.file, name):
+                raise ValueError(f"out={self.file!r} is the spec, or one that it extends")
+        return _native.Kept(plan, self.folder, self.file, self.ending, fresh)
+
+
+def _keep_all(kept: _native.Kept, runs: int, engine: Any, threads: Optional[int], progress: Any) -> None:
+    """Makes the chunks that are not kept yet, and keeps them."""
+    missing = kept.missing()
+    plan, ending = kept.plan, kept.ending
+    if engine is None:
+        tell = _progress(progress, runs, runs)
+        kept.run(_threads(threads), tell)
+        tell(runs)
+        return
+    chunk = json.loads(plan)["chunk"]
+    tell = _progress(progress, runs, runs)
+    done = runs - sum(min(runs, (k + 1) * chunk) - k * chunk for k in missing)
+    for number, (rows, samples) in _engine(engine)(_Work(_chunk_file, ending), plan, missing, threads):
+        kept.keep(number, rows, samples)
+        done += min(runs, (number + 1) * chunk) - number * chunk
+        tell(done)
 
 
 def _by_name(given: Any, machine: Any, what: str) -> Dict[str, float]:
@@ -453,38 +514,62 @@ def _whole_chunk(plan: str, chunk: int) -> _Chunk:
     return _native.run_chunk(plan, chunk)
 
 
+def _chunk_file(plan: str, chunk: int, ending: str) -> Tuple[bytes, Optional[bytes]]:
+    """What the files of a chunk hold, on another machine."""
+    return _native.chunk_file(plan, chunk, ending)
+
+
+class _Work:
+    """What is done with a chunk elsewhere: a function of the plan, the chunk and more that is fixed."""
+
+    def __init__(self, function: Callable[..., Any], *more: Any) -> None:
+        self.function = function
+        self.more = more
+
+
 def _run_all(
     plan: str, chunks: int, runs: int, engine: Any, threads: Optional[int], progress: Any
 ) -> List[_Chunk]:
     """All chunks of a plan, in order."""
     tell = _progress(progress, chunks, runs)
     found: List[Optional[_Chunk]] = [None] * chunks
-    for chunk, made in _engine(engine)(plan, chunks, threads):
+    done = 0
+    for chunk, made in _engine(engine)(_Work(_whole_chunk), plan, range(chunks), threads):
         found[chunk] = made
-        tell()
+        done += 1
+        tell(done)
     return [made for made in found if made is not None]
 
 
-def _engine(engine: Any) -> Callable[[str, int, Optional[int]], Iterator[Tuple[int, _Chunk]]]:
+def _threads(asked: Optional[int]) -> int:
+    count = asked if asked is not None else (os.cpu_count() or 1)
+    if count < 1:
+        raise ValueError(f"threads={asked}: must be at least 1")
+    return count
+
+
+#: Something that does work for chunks of a plan, in any order: numbers of chunks with what came of it.
+_Engine = Callable[[_Work, str, Iterable[int], Optional[int]], Iterator[Tuple[int, Any]]]
+
+
+def _engine(engine: Any) -> _Engine:
     if engine is None:
         return _on_threads
     if engine == "ray":
         return _on_ray
     if engine == "dask":
-        return lambda plan, chunks, threads: _on_dask(plan, chunks, None)
+        return lambda work, plan, chunks, threads: _on_dask(work, plan, chunks, threads, None)
     if hasattr(engine, "submit") and hasattr(engine, "scheduler_info"):
-        return lambda plan, chunks, threads: _on_dask(plan, chunks, engine)
+        return lambda work, plan, chunks, threads: _on_dask(work, plan, chunks, threads, engine)
     raise ValueError(f"engine={engine!r}: must be None, 'ray', 'dask' or a client of dask.distributed")
 
 
-def _on_threads(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tuple[int, _Chunk]]:
+def _on_threads(work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int]) -> Iterator[Tuple[int, Any]]:
     """Chunks on the cores of this machine; Ctrl-C ends those under way."""
-    count = threads if threads is not None else (os.cpu_count() or 1)
-    if count < 1:
-        raise ValueError(f"threads={threads}: must be at least 1")
+    count = _threads(threads)
     stop = _native.Stop()
     pool = ThreadPoolExecutor(count)
-    todo, running = iter(range(chunks)), {}  # type: ignore[var-annotated]
+    todo, running = iter(chunks), {}  # type: ignore[var-annotated]
     try:
         while True:
             # No more than there is work for, so that results are not kept waiting.
@@ -500,19 +585,19 @@ def _on_threads(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tupl
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _on_ray(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tuple[int, _Chunk]]:
+def _on_ray(work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int]) -> Iterator[Tuple[int, Any]]:
     """Chunks as tasks of Ray: the plan goes once through its store, and a worker that dies has its chunks made again."""
     import ray
 
     if not ray.is_initialized():
         ray.init(num_cpus=threads, include_dashboard=False, log_to_driver=False)
-    task = ray.remote(num_cpus=1, max_retries=3)(_whole_chunk)
-    reference, todo, running = ray.put(plan), iter(range(chunks)), {}  # type: ignore[var-annotated]
+    task = ray.remote(num_cpus=1, max_retries=3)(work.function)
+    reference, todo, running = ray.put(plan), iter(chunks), {}  # type: ignore[var-annotated]
     limit = 4 * max(1, int(ray.cluster_resources().get("CPU", 1)))
     try:
         while True:
             for chunk in itertools.islice(todo, limit - len(running)):
-                running[task.remote(reference, chunk)] = chunk
+                running[task.remote(reference, chunk, *work.more)] = chunk
             if not running:
                 return
             done, _ = ray.wait(list(running), num_returns=1)
@@ -523,22 +608,26 @@ def _on_ray(plan: str, chunks: int, threads: Optional[int]) -> Iterator[Tuple[in
             ray.cancel(one, force=True)
 
 
-def _on_dask(plan: str, chunks: int, client: Any) -> Iterator[Tuple[int, _Chunk]]:
+def _on_dask(
+    work: _Work, plan: str, chunks: Iterable[int], threads: Optional[int], client: Any
+) -> Iterator[Tuple[int, Any]]:
     """Chunks as tasks of Dask. The plan goes along with each: what is scattered dies with its worker."""
     import distributed
 
     own = client is None
     if own:
-        client = distributed.Client(processes=False, dashboard_address=None)
+        client = distributed.Client(
+            n_workers=_threads(threads), threads_per_worker=1, processes=False, dashboard_address=None
+        )
     try:
         limit = 4 * max(1, sum(client.nthreads().values()))
-        todo = iter(range(chunks))
+        todo = iter(chunks)
         waiting = distributed.as_completed([])
         numbers: Dict[Any, int] = {}
 
         def add(count: int) -> None:
             for chunk in itertools.islice(todo, count):
-                future = client.submit(_whole_chunk, plan, chunk, pure=False, retries=3)
+                future = client.submit(work.function, plan, chunk, *work.more, pure=False, retries=3)
                 numbers[future.key] = chunk
                 waiting.add(future)
 
@@ -551,17 +640,18 @@ def _on_dask(plan: str, chunks: int, client: Any) -> Iterator[Tuple[int, _Chunk]
             client.close()
 
 
-def _progress(asked: Any, chunks: int, runs: int) -> Callable[[], None]:
-    done = 0
+def _progress(asked: Any, parts: int, runs: int) -> Callable[[int], None]:
+    """What is told of how many parts are done."""
+    if not (callable(asked) or asked in ("auto", False, None)):
+        raise ValueError(f"progress={asked!r}: must be 'auto', False or a function")
     began = time.monotonic()
+    shows = asked == "auto" and (sys.stderr.isatty() or in_notebook())
 
-    def tell() -> None:
-        nonlocal done
-        done += 1
-        fraction = done / chunks
+    def tell(done: int) -> None:
+        fraction = done / max(parts, 1)
         if callable(asked):
-            asked(fraction, done, chunks)
-        elif asked == "auto" and sys.stderr.isatty():
+            asked(fraction, done, parts)
+        elif shows and done:
             passed = time.monotonic() - began
             if passed >= 2.0:
                 left = passed / fraction - passed
@@ -570,6 +660,4 @@ def _progress(asked: Any, chunks: int, runs: int) -> Callable[[], None]:
                     sys.stderr.write("\n")
                 sys.stderr.flush()
 
-    if not (callable(asked) or asked in ("auto", False, None)):
-        raise ValueError(f"progress={asked!r}: must be 'auto', False or a function")
     return tell

@@ -63,7 +63,8 @@ pub fn driven(
             }
         }
     }
-    let wrong = |wrong: lagrangian::interpreted::SignalError| PyValueError::new_err(wrong.to_string());
+    let wrong =
+        |wrong: lagrangian::interpreted::SignalError| PyValueError::new_err(wrong.to_string());
     let signals = Signals::new(machine, all).map_err(wrong)?;
     match sampling {
         None => Ok(signals),

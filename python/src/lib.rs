@@ -1,6 +1,7 @@
 //! The native half of the Python package: specs are derived, evaluated and run here; how that looks in Python is said in
 //! `lagrangian/`.
 
+mod command;
 mod errors;
 mod evaluate;
 mod inputs;
@@ -8,8 +9,10 @@ mod linear;
 mod machine;
 mod program;
 mod run;
+mod sensitive;
 mod simulate;
 mod sweep;
+mod symbolic;
 
 use pyo3::prelude::*;
 
@@ -20,6 +23,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<run::Run>()?;
     module.add_function(wrap_pyfunction!(program::derive, module)?)?;
     module.add_function(wrap_pyfunction!(program::rebuild, module)?)?;
+    module.add_function(wrap_pyfunction!(sensitive::sensitivities, module)?)?;
+    module.add_function(wrap_pyfunction!(symbolic::symbolic, module)?)?;
+    module.add_function(wrap_pyfunction!(command::command, module)?)?;
+    module.add_function(wrap_pyfunction!(command::answer, module)?)?;
     module.add_function(wrap_pyfunction!(machine::set_engine, module)?)?;
     module.add_function(wrap_pyfunction!(machine::engine, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::set_threads, module)?)?;
@@ -32,6 +39,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(simulate::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(simulate::methods, module)?)?;
     module.add_class::<sweep::Stop>()?;
+    module.add_class::<sweep::Kept>()?;
+    module.add_function(wrap_pyfunction!(sweep::chunk_file, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::plan, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::run_chunk, module)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))

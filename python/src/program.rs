@@ -20,7 +20,7 @@ use pyo3::prelude::*;
 use crate::errors::{self, Told};
 
 /// The stack of the thread that derives, as the command's.
-const STACK: usize = 64 << 20;
+pub const STACK: usize = 64 << 20;
 
 /// How many programs are remembered.
 const REMEMBERED: usize = 64;

@@ -1,14 +1,18 @@
 //! A run that was made.
 
 use lagrangian::interpreted::{InterpretedMachine, Named, Recording};
+use lagrangian::methods::Method;
 use lagrangian::{Ending, Solution, State, System};
+use lagrangian_cli::report::{Asked, Report, finer};
+use lagrangian_mechanics::Compiled;
 use lagrangian_sweep::verdict;
 use numpy::PyArray1;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::inputs::SharedLaw;
+use crate::machine::Machine;
 
 /// A run, with the states that were asked for.
 #[pyclass(frozen, module = "lagrangian._native")]
@@ -87,6 +91,58 @@ impl Run {
                 )
             })
             .collect())
+    }
+
+    /// The page that shows the run, of a machine; what is asked for are the name of the file, the tolerance, and what drives inputs.
+    fn page(
+        &self,
+        py: Python<'_>,
+        machine: &Machine,
+        asked: (String, String, Vec<(String, String)>),
+        method: &str,
+        error: Option<String>,
+    ) -> PyResult<String> {
+        let (start, end) = (self.solution.start(), self.solution.end());
+        let duration = end.t - start.t;
+        let dimension = start.q.values.len();
+        let parts = match duration == 0.0 {
+            true => 0,
+            false => 1000 * u64::from(finer(dimension, duration, duration / 1000.0, false)),
+        };
+        let time = |k: u64| match k == parts {
+            true => end.t,
+            false => start.t + duration * (k as f64 / parts as f64),
+        };
+        let states = self.states_at(py, (0..=parts).map(time).collect())?;
+        let method = Method::named(method).unwrap_or_default();
+        let (file, tolerance, inputs) = asked;
+        let constants = machine.derived.text.constants.iter();
+        let asked = Asked {
+            file,
+            tolerance,
+            constants: constants.map(|(name, _)| name.clone()).collect(),
+            inputs,
+        };
+        let made = py.detach(|| {
+            let recording = Recording::of(&self.solution, &states);
+            machine.derived.with_model(|model, report| {
+                let compiled = Compiled::new(model, report)?;
+                let report = Report {
+                    asked: &asked,
+                    compiled: &compiled,
+                    machine: &machine.machine,
+                    method,
+                    run: (&self.solution).into(),
+                    recording: &recording,
+                    contacts: &[],
+                    error,
+                    is_interrupted: false,
+                };
+                Some(report.page())
+            })
+        });
+        let page = made.map_err(|trouble| trouble.raise(py))?;
+        page.ok_or_else(|| PyRuntimeError::new_err("it was derived before, and is not now"))
     }
 
     /// The inputs at times and states.

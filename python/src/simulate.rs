@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 use lagrangian::interpreted::{InterpretedMachine, Named};
 use lagrangian::methods::{Method, TAYLOR};
 use lagrangian::{
-    Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State, StepMotion,
-    System,
+    Crossing, Error, InputLaw, Machine as _, Observation, Progress, Simulation, Solution, State,
+    StepMotion, System,
 };
 use lagrangian_sweep::signals::without_series;
 use pyo3::exceptions::PyValueError;

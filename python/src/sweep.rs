@@ -1,6 +1,7 @@
 //! Sweeps: a plan is text, and a chunk of it a pure function of both.
 
 use std::collections::VecDeque;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::RecvTimeoutError;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,11 +9,14 @@ use std::time::Duration;
 
 use lagrangian::interpreted::Engine;
 use lagrangian_sweep::rows::{Rows, Values};
-use lagrangian_sweep::{Chunk, Plan, Sweep, Wrong, chunk_length};
+use lagrangian_sweep::table::Format;
+use lagrangian_sweep::{
+    Chunk, Contents, Folder, Plan, Progress, Sweep, Trouble, Wrong, chunk_length, contents, run_all,
+};
 use numpy::PyArray1;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyList;
+use pyo3::types::{PyBytes, PyList};
 
 use crate::errors;
 
@@ -25,13 +29,17 @@ const REMEMBERED: usize = 8;
 /// Plans that were made ready, the last one used at the end.
 static KNOWN: Mutex<VecDeque<(String, Arc<Sweep>)>> = Mutex::new(VecDeque::new());
 
+fn read(text: &str) -> PyResult<Plan> {
+    Plan::from_json(text)
+        .map_err(|error| PyValueError::new_err(format!("this is no plan: {error}")))
+}
+
 fn made(py: Python<'_>, text: &str) -> PyResult<Arc<Sweep>> {
     let known = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, sweep)) = known().iter().find(|(of, _)| of == text) {
         return Ok(sweep.clone());
     }
-    let plan = Plan::from_json(text)
-        .map_err(|error| PyValueError::new_err(format!("this is no plan: {error}")))?;
+    let plan = read(text)?;
     let sweep = py.detach(|| Sweep::new(plan, Engine::Auto));
     let sweep = Arc::new(sweep.map_err(|wrong| match wrong {
         Wrong::Plan(message) => PyValueError::new_err(message),
@@ -62,6 +70,181 @@ pub fn plan(py: Python<'_>, text: &str) -> PyResult<(String, u64, u64, Option<St
     Ok((plan.to_json(), plan.chunks(), plan.runs(), warning))
 }
 
+/// What the files of a chunk hold that is kept by another process: of its rows, and of its samples.
+#[pyfunction]
+pub fn chunk_file<'py>(
+    py: Python<'py>,
+    text: &str,
+    chunk: u64,
+    ending: &str,
+) -> PyResult<(Bound<'py, PyBytes>, Option<Bound<'py, PyBytes>>)> {
+    let made = one_chunk(py, &*checked(py, text, chunk)?, chunk, None)?;
+    let made = py.detach(|| contents(&made, format(ending)))?;
+    let samples = made.samples.map(|samples| PyBytes::new(py, &samples));
+    Ok((PyBytes::new(py, &made.rows), samples))
+}
+
+fn format(ending: &str) -> Format {
+    match ending {
+        "csv" => Format::Csv,
+        _ => Format::Parquet,
+    }
+}
+
+/// A sweep whose chunks are kept on a disk, so that it goes on after any interruption.
+#[pyclass(frozen, module = "lagrangian._native")]
+pub struct Kept {
+    sweep: Arc<Sweep>,
+    folder: Mutex<Option<Folder>>,
+    /// Where chunks are joined at the end; none where they stay in their folder.
+    file: Option<PathBuf>,
+    format: Format,
+}
+
+fn trouble(trouble: Trouble) -> PyErr {
+    match trouble {
+        Trouble::File(path, error) => PyOSError::new_err(format!(
+            "cannot write {}: {error}; what is there stays, and the same call goes on",
+            path.display()
+        )),
+        Trouble::Taken(_) => PyRuntimeError::new_err(trouble.to_string()),
+        Trouble::OtherPlan(differences) => PyValueError::new_err(format!(
+            "another sweep is kept there: {}; fresh=True begins again",
+            differences.join("; ")
+        )),
+    }
+}
+
+impl Kept {
+    fn folder<T>(&self, work: impl FnOnce(&Folder) -> Result<T, Trouble>) -> PyResult<T> {
+        let folder = self.folder.lock().unwrap_or_else(PoisonError::into_inner);
+        let folder = folder.as_ref();
+        let folder = folder.ok_or_else(|| PyRuntimeError::new_err("the sweep has ended"))?;
+        work(folder).map_err(trouble)
+    }
+}
+
+#[pymethods]
+impl Kept {
+    /// Opens the folder of a plan, or begins it; `file` is where chunks are joined, none where they stay.
+    #[new]
+    fn new(
+        py: Python<'_>,
+        text: &str,
+        folder: PathBuf,
+        file: Option<PathBuf>,
+        ending: &str,
+        fresh: bool,
+    ) -> PyResult<Kept> {
+        let mut plan = read(text)?;
+        let opened = py.detach(|| {
+            let folder = Folder::open(&folder, format(ending), false)?;
+            if fresh {
+                folder.forget()?;
+            }
+            match folder.plan()? {
+                Some(known) => {
+                    let differences = plan.differences(&known);
+                    if !differences.is_empty() {
+                        return Err(Trouble::OtherPlan(differences));
+                    }
+                    plan.chunk = known.chunk;
+                }
+                None => folder.begin(&plan)?,
+            }
+            Ok(folder)
+        });
+        let folder = opened.map_err(trouble)?;
+        let sweep = made(py, &plan.to_json())?;
+        Ok(Kept {
+            sweep,
+            folder: Mutex::new(Some(folder)),
+            format: format(ending),
+            file,
+        })
+    }
+
+    /// The plan, with the length of the chunks that are there.
+    #[getter]
+    fn plan(&self) -> String {
+        self.sweep.plan().to_json()
+    }
+
+    /// `csv` or `parquet`.
+    #[getter]
+    fn ending(&self) -> &'static str {
+        self.format.ending()
+    }
+
+    /// The chunks that are not there yet.
+    fn missing(&self, py: Python<'_>) -> PyResult<Vec<u64>> {
+        let chunks = 0..self.sweep.plan().chunks();
+        py.detach(|| {
+            self.folder(|folder| Ok(chunks.filter(|k| !folder.has(&self.sweep, *k)).collect()))
+        })
+    }
+
+    /// Keeps a chunk that was made elsewhere.
+    fn keep(
+        &self,
+        py: Python<'_>,
+        chunk: u64,
+        rows: Vec<u8>,
+        samples: Option<Vec<u8>>,
+    ) -> PyResult<()> {
+        let contents = Contents { rows, samples };
+        py.detach(|| self.folder(|folder| folder.keep_contents(chunk, &contents)))
+    }
+
+    /// Makes the chunks that are not there, on so many threads; `tell` is called ten times a second with the number of runs that are
+    /// done. Ctrl-C ends it, and loses the chunks under way.
+    fn run(&self, py: Python<'_>, threads: usize, tell: Option<Py<PyAny>>) -> PyResult<()> {
+        let stop = AtomicBool::new(false);
+        let mut raised = None;
+        py.detach(|| {
+            let watch = &mut |now: Progress| {
+                Python::attach(|py| {
+                    let told = py.check_signals().and_then(|()| match &tell {
+                        Some(tell) => tell.call1(py, (now.done,)).map(drop),
+                        None => Ok(()),
+                    });
+                    if let Err(error) = told {
+                        stop.store(true, Ordering::Relaxed);
+                        raised.get_or_insert(error);
+                    }
+                });
+            };
+            self.folder(|folder| run_all(&self.sweep, folder, (threads, None), &stop, watch))
+        })?;
+        raised.map_or(Ok(()), Err)
+    }
+
+    /// The rows, and the samples where the plan asks for them. Chunks are joined and taken away before, where there is a file for them.
+    fn end<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyList>, Option<Bound<'py, PyList>>)> {
+        let read = py.detach(|| self.folder(|folder| folder.rows(&self.sweep)));
+        let (rows, samples) = read?;
+        if let Some(file) = &self.file {
+            py.detach(|| self.folder(|folder| folder.join(&self.sweep, file)))?;
+            let folder = self
+                .folder
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take();
+            folder.map_or(Ok(()), Folder::remove).map_err(trouble)?;
+        } else {
+            self.folder
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .take();
+        }
+        let samples = samples.map(|samples| columns(py, samples)).transpose()?;
+        Ok((columns(py, rows)?, samples))
+    }
+}
+
 /// What ends chunks that are under way.
 #[pyclass(frozen, module = "lagrangian._native")]
 pub struct Stop(Arc<AtomicBool>);
@@ -78,28 +261,26 @@ impl Stop {
     }
 }
 
-/// The rows of a chunk, and the samples of its runs where the plan asks for them: lists of name, unit and values.
-#[pyfunction]
-#[pyo3(signature = (text, chunk, stop=None))]
-pub fn run_chunk<'py>(
-    py: Python<'py>,
-    text: &str,
-    chunk: u64,
-    stop: Option<&Stop>,
-) -> PyResult<(Bound<'py, PyList>, Option<Bound<'py, PyList>>)> {
+/// The sweep of a plan that has a chunk of this number.
+fn checked(py: Python<'_>, text: &str, chunk: u64) -> PyResult<Arc<Sweep>> {
     let sweep = made(py, text)?;
-    if chunk >= sweep.plan().chunks() {
-        return Err(PyValueError::new_err(format!(
-            "there is no chunk {chunk}: the plan has {}",
-            sweep.plan().chunks()
-        )));
+    let chunks = sweep.plan().chunks();
+    match chunk < chunks {
+        true => Ok(sweep),
+        false => Err(PyValueError::new_err(format!(
+            "there is no chunk {chunk}: the plan has {chunks}"
+        ))),
     }
+}
+
+/// A chunk, which Ctrl-C ends.
+fn one_chunk(py: Python<'_>, sweep: &Sweep, chunk: u64, stop: Option<&Stop>) -> PyResult<Chunk> {
     let own = Arc::new(AtomicBool::new(false));
     let stop = stop.map_or(own, |stop| stop.0.clone());
     let made: PyResult<Option<Chunk>> = py.detach(|| {
         std::thread::scope(|scope| {
             let (tell, told) = std::sync::mpsc::channel();
-            let (sweep, stop) = (&sweep, &stop);
+            let stop = &stop;
             scope.spawn(move || {
                 let _ = tell.send(sweep.run_chunk(chunk, stop));
             });
@@ -117,9 +298,19 @@ pub fn run_chunk<'py>(
             }
         })
     });
-    let Some(made) = made? else {
-        return Err(PyRuntimeError::new_err("the chunk was stopped"));
-    };
+    made?.ok_or_else(|| PyRuntimeError::new_err("the chunk was stopped"))
+}
+
+/// The rows of a chunk, and the samples of its runs where the plan asks for them: lists of name, unit and values.
+#[pyfunction]
+#[pyo3(signature = (text, chunk, stop=None))]
+pub fn run_chunk<'py>(
+    py: Python<'py>,
+    text: &str,
+    chunk: u64,
+    stop: Option<&Stop>,
+) -> PyResult<(Bound<'py, PyList>, Option<Bound<'py, PyList>>)> {
+    let made = one_chunk(py, &*checked(py, text, chunk)?, chunk, stop)?;
     let rows = columns(py, made.rows)?;
     let samples = made
         .samples

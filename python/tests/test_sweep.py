@@ -1,11 +1,18 @@
 """Sweeps: rows are those of single runs, whatever makes them."""
 
 import math
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
 
 import numpy as np
 import pytest
 
 import lagrangian as lg
+from conftest import ROOT
 
 
 def test_rows_are_those_of_single_runs(oscillator):
@@ -109,3 +116,116 @@ def test_clusters_make_the_same_rows(double, engine):
     here = double.sweep(vary, until=2, threads=1)
     there = double.sweep(vary, until=2, engine=engine, threads=2)
     np.testing.assert_array_equal(here["theta2"], there["theta2"])
+
+
+#: How many runs a sweep has that is killed, and how often; `LAGRANGIAN_KILLED_RUNS=100000 LAGRANGIAN_KILLS=20` is the long test.
+KILLED_RUNS = int(os.environ.get("LAGRANGIAN_KILLED_RUNS", "4000"))
+KILLS = int(os.environ.get("LAGRANGIAN_KILLS", "4"))
+
+#: A sweep that is kept, as a program: where, and how many runs.
+KEPT = """
+import sys
+import lagrangian as lg
+m = lg.load("machines/double_pendulum.machine")
+side = int(sys.argv[2])
+lg.set_threads(2)
+m.sweep(
+    {"start(theta1)": (-1.0, 1.0, side), "start(theta2)": (-1.0, 1.0, 50)},
+    until=1, reduce={"peak": "max(abs(theta2))"}, tolerance=1e-8, out=sys.argv[1], progress=False, threads=2,
+)
+"""
+
+
+@pytest.mark.parametrize("ending", ["csv", "parquet"])
+def test_kept_rows_are_those_in_memory(oscillator, tmp_path, ending):
+    settings = {"until": 1.5, "reduce": {"peak": "max(abs(x))"}, "record": "every=0.5"}
+    vary = {"k": (1.0, 4.0, 5), "m": [1.0, -1.0]}
+    here = oscillator.sweep(vary, **settings)
+    path = tmp_path / f"rows.{ending}"
+    kept = oscillator.sweep(vary, out=path, **settings)
+    assert kept.path == str(path) and sorted(os.listdir(tmp_path)) == [f"rows.{ending}", f"rows.samples.{ending}"]
+    for name in here.columns:
+        np.testing.assert_array_equal(kept[name], here[name])
+    np.testing.assert_array_equal(kept.samples["x"], here.samples["x"])
+    # A folder keeps its chunks, and nothing is made twice.
+    folder = str(tmp_path / "chunks") + "/"
+    first = oscillator.sweep(vary, out=folder, **settings)
+    stamps = {name: os.stat(folder + name).st_mtime_ns for name in os.listdir(folder) if name != "lock"}
+    again = oscillator.sweep(vary, out=folder, **settings)
+    assert stamps == {name: os.stat(folder + name).st_mtime_ns for name in os.listdir(folder) if name != "lock"}
+    np.testing.assert_array_equal(first["peak"], again["peak"])
+
+
+def test_another_sweep_is_not_mixed_with_what_is_kept(oscillator, tmp_path):
+    folder = tmp_path / "chunks"
+    oscillator.sweep({"k": [1.0, 2.0]}, until=1, out=folder)
+    with pytest.raises(ValueError, match="until: 2.0, was 1.0; fresh=True begins again"):
+        oscillator.sweep({"k": [1.0, 2.0]}, until=2, out=folder)
+    assert len(oscillator.sweep({"k": [1.0, 2.0]}, until=2, out=folder, fresh=True)) == 2
+    for wrong in ("rows.txt", "rows.v1"):
+        with pytest.raises(ValueError, match="rows go to"):
+            oscillator.sweep({"k": [1.0, 2.0]}, until=1, out=tmp_path / wrong)
+
+
+def test_a_sweep_that_is_killed_goes_on_and_has_the_same_bytes(tmp_path):
+    side = KILLED_RUNS // 50
+
+    def begun(name):
+        call = [sys.executable, "-c", KEPT, str(tmp_path / name), str(side)]
+        return subprocess.Popen(call, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    began = time.monotonic()
+    whole = begun("whole.parquet")
+    _, said = whole.communicate(timeout=3600)
+    assert whole.returncode == 0, said
+    took = time.monotonic() - began
+    killed = 0
+    instants = random.Random()
+    for _ in range(KILLS):
+        process = begun("killed.parquet")
+        time.sleep(instants.uniform(0.1, 1.0) * took)
+        if process.poll() is None:
+            process.send_signal(signal.SIGKILL)
+            killed += 1
+        process.communicate()
+    last = begun("killed.parquet")
+    _, said = last.communicate(timeout=3600)
+    assert last.returncode == 0, said
+    assert killed, "it was too fast to be killed"
+    assert (tmp_path / "killed.parquet").read_bytes() == (tmp_path / "whole.parquet").read_bytes()
+    assert not (tmp_path / "killed.parquet.part").exists()
+
+
+def test_a_full_disk_is_told_and_the_sweep_goes_on(tmp_path):
+    # A process that may write files of 2 kB only.
+    limited = "import resource, signal\nsignal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+    limited += "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, resource.RLIM_INFINITY))\n"
+    path = tmp_path / "rows.csv"
+    call = [sys.executable, "-c", limited + KEPT, str(path), "2"]
+    said = subprocess.run(call, cwd=ROOT, capture_output=True, text=True)
+    assert said.returncode != 0 and "OSError: cannot write" in said.stderr and "the same call goes on" in said.stderr
+    assert not path.exists()
+    subprocess.run([sys.executable, "-c", KEPT, str(path), "2"], cwd=ROOT, check=True)
+    assert len(path.read_text().splitlines()) == 101
+
+
+def test_ctrl_c_ends_a_kept_sweep_at_once(tmp_path):
+    process = subprocess.Popen(
+        [sys.executable, "-c", KEPT.replace("until=1,", "until=500,").replace("import sys", "import sys; print('ready', flush=True)", 1), str(tmp_path / "rows.csv"), "100"],
+        cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )
+    assert process.stdout.readline() == "ready\n"
+    time.sleep(3.0)
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=30)
+    assert process.returncode != 0 and "KeyboardInterrupt" in said
+    assert (tmp_path / "rows.csv.part" / "plan.json").exists()
+
+
+@pytest.mark.parametrize("engine", ["ray", "dask"])
+def test_clusters_keep_the_same_bytes(double, engine, tmp_path):
+    pytest.importorskip({"ray": "ray", "dask": "distributed"}[engine])
+    vary = {"start(theta1)": (-3.0, 3.0, 40)}
+    double.sweep(vary, until=2, threads=1, out=tmp_path / "here.csv")
+    double.sweep(vary, until=2, engine=engine, threads=2, out=tmp_path / "there.csv")
+    assert (tmp_path / "here.csv").read_bytes() == (tmp_path / "there.csv").read_bytes()

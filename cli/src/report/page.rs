@@ -1,6 +1,6 @@
 //! The page: its text, its tables, and the files it is made from.
 
-use lagrangian::{Ending, Machine, System};
+use lagrangian::{Machine, System};
 use lagrangian_mechanics::Compiled;
 use lagrangian_print::document::{Block, Document};
 use lagrangian_print::html as derivation;
@@ -176,15 +176,15 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
     /// What one begins to see.
     const COARSE: f64 = 0.01;
     let mut alert = String::new();
-    if let Some(error) = report.error {
+    if let Some(error) = &report.error {
         alert.push_str(&format!(
             "<p class=\"alert\" role=\"alert\"><strong>The run ended early, at t = {} s:</strong> {}</p>\n",
-            shortest(report.run.end().t),
-            safe(&error.to_string())
+            shortest(report.run.end.t),
+            safe(error)
         ));
     }
-    let t = shortest(report.run.end().t);
-    if matches!(report.run.ending(), Ending::Stopped) {
+    let t = shortest(report.run.end.t);
+    if report.is_interrupted {
         alert.push_str(&format!(
             "<p class=\"alert\" role=\"alert\"><strong>The run was interrupted, at t = {t} s.</strong></p>\n",
         ));
@@ -198,7 +198,7 @@ fn alert(report: &Report<'_, '_>, samples: &Samples) -> String {
             (100.0 * samples.error).ceil()
         ));
     }
-    let warnings = report.run.warnings().iter().map(ToString::to_string);
+    let warnings = report.run.warnings.iter().map(ToString::to_string);
     let contacts = report.contacts.iter().flat_map(Found::warnings);
     let warnings = warnings.chain(contacts);
     notes.extend(warnings.map(|warning| format!("<strong>Warning:</strong> {}", safe(&warning))));
@@ -218,7 +218,7 @@ fn omitted(names: &[String]) -> String {
 
 fn parameters(report: &Report<'_, '_>) -> String {
     let Report {
-        call,
+        asked,
         compiled,
         machine,
         run,
@@ -249,11 +249,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
         .map(|constant| {
             let value =
                 lagrangian_symbolic::evaluate(compiled.model.dag, &[constant.value], |_| f64::NAN);
-            let set = call
-                .spec
-                .constants
-                .iter()
-                .any(|(set, _)| *set == constant.name.base);
+            let set = asked.constants.contains(&constant.name.base);
             vec![
                 name(&constant.name),
                 match set {
@@ -271,7 +267,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
     if !constants.is_empty() {
         html.push_str(&html::table("Constants", &head, &constants));
     }
-    let system = run.system();
+    let system = run.system;
     let inputs = system.default_inputs();
     let inputs: Vec<Vec<Cell>> = program
         .inputs
@@ -281,13 +277,12 @@ fn parameters(report: &Report<'_, '_>) -> String {
             let default = slot.default.as_ref().map_or(0.0, |default| default.value);
             let own = slot.name.to_string();
             let family = own.split_once('[').map(|(family, _)| family);
-            let mut given = call.inputs.iter();
-            let driven =
-                given.find(|input| input.name == own || Some(input.name.as_str()) == family);
+            let mut given = asked.inputs.iter();
+            let driven = given.find(|(name, _)| *name == own || Some(name.as_str()) == family);
             vec![
                 name(&slot.name),
                 match driven {
-                    Some(input) => name(&input.value),
+                    Some((_, what)) => name(what),
                     None => changed(value, Some(default)),
                 },
                 Cell::Words(unit(&slot.unit_text)),
@@ -296,7 +291,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
         })
         .collect();
     if !inputs.is_empty() {
-        let title = match call.inputs.is_empty() {
+        let title = match asked.inputs.is_empty() {
             true => "Inputs, held constant",
             false => "Inputs",
         };
@@ -312,7 +307,7 @@ fn parameters(report: &Report<'_, '_>) -> String {
 fn start(report: &Report<'_, '_>) -> String {
     let Report { machine, run, .. } = report;
     let default = machine.start();
-    let (start, end) = (run.start(), run.end());
+    let (start, end) = (run.start, run.end);
     let rows: Vec<Vec<Cell>> = report
         .compiled
         .program
@@ -351,7 +346,7 @@ fn joules(x: f64) -> Cell {
 }
 
 fn energy(report: &Report<'_, '_>) -> String {
-    let Some(balance) = report.run.energy_balance() else {
+    let Some(balance) = report.run.energy else {
         return String::new();
     };
     let row = |what: &str, value: Cell| vec![Cell::Words(what.into()), value];
@@ -381,7 +376,7 @@ fn energy(report: &Report<'_, '_>) -> String {
 
 /// What happened, each with a link to its instant.
 fn events(report: &Report<'_, '_>) -> String {
-    let rows: Vec<Vec<Cell>> = other_events(report.run, report.contacts)
+    let rows: Vec<Vec<Cell>> = other_events(report.run.events, report.contacts)
         .map(|event| {
             let t = event.state.t;
             let link = format!("<a href=\"#t={t:?}\">{}</a>", shortest(t));
@@ -430,31 +425,20 @@ fn contacts(report: &Report<'_, '_>) -> String {
 
 fn statistics(report: &Report<'_, '_>, samples: &Samples) -> String {
     let Report {
-        call, run, method, ..
+        asked, run, method, ..
     } = report;
-    let statistics = run.statistics();
+    let statistics = run.statistics;
     let row = |what: &str, value: String| vec![Cell::Words(what.into()), Cell::Figure(value)];
     let rows = [
-        row(
-            "spec",
-            call.spec
-                .path
-                .file_name()
-                .map_or_else(String::new, |name| name.to_string_lossy().into_owned()),
-        ),
+        row("spec", asked.file.clone()),
         row(
             "time",
-            format!(
-                "{} s to {} s",
-                shortest(run.start().t),
-                shortest(run.end().t)
-            )
-            .replace('-', "−"),
+            format!("{} s to {} s", shortest(run.start.t), shortest(run.end.t)).replace('-', "−"),
         ),
         row("method", method.tableau.title.into()),
         row(
             "tolerance of a step, relative and absolute",
-            shortest(call.tolerance).replace('-', "−"),
+            asked.tolerance.replace('-', "−"),
         ),
         row("steps", statistics.steps.to_string()),
         row("steps rejected", statistics.rejected.to_string()),

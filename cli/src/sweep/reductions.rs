@@ -5,12 +5,27 @@ use lagrangian_sweep::plan::{Function, Reduction, Watch};
 use crate::call::{self, Assignment};
 use crate::failure::Failure;
 
-/// Instants and interval of `--record`.
+/// What `--record` says.
+#[derive(Default)]
+pub struct Recorded {
+    /// Instants, in s.
+    pub at: Vec<f64>,
+    /// The interval of samples, in s.
+    pub every: Option<f64>,
+    /// Events whose states are samples.
+    pub events: Vec<String>,
+}
+
+/// Reads `--record`.
 ///
 /// # Errors
 /// The call is at fault.
-pub fn recorded(given: &[String]) -> Result<(Vec<f64>, Option<f64>), Failure> {
-    let (mut at, mut every) = (Vec::new(), None);
+pub fn recorded(given: &[String]) -> Result<Recorded, Failure> {
+    let Recorded {
+        mut at,
+        mut every,
+        mut events,
+    } = Recorded::default();
     for text in given {
         let wrong = |why: String| Failure::Call(format!("--record {text}: {why}"));
         match text
@@ -36,10 +51,22 @@ pub fn recorded(given: &[String]) -> Result<(Vec<f64>, Option<f64>), Failure> {
                     return Err(wrong("there is an interval already".into()));
                 }
             }
-            _ => return Err(wrong("expected end, at=T,… or every=T".into())),
+            Some(("event", names)) => {
+                for name in names.split(',').map(str::trim) {
+                    if events.iter().any(|known| known == name) {
+                        return Err(wrong(format!("`{name}` is there already")));
+                    }
+                    events.push(name.to_owned());
+                }
+            }
+            _ => {
+                return Err(wrong(
+                    "expected end, at=T,…, every=T or event=NAME,…".into(),
+                ));
+            }
         }
     }
-    Ok((at, every))
+    Ok(Recorded { at, every, events })
 }
 
 /// The reductions of a call.

@@ -55,6 +55,41 @@ pub struct Folder {
     _lock: File,
 }
 
+/// A chunk as the files that keep it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Contents {
+    /// Of its rows.
+    pub rows: Vec<u8>,
+    /// Of its samples, where the plan asks for them.
+    pub samples: Option<Vec<u8>>,
+}
+
+/// What the files of a chunk hold, so that it can be made on one machine and kept on another.
+///
+/// # Errors
+/// If the format is not in this build.
+pub fn contents(chunk: &Chunk, format: Format) -> io::Result<Contents> {
+    let bytes = |rows: &Rows| {
+        let mut bytes = Vec::new();
+        write_chunk(format, rows, &mut bytes).map(|()| bytes)
+    };
+    Ok(Contents {
+        rows: bytes(&chunk.rows)?,
+        samples: chunk.samples.as_ref().map(bytes).transpose()?,
+    })
+}
+
+fn write_chunk(format: Format, rows: &Rows, to: &mut (dyn Write + Send)) -> io::Result<()> {
+    match format {
+        Format::Csv => table::csv_lines(rows, to),
+        Format::Parquet => {
+            let mut writer = Writer::new(to, rows, &[])?;
+            writer.write(rows)?;
+            writer.end().map(drop)
+        }
+    }
+}
+
 /// What is in all chunks.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
@@ -195,14 +230,40 @@ impl Folder {
     }
 
     fn write_rows(&self, name: &str, rows: &Rows) -> Result<(), Trouble> {
-        self.write(name, |to| match self.format {
-            Format::Csv => table::csv_lines(rows, to),
-            Format::Parquet => {
-                let mut writer = Writer::new(to, rows, &[])?;
-                writer.write(rows)?;
-                writer.end().map(drop)
+        self.write(name, |to| write_chunk(self.format, rows, to))
+    }
+
+    /// Writes a chunk that was made elsewhere: its rows and its samples as [`contents`] gave them.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_contents(&self, number: u64, contents: &Contents) -> Result<(), Trouble> {
+        // What is there under the chunk's own name is complete.
+        if let Some(samples) = &contents.samples {
+            self.write(&self.name(number, ".samples"), |to| to.write_all(samples))?;
+        }
+        self.write(&self.name(number, ""), |to| to.write_all(&contents.rows))
+    }
+
+    /// All rows of the chunks that are there, in order, and their samples where the plan asks for them.
+    ///
+    /// # Errors
+    /// What the file system says, or a file is none of this sweep.
+    pub fn rows(&self, sweep: &Sweep) -> Result<(Rows, Option<Rows>), Trouble> {
+        let all = |suffix: &str, empty: Rows| {
+            let mut rows = empty.clone();
+            for number in 0..sweep.plan().chunks() {
+                let path = self.chunk(number, suffix);
+                let part = match self.format {
+                    Format::Csv => table::read_csv(&path, &empty, false),
+                    Format::Parquet => table::read(&path, &empty),
+                };
+                rows.extend(part.map_err(|error| Trouble::File(path, error))?);
             }
-        })
+            Ok(rows)
+        };
+        let samples = sweep.no_samples().map(|empty| all(".samples", empty));
+        Ok((all("", sweep.empty())?, samples.transpose()?))
     }
 
     /// Reads a chunk.

@@ -19,7 +19,7 @@ pub mod table;
 mod threads;
 pub mod verdict;
 
-pub use folder::{Folder, Summary, Trouble, samples_beside};
+pub use folder::{Contents, Folder, Summary, Trouble, contents, samples_beside};
 pub use numbers::shortest;
 pub use plan::Plan;
 pub use sobol::MOST_VARIABLES;

@@ -47,6 +47,9 @@ pub struct Plan {
     pub at: Vec<f64>,
     /// The interval at which samples are recorded, in s.
     pub every: Option<f64>,
+    /// Events, by name, whose states are samples.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub at_events: Vec<String>,
     /// What is made of each motion.
     pub reduce: Vec<Reduction>,
     /// From when on, in s.
@@ -204,6 +207,11 @@ impl Plan {
         let runs = self.runs();
         let at = |chunk: u64| chunk.saturating_mul(self.chunk).min(runs);
         at(chunk)..at(chunk.saturating_add(1))
+    }
+
+    /// Whether there are samples beside the rows.
+    pub fn has_samples(&self) -> bool {
+        self.every.is_some() || !self.at_events.is_empty()
     }
 
     /// What is varied, in the order of the columns.

@@ -529,13 +529,23 @@ impl Sweep {
         outcome.steps = solution.statistics().steps as u64;
         outcome.residual = solution.energy_balance().map(|balance| balance.residual());
         watched.end(plan, (run, solution.start(), solution.end()));
+        let after = |t: f64| {
+            plan.after
+                .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
+        };
+        if let Some(samples) = &mut watched.samples {
+            let events = solution.events().iter();
+            for event in
+                events.filter(|event| plan.at_events.contains(&event.name) && after(event.state.t))
+            {
+                let mut cells = sample(run, &event.state);
+                cells.push(Cell::Text(Some(event.name.clone())));
+                samples.push(cells);
+            }
+        }
         outcome.at = watched.at;
         outcome.samples = watched.samples;
         if outcome.error.is_none() {
-            let after = |t: f64| {
-                plan.after
-                    .is_none_or(|after| (t - after) * plan.until.signum() >= 0.0)
-            };
             let made = self.reductions.iter().zip(&watched.trackers);
             outcome.reductions = made
                 .map(|(made, tracker)| match (made, tracker) {
@@ -617,7 +627,7 @@ impl Watched {
                 *state = Some(start.clone());
             }
         }
-        if let Some(samples) = &mut self.samples {
+        if let (Some(_), Some(samples)) = (plan.every, &mut self.samples) {
             samples.push(sample(run, end));
         }
     }
@@ -811,6 +821,25 @@ fn check(plan: &Plan, model: &Model<'_>) -> Result<Vec<Place>, Wrong> {
             "--record every: more than {MOST_INSTANTS:e} instants of each run, or none"
         ));
     }
+    if plan.every.is_some() && !plan.at_events.is_empty() {
+        return wrong(
+            "--record every and --record event: samples are of one kind, and so are what they are drawn by".into(),
+        );
+    }
+    let known = || plan.events.iter().map(|watch| watch.name.as_str());
+    if let Some(name) = plan
+        .at_events
+        .iter()
+        .find(|name| !known().any(|known| known == *name))
+    {
+        let help = match nearest(name, known()) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("`--event {name}=FORMULA` says what it is"),
+        };
+        return wrong(format!(
+            "--record event={name}: there is no such event; {help}"
+        ));
+    }
     let varied = plan.varied();
     let mut set: Vec<&str> = plan.set.iter().map(|(name, _)| name.as_str()).collect();
     set.extend(plan.inputs.iter().map(|(name, _)| name.as_str()));
@@ -946,9 +975,12 @@ fn columns(
     }
     columns.push(other("steps", Kind::Count));
     columns.push(number("energy residual".into(), "J"));
-    let samples = plan.every.map(|_| {
+    let samples = plan.has_samples().then(|| {
         let mut columns = vec![other("run", Kind::Count), number("t".into(), "s")];
         columns.extend(state(""));
+        if !plan.at_events.is_empty() {
+            columns.push(other("event", Kind::Text));
+        }
         columns
     });
     (columns, samples)

@@ -35,6 +35,43 @@ pub(crate) fn csv_header(rows: &Rows) -> String {
     names.collect::<Vec<_>>().join(",") + "\n"
 }
 
+/// The rows of a file of comma-separated text, which has columns like these; with a line of names, or without one as chunks are.
+///
+/// # Errors
+/// What is wrong with the file.
+pub fn read_csv(path: &Path, like: &Rows, has_names: bool) -> io::Result<Rows> {
+    let wrong = |why: &str| io::Error::other(why.to_owned());
+    let text = std::fs::read_to_string(path)?;
+    let mut cells = csv_cells(&text).map_err(io::Error::other)?.into_iter();
+    if has_names {
+        let names = like.columns.iter().map(|column| &column.name);
+        if !cells.next().unwrap_or_default().iter().eq(names) {
+            return Err(wrong("it has other columns"));
+        }
+    }
+    let mut rows = Rows::new(like.columns.clone());
+    for row in cells {
+        if row.len() != like.columns.len() {
+            return Err(wrong("a row has another number of cells"));
+        }
+        let is_there = |cell: &String| !cell.is_empty();
+        for (values, cell) in rows.values.iter_mut().zip(row) {
+            let number = |cell: &str| cell.parse().map_err(|_| wrong("a cell is no number"));
+            match values {
+                Values::Count(values) => {
+                    values.push(cell.parse().map_err(|_| wrong("a cell is no number"))?);
+                }
+                Values::Number(values) => {
+                    let cell = Some(cell).filter(is_there);
+                    values.push(cell.map(|cell| number(&cell)).transpose()?);
+                }
+                Values::Text(values) => values.push(Some(cell).filter(is_there)),
+            }
+        }
+    }
+    Ok(rows)
+}
+
 /// A line of comma-separated text for each row.
 pub(crate) fn csv_lines(rows: &Rows, to: &mut dyn Write) -> io::Result<()> {
     for row in 0..rows.len() {

@@ -1,0 +1,110 @@
+//! The command `lagrangian`: one command for each question about a machine.
+//!
+//! It is a library beside a program, so that other programs can be it ([`command`]), ask it about a spec that they hold ([`answer`]),
+//! and make its pages of runs of their own ([`report::Report`]).
+//!
+//! Exit status 0 when all is well, 1 when the machine or the run is at fault or a file cannot be written, 2 when the call is,
+//! 130 when the user ended a run, 141 when nobody reads standard output any more.
+
+mod brachistochrone;
+mod call;
+mod check;
+mod collisions;
+mod contacts;
+mod derive;
+mod diagnostics;
+mod evaluate;
+mod exit;
+mod failure;
+mod fmu;
+mod host;
+mod import;
+mod inputs;
+mod interrupt;
+mod library;
+mod linearize;
+mod map;
+mod modes;
+mod numbers;
+mod output;
+mod plot;
+mod progress;
+mod reading;
+mod recording;
+pub mod report;
+mod simulate;
+mod sweep;
+mod table;
+
+use std::ffi::OsString;
+use std::io;
+
+use clap::Parser;
+
+use call::{Call, Command};
+use failure::Failure;
+
+pub use host::{Answer, answer};
+
+/// 128 and the number of SIGPIPE, by which other commands end that write to a closed pipe.
+const CLOSED_PIPE: u8 = 141;
+
+/// Is the command `lagrangian`, called with these arguments, of which the first is its name: it writes to the standard streams of the
+/// process and takes its Ctrl-C. The exit status.
+pub fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let status = match Call::try_parse_from(arguments) {
+        Ok(call) => {
+            // The result of `evaluate` is JSON in any case.
+            let json = call.command.json() || matches!(call.command, Command::Evaluate(_));
+            progress::begin(json);
+            status(&call, json)
+        }
+        Err(message) => {
+            let printed = message.print();
+            // Help and version are results.
+            if !message.use_stderr() {
+                output::remember_result(printed);
+            }
+            message.exit_code() as u8 // 2, or 0
+        }
+    };
+    progress::end();
+    match output::finish() {
+        Ok(()) => status,
+        // A reader that closes the pipe (`| head`) has seen enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => match status {
+            0 => CLOSED_PIPE,
+            status => status,
+        },
+        Err(error) => {
+            output::complain(format_args!(
+                "error: cannot write to standard output: {error}"
+            ));
+            status.max(1)
+        }
+    }
+}
+
+/// Does what is asked; the exit status.
+fn status(call: &Call, json: bool) -> u8 {
+    progress::now("deriving the equations");
+    let result = call.check().map_err(Failure::Call);
+    let result = result.and_then(|()| match &call.command {
+        Command::Check(call) => check::run(call),
+        Command::Derive(call) => derive::run(call),
+        Command::Library(call) => library::run(call),
+        Command::Fmu(call) => fmu::run(call),
+        Command::Evaluate(call) => evaluate::run(call),
+        Command::Simulate(call) => simulate::run(call),
+        Command::Sweep(call) => sweep::run(call),
+        Command::Map(call) => map::run(call),
+        Command::Modes(call) => modes::run(call),
+        Command::Linearize(call) => linearize::run(call),
+        Command::Brachistochrone(call) => brachistochrone::run(call),
+        Command::Import(call) => import::run(call),
+    });
+    match result {
+        Ok(()) => 0,
+        Err(failure) => failure.report(json),
+    }
+}

@@ -1,0 +1,293 @@
+"""What the command ``lagrangian`` answers about a machine, in this process, and the command itself."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+
+from . import _batch, _native
+from ._named import Named, State
+from .errors import Diagnostic, LagrangianError, unknown
+
+
+def main() -> int:
+    """The command ``lagrangian``, with the arguments of this process; its exit status."""
+    return int(_native.command(sys.argv[1:]))
+
+
+def answer(machine: Any, command: str, options: Sequence[str], wrong: Sequence[int] = (1,)) -> Dict[str, Any]:
+    """The JSON document that a command prints about a machine.
+
+    An exit status among ``wrong`` is raised; a call that is wrong always is, as ValueError.
+    """
+    status, out, err = _native.answer(machine._program, command, ["--json", *options])
+    if status == 2 or (status in wrong and status != 0):
+        try:
+            message = json.loads(out).get("error", "")
+        except (ValueError, AttributeError):
+            message = ""
+        message = message or err.strip()
+        raise ValueError(message) if status == 2 else LagrangianError(message)
+    document: Dict[str, Any] = json.loads(out)
+    return document
+
+
+def settings(machine: Any) -> List[str]:
+    """Options that set the parameters and inputs of a machine."""
+    values = {**machine.parameters, **machine.inputs}
+    return [f"--set={name}={value!r}" for name, value in values.items() if not math.isnan(value)]
+
+
+class Published(NamedTuple):
+    """A printed formula, held against the derived one."""
+
+    block: str
+    """What the spec calls the print."""
+    item: str
+    """The formula."""
+    agrees: bool
+    add: List[str]
+    """Terms that the print lacks."""
+    drop: List[str]
+    """Terms that it has too much."""
+
+
+class Check:
+    """What ``lagrangian check`` finds in a spec."""
+
+    coordinates: int
+    constraints: int
+    independent: Optional[int]
+    """How many constraints are independent of each other; None where that is not known."""
+    degrees_of_freedom: Optional[int]
+    published: List[Published]
+    """Printed formulas that the spec holds against the derived ones."""
+    diagnostics: List[Diagnostic]
+    """Warnings, and contradictions of constraints."""
+
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        freedom = document["freedom"] or {}
+        self.coordinates = int(freedom.get("coordinates", 0))
+        self.constraints = int(freedom.get("constraints", 0))
+        self.independent = freedom.get("independent")
+        self.degrees_of_freedom = freedom.get("degrees_of_freedom")
+        fields = Diagnostic._fields
+        self.diagnostics = [Diagnostic(*(told[name] for name in fields)) for told in document["diagnostics"]]
+        self.published = [Published(*(told[name] for name in Published._fields)) for told in document["published"]]
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing is to be said: no warning, no printed formula that differs."""
+        return not self.diagnostics and all(formula.agrees for formula in self.published)
+
+    def __repr__(self) -> str:
+        wrong = sum(not formula.agrees for formula in self.published)
+        freedom = "unknown" if self.degrees_of_freedom is None else self.degrees_of_freedom
+        return (
+            f"<Check: {self.coordinates} coordinates, {self.constraints} constraints, degrees of freedom {freedom}, "
+            f"{len(self.diagnostics)} messages, {wrong} of {len(self.published)} printed formulas differ>"
+        )
+
+
+def check(self: Any) -> Check:
+    """Degrees of freedom, warnings, and printed equations against the derived ones, as ``lagrangian check``."""
+    return Check(answer(self, "check", [], wrong=()))
+
+
+class Brachistochrone:
+    """The fastest motion from rest at one place to another, under control forces that do no work: k moments of it."""
+
+    time: float
+    """How long it takes, in s."""
+    is_motion: bool
+    """Whether the machine moves so: guides only press, and it arrives when it is simulated under the control forces."""
+    t: np.ndarray
+    """(k,), in s."""
+    q: Named
+    """(k, n)"""
+    v: Named
+    """(k, n)"""
+    control: Named
+    """Generalized control forces, (k, n)."""
+    reactions: Mapping[str, np.ndarray]
+    """Normal reactions of guides by name, (k,), in N."""
+    parameters: Mapping[str, Any]
+    """Constants of the motion, as ``lagrangian brachistochrone --json`` names them."""
+    method: str
+    """``"closed form"`` or ``"direct"``."""
+    warnings: List[str]
+
+    def __init__(self, machine: Any, options: List[str], document: Mapping[str, Any]) -> None:
+        names = tuple(machine.coordinates)
+        path = document["path"]
+
+        def named(what: str) -> Named:
+            return Named([[moment[what][name] for name in names] for moment in path], names)
+
+        self.time = float(document["time"])
+        self.is_motion = bool(document["is_motion"])
+        self.t = np.array([moment["t"] for moment in path])
+        self.t.flags.writeable = False
+        self.q, self.v, self.control = named("q"), named("v"), named("control")
+        guides = path[0]["reactions"]
+        self.reactions = {name: np.array([moment["reactions"][name] for moment in path]) for name in guides}
+        self.parameters = document["parameters"]
+        self.method = document["method"]
+        self.warnings = list(document["warnings"])
+        self._machine, self._options = machine, options
+
+    @property
+    def end(self) -> State:
+        """Where it arrives, and how fast."""
+        return State(float(self.t[-1]), self.q[-1], self.v[-1])
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes a table ``.csv`` or ``.parquet``, a drawing ``.svg``, or a page ``.html``."""
+        path = os.fspath(path)
+        kinds = {".csv": "--out", ".parquet": "--out", ".svg": "--plot", ".html": "--report"}
+        ending = os.path.splitext(path)[1].lower()
+        if ending not in kinds:
+            raise ValueError(f"{path}: the ending must be one of {', '.join(kinds)}")
+        answer(self._machine, "brachistochrone", [*self._options, f"{kinds[ending]}={path}"], wrong=())
+
+    def __repr__(self) -> str:
+        claim = "" if self.is_motion else ", but the machine does not move so"
+        return f"<Brachistochrone of {self._machine.name}: {self.time:.6g} s, {self.method}{claim}>"
+
+
+def _places(machine: Any, option: str, given: Any) -> List[str]:
+    """Options that say a place by coordinates; one that is not said stays as the spec has it."""
+    names = machine.coordinates
+    if given is None:
+        return []
+    if isinstance(given, State):
+        given = given.q
+    if isinstance(given, Mapping):
+        for name in given:
+            if not _batch.of_name(name, names):
+                raise unknown("coordinate", name, names)
+        return [f"{option}={name}={float(x)!r}" for name, x in given.items()]
+    values = _batch.number_array(given, option.strip("-"))
+    if values.shape != (len(names),):
+        raise ValueError(f"{option.strip('-')} has shape {values.shape}, wanted ({len(names)},)")
+    return [f"{option}={name}={float(x)!r}" for name, x in zip(names, values)]
+
+
+def brachistochrone(
+    self: Any,
+    to: Any = None,
+    *,
+    start: Any = None,
+    natural: bool = False,
+    guess: Optional[Union[str, "os.PathLike[str]"]] = None,
+) -> Brachistochrone:
+    """The fastest motion from rest at ``start`` to rest or not at ``to``, as ``lagrangian brachistochrone``.
+
+    Both are mappings from coordinates to numbers, arrays (n,), or what the spec says; with ``natural`` they are in normal
+    coordinates. ``guess`` is a table of a way to look near, where there is no closed form.
+    """
+    options = [*settings(self), *_places(self, "--from", start), *_places(self, "--to", to)]
+    if natural:
+        options.append("--natural")
+    if guess is not None:
+        options.append(f"--guess={os.fspath(guess)}")
+    return Brachistochrone(self, options, answer(self, "brachistochrone", options, wrong=(1,)))
+
+
+class Campbell:
+    """Eigenvalues along values of a parameter or of a rate, each mode followed from value to value."""
+
+    name: str
+    """What is varied."""
+    unit: str
+    values: np.ndarray
+    """(k,)"""
+    eigenvalues: np.ndarray
+    """Complex (k, modes), in 1/s, that above the axis of each conjugate pair; NaN where a mode is not there."""
+
+    def __init__(self, values: np.ndarray, document: Mapping[str, Any]) -> None:
+        self.name, self.unit = document["along"]["name"], document["along"]["unit"]
+        rows = document["rows"]
+        count = max((row["mode"] for row in rows), default=0)
+        self.values = values
+        self.eigenvalues = np.full((len(values), count), complex(math.nan, math.nan))
+        for row in rows:
+            # The command's values are those of the range, but for a rounding.
+            place = int(np.argmin(np.abs(values - row["value"])))
+            self.eigenvalues[place, row["mode"] - 1] = complex(row["re"], row["im"])
+        self.values.flags.writeable = False
+        self.eigenvalues.flags.writeable = False
+
+    @property
+    def frequencies(self) -> np.ndarray:
+        """Hz, (k, modes)."""
+        return np.asarray(self.eigenvalues.imag / (2 * np.pi))
+
+    @property
+    def damping(self) -> np.ndarray:
+        """−Re λ/|λ|, (k, modes); NaN where nothing oscillates."""
+        size = np.abs(self.eigenvalues)
+        found = np.full(size.shape, math.nan)
+        np.divide(-self.eigenvalues.real, size, out=found, where=(size > 0) & (self.eigenvalues.imag != 0))
+        return found
+
+    def plot(self) -> Any:
+        """A matplotlib figure of the frequencies and of Re λ over the values."""
+        import matplotlib.pyplot as plt
+
+        figure, axes = plt.subplots(2, 1, sharex=True)
+        axes[0].plot(self.values, self.frequencies, ".-")
+        axes[0].set_ylabel("frequency [Hz]")
+        axes[1].plot(self.values, self.eigenvalues.real, ".-")
+        axes[1].axhline(0.0, color="black", linewidth=0.5)
+        axes[1].set_ylabel("Re λ [1/s]")
+        axes[1].set_xlabel(self.name if self.unit == "1" else f"{self.name} [{self.unit}]")
+        return figure
+
+    def __repr__(self) -> str:
+        k, modes = self.eigenvalues.shape
+        return f"<Campbell: {modes} modes at {k} values of {self.name}>"
+
+
+def campbell(
+    self: Any,
+    parameter: str,
+    values: Any,
+    *,
+    start: Any = None,
+    rate: Any = None,
+    steady: Any = None,
+) -> Campbell:
+    """Eigenvalues about the equilibrium, or the steady motion, that is followed along equally spaced values of a parameter, of an
+    input, or of the rate of a coordinate that moves steadily: ``(a, b, k)`` or an array (k,). ``steady`` as for ``linearize``.
+    """
+    if isinstance(values, tuple) and len(values) == 3 and isinstance(values[2], int):
+        values = np.linspace(*values)
+    values = np.array(_batch.number_array(values, "values")).ravel()
+    even = len(values) >= 2 and np.ptp(np.diff(values)) <= 1e-9 * abs(values[-1] - values[0])
+    if not even or values[0] == values[-1]:
+        raise ValueError("values of a Campbell diagram are two or more and equally spaced: (a, b, k)")
+    options = settings(self)
+    varied = {name for name in (parameter,) if name in {**self.parameters, **self.inputs}}
+    options = [option for option in options if option.split("=")[1] not in varied]
+    options += [*_places(self, "--start", start), *_places(self, "--rate", rate)]
+    if isinstance(steady, str):
+        steady = [steady]
+    moves = steady if isinstance(steady, Mapping) else {name: None for name in steady or ()}
+    for name, value in moves.items():
+        if value is None:
+            options.append(f"--steady={name}")
+        else:
+            options.append(f"--steady={name}={value if isinstance(value, str) else repr(float(value))}")
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        # The command makes the table in any case.
+        options.append(f"--out={os.path.join(folder, 'along.csv')}")
+        options.append(f"--along={parameter}={float(values[0])!r}..{float(values[-1])!r}:{len(values)}")
+        return Campbell(values, answer(self, "linearize", options))

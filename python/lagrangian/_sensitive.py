@@ -1,0 +1,130 @@
+"""How a motion changes with its start, with parameters and with inputs."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from typing import Any, List, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _batch, _native
+from ._named import Named
+from .errors import unknown
+
+
+class Sensitivities:
+    """A motion at k instants, with its derivatives by s variables; exact derivatives of the equations, not differences."""
+
+    t: np.ndarray
+    """(k,), in s."""
+    q: Named
+    """(k, n)"""
+    v: Named
+    """(k, n)"""
+    by: Tuple[str, ...]
+    """The variables: parameters, inputs, ``start(x)``, ``rate(x)``."""
+    sensitivities: np.ndarray
+    """(k, 2n, s): of coordinates, then of rates, by each variable, in the units of these by its unit."""
+
+    def __init__(self, machine: Any, by: Tuple[str, ...], t: np.ndarray, arrays: Sequence[np.ndarray]) -> None:
+        names = machine.coordinates
+        k, n, s = len(t), len(names), len(by)
+        q, v, by_q, by_v = arrays
+        self.t, self.by = t, by
+        self.q, self.v = Named(q.reshape(k, n), names), Named(v.reshape(k, n), names)
+        # The native half has all coordinates for each variable.
+        both = np.concatenate([by_q.reshape(k, s, n), by_v.reshape(k, s, n)], axis=2)
+        self.sensitivities = np.ascontiguousarray(np.swapaxes(both, 1, 2))
+        for array in (self.t, self.sensitivities):
+            array.flags.writeable = False
+        self._rows = (*names, *(f"der({name})" for name in names))
+
+    def sensitivity(self, of: str, by: str) -> np.ndarray:
+        """The derivative of a coordinate or a rate ``der(x)`` by a variable, (k,)."""
+        if of not in self._rows:
+            raise unknown("coordinate or rate", of, self._rows)
+        if by not in self.by:
+            raise unknown("variable", by, self.by)
+        found: np.ndarray = self.sensitivities[:, self._rows.index(of), self.by.index(by)]
+        return found
+
+    def __repr__(self) -> str:
+        return f"<Sensitivities of {', '.join(self.q.names)} by {', '.join(self.by)} at {len(self.t)} instants>"
+
+
+def sensitivities(
+    self: Any,
+    until: float,
+    by: Union[str, Sequence[str]],
+    *,
+    start: Any = None,
+    rate: Any = None,
+    t0: float = 0.0,
+    tolerance: float = 1e-9,
+    method: str = "dop853",
+    every: Optional[float] = None,
+    at: Optional[Sequence[float]] = None,
+    max_steps: int = 10_000_000,
+) -> Sensitivities:
+    """The motion from t0 until a time, with its derivatives by parameters, inputs, and numbers of the start.
+
+    ``by``: names of parameters and inputs, ``start(x)``, ``rate(x)``. Everything else is as :meth:`simulate` has it; inputs are
+    held. Numbers of the start do not follow from parameters here: where the spec computes one from a parameter, that part is not in
+    the derivative by it. A machine with constraints is a ``ValueError``.
+    """
+    from ._linear import _start
+
+    by = (by,) if isinstance(by, str) else tuple(by)
+    numbers = (*self.parameters, *self.inputs)
+    kinds: List[Tuple[str, str]] = []
+    varied: List[str] = []
+    for name in by:
+        kind, inner = "set", name
+        for place in ("start", "rate"):
+            if name.startswith(place + "(") and name.endswith(")"):
+                kind, inner = place, name[len(place) + 1 : -1].strip()
+        known = numbers if kind == "set" else self.coordinates
+        if inner not in known:
+            raise unknown("parameter or input" if kind == "set" else "coordinate", inner, known)
+        kinds.append((kind, inner))
+        if kind == "set":
+            varied.append(inner)
+    if not by or len(set(by)) < len(by):
+        raise ValueError("by names at least one variable, and each once")
+    machine = type(self)._with(_native.rebuild(_variant(self, varied)), *self._values)
+    given = _start(self, start, rate, t0)
+    until = float(until)
+    if at is not None:
+        if every is not None:
+            raise ValueError("instants are kept by `every` or by `at`, not by both")
+        instants = np.array(_batch.number_array(at, "at")).ravel()
+    else:
+        length = until - given[0]
+        count = 1000 if every is None else math.floor(abs(length) / every * (1 + 1e-12))
+        step = length / 1000 if every is None else math.copysign(every, length)
+        instants = given[0] + step * np.arange(count + 1)
+        if abs(until - instants[-1]) > 1e-12 * abs(length):
+            instants = np.append(instants, until)
+        instants[-1] = until
+    low, high = sorted((given[0], until))
+    if not ((instants >= low) & (instants <= high)).all():
+        raise ValueError(f"at is outside of the run, from {given[0]} s to {until} s")
+    arrays = _native.sensitivities(machine, kinds, given, instants.tolist(), until, float(tolerance), method, int(max_steps))
+    return Sensitivities(self, by, instants, arrays)
+
+
+def _variant(machine: Any, names: Sequence[str]) -> str:
+    """The same machine, with derivatives of its accelerations."""
+    spec = json.loads(machine._program.state())
+    own = spec["name"]
+    name = os.path.join(os.path.dirname(own), "differentiated.machine")
+    path = os.path.basename(own)
+    quoted = path.replace("\\", "\\\\").replace('"', '\\"')
+    # A family is named as a whole.
+    families = dict.fromkeys(name.split("[")[0] for name in names)
+    asked = ", ".join(["coordinates", "rates", *families])
+    text = f'machine Differentiated extends "{quoted}" {{ derivatives {{ {asked} }} }}'
+    base = {"path": path, "from": name, "name": own, "text": spec["text"]}
+    return json.dumps({**spec, "name": name, "text": text, "files": [base, *spec["files"]]})

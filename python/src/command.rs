@@ -1,0 +1,62 @@
+//! The command `lagrangian`, in this process.
+
+use std::ffi::OsString;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::RecvTimeoutError;
+use std::thread;
+use std::time::Duration;
+
+use lagrangian_cli::Answer;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+use crate::program::{Program, STACK};
+
+/// How often an answer looks whether it is to be interrupted.
+const BETWEEN: Duration = Duration::from_millis(50);
+
+/// Is the command, with these arguments behind its name, on the standard streams of this process; the exit status.
+#[pyfunction]
+pub fn command(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+    let name = OsString::from("lagrangian");
+    py.detach(|| lagrangian_cli::command(std::iter::once(name).chain(arguments)))
+}
+
+/// What a command answers about a machine that is in memory: the exit status, what it prints, and what it complains of.
+#[pyfunction]
+pub fn answer(
+    py: Python<'_>,
+    program: &Program,
+    command: &str,
+    options: Vec<String>,
+) -> PyResult<(u8, String, String)> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let answered = py.detach(|| {
+        thread::scope(|scope| {
+            let (tell, told) = std::sync::mpsc::channel();
+            let (spec, stop, options) = (&program.derived.text, &stop, &options);
+            let work = move || {
+                let _ = tell.send(lagrangian_cli::answer(spec, command, options, stop));
+            };
+            let thread = thread::Builder::new().stack_size(STACK);
+            thread.spawn_scoped(scope, work).map_err(|error| {
+                PyRuntimeError::new_err(format!("no thread to work in: {error}"))
+            })?;
+            loop {
+                match told.recv_timeout(BETWEEN) {
+                    Ok(answer) => return Ok(Some(answer)),
+                    // The thread has panicked, which its scope passes on.
+                    Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                    Err(RecvTimeoutError::Timeout) => {}
+                }
+                if let Err(interrupt) = Python::attach(|py| py.check_signals()) {
+                    stop.store(true, Ordering::Relaxed);
+                    return Err(interrupt);
+                }
+            }
+        })
+    });
+    let Answer { status, out, err } = answered?.unwrap_or_default();
+    Ok((status, out, err))
+}

@@ -1,0 +1,142 @@
+"""What the command finds, and the command itself."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import lagrangian as lg
+from conftest import OSCILLATOR, ROOT
+
+
+def lagrangian(*arguments, **settings):
+    """The command of the package."""
+    call = [sys.executable, "-m", "lagrangian", *map(str, arguments)]
+    return subprocess.run(call, capture_output=True, text=True, cwd=ROOT, **settings)
+
+
+def test_the_package_is_the_command():
+    said = lagrangian("simulate", "machines/simple_pendulum.machine", "--until", "1", "--json")
+    assert said.returncode == 0, said.stderr
+    document = json.loads(said.stdout)
+    run = lg.load(ROOT / "machines" / "simple_pendulum.machine").simulate(1)
+    assert document["q"] == {"theta": run.end.q["theta"]}
+    said = lagrangian("simulate", "machines/simple_pendulum.machin", "--until", "1")
+    assert said.returncode == 2 and "cannot read" in said.stderr
+
+
+def test_degrees_of_freedom_and_printed_formulas(machines):
+    found = lg.load(machines / "four_bar.machine").check()
+    # Three bars with three numbers each, or angles with two equations: one degree of freedom in any case.
+    assert found.degrees_of_freedom == 1 and found.coordinates - found.independent == 1
+    plain = lg.loads(OSCILLATOR).check()
+    assert plain.ok and plain.degrees_of_freedom == plain.coordinates == 1
+    text = OSCILLATOR.replace("gravity none;", 'gravity none; published "a print" { kinetic_energy = m*der(x)^2 }')
+    printed = lg.loads(text).check()
+    (formula,) = printed.published
+    # Half of it is too much.
+    assert (formula.block, formula.agrees) == ("a print", False) and not printed.ok
+    assert formula.drop and formula.add
+
+
+BEAD = """
+machine Bead in plane {
+    parameters { g: m/s^2 = 9.81 }
+    coordinates { x: m, y: m }
+    bodies { bead { mass: 1, at: (x, -y) } }
+    gravity (0, -g);
+}
+"""
+
+
+def test_the_fastest_way_is_a_cycloid():
+    bead = lg.loads(BEAD)
+    # From the cusp of a cycloid with radius r to its lowest point: pi r along, 2 r down, in pi sqrt(r/g).
+    r = 0.5
+    found = bead.brachistochrone({"x": math.pi * r, "y": 2 * r})
+    assert found.is_motion
+    assert found.time == pytest.approx(math.pi * math.sqrt(r / 9.81), rel=1e-9)
+    # On the way x = r (phi - sin phi), y = r (1 - cos phi), with phi = t sqrt(g/r).
+    phi = found.t * math.sqrt(9.81 / r)
+    np.testing.assert_allclose(found.q["x"], r * (phi - np.sin(phi)), atol=1e-9)
+    np.testing.assert_allclose(found.q["y"], r * (1 - np.cos(phi)), atol=1e-9)
+    with pytest.raises(lg.UnknownName):
+        bead.brachistochrone({"z": 1.0})
+    with pytest.raises(ValueError):
+        bead.brachistochrone()
+
+
+def test_a_fastest_way_is_saved(tmp_path):
+    found = lg.loads(BEAD).brachistochrone({"x": 1.0, "y": 1.0})
+    for ending in ("csv", "svg", "html"):
+        found.save(tmp_path / f"way.{ending}")
+        assert (tmp_path / f"way.{ending}").stat().st_size > 1000
+    with pytest.raises(ValueError, match="ending"):
+        found.save(tmp_path / "way.txt")
+
+
+ROTOR = """
+/// A whirling mass on a spring in a frame that turns: frequencies split.
+machine Whirl in plane {
+    parameters { m: kg = 1, k: N/m = 100, omega: rad/s = 1 }
+    coordinates { x: m, y: m }
+    frames { disc = ground.turn(omega*t) }
+    bodies { mass { mass: m, at: disc.point(x, y) } }
+    springs { a { stiffness: k, stretch: x }, b { stiffness: k, stretch: y } }
+    gravity none;
+}
+"""
+
+
+def test_a_campbell_diagram_follows_modes():
+    rotor = lg.loads(ROTOR)
+    found = rotor.campbell("omega", (1.0, 5.0, 9))
+    # In the turning frame: w = 10 ± omega.
+    expected = np.stack([10 - found.values, 10 + found.values], axis=1) / (2 * np.pi)
+    np.testing.assert_allclose(np.sort(found.frequencies, axis=1), expected, rtol=1e-9)
+    # A mode goes on as itself: each is a straight line.
+    assert np.abs(np.diff(found.frequencies, 2, axis=0)).max() < 1e-9
+    with pytest.raises(ValueError, match="equally spaced"):
+        rotor.campbell("omega", [1.0, 2.0, 4.0])
+    with pytest.raises(ValueError, match="omga"):
+        rotor.campbell("omga", (1.0, 5.0, 9))
+
+
+def test_the_page_of_a_run(double, tmp_path):
+    run = double.simulate(1)
+    page = run.report()
+    assert page.html.startswith("<!doctype html>") and "DoublePendulum" in page.html
+    shown = page._repr_html_()
+    # In a frame that reaches nothing around it.
+    assert 'sandbox="allow-scripts allow-downloads"' in shown and "allow-same-origin" not in shown
+    page.save(tmp_path / "run.html")
+    assert (tmp_path / "run.html").read_text() == page.html
+    run.save(tmp_path / "saved.html")
+    assert (tmp_path / "saved.html").read_text() == page.html
+    with pytest.raises(ValueError, match="dense"):
+        double.simulate(1, dense=False).report()
+
+
+def test_the_page_says_what_drives_the_machine(oscillator):
+    run = oscillator.simulate(1, inputs={"force": "1*N*sin(2*rad/s*t)"})
+    assert "1*N*sin(2*rad/s*t)" in run.report().html
+
+    def push(t, q, v):
+        return math.sin(t)
+
+    assert "push(t, q, v)" in oscillator.simulate(1, inputs={"force": push}).report().html
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_the_package_needs_no_file_of_the_spec(tmp_path):
+    base = tmp_path / "base.machine"
+    base.write_text(OSCILLATOR)
+    text = 'machine Heavier extends "base.machine" { parameters { m: kg = 5 } }'
+    machine = lg.loads(text, name="heavier.machine", folder=tmp_path)
+    base.unlink()
+    assert machine.check().coordinates == 1
+    assert machine.simulate(0.5).report().html

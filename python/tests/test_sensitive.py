@@ -1,0 +1,54 @@
+"""Derivatives of motions, against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lagrangian as lg
+
+
+def test_derivatives_of_an_oscillation_are_those_of_its_closed_form(oscillator):
+    found = oscillator.sensitivities(5, ["k", "m", "start(x)", "rate(x)", "force"], tolerance=1e-12, every=0.1)
+    t, k, m = found.t, 8.0, 2.0
+    w = math.sqrt(k / m)
+    # x = x0 cos wt + v0/w sin wt + F/k (1 - cos wt), with x0 = 1, v0 = 0, F = 0.
+    by_w = -t * np.sin(w * t)
+    expected = {
+        "k": by_w / (2 * m * w),
+        "m": -by_w * w / (2 * m),
+        "start(x)": np.cos(w * t),
+        "rate(x)": np.sin(w * t) / w,
+        "force": (1 - np.cos(w * t)) / k,
+    }
+    # A hundred steps, each to 1e-12 of numbers of up to 5, and as much again by the growth of the derivatives with t.
+    for name, values in expected.items():
+        np.testing.assert_allclose(found.sensitivity("x", name), values, atol=1e-9)
+    assert found.sensitivities.shape == (51, 2, 5)
+    np.testing.assert_allclose(found.sensitivity("der(x)", "start(x)"), -w * np.sin(w * t), atol=1e-9)
+    np.testing.assert_allclose(found.q["x"], np.cos(w * t), atol=1e-9)
+
+
+def test_derivatives_are_those_of_neighbours(double):
+    found = double.sensitivities(2, ["l2", "start(theta1)"], start={"theta1": 1.0}, tolerance=1e-12, at=[1.0, 2.0])
+    h = 1e-5
+    for name, changed in {
+        "l2": lambda x: double.with_parameters(l2=1 + x).simulate(2, start={"theta1": 1.0}, tolerance=1e-13),
+        "start(theta1)": lambda x: double.simulate(2, start={"theta1": 1 + x}, tolerance=1e-13),
+    }.items():
+        difference = (changed(h).end.y - changed(-h).end.y) / (2 * h)
+        # Third derivatives of some 1e3 times h²/6, and runs to 1e-12 over h.
+        np.testing.assert_allclose(found.sensitivities[-1, :, found.by.index(name)], difference, atol=1e-5)
+
+
+def test_what_has_no_derivatives_is_refused(double, machines):
+    with pytest.raises(lg.UnknownName, match="did you mean `l1`"):
+        double.sensitivities(1, "l11")
+    with pytest.raises(lg.UnknownName):
+        double.sensitivities(1, "start(l1)")
+    with pytest.raises(ValueError, match="each once"):
+        double.sensitivities(1, ["l1", "l1"])
+    with pytest.raises(ValueError, match="outside of the run"):
+        double.sensitivities(1, "l1", at=[2.0])
+    with pytest.raises(ValueError, match="constraint"):
+        lg.load(machines / "particle_pendulum.machine").sensitivities(1, "l")
