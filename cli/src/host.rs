@@ -167,7 +167,7 @@ mod tests {
         let said = answer(&spec, "check", &["--json".into()], &Default::default());
         assert_eq!(said.status, 1);
         assert!(
-            said.out.contains("unknown-name") && said.err.contains("no parameter"),
+            said.out.contains("unknown-name") && said.out.contains("nowhere/ball.machine"),
             "{said:?}"
         );
         let said = answer(&ball(), "check", &["--jsn".into()], &Default::default());

@@ -122,8 +122,8 @@ def _variant(machine: Any, names: Sequence[str]) -> str:
     name = os.path.join(os.path.dirname(own), "differentiated.machine")
     path = os.path.basename(own)
     quoted = path.replace("\\", "\\\\").replace('"', '\\"')
-    # A family is named as a whole.
-    families = dict.fromkeys(name.split("[")[0] for name in names)
+    # A family is named as a whole, and so are the inputs.
+    families = dict.fromkeys("inputs" if name in machine.inputs else name.split("[")[0] for name in names)
     asked = ", ".join(["coordinates", "rates", *families])
     text = f'machine Differentiated extends "{quoted}" {{ derivatives {{ {asked} }} }}'
     base = {"path": path, "from": name, "name": own, "text": spec["text"]}

@@ -403,8 +403,7 @@ def sweep(
         kept = _Place(out).kept(text, fresh)
         _keep_all(kept, runs, engine, threads, progress)
         text = kept.plan
-        rows, samples = kept.end()
-        made = [(rows, samples)]
+        made = [kept.end()]
     else:
         made = _run_all(text, chunks, runs, engine, threads, progress)
     keywords = {
@@ -423,8 +422,8 @@ def sweep(
         },
     }
     rows = _joined([rows for rows, _ in made])
-    kept = [own for _, own in made if own is not None]
-    return Sweep(machine, text, rows, _joined(kept) if kept else None, keywords)
+    parts = [own for _, own in made if own is not None]
+    return Sweep(machine, text, rows, _joined(parts) if parts else None, keywords)
 
 
 class _Place:

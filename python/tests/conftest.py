@@ -1,8 +1,12 @@
+import os
 from pathlib import Path
 
 import pytest
 
 import lagrangian as lg
+
+# Ray gives up on a machine that is busy with other tests after half a minute.
+os.environ.setdefault("RAY_raylet_start_wait_time_s", "180")
 
 ROOT = Path(__file__).resolve().parents[2]
 

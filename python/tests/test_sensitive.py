@@ -51,4 +51,4 @@ def test_what_has_no_derivatives_is_refused(double, machines):
     with pytest.raises(ValueError, match="outside of the run"):
         double.sensitivities(1, "l1", at=[2.0])
     with pytest.raises(ValueError, match="constraint"):
-        lg.load(machines / "particle_pendulum.machine").sensitivities(1, "l")
+        lg.load(machines / "particle_pendulum.machine").sensitivities(1, "g")

@@ -15,6 +15,7 @@ mod linearize;
 mod map;
 mod modes;
 mod report;
+mod scripts;
 mod signals;
 #[path = "../support/mod.rs"]
 mod support;

@@ -91,3 +91,158 @@ fn what_cannot_be_drawn_is_said() {
         "{error}"
     );
 }
+
+#[test]
+fn many_cells_are_one_image() {
+    let side = 150;
+    let mut text = "run,a,b,status,error,product\n".to_owned();
+    for run in 0..side * side {
+        let (a, b) = (run / side, run % side);
+        text += &format!("{run},{a},{b},ended,,{}\n", a * b);
+    }
+    let table = Scratch::new("rows.csv", &text);
+    let (status, svg, error) = map(&table, &["--of", "product"]);
+    assert_eq!(status, 0, "{error}");
+    assert_eq!(svg.matches("<image ").count(), 1);
+    assert!(svg.contains("href=\"data:image/png;base64,iVBOR"));
+    // The scale, and the sheet.
+    assert_eq!(svg.matches("<rect").count(), 64 + 1);
+    assert!(svg.trim_end().ends_with("</svg>"));
+}
+
+/// A mass on a spring of 4 N/m that a force F cos(w t) drives.
+const DRIVEN: &str = "machine Driven in plane {
+    parameters { F: N = 1, w: rad/s = 3 }
+    coordinates { x: m = 1 }
+    bodies { mass { mass: 1, at: (x, 0) } }
+    springs { spring { stiffness: 4, stretch: x } }
+    forces { drive { on: x, value: F*cos(w*t) } }
+    gravity none;
+}";
+
+#[test]
+fn samples_at_periods_make_a_diagram() {
+    let spec = Scratch::new("driven.machine", DRIVEN);
+    let rows = spec.0.with_file_name("rows.csv");
+    let rows = rows.to_str().expect("text");
+    let output = lagrangian(&[
+        "sweep",
+        spec.path(),
+        "--vary",
+        "w=3..5:3",
+        "--until",
+        "20",
+        "--after",
+        "4",
+        "--tolerance",
+        "1e-11",
+        "--event",
+        "period=sin(w*t/2)",
+        "--record",
+        "event=period",
+        "--out",
+        rows,
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let samples = spec.0.with_file_name("rows.samples.csv");
+    let text = std::fs::read_to_string(&samples).expect("samples");
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("run,t,x,der(x),event"));
+    let mut expected = Vec::new();
+    for (run, w) in [3.0_f64, 4.0, 5.0].into_iter().enumerate() {
+        let period = std::f64::consts::TAU / w;
+        let times = (1..)
+            .map(|k| f64::from(k) * period)
+            .take_while(|t| *t < 20.0);
+        expected.extend(times.filter(|t| *t >= 4.0).map(|t| (run, w, t)));
+    }
+    let found: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(found.len(), expected.len());
+    for (cells, (run, w, t)) in found.iter().zip(expected) {
+        let number = |k: usize| cells[k].parse::<f64>().expect("a number");
+        assert_eq!((cells[0], cells[4]), (run.to_string().as_str(), "period"));
+        // x = (1 - c) cos 2t + c cos wt with c = 1/(4 - w²), and where w is 4 too.
+        let c = 1.0 / (4.0 - w * w);
+        let x = (1.0 - c) * (2.0 * t).cos() + c * (w * t).cos();
+        // Some hundred steps, each to 1e-11.
+        assert!(
+            (number(1) - t).abs() < 1e-9 && (number(2) - x).abs() < 1e-8,
+            "{cells:?}"
+        );
+    }
+
+    // A dot for each of them, at the frequency of its run; a page with the same.
+    let drawing = spec.0.with_file_name("map.svg");
+    let page = spec.0.with_file_name("map.html");
+    let output = lagrangian(&[
+        "map",
+        rows,
+        "--samples",
+        "--of",
+        "x",
+        "--plot",
+        drawing.to_str().expect("text"),
+        "--report",
+        page.to_str().expect("text"),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let svg = std::fs::read_to_string(&drawing).expect("a drawing");
+    assert_eq!(svg.matches("<circle").count(), found.len());
+    assert!(
+        !svg.contains("<polyline") || svg.matches("<polyline").count() < 40,
+        "no curve joins dots"
+    );
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("\"kind\":\"dots\"") && html.contains("rows.csv"));
+
+    let output = lagrangian(&[
+        "map",
+        rows,
+        "--samples",
+        "--of",
+        "y",
+        "--plot",
+        drawing.to_str().expect("text"),
+    ]);
+    let error = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(
+        output.status.code() == Some(2) && error.contains("no column named `y`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_page_holds_the_values_of_the_table() {
+    let table = table();
+    let page = table.0.with_file_name("map.html");
+    let output = lagrangian(&[
+        "map",
+        table.path(),
+        "--of",
+        "product",
+        "--report",
+        page.to_str().expect("text"),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let html = std::fs::read_to_string(&page).expect("a page");
+    assert!(html.contains("\"kind\":\"heat\"") && html.contains("\"names\":[\"a\",\"b\"]"));
+    // 10, the first cell, as eight bytes in little-endian order.
+    assert!(html.contains("\"cells\":\"AAAAAAAAJEA"), "{html}");
+    // A table that is read is not written, and one of the two is to be said.
+    let output = lagrangian(&["map", table.path(), "--of", "product"]);
+    assert_eq!(output.status.code(), Some(2));
+    let samples = lagrangian(&[
+        "map",
+        table.path(),
+        "--of",
+        "t",
+        "--samples",
+        "--report",
+        page.to_str().expect("text"),
+    ]);
+    let error = String::from_utf8_lossy(&samples.stderr).into_owned();
+    assert!(
+        samples.status.code() == Some(2) && error.contains("there are no samples beside the table"),
+        "{error}"
+    );
+}

@@ -1,0 +1,267 @@
+//! The scripts of `examples/maps/`, at small sizes, against what is known of their subjects.
+
+use std::collections::HashMap;
+use std::process::Command;
+
+use crate::support::{Scratch, lagrangian, root};
+
+/// The rows of a table that a script has made: numbers and texts by the names of columns.
+struct Table(Vec<HashMap<String, String>>);
+
+impl Table {
+    fn read(folder: &Scratch, name: &str) -> Table {
+        let path = folder.0.with_file_name(name);
+        let text = std::fs::read_to_string(path).expect("a table");
+        let mut lines = text.lines();
+        let names: Vec<&str> = lines.next().expect("names").split(',').collect();
+        let rows = lines.map(|line| {
+            let cells = line.split(',').map(str::to_owned);
+            names
+                .iter()
+                .map(|name| (*name).to_owned())
+                .zip(cells)
+                .collect()
+        });
+        Table(rows.collect())
+    }
+
+    fn numbers(&self, name: &str) -> Vec<f64> {
+        let cells = self.0.iter().map(|row| row[name].parse());
+        cells.map(|cell| cell.expect("a number")).collect()
+    }
+}
+
+/// Runs a script; the folder that it writes to.
+fn run(script: &str, size: &[&str], drawing: &str) -> Scratch {
+    let folder = Scratch::new("started", "");
+    let out = folder.0.parent().expect("a folder");
+    let output = Command::new("sh")
+        .current_dir(root())
+        .env("LAGRANGIAN", env!("CARGO_BIN_EXE_lagrangian"))
+        .arg(format!("examples/maps/{script}.sh"))
+        .arg(out)
+        .args(size)
+        .output()
+        .expect("a shell");
+    assert!(output.status.success(), "{output:?}");
+    for ending in ["svg", "html"] {
+        assert!(
+            out.join(format!("{drawing}.{ending}")).is_file(),
+            "{drawing}.{ending}"
+        );
+    }
+    folder
+}
+
+#[test]
+fn a_pendulum_stands_upside_down_where_kapitza_says() {
+    let folder = run("upright_pendulum", &["6"], "upright");
+    let table = Table::read(&folder, "upright.csv");
+    let (a, omega, tilt) = (
+        table.numbers("a"),
+        table.numbers("omega"),
+        table.numbers("tilt"),
+    );
+    let mut both = [0; 2];
+    for k in 0..tilt.len() {
+        // a² ω² > 2 g l, to the next order in a/l, which is at most 0.2 here: 7/16·(2 a/l)²·… < 5 %.
+        let share = a[k] * omega[k] / (2.0_f64 * 9.81).sqrt();
+        match share {
+            s if s > 1.1 => {
+                both[0] += 1;
+                assert!(tilt[k] < 0.05, "{share}: {}", tilt[k]);
+            }
+            s if s < 0.9 => {
+                both[1] += 1;
+                assert!(tilt[k] > 1.5, "{share}: {}", tilt[k]);
+            }
+            _ => {}
+        }
+    }
+    assert!(both[0] > 8 && both[1] > 8, "{both:?}");
+}
+
+#[test]
+fn a_double_pendulum_flips_only_where_it_has_the_energy() {
+    let folder = run("flip_time", &["13", "4"], "flips");
+    // Parquet is told as text by the map's own reader; the flips are drawn from it, and its rows are those of a table of text.
+    let csv = folder.0.with_file_name("flips.csv");
+    let output = lagrangian(&[
+        "sweep",
+        "machines/double_pendulum.machine",
+        "--vary",
+        "start(theta1)=-3.1..3.1:13",
+        "--vary",
+        "start(theta2)=-3.1..3.1:13",
+        "--until",
+        "4",
+        "--tolerance",
+        "1e-6",
+        "--until-event",
+        "flip=cos(theta1/2)*cos(theta2/2)",
+        "--out",
+        csv.to_str().expect("text"),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let table = Table::read(&folder, "flips.csv");
+    let starts = ["start(theta1)", "start(theta2)"].map(|name| table.numbers(name));
+    let t = table.numbers("t");
+    let (mut flips, mut rests) = (0, 0);
+    for (k, row) in table.0.iter().enumerate() {
+        let (one, two) = (starts[0][k], starts[1][k]);
+        // Of equal bobs on equal rods V = −m g l (2 cos θ1 + cos θ2), and the least of what flips over is −1 m g l, at θ1 = 0, θ2 = π.
+        let can = -(2.0 * one.cos() + two.cos()) >= -1.0;
+        let has = row["status"] == "event flip";
+        assert!(can || !has, "({one}, {two}) flips at {} s", t[k]);
+        flips += usize::from(has);
+        rests += usize::from(!can);
+        // The other way round is the same motion in a mirror, as long as chaos leaves it one.
+        let mirror = t.len() - 1 - k;
+        if t[k] < 2.0 {
+            assert!(
+                (t[k] - t[mirror]).abs() < 1e-3,
+                "({one}, {two}): {} and {} s",
+                t[k],
+                t[mirror]
+            );
+        }
+    }
+    assert!(flips > 20 && rests > 20, "{flips} flips, {rests} cannot");
+}
+
+#[test]
+fn a_block_sticks_again_where_its_swing_brings_it_back_to_the_belts_speed() {
+    let folder = run("stick_slip_regions", &["7"], "stick");
+    let table = Table::read(&folder, "stick.csv");
+    let (belt, damping, share) = (
+        table.numbers("v_b"),
+        table.numbers("d"),
+        table.numbers("share"),
+    );
+    let mut both = [0; 2];
+    for k in 0..share.len() {
+        // m = k = g = 1. It is torn off at x = μ0 − d v, and swings about μ: z'' + d z' + z = 0.
+        let (v, d) = (belt[k], damping[k]);
+        let (z, rate) = (0.5 - d * v, v);
+        let omega = (1.0 - d * d / 4.0).sqrt();
+        let b = (rate + d / 2.0 * z) / omega;
+        // The rate of z = e^{−dt/2} (z cos ωt + b sin ωt), from a moment after the tear on.
+        let rate = |t: f64| {
+            let (s, c) = (omega * t).sin_cos();
+            (-d * t / 2.0).exp() * ((b * omega - d / 2.0 * z) * c - (z * omega + d / 2.0 * b) * s)
+        };
+        // After the first turn, within one more.
+        let turn = std::f64::consts::PI / omega;
+        let back = (0..2000).map(|i| rate(turn * (1.0 + f64::from(i) / 2000.0 * 1.2)));
+        let reached = back.fold(f64::NEG_INFINITY, f64::max) / v;
+        match reached {
+            r if r > 1.01 => {
+                both[0] += 1;
+                assert!(
+                    share[k] > 1.0 - 1e-6,
+                    "v = {v}, d = {d}: {reached}, {}",
+                    share[k]
+                );
+            }
+            r if r < 0.99 => {
+                both[1] += 1;
+                assert!(
+                    share[k] < 1.0 - 1e-3,
+                    "v = {v}, d = {d}: {reached}, {}",
+                    share[k]
+                );
+            }
+            _ => {}
+        }
+    }
+    assert!(both[0] > 5 && both[1] > 5, "{both:?}");
+}
+
+#[test]
+fn a_driven_pendulum_doubles_its_period_where_the_book_says() {
+    let folder = run("bifurcations", &["13"], "pendulum");
+    let table = Table::read(&folder, "pendulum.csv");
+    let samples = Table::read(&folder, "pendulum.samples.csv");
+    let torque = table.numbers("g");
+    let mut rates: Vec<Vec<f64>> = vec![Vec::new(); torque.len()];
+    for (run, rate) in samples
+        .numbers("run")
+        .iter()
+        .zip(samples.numbers("der(theta)"))
+    {
+        rates[*run as usize].push(rate);
+    }
+    let kinds = rates.iter_mut().map(|rates| {
+        rates.sort_by(f64::total_cmp);
+        1 + rates
+            .windows(2)
+            .filter(|pair| pair[1] - pair[0] > 1e-4)
+            .count()
+    });
+    let kinds: Vec<usize> = kinds.collect();
+    let of = |g: f64| {
+        let place = torque.iter().position(|other| (other - g).abs() < 1e-9);
+        kinds[place.expect("a torque of the sweep")]
+    };
+    // Baker and Gollub, figures 3.3 to 3.6: period one at 0.9 and 1.35, two at 1.45, chaos at 1.15 and 1.5, for q = 2, ω = 2/3.
+    assert_eq!([of(0.9), of(1.35), of(1.45)], [1, 1, 2], "{kinds:?}");
+    assert!(of(1.15) > 20 && of(1.5) > 20, "{kinds:?}");
+}
+
+#[test]
+fn the_crusher_over_speed_is_the_crusher_at_each_speed() {
+    let folder = run("crusher_over_speed", &["2"], "crusher");
+    let table = Table::read(&folder, "crusher.csv");
+    let run = folder.0.with_file_name("run.csv");
+    let output = lagrangian(&[
+        "simulate",
+        "machines/cushioned_crusher.machine",
+        "--set",
+        "omega=60",
+        "--until",
+        "4",
+        "--every",
+        "0.0002",
+        "--out",
+        run.to_str().expect("text"),
+    ]);
+    assert!(output.status.success(), "{output:?}");
+    let text = std::fs::read_to_string(&run).expect("a table");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("names").split(',').collect();
+    let place = |name: &str| {
+        let own = names
+            .iter()
+            .position(|header| header.split(" [").next() == Some(name));
+        own.unwrap_or_else(|| panic!("{name} in {names:?}"))
+    };
+    let rows = lines.map(|line| {
+        line.split(',')
+            .map(|cell| cell.parse().expect("a number"))
+            .collect()
+    });
+    let rows: Vec<Vec<f64>> = rows.filter(|row: &Vec<f64>| row[0] >= 2.0).collect();
+    // By the trapezoidal rule and by the largest of 10 000 samples, 500 in each turn: to 1e-4 of the values.
+    let of = |row: &Vec<f64>, name: &str| row[place(name)];
+    let power = |row: &Vec<f64>| {
+        let slip = of(row, "s2") * of(row, "der(phi2)") + 0.17 * of(row, "der(theta2)")
+            - 0.20 * of(row, "der(theta1)");
+        6000.0 * of(row, "der(s2)").powi(2) + 300.0 * slip * slip
+    };
+    let steps = rows
+        .windows(2)
+        .map(|pair| 0.5 * (power(&pair[0]) + power(&pair[1])) * (pair[1][0] - pair[0][0]));
+    let mean = steps.sum::<f64>() / (rows[rows.len() - 1][0] - rows[0][0]);
+    let largest = |name: &str| rows.iter().map(|row| of(row, name)).fold(0.0, f64::max);
+    for (name, expected) in [
+        ("power", mean),
+        ("amplitude", largest("amplitude")),
+        ("force", largest("crushing_force")),
+    ] {
+        let found = table.numbers(name)[0];
+        assert!(
+            (found - expected).abs() < 1e-3 * expected,
+            "{name}: {found}, {expected}"
+        );
+    }
+}
